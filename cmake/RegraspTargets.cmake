@@ -1,0 +1,43 @@
+# What every target of the project shares.
+
+add_library(regrasp_options INTERFACE)
+# No fused multiply-add: results must be the same bits on every x86-64 machine.
+target_compile_options(regrasp_options INTERFACE -ffp-contract=off)
+target_compile_options(regrasp_options INTERFACE
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic>)
+if(REGRASP_WARNINGS_AS_ERRORS)
+  target_compile_options(regrasp_options INTERFACE $<BUILD_INTERFACE:-Werror>)
+endif()
+target_compile_features(regrasp_options INTERFACE cxx_std_20)
+target_include_directories(regrasp_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/regrasp>)
+
+# regrasp_library(NAME [PUBLIC lib...] [PRIVATE lib...])
+#
+# One folder, one static library `regrasp_NAME` (exported as regrasp::NAME) of all its *.cc.
+# A folder can only link what it lists, so dependencies point downwards or the link fails.
+function(regrasp_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  add_library(regrasp_${name} STATIC ${sources})
+  add_library(regrasp::${name} ALIAS regrasp_${name})
+  set_target_properties(regrasp_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(regrasp_${name} PUBLIC regrasp_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY REGRASP_LIBRARIES regrasp_${name})
+endfunction()
+
+# regrasp_tests(NAME [lib...]): one executable of the folder's *_test.cc, its tests found by ctest.
+function(regrasp_tests name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name}_test ${sources})
+  target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${name}_test PRIVATE
+    REGRASP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    REGRASP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 900)
+endfunction()

@@ -1,0 +1,44 @@
+#include "planner/base/json.h"
+
+#include <set>
+#include <vector>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+
+Json ParseJson(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  // nlohmann keeps the last of two equal keys without a word, and recurses into any depth when a
+  // value is destroyed: the callback sees both before they do harm.
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    using Event = Json::parse_event_t;
+    if (event == Event::object_start || event == Event::array_start) {
+      if (depth >= kMaxJsonDepth) {
+        throw InputError(name + ": nested deeper than " + std::to_string(kMaxJsonDepth) +
+                         " levels");
+      }
+    }
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end) keys.pop_back();
+    if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
+      throw InputError(name + ": the key \"" + value.get<std::string>() + "\" is repeated");
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text.begin(), text.end(), watch);
+  } catch (const Json::exception& error) {
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error …"
+    std::string what = error.what();
+    if (const auto bracket = what.find("] "); bracket != std::string::npos) {
+      what.erase(0, bracket + 2);
+    }
+    throw InputError(name + ": not JSON: " + what);
+  }
+}
+
+std::string FormatJson(const Json& json) { return json.dump(1) + "\n"; }
+
+}  // namespace regrasp

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace regrasp {
+
+/// JSON as this project reads it. Keys keep the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+/// Deepest nesting that a file may have; our own formats need eight.
+inline constexpr int kMaxJsonDepth = 64;
+
+/// Parses JSON strictly: a byte-order mark is skipped; a repeated key, nesting deeper than
+/// `kMaxJsonDepth`, a number out of range, invalid UTF-8 and text behind the value are errors.
+/// @param name  how messages call the input, usually the file's path.
+/// @throws InputError
+[[nodiscard]] Json ParseJson(std::string_view text, const std::string& name);
+
+/// Writes JSON with an indent of 1 and a final newline; doubles read back as the same bits.
+[[nodiscard]] std::string FormatJson(const Json& json);
+
+}  // namespace regrasp

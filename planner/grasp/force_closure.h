@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// How a test with a margin ends.
+enum class Decision { kNo, kTooClose, kYes };
+
+/// The answer of the force-closure test with its margin.
+struct ForceClosure {
+  Decision decision = Decision::kNo;
+  /// Bounds on the margin ε* (dimensionless, see TestForceClosure). Both have the sign of the
+  /// decision; where the answer is clear early they are not tight.
+  double margin_lower = 0;
+  double margin_upper = 0;
+};
+
+/// Margins within this of zero are too close to call in double precision: …derived in the .cc.
+inline constexpr double kForceClosureEpsilon = 1e-12;
+
+/// Decides force closure with circular friction cones (cone edges in the plane), in space and in
+/// the plane, for any number of contacts.
+///
+/// Force closure holds iff the grasp matrix G (wrenches as in WrenchFrame) has full rank and forces
+/// f_i in the interior of C(n_i, half_angle) with Σ G_i f_i = 0 exist (Murray, Li and Sastry 1994,
+/// Prop. 5.3). The margin is ε* = max ε over forces g_i ∈ C(n_i) with Σ n_i·g_i = 1 and
+/// Σ G_i (g_i + ε n_i) = 0; it is positive iff such interior forces exist.
+///
+/// Laws: independent of the order of the contacts, of rigid motion and of the unit of length;
+/// enlarging half_angle or adding a contact never turns yes into no.
+///
+/// @param contacts    any number; fewer than 3 in space or 2 in the plane, or collinear ones in
+///                    space, are never force closure.
+/// @param half_angle  θ in radians, in (0, π/2).
+/// @throws std::invalid_argument  a value is not finite, a normal is not unit, θ out of range.
+[[nodiscard]] ForceClosure TestForceClosure(std::span<const Contact> contacts,
+                                            const WrenchFrame& frame, double half_angle);
+
+/// True iff TestForceClosure says yes; what is too close to call is not force closure.
+[[nodiscard]] bool IsForceClosure(std::span<const Contact> contacts, const WrenchFrame& frame,
+                                  double half_angle);
+
+}  // namespace regrasp

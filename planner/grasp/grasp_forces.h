@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// A wrench in a WrenchFrame: force in newtons, torque about the frame's origin divided by its
+/// radius, so newtons as well.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque_over_radius = Eigen::Vector3d::Zero();
+};
+
+/// Contact forces that hold a load.
+struct GraspForces {
+  std::vector<Eigen::Vector3d> forces;  ///< newtons, one per contact, on the object
+  bool balanced = false;                ///< Σ G_i f_i + load = 0 and every f_i inside its cone
+  /// Largest m such that every f_i lies in its cone with m · total_normal / k of normal force to
+  /// spare: f_i − m (total_normal / k) n_i ∈ C(n_i). Negative for a best effort.
+  double margin = 0;
+};
+
+/// Contact forces with Σ n_i·f_i = total_normal that balance `load` with the largest margin inside
+/// the cones. Where no forces inside the cones balance it, the best effort: balance first (least
+/// unbalanced wrench), cones respected, so that a bad grasp gets a fair try.
+///
+/// @param total_normal  sum of the normal forces, newtons, > 0.
+[[nodiscard]] GraspForces ComputeGraspForces(std::span<const Contact> contacts,
+                                             const WrenchFrame& frame, double half_angle,
+                                             const Wrench& load, double total_normal);
+
+}  // namespace regrasp

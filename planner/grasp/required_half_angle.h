@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// Certified bounds on the smallest friction half-angle at which a grasp is force closure, radians.
+/// At `upper` the grasp is force closure; at and below `lower` it is not.
+struct RequiredHalfAngle {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// The smallest half-angle θ at which the contacts are force closure, to `tolerance` radians.
+/// @returns nullopt where none below π/2 serves (to within 1e-6 rad).
+[[nodiscard]] std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(
+    std::span<const Contact> contacts, const WrenchFrame& frame, double tolerance = 1e-9);
+
+}  // namespace regrasp

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// Volume (area in the plane), centroid and inertia of a homogeneous solid of density 1.
+///
+/// In the plane the solid is a sheet of thickness 1: `volume` is the area, and `inertia` holds the
+/// second moments of the area about the centroid, its (2,2) entry the polar one.
+struct MassProperties {
+  double volume = 0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centroid, along the axes
+};
+
+/// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
+///
+/// A *face* is a maximal set of coplanar neighbouring facets in space, an edge in the plane. Planar
+/// objects live in the plane z = 0 of the same vectors, so that contacts, plans, the checker and
+/// the pictures are written once. All lengths are the object file's own units. An Object is valid
+/// by construction: closed, oriented, free of self-intersection, one solid. It does not change.
+class Object {
+ public:
+  virtual ~Object() = default;
+
+  /// 2 for a polygon, 3 for a solid.
+  [[nodiscard]] virtual int dimension() const = 0;
+
+  /// Faces of a solid, edges of a polygon (holes included).
+  [[nodiscard]] virtual int face_count() const = 0;
+
+  /// The unit normal of a face, pointing into the material.
+  [[nodiscard]] virtual Eigen::Vector3d inward_normal(int face) const = 0;
+
+  /// Area of a face, length of an edge.
+  [[nodiscard]] virtual double face_measure(int face) const = 0;
+
+  /// The point of the face nearest to `point`.
+  [[nodiscard]] virtual Eigen::Vector3d ClosestPoint(int face,
+                                                     const Eigen::Vector3d& point) const = 0;
+
+  /// The faces within `tolerance` of `point`, nearest first, ties by index.
+  [[nodiscard]] virtual std::vector<int> FacesNear(const Eigen::Vector3d& point,
+                                                   double tolerance) const = 0;
+
+  /// Distance from `point` to the face's border (its outline and the outlines of its holes).
+  [[nodiscard]] virtual double DistanceToBorder(int face, const Eigen::Vector3d& point) const = 0;
+
+  /// True iff every point of the segment ab is within `tolerance` of the face. Faces need not be
+  /// convex and may have holes: both ends inside is not enough.
+  [[nodiscard]] virtual bool ContainsSegment(int face, const Eigen::Vector3d& a,
+                                             const Eigen::Vector3d& b, double tolerance) const = 0;
+
+  /// Largest distance between two vertices, D.
+  [[nodiscard]] double diameter() const { return diameter_; }
+
+  /// Where torques are taken and over what length: the centroid, and R = D/2.
+  [[nodiscard]] WrenchFrame wrench_frame() const {
+    return {mass_properties_.centroid, diameter_ / 2, dimension()};
+  }
+
+  [[nodiscard]] const MassProperties& mass_properties() const { return mass_properties_; }
+
+ protected:
+  Object(double diameter, MassProperties mass_properties)
+      : diameter_(diameter), mass_properties_(std::move(mass_properties)) {}
+  Object(const Object&) = default;
+  Object& operator=(const Object&) = default;
+
+ private:
+  double diameter_;
+  MassProperties mass_properties_;
+};
+
+/// Points this close to the surface, and to each other where they must agree, count as there:
+/// the tolerance for reading, relative to the object's diameter (docs/formats.md).
+inline constexpr double kPointTolerance = 1e-6;
+
+/// Facets whose normals differ by no more than this (radians) are one face.
+inline constexpr double kCoplanarAngle = 1e-4;
+
+/// An object together with the file that it was read from.
+struct ObjectFile {
+  std::string file;    ///< name without folders, as plans name it
+  std::string sha256;  ///< of the file's bytes
+  std::unique_ptr<const Object> object;
+};
+
+/// Reads a solid (OBJ, OFF, PLY, STL in double precision; every other format through assimp in a
+/// limited child process) or a polygon (WKT; files that end in .wkt), by the file's ending.
+/// @throws InputError  names the file, the element and what is wrong with it.
+[[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path);
+
+}  // namespace regrasp

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// A simple polygon, with or without holes, in the plane z = 0.
+///
+/// Faces are its edges: those of the outer ring (counter-clockwise), then of each hole (clockwise),
+/// so that the material is on the left of every edge.
+class Polygon final : public Object {
+ public:
+  /// Checks and orients rings; a ring's last point is not repeated.
+  /// @throws InputError  names the ring, the vertex and what is wrong.
+  static Polygon FromRings(std::vector<std::vector<Eigen::Vector2d>> rings,
+                           const std::string& name);
+
+  /// Reads `POLYGON((x y, …),(hole …))` or a MULTIPOLYGON of one polygon.
+  static Polygon FromWkt(std::string_view text, const std::string& name);
+
+  /// The outer ring first.
+  [[nodiscard]] const std::vector<std::vector<Eigen::Vector2d>>& rings() const { return rings_; }
+  /// The two ends of an edge, material on the left.
+  [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> edge(int face) const;
+
+  [[nodiscard]] int dimension() const override { return 2; }
+  [[nodiscard]] int face_count() const override { return static_cast<int>(edges_.size()); }
+  [[nodiscard]] Eigen::Vector3d inward_normal(int face) const override;
+  [[nodiscard]] double face_measure(int face) const override;
+  [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const override;
+  [[nodiscard]] std::vector<int> FacesNear(const Eigen::Vector3d& point,
+                                           double tolerance) const override;
+  [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const override;
+  [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                     double tolerance) const override;
+
+ private:
+  Polygon(std::vector<std::vector<Eigen::Vector2d>> rings, double diameter,
+          MassProperties mass_properties);
+
+  std::vector<std::vector<Eigen::Vector2d>> rings_;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
+};
+
+}  // namespace regrasp

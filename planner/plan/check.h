@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/grasp/required_half_angle.h"
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
+
+namespace regrasp {
+
+/// What the analytic check says of one entry of the report: the initial hold or a step.
+struct StepCheck {
+  int index = 0;     ///< 0 is the hold of the initial grasp, k the k-th step
+  std::string kind;  ///< "hold", "switch" or "align"
+  Reason reason = Reason::kNone;
+  std::string detail;    ///< for people: which finger, which waypoint, how far off
+  bool skipped = false;  ///< a step before it failed
+  /// Every grasp of the step, everywhere on the way, is force closure at the plan's friction.
+  bool force_closure = false;
+  /// The smallest half-angle at which every grasp of the step is force closure; nullopt where none.
+  std::optional<RequiredHalfAngle> required;
+  /// Intervals of an align's path, 1e-6 of it long, on which force closure stayed undecided.
+  int undecided = 0;
+};
+
+struct CheckOptions {
+  std::optional<double> half_angle;  ///< instead of the plan's friction, radians
+  const Grasp* start = nullptr;      ///< the plan's initial grasp must be this one
+  const Grasp* goal = nullptr;       ///< and its goal this one
+};
+
+struct PlanCheck {
+  std::vector<StepCheck> steps;  ///< entry 0 the hold, then one per step
+  /// The plan on the surface: every point projected, every normal its face's own, faces filled in
+  /// (−1 and unchanged where a contact is off the surface). What the replay uses.
+  Plan located;
+  [[nodiscard]] bool passed() const;
+};
+
+/// Checks everything that docs/formats.md says of a plan, from the plan and the object alone.
+///
+/// The first failing step ends the check; later ones are `skipped`. Force closure along an align is
+/// decided over the whole path by bisection with certified margins.
+/// @throws InputError  the plan's dimension is not the object's.
+[[nodiscard]] PlanCheck CheckPlan(const Object& object, const Plan& plan,
+                                  const CheckOptions& options = {});
+
+/// Projects every contact of the plan onto the surface, as `PlanCheck::located`, without judging.
+[[nodiscard]] Plan LocatePlan(const Object& object, const Plan& plan);
+
+}  // namespace regrasp

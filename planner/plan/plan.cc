@@ -1,0 +1,31 @@
+#include "planner/plan/plan.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+const char* StepKind(const Step& step) {
+  return std::holds_alternative<Switch>(step) ? "switch" : "align";
+}
+
+FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
+  if (const auto* align = std::get_if<Align>(&step)) {
+    return align->waypoints.empty() ? before : align->waypoints.back();
+  }
+  const auto& finger_switch = std::get<Switch>(step);
+  FingerGrasp after = before;
+  std::erase_if(after, [&](const FingerContact& held) {
+    return std::ranges::find(finger_switch.release, held.finger) != finger_switch.release.end();
+  });
+  after.insert(after.end(), finger_switch.place.begin(), finger_switch.place.end());
+  return after;
+}
+
+Grasp ContactsOf(const FingerGrasp& grasp) {
+  Grasp contacts;
+  contacts.reserve(grasp.size());
+  for (const FingerContact& held : grasp) contacts.push_back(held.contact);
+  return contacts;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// A contact and the finger that makes it; fingers are numbered from 0.
+struct FingerContact {
+  int finger = 0;
+  Contact contact;
+};
+
+/// The fingers that hold the object, in the order of the file.
+using FingerGrasp = std::vector<FingerContact>;
+
+/// The `place` fingers, all free before, touch; then the `release` fingers, all holding before,
+/// leave. The grasp before and the grasp after are each force closure.
+struct Switch {
+  FingerGrasp place;
+  std::vector<int> release;
+};
+
+/// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
+/// the same rate. The first waypoint is the grasp before the step.
+struct Align {
+  std::vector<FingerGrasp> waypoints;
+};
+
+using Step = std::variant<Switch, Align>;
+
+/// A regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.
+struct Plan {
+  std::string object_file;
+  std::string object_sha256;
+  double scale = 1;  ///< metres per unit of the object's file
+  int dimension = 3;
+  double half_angle = 0;  ///< friction half-angle, radians
+  int fingers = 0;        ///< that the hand has
+  std::string planner;
+  FingerGrasp initial;
+  std::vector<Step> steps;
+  Grasp goal;
+};
+
+/// "hold" for entry 0 of a report, "switch" or "align" for a step.
+[[nodiscard]] const char* StepKind(const Step& step);
+
+/// The grasp after `step` when `before` holds. Fingers keep their order; a placed finger comes
+/// last. Fingers of `release` that do not hold are ignored: the checker reports them.
+[[nodiscard]] FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step);
+
+/// The contacts without their fingers.
+[[nodiscard]] Grasp ContactsOf(const FingerGrasp& grasp);
+
+}  // namespace regrasp

@@ -1,0 +1,45 @@
+#include "planner/plan/reason.h"
+
+namespace regrasp {
+
+std::string_view ReasonName(Reason reason) {
+  switch (reason) {
+    case Reason::kNone:
+      return "";
+    case Reason::kOffSurface:
+      return "off-surface";
+    case Reason::kWrongNormal:
+      return "wrong-normal";
+    case Reason::kFingerNotFree:
+      return "finger-not-free";
+    case Reason::kFingerNotHolding:
+      return "finger-not-holding";
+    case Reason::kTooManyFingers:
+      return "too-many-fingers";
+    case Reason::kCoincidentFingers:
+      return "coincident-fingers";
+    case Reason::kDiscontinuous:
+      return "discontinuous";
+    case Reason::kLeavesFace:
+      return "leaves-face";
+    case Reason::kNotForceClosure:
+      return "not-force-closure";
+    case Reason::kUnreachable:
+      return "unreachable";
+    case Reason::kSimulationUnstable:
+      return "simulation-unstable";
+    case Reason::kContactLost:
+      return "contact-lost";
+    case Reason::kSlipped:
+      return "slipped";
+    case Reason::kObjectMoved:
+      return "object-moved";
+    case Reason::kStartDiffers:
+      return "start-differs";
+    case Reason::kGoalNotReached:
+      return "goal-not-reached";
+  }
+  return "";
+}
+
+}  // namespace regrasp

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// What a finger is doing at one instant.
+enum class FingerRole { kFree, kHolding, kPlaced, kReleased, kMoved };
+
+/// One finger at one instant, in metres and newtons, world frame.
+struct FingerState {
+  int finger = 0;
+  FingerRole role = FingerRole::kFree;
+  Eigen::Vector3d tip_W = Eigen::Vector3d::Zero();      ///< centre of the fingertip
+  Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();  ///< point of contact (planned, if free)
+  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();   ///< inward normal at the contact
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();    ///< on the object; zero while free
+  /// Where a finger that moved came from; equal to contact_W for the others.
+  Eigen::Vector3d previous_W = Eigen::Vector3d::Zero();
+};
+
+/// The object and the hand at one instant: what the replay measured and a frame shows.
+///
+/// World frame W: at the start the object's own frame O, scaled to metres, coincides with W.
+struct Snapshot {
+  double time_s = 0;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  double fingertip_radius_m = 0;
+  std::vector<FingerState> fingers;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
+#include "planner/plan/snapshot.h"
+
+namespace regrasp {
+
+/// How the replay is set up. What is left out is derived from the body (sim/scaling.h).
+struct ReplayOptions {
+  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
+  std::optional<double> mass_kg;     ///< instead of density
+  double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
+  std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
+  double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
+  double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame
+};
+
+/// The values that the replay ran with.
+struct ReplaySettings {
+  double mu = 0;
+  double mass_kg = 0;
+  double squeeze_N = 0;
+  double shake = 0;
+  double tolerance = 0;
+  double fingertip_radius_m = 0;
+  double finger_mass_kg = 0;
+  double finger_stiffness_N_m = 0;
+  double timestep_s = 0;
+};
+
+/// How an align was carried out; kNone for other steps.
+enum class AlignMode { kNone, kImitated, kSlid };
+
+/// What the replay says of entry k of the report.
+struct StepReplay {
+  int index = 0;
+  Reason reason = Reason::kNone;
+  std::string detail;         ///< for people: which finger, which direction of the shake
+  double displacement_m = 0;  ///< largest translation of the object's centroid in this step
+  double rotation_deg = 0;    ///< largest rotation of the object in this step
+  double slip_m = 0;          ///< largest slide of a holding fingertip along the surface
+  bool contact_lost = false;  ///< a holding finger left the surface
+  AlignMode align_mode = AlignMode::kNone;
+  Snapshot snapshot;  ///< the rest state after the step
+};
+
+struct ReplayResult {
+  ReplaySettings settings;
+  std::vector<StepReplay> steps;  ///< ends with the first step that fails
+};
+
+/// What a replay tells while it runs; both may be empty.
+struct ReplayObserver {
+  std::function<void(const Snapshot&)> on_sample;  ///< every `sample_interval_s`
+  double sample_interval_s = 0.01;
+  std::function<void(int done, int total)> on_progress;  ///< after every step
+};
+
+/// Replays a plan with frictional point fingers in MuJoCo: holds, switches and aligns as the plan
+/// says, shakes the object at every rest state along all axes, and judges.
+///
+/// What a pass means: with this friction, squeeze and finger model the object resisted ± shake ·
+/// squeeze along every axis in every rest state of the sequence. It believes nothing of the
+/// analytic check; a plan that fails the check can be replayed too.
+///
+/// Deterministic: the same plan gives the same bits.
+/// @param plan   located on the object (PlanCheck::located).
+/// @param steps  how many entries to replay, hold included; all where negative.
+/// @throws InputError  the body cannot be simulated (scale or mass out of range).
+[[nodiscard]] ReplayResult ReplayPlan(const Object& object, const Plan& plan,
+                                      const ReplayOptions& options,
+                                      const ReplayObserver& observer = {}, int steps = -1);
+
+/// The scene of the replay at rest before the initial grasp, as MJCF that stock MuJoCo loads:
+/// object, collision prisms near the plan's contacts, fingers and their actuators. Numbers are
+/// written with 17 digits.
+[[nodiscard]] std::string SceneMjcf(const Object& object, const Plan& plan,
+                                    const ReplayOptions& options);
+
+}  // namespace regrasp
