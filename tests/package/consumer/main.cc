@@ -1,0 +1,28 @@
+// Uses one thing of each library: reads an object, tests a grasp, builds a scene, draws nothing.
+#include <cstdio>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/object/object.h"
+#include "render/frame.h"
+#include "sim/replay.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const regrasp::ObjectFile file = regrasp::ReadObject(argv[1]);
+  const double half = 0.03;  // of the cube's edge
+  const regrasp::Grasp grasp = {{{-half, 0, 0}, {1, 0, 0}},
+                                {{half, 0, 0}, {-1, 0, 0}},
+                                {{0, -half, 0}, {0, 1, 0}},
+                                {{0, half, 0.0}, {0, -1, 0}}};
+  const bool closed =
+      regrasp::IsForceClosure(grasp, file.object->wrench_frame(), regrasp::Radians(30));
+  regrasp::Plan plan;
+  plan.half_angle = regrasp::Radians(30);
+  plan.fingers = 5;
+  for (int i = 0; i < 4; ++i) plan.initial.push_back({i, grasp[i]});
+  const bool scene = !regrasp::SceneMjcf(*file.object, plan, {}).empty();
+  const bool image = regrasp::Image{}.rgb.empty();
+  std::printf("force closure %d, scene %d, image %d\n", closed, scene, image);
+  return closed && scene && image ? 0 : 1;
+}
