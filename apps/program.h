@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace regrasp {
+
+/// What a program's exit says.
+enum ExitCode : int {
+  kExitDone = 0,         ///< done; for `validate`: pass
+  kExitNegative = 1,     ///< a negative answer: no sequence, or the plan failed
+  kExitBadInput = 2,     ///< bad usage or bad input
+  kExitEnvironment = 3,  ///< the environment failed
+};
+
+/// The body of every main(): parses the command line, runs the program and turns what is thrown
+/// into one line on standard error, "plan: cube.obj: …", and an exit code.
+///
+/// Bad usage and InputError give 2. EnvironmentError, exhausted memory and a standard output that
+/// cannot be written give 3, and so does an error that nobody foresaw, which is ours. --help and
+/// --version print to standard output and give 0.
+/// @param app  with all its options; its name is the program's. --version is added here.
+/// @param run  called after parsing; returns the exit code.
+int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
+
+/// Prints "name: message" as exactly one line on standard error, whatever bytes the message has.
+void PrintMessage(const std::string& program, std::string_view message);
+
+}  // namespace regrasp

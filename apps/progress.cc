@@ -1,0 +1,29 @@
+#include "apps/progress.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+namespace regrasp {
+
+namespace {
+
+/// Back to the first column, and erase to the end of the line (ECMA-48 EL).
+constexpr std::string_view kEraseLine = "\r\x1b[K";
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::Report(std::string_view text) {
+  if (!shown_) return;
+  std::cerr << kEraseLine << text << std::flush;
+  dirty_ = true;
+}
+
+void ProgressLine::Clear() {
+  if (dirty_) std::cerr << kEraseLine << std::flush;
+  dirty_ = false;
+}
+
+}  // namespace regrasp
