@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// What a hand does: its first grasp and its steps.
+struct Sequence {
+  FingerGrasp initial;
+  std::vector<Step> steps;
+};
+
+/// Turns grasps that follow each other into finger switches of a hand of `fingers` fingers.
+///
+/// The first grasp's contacts get fingers 0, 1, … in their order. Each step places the contacts
+/// that are new with the lowest free fingers and releases those that are gone; a contact is the
+/// same where its point and normal are, bit for bit. Grasps equal to the one before give no step.
+/// @throws std::invalid_argument  no grasp, or a step for which the hand has too few fingers.
+[[nodiscard]] Sequence MakeSwitchSequence(std::span<const Grasp> grasps, int fingers);
+
+}  // namespace regrasp
