@@ -1,6 +1,7 @@
 #include "planner/graph/fewest_switches.h"
 
 #include <cstddef>
+#include <deque>
 #include <limits>
 
 namespace regrasp {
@@ -13,31 +14,36 @@ constexpr int kUnreached = std::numeric_limits<int>::max();
 class Flood {
  public:
   Flood(const SwitchingGraph& graph, int start, const VertexFilter& admits)
-      : graph_(graph), admits_(admits), seen_(graph.vertex_count(), false), reached_{start} {
-    seen_[start] = true;
+      : graph_(graph), admits_(admits), met_(graph.vertex_count(), false), queue_{start} {
+    met_[start] = true;
   }
 
   /// Expands one vertex. False where all are.
   bool Step() {
-    if (next_ == reached_.size()) return false;
-    graph_.GetNeighbours(reached_[next_++], neighbours_);
+    if (queue_.empty()) return false;
+    const int vertex = queue_.front();
+    queue_.pop_front();
+    if (!reached_.empty() && !admits_(vertex)) return true;
+    reached_.push_back(vertex);
+    graph_.GetNeighbours(vertex, neighbours_);
     for (const int neighbour : neighbours_) {
-      if (seen_[neighbour]) continue;
-      seen_[neighbour] = true;
-      if (admits_(neighbour)) reached_.push_back(neighbour);
+      if (met_[neighbour]) continue;
+      met_[neighbour] = true;
+      queue_.push_back(neighbour);
     }
     return true;
   }
 
-  [[nodiscard]] bool Met(int vertex) const { return seen_[vertex]; }
+  /// Whether the vertex is reached or next to one that is.
+  [[nodiscard]] bool Met(int vertex) const { return met_[vertex]; }
   [[nodiscard]] std::vector<int> TakeReached() && { return std::move(reached_); }
 
  private:
   const SwitchingGraph& graph_;
   const VertexFilter& admits_;
-  std::vector<bool> seen_;
+  std::vector<bool> met_;
+  std::deque<int> queue_;
   std::vector<int> reached_;
-  std::size_t next_ = 0;
   std::vector<int> neighbours_;
 };
 

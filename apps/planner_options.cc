@@ -1,0 +1,59 @@
+#include "apps/planner_options.h"
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
+std::string CheckPlanner(const std::string& name) {
+  if (name == "auto" || name == "roadmap") return {};
+  return "the planner \"" + name + "\" does not exist in this version; there are auto and roadmap";
+}
+
+std::string CheckSpanning(const std::string& name) {
+  if (name == "adaptive" || name == "uniform") return {};
+  return "expected adaptive or uniform, found \"" + name + "\"";
+}
+
+}  // namespace
+
+void PlannerOptions::AddTo(CLI::App& app) {
+  app.add_option("--object", object, "The object: a closed surface mesh (OBJ, OFF, PLY, STL, …)")
+      ->type_name("FILE")
+      ->required();
+  friction.AddTo(app);
+  app.add_option("--planner", planner, "auto or roadmap (default auto, which is roadmap)")
+      ->type_name("NAME")
+      ->check(CheckPlanner);
+  app.add_option("--spanning", spanning,
+                 "adaptive or uniform: the cones of focus cells; the roadmap has none "
+                 "(default adaptive)")
+      ->type_name("NAME")
+      ->check(CheckSpanning);
+  AddInteger(app, "--contacts", contacts, 4, kMaxRoadmapContacts,
+             "Contact points that the roadmap spreads over the surface (default " +
+                 std::to_string(contacts) + ")");
+  AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
+  AddScale(app, scale);
+  AddQuiet(app, quiet);
+}
+
+RoadmapOptions PlannerOptions::roadmap() const {
+  RoadmapOptions options;
+  options.half_angle = friction.required_half_angle();
+  options.contacts = contacts;
+  options.seed = seed;
+  return options;
+}
+
+const Polyhedron& SolidOf(const ObjectFile& file, const std::string& path) {
+  const auto* solid = dynamic_cast<const Polyhedron*>(file.object.get());
+  if (solid == nullptr) {
+    throw InputError(path + ": a planar object, and the planner roadmap works on solids only");
+  }
+  return *solid;
+}
+
+}  // namespace regrasp

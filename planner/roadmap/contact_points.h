@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+/// Contact points of a roadmap: `count` of them spread evenly over the surface, the same for the
+/// same seed.
+///
+/// Candidates, `kCandidatesPerPoint` a point, are drawn evenly by area. Where the mesh is fine
+/// enough, no triangle larger than a quarter of the area that a point has for itself, they are
+/// the centroids of triangles drawn so. Candidates near the border of their face are left out, so
+/// that a finger has room: nearer than `kBorderMargin` diameters, or `kBorderFraction` of the
+/// largest distance from the border that any candidate of the face has, whichever is less. The
+/// rest is thinned by EliminateSamples.
+///
+/// Fewer points come back where the surface is too small for that many different candidates.
+/// @throws std::invalid_argument  count < 1.
+[[nodiscard]] std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count,
+                                                       std::uint64_t seed);
+
+/// Yuksel (2015) recommends five or more.
+inline constexpr int kCandidatesPerPoint = 20;
+/// 2 mm on a 10 cm body: less than a fingertip's radius, so that faces keep most of their area.
+inline constexpr double kBorderMargin = 0.02;
+/// Small faces keep at least the middle of their area.
+inline constexpr double kBorderFraction = 0.3;
+
+}  // namespace regrasp

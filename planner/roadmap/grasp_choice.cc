@@ -1,0 +1,71 @@
+#include "planner/roadmap/grasp_choice.h"
+
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/roadmap/surface_sample.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr std::size_t kContacts = 4;
+
+/// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
+std::string NeededDegrees(const RequiredHalfAngle& required) {
+  constexpr double kSteps = 100;
+  return FormatDouble(std::ceil(Degrees(required.upper) * kSteps) / kSteps) + "°";
+}
+
+std::optional<std::pair<int, int>> ContactsAtSamePoint(const Grasp& grasp, double same_point) {
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      if ((grasp[i].p - grasp[j].p).norm() <= same_point) return std::pair(i, j);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void CheckGivenGrasp(const GraspChoice& choice, const WrenchFrame& frame, double half_angle,
+                     double same_point) {
+  const Grasp& grasp = choice.grasp;
+  if (grasp.size() != kContacts) {
+    throw InputError(choice.name + ": /contacts: the planner roadmap needs 4 contacts, found " +
+                     std::to_string(grasp.size()));
+  }
+  if (const auto pair = ContactsAtSamePoint(grasp, same_point)) {
+    throw InputError(choice.name + ": /contacts: contacts " + std::to_string(pair->first) +
+                     " and " + std::to_string(pair->second) + " are at the same point");
+  }
+  if (IsForceClosure(grasp, frame, half_angle)) return;
+  const auto required = ComputeRequiredHalfAngle(grasp, frame);
+  throw InputError(choice.name + ": /contacts: not force closure: " +
+                   (required ? "needs a friction half-angle of " + NeededDegrees(*required)
+                             : std::string("no friction half-angle below 90° serves")) +
+                   ", given " + FormatShort(Degrees(half_angle)) + "°");
+}
+
+std::optional<Grasp> DrawGraspOnSurface(const Polyhedron& solid, double half_angle,
+                                        double min_quality, double same_point,
+                                        RandomStream& random) {
+  const SurfaceSampler sampler(solid);
+  const WrenchFrame frame = solid.wrench_frame();
+  for (int draw = 0; draw < kMaxSurfaceDraws; ++draw) {
+    Grasp grasp;
+    while (grasp.size() < kContacts) grasp.push_back(sampler.Draw(random));
+    if (!ContactsAtSamePoint(grasp, same_point) && IsForceClosure(grasp, frame, half_angle) &&
+        QualityAtLeast(grasp, frame, half_angle, min_quality)) {
+      return grasp;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace regrasp

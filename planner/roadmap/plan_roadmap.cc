@@ -1,0 +1,272 @@
+#include "planner/roadmap/plan_roadmap.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/graph/fewest_switches.h"
+#include "planner/graph/sequence.h"
+#include "planner/graph/widest_path.h"
+#include "planner/grasp/quality.h"
+#include "planner/roadmap/contact_points.h"
+#include "planner/roadmap/vertex_quality.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Contacts this close, relative to the diameter, are at the same point: twice the tolerance for
+/// reading, so that no checker takes them for coincident after rounding.
+constexpr double kSamePoint = 2 * kPointTolerance;
+
+/// Vertices that a random draw looks at before it gives up; a second of quality tests.
+constexpr int kMaxVertexDraws = 20'000;
+
+using Status = RoadmapPlanResult::Status;
+
+/// Thrown inside this file where a random grasp cannot be drawn, a negative answer for the caller.
+struct NoGrasp {
+  std::string message;
+};
+
+double SamePoint(const Polyhedron& solid) { return kSamePoint * solid.diameter(); }
+
+void CheckOptions(const RoadmapOptions& options) {
+  if (options.contacts < 4 || options.contacts > kMaxRoadmapContacts) {
+    throw std::invalid_argument("the number of contact points is out of range");
+  }
+  if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
+}
+
+/// The contact of `points` that is the same as `contact`: on the same face, within the tolerance
+/// for reading.
+std::optional<int> FindContact(const std::vector<Contact>& points, const Contact& contact,
+                               double tolerance) {
+  const auto found = std::find_if(points.begin(), points.end(), [&](const Contact& point) {
+    return point.face == contact.face && (point.p - contact.p).norm() <= tolerance;
+  });
+  if (found == points.end()) return std::nullopt;
+  return static_cast<int>(found - points.begin());
+}
+
+void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more,
+                  double tolerance) {
+  for (const Contact& contact : more) {
+    if (!FindContact(points, contact, tolerance)) points.push_back(contact);
+  }
+}
+
+/// The planning of one sequence: what its stages share.
+class RoadmapPlanner {
+ public:
+  RoadmapPlanner(const Polyhedron& solid, const GraspChoice& start, const GraspChoice& goal,
+                 const RoadmapOptions& options)
+      : solid_(solid),
+        options_(options),
+        frame_(solid.wrench_frame()),
+        start_(Fix(start, RandomUse::kStart)),
+        goal_(Fix(goal, RandomUse::kGoal)),
+        roadmap_(BuildRoadmap(solid, options, GivenContacts())),
+        quality_(roadmap_, frame_, options.half_angle, options.min_quality) {}
+
+  RoadmapPlanResult Run() {
+    const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
+    const int goal = ChooseVertex(goal_, RandomUse::kGoal, start);
+    options_.progress("searching a sequence among " + std::to_string(roadmap_.vertex_count()) +
+                      " grasps");
+    const std::vector<int> path = FindPath(start, goal);
+    RoadmapPlanResult result;
+    if (path.empty()) {
+      result.status = Status::kNoSequence;
+      result.message = NoSequenceMessage(start, goal);
+    } else {
+      result.plan = MakePlan(path);
+      result.warnings = Warnings(path);
+      result.margin = SmallestMargin(path);
+    }
+    result.contact_points = static_cast<int>(roadmap_.points().size());
+    result.vertices = roadmap_.vertex_count();
+    result.quality_tests = quality_.quality_count();
+    result.margin_tests = quality_.margin_count();
+    return result;
+  }
+
+ private:
+  /// Settles every choice that does not depend on the roadmap.
+  GraspChoice Fix(GraspChoice choice, RandomUse use) const {
+    if (choice.kind == GraspChoice::Kind::kGiven) {
+      CheckGivenGrasp(choice, frame_, options_.half_angle, SamePoint(solid_));
+    }
+    if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
+    RandomStream random(options_.seed, use);
+    const auto grasp = DrawGraspOnSurface(solid_, options_.half_angle, options_.min_quality,
+                                          SamePoint(solid_), random);
+    if (!grasp) {
+      throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
+                    " grasps drawn on the surface is force closure with a quality of at least " +
+                    FormatShort(options_.min_quality)};
+    }
+    choice.kind = GraspChoice::Kind::kGiven;
+    choice.grasp = *grasp;
+    return choice;
+  }
+
+  std::vector<Contact> GivenContacts() const {
+    std::vector<Contact> contacts = start_.grasp;
+    contacts.insert(contacts.end(), goal_.grasp.begin(), goal_.grasp.end());
+    return contacts;
+  }
+
+  int ChooseVertex(GraspChoice& choice, RandomUse use, std::optional<int> start) {
+    if (choice.kind == GraspChoice::Kind::kGiven) return VertexOf(choice);
+    const int vertex = DrawVertex(choice, use, start);
+    choice.grasp = roadmap_.grasp(vertex);
+    return vertex;
+  }
+
+  int VertexOf(const GraspChoice& choice) const {
+    std::vector<int> points;
+    for (const Contact& contact : choice.grasp) {
+      points.push_back(
+          FindContact(roadmap_.points(), contact, kPointTolerance * solid_.diameter()).value());
+    }
+    const std::optional<int> vertex = roadmap_.Find(points);
+    // Only where a contact was joined to another of the same place can the verdict have changed.
+    if (!vertex) throw InputError(choice.name + ": too close to the limit of force closure");
+    return *vertex;
+  }
+
+  /// A vertex of good quality by the seed, out of the start's component where there is a start and
+  /// then another one than it, if the component has another.
+  int DrawVertex(const GraspChoice& choice, RandomUse use, std::optional<int> start) {
+    std::vector<int> urn = Urn(start);
+    RandomStream random(options_.seed, use);
+    const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxVertexDraws);
+    for (std::size_t i = 0; i < draws; ++i) {
+      std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
+      if (quality_.IsGood(urn[i])) return urn[i];
+    }
+    throw NoGrasp{choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
+                  (start ? "start's component of the roadmap" : "roadmap") +
+                  " has a quality of at least " + FormatShort(options_.min_quality)};
+  }
+
+  std::vector<int> Urn(std::optional<int> start) const {
+    std::vector<int> urn(roadmap_.vertex_count());
+    std::iota(urn.begin(), urn.end(), 0);
+    if (!start) return urn;
+    const Components components = roadmap_.components();
+    const int component = components.of_vertex[*start];
+    if (components.sizes[component] == 1) return {*start};
+    std::erase_if(urn, [&](int v) { return v == *start || components.of_vertex[v] != component; });
+    return urn;
+  }
+
+  std::vector<int> FindPath(int start, int goal) {
+    const std::vector<int> good = FindPath(start, goal, [&](int v) { return quality_.IsGood(v); });
+    return good.empty() ? FindPath(start, goal, [](int) { return true; }) : good;
+  }
+
+  std::vector<int> FindPath(int start, int goal, const VertexFilter& admits) {
+    const std::optional<int> switches = FewestSwitches(roadmap_, start, goal, admits);
+    if (!switches) return {};
+    return WidestPath(roadmap_, start, goal, *switches, admits,
+                      [&](int vertex) { return quality_.Margin(vertex); });
+  }
+
+  std::string NoSequenceMessage(int start, int goal) const {
+    const auto all = [](int) { return true; };
+    const auto size = [&](int vertex) {
+      return std::to_string(ReachableVertices(roadmap_, vertex, all).size());
+    };
+    return "no sequence of finger switches leads from start to goal over these contact points: "
+           "searched " +
+           std::to_string(roadmap_.points().size()) + " contact points, " +
+           std::to_string(roadmap_.candidate_count()) + " subsets of four, " +
+           std::to_string(roadmap_.vertex_count()) +
+           " force-closure grasps; the start's component has " + size(start) +
+           " of them, the goal's " + size(goal);
+  }
+
+  Plan MakePlan(const std::vector<int>& path) const {
+    std::vector<Grasp> grasps;
+    for (const int vertex : path) grasps.push_back(roadmap_.grasp(vertex));
+    // The fingers of the first grasp follow the order in which it was given.
+    grasps.front() = start_.grasp;
+    Sequence sequence = MakeSwitchSequence(grasps, kRoadmapFingers);
+    Plan plan;
+    plan.dimension = solid_.dimension();
+    plan.half_angle = options_.half_angle;
+    plan.fingers = kRoadmapFingers;
+    plan.planner = "roadmap";
+    plan.initial = std::move(sequence.initial);
+    plan.steps = std::move(sequence.steps);
+    plan.goal = goal_.grasp;
+    return plan;
+  }
+
+  double SmallestMargin(const std::vector<int>& path) {
+    double smallest = options_.half_angle;
+    for (const int vertex : path) smallest = std::min(smallest, quality_.Margin(vertex));
+    return smallest;
+  }
+
+  std::vector<std::string> Warnings(const std::vector<int>& path) {
+    if (std::all_of(path.begin(), path.end(), [&](int v) { return quality_.IsGood(v); })) return {};
+    double weakest = options_.min_quality;
+    std::size_t step = 0;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const double quality =
+          ComputeQuality(roadmap_.grasp(path[i]), frame_, options_.half_angle).lower;
+      if (quality >= weakest) continue;
+      weakest = quality;
+      step = i;
+    }
+    const std::string where = step == 0 ? "the start grasp (step 0)"
+                                        : "the grasp after step " + std::to_string(step) + " of " +
+                                              std::to_string(path.size() - 1);
+    return {"the sequence passes grasps below the quality " + FormatShort(options_.min_quality) +
+            " that was asked for; the weakest is " + where + " with " + FormatShort(weakest)};
+  }
+
+  const Polyhedron& solid_;
+  const RoadmapOptions& options_;
+  WrenchFrame frame_;
+  GraspChoice start_;
+  GraspChoice goal_;
+  Roadmap roadmap_;
+  VertexQuality quality_;
+};
+
+}  // namespace
+
+Roadmap BuildRoadmap(const Polyhedron& solid, const RoadmapOptions& options,
+                     const std::vector<Contact>& joined) {
+  CheckOptions(options);
+  const double tolerance = kPointTolerance * solid.diameter();
+  std::vector<Contact> points;
+  JoinContacts(points, joined, tolerance);
+  options.progress("spreading " + std::to_string(options.contacts) + " contact points");
+  JoinContacts(points, SpreadContactPoints(solid, options.contacts, options.seed), tolerance);
+  options.progress("testing the grasps of four of " + std::to_string(points.size()) +
+                   " contact points");
+  return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid));
+}
+
+RoadmapPlanResult PlanOnRoadmap(const Polyhedron& solid, const GraspChoice& start,
+                                const GraspChoice& goal, const RoadmapOptions& options) {
+  CheckOptions(options);
+  try {
+    return RoadmapPlanner(solid, start, goal, options).Run();
+  } catch (const NoGrasp& none) {
+    RoadmapPlanResult result;
+    result.status = Status::kNoGrasp;
+    result.message = none.message;
+    return result;
+  }
+}
+
+}  // namespace regrasp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace regrasp {
+
+/// What a stream of random numbers is for: streams of one seed are independent of each other, so
+/// that drawing more contact points does not change the random start.
+enum class RandomUse : std::uint32_t { kContactPoints = 1, kStart = 2, kGoal = 3 };
+
+/// Random numbers that are the same on every machine: the engine and its seeding are fixed by the
+/// C++ standard, the maps onto intervals, which are not, stand here.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, RandomUse use);
+
+  /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+  [[nodiscard]] double Uniform();
+
+  /// Uniform in {0, …, count − 1}, without bias. @param count  > 0.
+  [[nodiscard]] std::uint64_t Index(std::uint64_t count);
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/graph/components.h"
+#include "planner/graph/switching_graph.h"
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// Four contact points, indices in ascending order.
+using Quadruple = std::array<int, 4>;
+
+/// The plain roadmap: every force-closure grasp of four of the contact points is a vertex; two
+/// grasps that share three contacts are joined, as the fifth finger can take the new contact before
+/// the old one leaves.
+///
+/// Edges are not stored: grasps are listed by the triples of contacts that they contain, and two
+/// different grasps share at most one triple. Contacts at the same point (two normals on an edge of
+/// the solid, say) never stand in one grasp nor take turns in one switch, for two fingers cannot
+/// touch one point.
+class Roadmap final : public SwitchingGraph {
+ public:
+  /// Tests all 4-subsets of the points.
+  /// @param half_angle  radians.
+  /// @param same_point  contacts no farther apart than this are at the same point.
+  /// @throws std::invalid_argument  as TestForceClosure.
+  Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
+          double same_point);
+
+  [[nodiscard]] const std::vector<Contact>& points() const { return points_; }
+  [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }
+  [[nodiscard]] Grasp grasp(int index) const;
+  /// The vertex of four contact points in any order; nullopt where they are no vertex.
+  [[nodiscard]] std::optional<int> Find(std::span<const int> points) const;
+
+  [[nodiscard]] int vertex_count() const override { return static_cast<int>(vertices_.size()); }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
+  /// The contacts of one grasp that the other lacks: a switch changes one.
+  [[nodiscard]] int MinSwitches(int from, int to) const override;
+
+  /// 4-subsets of the contact points, force closure or not.
+  [[nodiscard]] std::int64_t candidate_count() const;
+  /// Unordered pairs of vertices that share three contacts.
+  [[nodiscard]] std::int64_t edge_count() const;
+  [[nodiscard]] Components components() const;
+
+ private:
+  void ListByTriples();
+  [[nodiscard]] int triple_count() const;
+  [[nodiscard]] std::span<const int> VerticesWith(int triple) const;
+  /// Whether the switch between two grasps with a triple in common moves a finger to its own point.
+  [[nodiscard]] bool StaysAtPoint(int vertex, int other) const;
+  [[nodiscard]] std::int64_t EdgesWith(int triple) const;
+
+  std::vector<Contact> points_;
+  std::vector<Quadruple> vertices_;  ///< in lexicographic order
+  /// Vertices that contain a triple stand at triple_begin_[triple] … triple_begin_[triple + 1].
+  std::vector<int> triple_begin_;
+  std::vector<int> triple_vertices_;
+  std::vector<std::array<int, 2>> same_point_pairs_;  ///< ascending; hardly ever any
+};
+
+}  // namespace regrasp
