@@ -1,0 +1,158 @@
+#include "planner/grasp/force_closure_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/grasp/pair_line.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Up to so many contacts the lines through pairs are looked at first, as that settles most grasps;
+/// with more they seldom do, and are left for grasps that the simplex cannot settle.
+constexpr std::size_t kPairLinesFirst = 4;
+
+/// Looking farther than this beyond the origin would not make an answer more certain.
+constexpr double kClearReach = 1e-6;
+
+/// Σ w(n_i), the wrench of unit normal forces.
+template <int kDim>
+typename WrenchSimplex<kDim>::Vector NormalWrench(const UnitContacts& contacts) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  for (const UnitContact& contact : contacts) {
+    force += contact.n;
+    torque += contact.q.cross(contact.n);
+  }
+  if constexpr (kDim == 6) {
+    return {force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z()};
+  } else {
+    return {force.x(), force.y(), torque.z()};
+  }
+}
+
+template <int kDim>
+double Dot(const typename WrenchSimplex<kDim>::Vector& a,
+           const typename WrenchSimplex<kDim>::Vector& b) {
+  double sum = 0;
+  for (int r = 0; r < kDim; ++r) sum += a[r] * b[r];
+  return sum;
+}
+
+/// ε* is at least −1/k: forces along the normals reach that.
+ForceClosure No(std::size_t count, double upper) {
+  return {Decision::kNo, -1 / static_cast<double>(count), upper};
+}
+
+/// The bound of a twist y: ε* ≤ max y·w / (−y·W), the columns w of unit normal force.
+template <int kDim>
+double UpperBound(const UnitContacts& contacts, const typename WrenchSimplex<kDim>::Vector& twist) {
+  const double descent = -Dot<kDim>(twist, NormalWrench<kDim>(contacts));
+  if (!(descent > 0)) return kInfinity;
+  return WrenchSimplex<kDim>::Support(contacts, twist) / (contacts[0].axial * descent);
+}
+
+template <int kDim>
+ForceClosure Yes(const UnitContacts& contacts, double lower) {
+  auto ascent = NormalWrench<kDim>(contacts);
+  for (double& value : ascent) value = -value;
+  return {Decision::kYes, lower, std::max(lower, UpperBound<kDim>(contacts, ascent))};
+}
+
+template <int kDim>
+void StoreForces(const WrenchSimplex<kDim>& simplex, std::size_t count,
+                 ForceClosureProof<kDim>* proof) {
+  if (proof == nullptr) return;
+  proof->forces.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    proof->forces.push_back(simplex.ForceOf(static_cast<int>(i)));
+  }
+}
+
+/// The bound of the basic columns where the origin lies inside their simplex: how far they reach
+/// against W.
+template <int kDim>
+double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simplex) {
+  auto direction = NormalWrench<kDim>(contacts);
+  for (double& value : direction) value = -value;
+  return std::min(simplex.Reach(direction) / contacts[0].axial, std::numeric_limits<double>::max());
+}
+
+/// Where the origin lies on the border of the basic columns' simplex, as it does when two contacts
+/// alone balance: it is inside the hull iff the ray from a point inside, the simplex's start c,
+/// reaches beyond it, to −s c with s > 0. With a the least weight of c = Σ a_i w(n_i),
+///
+///     −s a W = −s c + s Σ (a_i − a) w(n_i)  ∈  (1 + s (1 − k a)) hull,
+///
+/// which bounds the margin.
+template <int kDim>
+double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& simplex) {
+  const double reach = simplex.Maximise(simplex.start(), 0, {.enough = kClearReach}).lower;
+  if (!(reach > kForceClosureEpsilon) || !std::isfinite(reach)) return 0;
+  double least = 1;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    least = std::min(least, simplex.StartWeight(static_cast<int>(i)));
+  }
+  return reach * least / (1 + reach * (1 - static_cast<double>(contacts.size()) * least));
+}
+
+/// Decides by the simplex; kTooClose where it cannot.
+template <int kDim>
+ForceClosure DecideBySimplex(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+  using Simplex = WrenchSimplex<kDim>;
+  Simplex simplex(contacts, typename Simplex::Vector{});
+  const typename Simplex::Status status = simplex.FindWeights(/*stop_early=*/true);
+  if (status == Simplex::Status::kInfeasible) {
+    if (proof != nullptr) proof->twist = simplex.twist();
+    return No(contacts.size(), UpperBound<kDim>(contacts, simplex.twist()));
+  }
+  if (status == Simplex::Status::kFeasible) {
+    StoreForces<kDim>(simplex, contacts.size(), proof);
+    if (simplex.BallRadius() > kForceClosureEpsilon) {
+      return Yes<kDim>(contacts, LowerBound<kDim>(contacts, simplex));
+    }
+    const double lower = LowerBoundBeyondStart<kDim>(contacts, simplex);
+    if (lower > 0) return Yes<kDim>(contacts, lower);
+  }
+  return {Decision::kTooClose, -kForceClosureEpsilon, kForceClosureEpsilon};
+}
+
+/// All contacts on one line: no forces resist a turn about it.
+bool AreCollinear(const UnitContacts& contacts) {
+  const auto farthest = std::max_element(
+      contacts.begin(), contacts.end(),
+      [](const auto& a, const auto& b) { return a.q.squaredNorm() < b.q.squaredNorm(); });
+  return std::all_of(contacts.begin(), contacts.end(), [&](const UnitContact& contact) {
+    return farthest->q.cross(contact.q).norm() <= kForceClosureEpsilon;
+  });
+}
+
+}  // namespace
+
+template <int kDim>
+ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+  const bool space = kDim == 6;
+  const bool few = contacts.size() <= kPairLinesFirst;
+  if (contacts.size() < (space ? 3 : 2)) return No(contacts.size(), 0);
+  if (space && few) {
+    const PairLineVerdict verdict = JudgePairLines(contacts);
+    if (verdict == PairLineVerdict::kNo) return No(contacts.size(), 0);
+    // This Yes has no forces to show.
+    if (verdict == PairLineVerdict::kYes && proof == nullptr) {
+      return Yes<kDim>(contacts, std::numeric_limits<double>::min());
+    }
+  }
+  const ForceClosure answer = DecideBySimplex<kDim>(contacts, proof);
+  if (answer.decision != Decision::kTooClose || !space) return answer;
+  if (AreCollinear(contacts)) return No(contacts.size(), 0);
+  if (!few && JudgePairLines(contacts) == PairLineVerdict::kNo) return No(contacts.size(), 0);
+  return answer;
+}
+
+template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*);
+template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
+
+}  // namespace regrasp

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/unit_contacts.h"
+#include "planner/grasp/wrench_simplex.h"
+
+namespace regrasp {
+
+/// The proof that comes with a decision: for kNo the twist that separates (zero where a pair line
+/// or the rank decides), for kYes balanced forces inside the cones.
+template <int kDim>
+struct ForceClosureProof {
+  typename WrenchSimplex<kDim>::Vector twist{};
+  boost::container::small_vector<Eigen::Vector3d, kInlineContacts> forces;
+};
+
+/// TestForceClosure behind its checks, in the contacts' own frame (ContactFrame), rims of unit
+/// force set.
+/// @param proof  filled where not null.
+template <int kDim>
+[[nodiscard]] ForceClosure DecideForceClosure(const UnitContacts& contacts,
+                                              ForceClosureProof<kDim>* proof = nullptr);
+
+}  // namespace regrasp

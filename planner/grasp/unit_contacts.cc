@@ -1,0 +1,78 @@
+#include "planner/grasp/unit_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace regrasp {
+namespace {
+
+[[noreturn]] void Reject(const char* what) {
+  throw std::invalid_argument(std::string("grasp: ") + what);
+}
+
+void CheckContact(const Contact& contact, int dimension) {
+  if (!contact.p.allFinite() || !contact.n.allFinite()) Reject("a contact is not finite");
+  if (std::abs(contact.n.squaredNorm() - 1) > 2 * kUnitTolerance) Reject("a normal is not unit");
+  if (dimension == 2 && (contact.p.z() != 0 || contact.n.z() != 0)) {
+    Reject("a planar contact has z other than 0");
+  }
+}
+
+}  // namespace
+
+void CheckGrasp(std::span<const Contact> contacts, const WrenchFrame& frame) {
+  if (contacts.empty()) Reject("no contact");
+  if (frame.dimension != 2 && frame.dimension != 3) Reject("the dimension is neither 2 nor 3");
+  if (!(frame.radius > 0) || !std::isfinite(frame.radius) || !frame.origin.allFinite()) {
+    Reject("the frame is not finite or its radius not positive");
+  }
+  for (const Contact& contact : contacts) CheckContact(contact, frame.dimension);
+}
+
+void CheckHalfAngle(double half_angle) {
+  if (!(half_angle > 0) || !(half_angle < std::numbers::pi / 2)) {
+    Reject("the friction half-angle is not in (0, pi/2)");
+  }
+}
+
+UnitContacts MakeUnitContacts(std::span<const Contact> contacts, const WrenchFrame& frame) {
+  UnitContacts result;
+  result.reserve(contacts.size());
+  const double scale = 1 / frame.radius;
+  for (const Contact& contact : contacts) {
+    result.push_back({(contact.p - frame.origin) * scale, contact.n / contact.n.norm(), 0, 0});
+  }
+  return result;
+}
+
+WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension) {
+  WrenchFrame frame{Eigen::Vector3d::Zero(), 0, dimension};
+  for (const Contact& contact : contacts) frame.origin += contact.p;
+  frame.origin /= static_cast<double>(contacts.size());
+  for (const Contact& contact : contacts) {
+    frame.radius = std::max(frame.radius, (contact.p - frame.origin).norm());
+  }
+  return frame;
+}
+
+void SetUnitForces(UnitContacts& contacts, double half_angle) {
+  const double axial = std::cos(half_angle);
+  const double tangential = std::sin(half_angle);
+  for (UnitContact& contact : contacts) {
+    contact.axial = axial;
+    contact.tangential = tangential;
+  }
+}
+
+void SetUnitNormalForces(UnitContacts& contacts, double half_angle) {
+  const double tangential = std::tan(half_angle);
+  for (UnitContact& contact : contacts) {
+    contact.axial = 1;
+    contact.tangential = tangential;
+  }
+}
+
+}  // namespace regrasp

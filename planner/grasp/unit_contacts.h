@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <boost/container/small_vector.hpp>
+#include <span>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// A contact as the mathematics of one grasp uses it: moved to a frame's origin, divided by its
+/// radius, with the rim of its friction cone as numbers.
+///
+/// The forces of the rim are axial · n + tangential · t for unit t ⟂ n, so the cone's half-angle is
+/// atan(tangential / axial). (cos θ, sin θ) makes them unit forces, (1, tan θ) unit normal forces.
+struct UnitContact {
+  Eigen::Vector3d q;
+  Eigen::Vector3d n;
+  double axial;
+  double tangential;
+};
+
+/// So many contacts are kept without asking for memory.
+inline constexpr int kInlineContacts = 12;
+struct UnitContacts : boost::container::small_vector<UnitContact, kInlineContacts> {
+  // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
+  operator std::span<const UnitContact>() const { return {data(), size()}; }  // NOLINT
+};
+
+/// Normals whose length differs from 1 by more than this are not unit: far above the rounding of a
+/// normalised vector, far below any real mistake. What is within it is normalised again.
+inline constexpr double kUnitTolerance = 1e-6;
+
+/// Checks a grasp and its friction.
+///
+/// @throws std::invalid_argument  no contact, a value not finite, a normal not unit, z ≠ 0 in the
+///                                plane, a dimension other than 2 and 3, or a radius not positive.
+void CheckGrasp(std::span<const Contact> contacts, const WrenchFrame& frame);
+
+/// @throws std::invalid_argument  θ is outside (0, π/2).
+void CheckHalfAngle(double half_angle);
+
+/// Moves contacts to a frame of positive radius; the rims are still to be set.
+[[nodiscard]] UnitContacts MakeUnitContacts(std::span<const Contact> contacts,
+                                            const WrenchFrame& frame);
+
+/// The frame in which the contacts themselves are centred and of radius 1; radius 0 where they all
+/// coincide. Force closure does not depend on the frame, and is decided most precisely in this one.
+[[nodiscard]] WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension);
+
+/// Sets the rims of all contacts to half-angle θ with forces of unit length.
+void SetUnitForces(UnitContacts& contacts, double half_angle);
+
+/// Sets the rims of all contacts to half-angle θ with normal forces of 1.
+void SetUnitNormalForces(UnitContacts& contacts, double half_angle);
+
+}  // namespace regrasp

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+
+#include "planner/grasp/unit_contacts.h"
+
+namespace regrasp {
+
+/// The simplex method over the wrenches of friction cones, with the true circular cone as its
+/// pricing step: one linear program with infinitely many columns serves force closure, quality and
+/// grasp forces.
+///
+/// The columns are the wrenches w(g) = (g, q × g) of the rim forces g = axial n + tangential t of
+/// every contact, t ⟂ n any unit vector (the two cone edges in the plane). With weights λ ≥ 0,
+/// Σ λ = 1, the program asks for Σ λ_j w_j = target: first whether there is a solution, then for
+/// the solution that maximises the weight of one further column. The best column for a twist
+/// y = (v, ω) is closed form: contact q moves with u = v + ω × q, and
+///
+///     max over t of y · w = axial n·u + tangential |u − (n·u) n|        (the cone's support).
+///
+/// Column generation: Dantzig and Wolfe 1960; that extreme wrenches are all a method needs: Zheng
+/// and Chew 2009. The program starts from a point inside the hull with uneven weights, so that
+/// symmetric grasps cause no degenerate pivots; an iteration limit ends what would still stall.
+///
+/// @tparam kDim  6 in space, 3 in the plane (force x, y and torque z).
+template <int kDim>
+class WrenchSimplex {
+ public:
+  using Vector = std::array<double, kDim>;
+
+  enum class Status {
+    kFeasible,    ///< weights found
+    kInfeasible,  ///< certain: `twist` separates the target from all columns
+    kStalled,     ///< neither could be made certain
+  };
+
+  /// @param contacts  must stay alive; their rims are set.
+  WrenchSimplex(std::span<const UnitContact> contacts, const Vector& target);
+
+  /// Looks for weights: minimises the L1 distance from the target to the hull of the columns.
+  /// @param stop_early  end with the first twist that separates, not with the nearest point.
+  Status FindWeights(bool stop_early);
+
+  struct Maximum {
+    double lower;  ///< reached
+    double upper;  ///< cannot be exceeded; infinite where there is no bound
+  };
+
+  /// Where Maximise may end.
+  struct Goal {
+    double gap = 0;                                           ///< upper − lower ≤ gap
+    double enough = std::numeric_limits<double>::infinity();  ///< lower > enough, upper < enough
+  };
+
+  /// Once weights are found: maximises the weight of `column`, a wrench, whose part of the sum
+  /// Σ λ = 1 is `share`.
+  Maximum Maximise(const Vector& column, double share, const Goal& goal);
+
+  /// Σ a_i axial w(n_i), a point inside the hull; a_i are the uneven StartWeights.
+  [[nodiscard]] Vector start() const { return start_; }
+
+  /// The weights of start(), which sum to 1.
+  [[nodiscard]] double StartWeight(int contact) const;
+
+  /// Radius about the target of a ball inside the simplex of the basic columns; ≤ 0 where none, or
+  /// where an artificial column is left in it.
+  [[nodiscard]] double BallRadius() const;
+
+  /// Largest s such that target + s · direction lies in the simplex of the basic columns.
+  [[nodiscard]] double Reach(const Vector& direction) const;
+
+  /// The force of contact i in the solution, without that of Maximise's column.
+  [[nodiscard]] Eigen::Vector3d ForceOf(int contact) const;
+
+  /// The dual solution: the twist that the last column was chosen for. After kInfeasible it
+  /// separates: twist · w < twist · target for all columns.
+  [[nodiscard]] Vector twist() const;
+
+  /// Σ |target − Σ λ w|, of what artificial columns still carry.
+  [[nodiscard]] double unbalanced() const;
+
+  /// The largest y · w of all columns, y a twist.
+  [[nodiscard]] static double Support(std::span<const UnitContact> contacts, const Vector& twist);
+
+ private:
+  static constexpr int kRows = kDim + 1;      // balance, and Σ λ = 1
+  static constexpr int kTableau = kRows + 1;  // and the objective
+  static constexpr int kSolution = kRows;     // the tableau's last column: the basic weights
+
+  static constexpr int kArtificial = -1;
+  static constexpr int kStart = -2;
+  static constexpr int kExtra = -3;
+
+  struct Column {
+    int contact;
+    std::array<double, kRows> entries;
+  };
+
+  [[nodiscard]] Column BestColumn() const;
+  [[nodiscard]] double ReducedCost(const Column& column) const;
+  bool Enter(const Column& column);
+  int ChooseLeaving(const std::array<double, kTableau>& alpha) const;
+  void Pivot(int leaving, const std::array<double, kTableau>& alpha);
+  void Refactor();
+  [[nodiscard]] bool Separates(double reduced_cost) const;
+  [[nodiscard]] double TwistSize() const;
+
+  std::span<const UnitContact> contacts_;
+  Vector target_;
+  Vector start_{};
+  double start_weight_sum_ = 0;
+  double target_size_;
+  double column_size_;
+  int artificial_count_ = kDim;
+  int pivots_since_refactor_ = 0;
+  bool maximising_ = false;
+  std::array<Column, kRows> basis_;
+  // Row r: the inverse basis's row and the weight of basis_[r]; the last row: the dual (y, y_last)
+  // and the objective's value.
+  alignas(16) std::array<std::array<double, kTableau>, kTableau> tableau_;
+};
+
+extern template class WrenchSimplex<3>;
+extern template class WrenchSimplex<6>;
+
+}  // namespace regrasp
