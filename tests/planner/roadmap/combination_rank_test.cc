@@ -1,0 +1,33 @@
+#include "planner/roadmap/combination_rank.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace regrasp {
+namespace {
+
+TEST(Binomial, KnowsPascalsTriangle) {
+  EXPECT_EQ(Binomial(3, 4), 0);
+  EXPECT_EQ(Binomial(4, 4), 1);
+  EXPECT_EQ(Binomial(60, 4), 487'635);
+  EXPECT_EQ(Binomial(70, 4), 916'895);
+}
+
+TEST(CombinationRank, IsABijectionOntoTheFirstNumbers) {
+  constexpr int kThings = 9;
+  std::set<std::int64_t> ranks;
+  for (int a = 0; a < kThings; ++a) {
+    for (int b = a + 1; b < kThings; ++b) {
+      for (int c = b + 1; c < kThings; ++c) {
+        ranks.insert(CombinationRank(std::array<int, 3>{a, b, c}));
+      }
+    }
+  }
+  EXPECT_EQ(std::ssize(ranks), Binomial(kThings, 3));
+  EXPECT_EQ(*ranks.begin(), 0);
+  EXPECT_EQ(*ranks.rbegin(), Binomial(kThings, 3) - 1);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,100 @@
+#include "planner/roadmap/grasp_choice.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "tests/planner/roadmap/solids.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double kSamePoint = 1e-7;
+constexpr double kHalf = 0.03;
+
+/// Two fingers on each of two opposite faces of the cube, `lean` apart along z at the second pair,
+/// so that the grasp needs some friction.
+GraspChoice OppositePairs(double lean) {
+  const Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, 0},
+                       {{-kHalf, -0.01, 0}, {1, 0, 0}, 0},
+                       {{kHalf, 0.01, lean}, {-1, 0, 0}, 1},
+                       {{kHalf, -0.01, lean}, {-1, 0, 0}, 1}};
+  return {GraspChoice::Kind::kGiven, grasp, "given.json"};
+}
+
+void Check(const GraspChoice& choice, double degrees) {
+  CheckGivenGrasp(choice, MakeCube().wrench_frame(), Radians(degrees), kSamePoint);
+}
+
+TEST(CheckGivenGrasp, AcceptsAForceClosureGraspOfFour) {
+  EXPECT_NO_THROW(Check(OppositePairs(0), 10));
+}
+
+TEST(CheckGivenGrasp, NamesTheHalfAngleThatIsNeeded) {
+  // The pairs' lines lean by atan(0.02 / 0.06) = 18.43°, and nothing holds with less.
+  EXPECT_THAT([] { Check(OppositePairs(0.02), 15); },
+              ThrowsMessage<InputError>(
+                  "given.json: /contacts: not force closure: needs a friction half-angle of "
+                  "18.44°, given 15°"));
+  EXPECT_NO_THROW(Check(OppositePairs(0.02), 18.45));
+}
+
+TEST(CheckGivenGrasp, SaysWhereNoFrictionServes) {
+  GraspChoice choice = OppositePairs(0);
+  for (std::size_t i = 0; i < 4; ++i) choice.grasp[i].p = {-kHalf, 0.005 * double(i), 0};
+  EXPECT_THAT([&] { Check(choice, 30); },
+              ThrowsMessage<InputError>(HasSubstr("no friction half-angle below 90° serves")));
+}
+
+TEST(CheckGivenGrasp, RefusesThreeAndFiveContacts) {
+  GraspChoice choice = OppositePairs(0);
+  choice.grasp.pop_back();
+  EXPECT_THAT([&] { Check(choice, 20); },
+              ThrowsMessage<InputError>(HasSubstr("needs 4 contacts, found 3")));
+  choice = OppositePairs(0);
+  choice.grasp.push_back(choice.grasp[0]);
+  choice.grasp.back().p.z() += 0.01;
+  EXPECT_THAT([&] { Check(choice, 20); },
+              ThrowsMessage<InputError>(HasSubstr("needs 4 contacts, found 5")));
+}
+
+TEST(CheckGivenGrasp, RefusesTwoContactsAtOnePoint) {
+  GraspChoice choice = OppositePairs(0);
+  choice.grasp[3] = choice.grasp[2];
+  EXPECT_THAT([&] { Check(choice, 20); },
+              ThrowsMessage<InputError>(HasSubstr("contacts 2 and 3 are at the same point")));
+}
+
+TEST(DrawGraspOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
+  const Polyhedron cube = MakeCube();
+  RandomStream random(1, RandomUse::kStart);
+  std::vector<int> on_face(cube.face_count(), 0);
+  constexpr int kGrasps = 100;
+  for (int i = 0; i < kGrasps; ++i) {
+    const auto grasp = DrawGraspOnSurface(cube, Radians(20), 0.02, kSamePoint, random);
+    ASSERT_TRUE(grasp.has_value());
+    ASSERT_EQ(grasp->size(), 4u);
+    EXPECT_TRUE(IsForceClosure(*grasp, cube.wrench_frame(), Radians(20)));
+    EXPECT_GE(ComputeQuality(*grasp, cube.wrench_frame(), Radians(20)).upper, 0.02);
+    for (const Contact& contact : *grasp) ++on_face[contact.face];
+  }
+  // By symmetry a sixth each; the contacts of one grasp are not independent, hence the wide bound.
+  for (const int count : on_face) EXPECT_NEAR(count, 4 * kGrasps / 6, 4 * kGrasps / 12);
+}
+
+TEST(DrawGraspOnSurface, GivesUpWhereNoGraspIsThatGood) {
+  RandomStream random(1, RandomUse::kStart);
+  // No grasp resists more than its whole squeeze.
+  EXPECT_FALSE(DrawGraspOnSurface(MakeCube(), Radians(5), 1.1, kSamePoint, random).has_value());
+}
+
+}  // namespace
+}  // namespace regrasp

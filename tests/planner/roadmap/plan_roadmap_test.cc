@@ -1,0 +1,287 @@
+#include "planner/roadmap/plan_roadmap.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/graph/fewest_switches.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "planner/roadmap/vertex_quality.h"
+#include "tests/planner/roadmap/solids.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Kind = GraspChoice::Kind;
+using Status = RoadmapPlanResult::Status;
+
+constexpr double kHalf = 0.03;
+
+/// A contact on the face of the cube whose outward normal is `axis` times `sign`.
+Contact OnCube(const Polyhedron& cube, int axis, int sign, double u, double v) {
+  Contact contact;
+  contact.p[axis] = sign * kHalf;
+  contact.p[(axis + 1) % 3] = u;
+  contact.p[(axis + 2) % 3] = v;
+  contact.face = cube.FacesNear(contact.p, kPointTolerance * cube.diameter()).front();
+  contact.n = cube.inward_normal(contact.face);
+  return contact;
+}
+
+/// Two and two fingers on the faces across an axis.
+Grasp AcrossAxis(const Polyhedron& cube, int axis, double offset = 0) {
+  return {OnCube(cube, axis, -1, 0.012 + offset, 0.003), OnCube(cube, axis, -1, -0.012, -0.002),
+          OnCube(cube, axis, 1, 0.012, 0.002), OnCube(cube, axis, 1, -0.012 + offset, -0.003)};
+}
+
+GraspChoice Given(const Grasp& grasp) { return {Kind::kGiven, grasp, "given.json"}; }
+GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
+GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
+
+RoadmapOptions Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
+  RoadmapOptions options;
+  options.half_angle = Radians(degrees);
+  options.contacts = contacts;
+  options.seed = seed;
+  return options;
+}
+
+std::vector<Grasp> GraspsOf(const Plan& plan) {
+  std::vector<Grasp> grasps = {ContactsOf(plan.initial)};
+  FingerGrasp holding = plan.initial;
+  for (const Step& step : plan.steps) {
+    holding = GraspAfter(holding, step);
+    grasps.push_back(ContactsOf(holding));
+  }
+  return grasps;
+}
+
+double Margin(const Polyhedron& solid, const Grasp& grasp, double half_angle) {
+  return half_angle - ComputeRequiredHalfAngle(grasp, solid.wrench_frame()).value().upper;
+}
+
+std::vector<int> JoinedVertex(const Roadmap& roadmap, const Grasp& grasp) {
+  std::vector<int> points;
+  for (const Contact& contact : grasp) {
+    const auto found = std::find_if(roadmap.points().begin(), roadmap.points().end(),
+                                    [&](const Contact& c) { return c.p == contact.p; });
+    points.push_back(static_cast<int>(found - roadmap.points().begin()));
+  }
+  return points;
+}
+
+/// The best sequence by brute force: levels of a breadth-first search, and on them the largest
+/// smallest margin, every grasp evaluated.
+struct BestSequence {
+  int switches = -1;
+  double margin = -std::numeric_limits<double>::infinity();
+};
+
+BestSequence FindByBruteForce(const Polyhedron& solid, const Roadmap& roadmap, int start, int goal,
+                              double half_angle, double min_quality) {
+  const int count = roadmap.vertex_count();
+  std::vector<double> best(count, -std::numeric_limits<double>::infinity());
+  std::vector<bool> seen(count, false);
+  std::vector<int> level = {start};
+  best[start] = Margin(solid, roadmap.grasp(start), half_angle);
+  seen[start] = true;
+  std::vector<int> neighbours;
+  for (int switches = 0; !level.empty(); ++switches) {
+    if (seen[goal]) return {switches, best[goal]};
+    std::vector<int> next;
+    for (const int v : level) {
+      roadmap.GetNeighbours(v, neighbours);
+      for (const int n : neighbours) {
+        const bool is_next = std::find(next.begin(), next.end(), n) != next.end();
+        if (seen[n] && !is_next) continue;
+        const Grasp grasp = roadmap.grasp(n);
+        if (!is_next) {
+          if (n != goal && !QualityAtLeast(grasp, solid.wrench_frame(), half_angle, min_quality)) {
+            continue;
+          }
+          seen[n] = true;
+          next.push_back(n);
+        }
+        best[n] = std::max(best[n], std::min(best[v], Margin(solid, grasp, half_angle)));
+      }
+    }
+    if (seen[goal]) return {switches + 1, best[goal]};
+    level = next;
+  }
+  return {};
+}
+
+TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
+  const Polyhedron cube = MakeCube();
+  int checked = 0;
+  int detours = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const RoadmapOptions options = Options(8, seed, 14);
+    const Grasp start = AcrossAxis(cube, 0);
+    const Grasp goal = AcrossAxis(cube, 1 + int(seed % 2), 0.001 * double(seed));
+    std::vector<Contact> joined = start;
+    joined.insert(joined.end(), goal.begin(), goal.end());
+    const Roadmap roadmap = BuildRoadmap(cube, options, joined);
+    const BestSequence best = FindByBruteForce(
+        cube, roadmap, roadmap.Find(JoinedVertex(roadmap, start)).value(),
+        roadmap.Find(JoinedVertex(roadmap, goal)).value(), options.half_angle, options.min_quality);
+    if (best.switches < 0) continue;
+    const RoadmapPlanResult result = PlanOnRoadmap(cube, Given(start), Given(goal), options);
+    ASSERT_EQ(result.status, Status::kFound);
+    EXPECT_THAT(result.plan->steps, SizeIs(best.switches)) << "seed " << seed;
+    EXPECT_NEAR(result.margin, best.margin, 2 * kMarginTolerance) << "seed " << seed;
+    ++checked;
+    if (best.switches > 4) ++detours;
+  }
+  EXPECT_GE(checked, 4);
+  RecordProperty("detours", detours);
+}
+
+TEST(PlanOnRoadmap, MarginIsTheSmallestOfThePlansGrasps) {
+  const Polyhedron cube = MakeCube();
+  const RoadmapPlanResult result =
+      PlanOnRoadmap(cube, Given(AcrossAxis(cube, 0)), Given(AcrossAxis(cube, 2)), Options(24));
+  ASSERT_EQ(result.status, Status::kFound);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Grasp& grasp : GraspsOf(*result.plan)) {
+    smallest = std::min(smallest, Margin(cube, grasp, Radians(20)));
+    EXPECT_TRUE(QualityAtLeast(grasp, cube.wrench_frame(), Radians(20), 0.01));
+  }
+  EXPECT_NEAR(result.margin, smallest, kMarginTolerance);
+  EXPECT_THAT(result.warnings, IsEmpty());
+}
+
+TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
+  const Polyhedron box = MakeBox({0.08, 0.05, 0.06});
+  int passed = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (const GraspChoice& choice : {Random(), RandomAny()}) {
+      const RoadmapPlanResult result = PlanOnRoadmap(box, choice, choice, Options(30, seed));
+      ASSERT_EQ(result.status, Status::kFound) << result.message;
+      EXPECT_THAT(result.warnings, IsEmpty());
+      EXPECT_FALSE(result.plan->steps.empty());
+      const PlanCheck check = CheckPlan(box, *result.plan);
+      EXPECT_TRUE(check.passed()) << "seed " << seed;
+      passed += check.passed() ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(passed, 12);
+}
+
+TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
+  const Polyhedron cube = MakeCube();
+  const auto plan = [&](std::uint64_t seed) {
+    return FormatPlan(*PlanOnRoadmap(cube, Random(), RandomAny(), Options(20, seed)).plan);
+  };
+  EXPECT_EQ(plan(3), plan(3));
+  EXPECT_NE(plan(3), plan(4));
+}
+
+TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
+  const Polyhedron cube = MakeCube();
+  const Grasp start = AcrossAxis(cube, 0);
+  Grasp goal = start;
+  std::reverse(goal.begin(), goal.end());
+  const RoadmapPlanResult result = PlanOnRoadmap(cube, Given(start), Given(goal), Options(10));
+  ASSERT_EQ(result.status, Status::kFound);
+  EXPECT_THAT(result.plan->steps, IsEmpty());
+  EXPECT_THAT(result.plan->initial, SizeIs(4));
+  EXPECT_EQ(result.plan->goal.front().p, start.back().p);
+  EXPECT_TRUE(CheckPlan(cube, *result.plan).passed());
+}
+
+TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
+  const Polyhedron cube = MakeCube();
+  Grasp start = AcrossAxis(cube, 0);
+  std::reverse(start.begin(), start.end());
+  const RoadmapPlanResult result =
+      PlanOnRoadmap(cube, Given(start), Given(AcrossAxis(cube, 1)), Options(20));
+  ASSERT_EQ(result.status, Status::kFound);
+  EXPECT_EQ(result.plan->fingers, 5);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(result.plan->initial[i].finger, i);
+    EXPECT_EQ(result.plan->initial[i].contact.p, start[i].p);
+  }
+}
+
+TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
+  const Polyhedron cube = MakeCube();
+  // With this little friction and few contact points the two grasps stand apart.
+  const Grasp start = AcrossAxis(cube, 0);
+  const Grasp goal = AcrossAxis(cube, 1);
+  RoadmapOptions options = Options(4, 1, 6);
+  const RoadmapPlanResult result = PlanOnRoadmap(cube, Given(start), Given(goal), options);
+  ASSERT_EQ(result.status, Status::kNoSequence);
+  EXPECT_FALSE(result.plan.has_value());
+  EXPECT_THAT(result.message, HasSubstr("12 contact points, 495 subsets of four"));
+  EXPECT_THAT(result.message, HasSubstr(std::to_string(result.vertices) + " force-closure grasps"));
+  EXPECT_THAT(result.message, HasSubstr("the start's component has"));
+  options.contacts = 60;
+  EXPECT_EQ(PlanOnRoadmap(cube, Given(start), Given(goal), options).status, Status::kFound);
+}
+
+TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
+  const Polyhedron cube = MakeCube();
+  RoadmapOptions options = Options(20);
+  options.min_quality = 0.9;  // more than any grasp of the cube has at this friction
+  const RoadmapPlanResult result =
+      PlanOnRoadmap(cube, Given(AcrossAxis(cube, 0)), Given(AcrossAxis(cube, 1)), options);
+  ASSERT_EQ(result.status, Status::kFound);
+  ASSERT_THAT(result.warnings, SizeIs(1));
+  EXPECT_THAT(result.warnings[0], HasSubstr("below the quality 0.9"));
+  EXPECT_THAT(result.warnings[0], HasSubstr("step"));
+}
+
+TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
+  RoadmapOptions options = Options(10);
+  options.min_quality = 0.9;
+  const RoadmapPlanResult result = PlanOnRoadmap(MakeCube(), Random(), Random(), options);
+  EXPECT_EQ(result.status, Status::kNoGrasp);
+  EXPECT_THAT(result.message, HasSubstr("random: none of"));
+}
+
+TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
+  const Polyhedron cube = MakeCube();
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const RoadmapPlanResult result = PlanOnRoadmap(cube, Random(), Random(), Options(9, seed, 12));
+    if (result.status == Status::kNoGrasp) continue;
+    EXPECT_EQ(result.status, Status::kFound) << "seed " << seed;
+    ++found;
+  }
+  EXPECT_GT(found, 5);
+}
+
+TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
+  const Polyhedron cube = MakeCube();
+  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(3)), std::invalid_argument);
+  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(kMaxRoadmapContacts + 1)),
+               std::invalid_argument);
+  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(10, 0, 90)),
+               std::invalid_argument);
+}
+
+TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
+  const Polyhedron cube = MakeCube();
+  Grasp start = AcrossAxis(cube, 0);
+  start[2] = start[0];
+  start[2].p.y() += 0.01;
+  start[3] = start[0];
+  start[3].p.z() += 0.01;
+  EXPECT_THROW((void)PlanOnRoadmap(cube, Given(start), Given(AcrossAxis(cube, 1)), Options(10)),
+               InputError);
+}
+
+}  // namespace
+}  // namespace regrasp

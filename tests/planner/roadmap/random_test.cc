@@ -1,0 +1,47 @@
+#include "planner/roadmap/random.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace regrasp {
+namespace {
+
+TEST(RandomStream, GivesTheSameNumbersForTheSameSeedAndUse) {
+  RandomStream a(7, RandomUse::kStart);
+  RandomStream b(7, RandomUse::kStart);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(a.Uniform(), b.Uniform());
+}
+
+TEST(RandomStream, GivesOtherNumbersForAnotherSeedOrUse) {
+  const double first = RandomStream(7, RandomUse::kStart).Uniform();
+  EXPECT_NE(first, RandomStream(8, RandomUse::kStart).Uniform());
+  EXPECT_NE(first, RandomStream(7, RandomUse::kGoal).Uniform());
+  EXPECT_NE(first, RandomStream(7 + (std::uint64_t{1} << 32), RandomUse::kStart).Uniform());
+}
+
+TEST(RandomStream, SpreadsEvenly) {
+  constexpr int kDraws = 30'000;
+  RandomStream random(1, RandomUse::kContactPoints);
+  double sum = 0;
+  std::array<int, 3> counts = {};
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = random.Uniform();
+    ASSERT_GE(x, 0);
+    ASSERT_LT(x, 1);
+    sum += x;
+    ++counts.at(random.Index(counts.size()));
+  }
+  // Five standard deviations of the mean and of a binomial count.
+  EXPECT_NEAR(sum / kDraws, 0.5, 5 * 0.2887 / std::sqrt(kDraws));
+  for (const int count : counts) EXPECT_NEAR(count, kDraws / 3, 5 * std::sqrt(kDraws * 2 / 9.0));
+}
+
+TEST(RandomStream, DrawsTheOnlyNumberBelowOne) {
+  RandomStream random(1, RandomUse::kGoal);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(random.Index(1), 0u);
+}
+
+}  // namespace
+}  // namespace regrasp

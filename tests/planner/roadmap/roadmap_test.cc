@@ -1,0 +1,140 @@
+#include "planner/roadmap/roadmap.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "planner/base/angle.h"
+#include "planner/graph/fewest_switches.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/roadmap/contact_points.h"
+#include "tests/planner/roadmap/solids.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kSamePoint = 1e-7;
+
+Roadmap MakeRoadmap(const std::vector<Contact>& points, double degrees) {
+  return Roadmap(points, MakeCube().wrench_frame(), Radians(degrees), kSamePoint);
+}
+
+std::vector<Contact> CubePoints(int count, std::uint64_t seed = 1) {
+  return SpreadContactPoints(MakeCube(), count, seed);
+}
+
+TEST(Roadmap, HasOneVertexPerForceClosureGraspOfFour) {
+  const std::vector<Contact> points = CubePoints(14);
+  const Roadmap roadmap = MakeRoadmap(points, 20);
+  int force_closure = 0;
+  int others = 0;
+  for (int a = 0; a < 14; ++a) {
+    for (int b = a + 1; b < 14; ++b) {
+      for (int c = b + 1; c < 14; ++c) {
+        for (int d = c + 1; d < 14; ++d) {
+          const Grasp grasp = {points[a], points[b], points[c], points[d]};
+          const bool expected = IsForceClosure(grasp, MakeCube().wrench_frame(), Radians(20));
+          EXPECT_EQ(roadmap.Find(std::array{d, b, a, c}).has_value(), expected);
+          ++(expected ? force_closure : others);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(roadmap.vertex_count(), force_closure);
+  EXPECT_EQ(roadmap.candidate_count(), force_closure + others);
+  EXPECT_GT(force_closure, 20);
+  EXPECT_GT(others, 20);
+}
+
+TEST(Roadmap, JoinsGraspsThatShareThreeContacts) {
+  const Roadmap roadmap = MakeRoadmap(CubePoints(16), 20);
+  std::vector<int> neighbours;
+  std::int64_t edges = 0;
+  for (int v = 0; v < roadmap.vertex_count(); ++v) {
+    roadmap.GetNeighbours(v, neighbours);
+    std::sort(neighbours.begin(), neighbours.end());
+    std::vector<int> expected;
+    for (int other = 0; other < roadmap.vertex_count(); ++other) {
+      if (roadmap.MinSwitches(v, other) == 1) expected.push_back(other);
+    }
+    ASSERT_EQ(neighbours, expected);
+    edges += std::ssize(expected);
+  }
+  EXPECT_GT(edges, 100);
+  EXPECT_EQ(roadmap.edge_count(), edges / 2);
+}
+
+TEST(Roadmap, ComponentsAreWhatASequenceCanReach) {
+  int split = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Roadmap roadmap = MakeRoadmap(CubePoints(9, seed), 12);
+    const Components components = roadmap.components();
+    for (int v = 0; v < roadmap.vertex_count(); ++v) {
+      const auto reached = ReachableVertices(roadmap, v, [](int) { return true; });
+      EXPECT_EQ(components.sizes[components.of_vertex[v]], std::ssize(reached));
+    }
+    if (components.count() > 1) ++split;
+  }
+  EXPECT_GT(split, 0);
+}
+
+TEST(Roadmap, CountsContactsThatAreNotShared) {
+  const Roadmap roadmap = MakeRoadmap(CubePoints(12), 30);
+  ASSERT_GT(roadmap.vertex_count(), 1);
+  for (int v = 0; v < roadmap.vertex_count(); ++v) {
+    EXPECT_EQ(roadmap.MinSwitches(v, v), 0);
+    EXPECT_EQ(roadmap.MinSwitches(0, v), roadmap.MinSwitches(v, 0));
+  }
+}
+
+TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
+  std::vector<Contact> points = CubePoints(12);
+  const Roadmap plain = MakeRoadmap(points, 30);
+  // The same point with a normal that leans a little, as on a border of two faces.
+  Contact twin = points[0];
+  twin.n = (twin.n + 0.2 * points[0].p.unitOrthogonal().cross(twin.n)).normalized();
+  points.push_back(twin);
+  const Roadmap roadmap = MakeRoadmap(points, 30);
+  int with_twin = 0;
+  std::int64_t edges = 0;
+  std::vector<int> neighbours;
+  for (int v = 0; v < roadmap.vertex_count(); ++v) {
+    const Quadruple& vertex = roadmap.vertex(v);
+    const bool has_point = vertex[0] == 0;
+    const bool has_twin = vertex[3] == 12;
+    EXPECT_FALSE(has_point && has_twin);
+    with_twin += has_twin ? 1 : 0;
+    roadmap.GetNeighbours(v, neighbours);
+    edges += std::ssize(neighbours);
+    for (const int other : neighbours) {
+      EXPECT_FALSE(has_point && roadmap.vertex(other)[3] == 12);
+      EXPECT_FALSE(has_twin && roadmap.vertex(other)[0] == 0);
+    }
+  }
+  EXPECT_GT(with_twin, 0);
+  EXPECT_EQ(roadmap.vertex_count(), plain.vertex_count() + with_twin);
+  EXPECT_EQ(roadmap.edge_count(), edges / 2);
+}
+
+TEST(Roadmap, IsEmptyWithoutForceClosure) {
+  std::vector<Contact> one_face;
+  for (const Contact& contact : CubePoints(60)) {
+    if (contact.face == 0) one_face.push_back(contact);
+  }
+  ASSERT_GT(one_face.size(), 4u);
+  const Roadmap roadmap = MakeRoadmap(one_face, 20);
+  EXPECT_EQ(roadmap.vertex_count(), 0);
+  EXPECT_EQ(roadmap.edge_count(), 0);
+  EXPECT_EQ(roadmap.components().count(), 0);
+}
+
+TEST(Roadmap, FindsOnlyFours) {
+  const Roadmap roadmap = MakeRoadmap(CubePoints(12), 30);
+  EXPECT_EQ(roadmap.Find(std::array{0, 1, 2}), std::nullopt);
+  EXPECT_EQ(roadmap.Find(std::array{0, 0, 1, 2}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace regrasp
