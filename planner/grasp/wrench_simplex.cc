@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/grasp/cone_support.h"
+
 namespace regrasp {
 namespace {
 
@@ -30,40 +32,6 @@ constexpr int kMaxPivots = 200;
 
 /// After so many pivots the inverse is computed afresh.
 constexpr int kRefactorAfter = 24;
-
-/// Writes the wrench of a force at a contact.
-template <int kDim>
-void WriteWrench(const UnitContact& contact, const Eigen::Vector3d& force, double* out) {
-  if constexpr (kDim == 6) {
-    const Eigen::Vector3d torque = contact.q.cross(force);
-    std::copy_n(force.data(), 3, out);
-    std::copy_n(torque.data(), 3, out + 3);
-  } else {
-    out[0] = force.x();
-    out[1] = force.y();
-    out[2] = contact.q.x() * force.y() - contact.q.y() * force.x();
-  }
-}
-
-/// The velocity of the contact's point under a twist.
-template <int kDim>
-Eigen::Vector3d Velocity(const UnitContact& contact, const double* twist) {
-  if constexpr (kDim == 6) {
-    const Eigen::Map<const Eigen::Vector3d> v(twist);
-    const Eigen::Map<const Eigen::Vector3d> omega(twist + 3);
-    return v + omega.cross(contact.q);
-  } else {
-    return {twist[0] - twist[2] * contact.q.y(), twist[1] + twist[2] * contact.q.x(), 0};
-  }
-}
-
-/// Any unit vector perpendicular to n, in the plane where kDim is 3.
-template <int kDim>
-Eigen::Vector3d AnyTangent(const Eigen::Vector3d& n) {
-  if constexpr (kDim == 3) return {-n.y(), n.x(), 0};
-  return std::abs(n.x()) < 0.5 ? n.cross(Eigen::Vector3d::UnitX()).normalized()
-                               : n.cross(Eigen::Vector3d::UnitY()).normalized();
-}
 
 /// Multiples of the golden ratio, modulo 1, never repeat: no two contacts weigh the same.
 double UnevenWeight(int i) {
@@ -120,30 +88,19 @@ template <int kDim>
 typename WrenchSimplex<kDim>::Column WrenchSimplex<kDim>::BestColumn() const {
   const double* twist = tableau_[kRows].data();
   double best = -kInfinity;
-  int best_contact = 0;
-  Eigen::Vector3d best_sliding = Eigen::Vector3d::Zero();
-  double best_speed = 0;
+  Column column{};
+  Eigen::Vector3d best_velocity = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const UnitContact& contact = contacts_[i];
-    const Eigen::Vector3d u = Velocity<kDim>(contact, twist);
-    const double approach = contact.n.dot(u);
-    const Eigen::Vector3d sliding = u - approach * contact.n;
-    const double speed = sliding.norm();
-    const double value = contact.axial * approach + contact.tangential * speed;
+    const Eigen::Vector3d u = Velocity<kDim>(contacts_[i], twist);
+    const double value = ConeSupport(contacts_[i], u);
     if (value > best) {
       best = value;
-      best_contact = static_cast<int>(i);
-      best_sliding = sliding;
-      best_speed = speed;
+      best_velocity = u;
+      column.contact = static_cast<int>(i);
     }
   }
-  const UnitContact& contact = contacts_[best_contact];
-  const Eigen::Vector3d tangent =
-      best_speed > 0 ? Eigen::Vector3d(best_sliding / best_speed) : AnyTangent<kDim>(contact.n);
-  const Eigen::Vector3d force = contact.axial * contact.n + contact.tangential * tangent;
-  Column column;
-  column.contact = best_contact;
-  WriteWrench<kDim>(contact, force, column.entries.data());
+  const UnitContact& contact = contacts_[column.contact];
+  WriteWrench<kDim>(contact, SupportForce<kDim>(contact, best_velocity), column.entries.data());
   column.entries[kDim] = 1;
   return column;
 }
@@ -152,10 +109,7 @@ template <int kDim>
 double WrenchSimplex<kDim>::Support(std::span<const UnitContact> contacts, const Vector& twist) {
   double best = -kInfinity;
   for (const UnitContact& contact : contacts) {
-    const Eigen::Vector3d u = Velocity<kDim>(contact, twist.data());
-    const double approach = contact.n.dot(u);
-    const double speed = (u - approach * contact.n).norm();
-    best = std::max(best, contact.axial * approach + contact.tangential * speed);
+    best = std::max(best, ConeSupport(contact, Velocity<kDim>(contact, twist.data())));
   }
   return best;
 }

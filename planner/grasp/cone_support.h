@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/grasp/unit_contacts.h"
+
+namespace regrasp {
+
+// Wrenches and twists of contacts in kDim numbers: (force, torque) and (v, omega) in space, kDim 6;
+// (force x, force y, torque z) and (v x, v y, omega z) in the plane, kDim 3. The power of a force g
+// at a contact is twist · wrench = u · g, u the velocity of the contact's point.
+
+/// Writes the wrench (g, q × g) of a force at a contact.
+template <int kDim>
+inline void WriteWrench(const UnitContact& contact, const Eigen::Vector3d& force, double* out) {
+  if constexpr (kDim == 6) {
+    const Eigen::Vector3d torque = contact.q.cross(force);
+    std::copy_n(force.data(), 3, out);
+    std::copy_n(torque.data(), 3, out + 3);
+  } else {
+    out[0] = force.x();
+    out[1] = force.y();
+    out[2] = contact.q.x() * force.y() - contact.q.y() * force.x();
+  }
+}
+
+/// The velocity u = v + omega × q of a contact's point under a twist.
+template <int kDim>
+[[nodiscard]] inline Eigen::Vector3d Velocity(const UnitContact& contact, const double* twist) {
+  if constexpr (kDim == 6) {
+    const Eigen::Map<const Eigen::Vector3d> v(twist);
+    const Eigen::Map<const Eigen::Vector3d> omega(twist + 3);
+    return v + omega.cross(contact.q);
+  } else {
+    return {twist[0] - twist[2] * contact.q.y(), twist[1] + twist[2] * contact.q.x(), 0};
+  }
+}
+
+/// The cone's support: the largest u · g over its rim, axial n·u + tangential |u − (n·u) n|.
+[[nodiscard]] inline double ConeSupport(const UnitContact& contact, const Eigen::Vector3d& u) {
+  const double approach = contact.n.dot(u);
+  return contact.axial * approach + contact.tangential * (u - approach * contact.n).norm();
+}
+
+/// A unit vector perpendicular to n, in the plane where kDim is 3.
+template <int kDim>
+[[nodiscard]] inline Eigen::Vector3d AnyTangent(const Eigen::Vector3d& n) {
+  if constexpr (kDim == 3) return {-n.y(), n.x(), 0};
+  // The axis farther from n: the cross product is then at least √3/2 long.
+  return n.cross(std::abs(n.x()) < 0.5 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY())
+      .normalized();
+}
+
+/// The rim force that attains ConeSupport.
+template <int kDim>
+[[nodiscard]] inline Eigen::Vector3d SupportForce(const UnitContact& contact,
+                                                  const Eigen::Vector3d& u) {
+  const Eigen::Vector3d sliding = u - contact.n.dot(u) * contact.n;
+  const double speed = sliding.norm();
+  const Eigen::Vector3d tangent =
+      speed > 0 ? Eigen::Vector3d(sliding / speed) : AnyTangent<kDim>(contact.n);
+  return contact.axial * contact.n + contact.tangential * tangent;
+}
+
+}  // namespace regrasp

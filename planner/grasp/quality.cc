@@ -1,0 +1,201 @@
+#include "planner/grasp/quality.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "planner/grasp/convex_hull.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/unit_contacts.h"
+#include "planner/grasp/wrench_set.h"
+
+namespace regrasp {
+namespace {
+
+/// Rim forces per contact that the hull starts from.
+constexpr int kRimSamples = 6;
+
+/// Facets refined in one round: enough to spread over the neighbourhood of the nearest point, few
+/// enough that Qhull, whose time grows steeply with the points, stays cheap.
+constexpr int kFacetsPerRound = 24;
+
+/// The gap shrinks by a third or more per round; this many only end what rounding keeps apart.
+constexpr int kMaxRounds = 60;
+
+/// A certified ball about the origin inside the wrench set, found with Qhull: the hull of some of
+/// the set's points bounds it from below, the set's support in the facets' normals from above.
+template <int kDim>
+class BallSearch {
+ public:
+  BallSearch(const WrenchSet<kDim>& set, QualityBounds bounds) : set_(set), bounds_(bounds) {
+    AddPoint(set.Origin());
+    for (int contact = 0; contact < set.contact_count(); ++contact) {
+      for (int s = 0; s < kRimSamples; ++s) {
+        // Turned from contact to contact, so that parallel cones give no parallel facets.
+        const double angle = 2 * std::numbers::pi * (s + 0.1 * contact) / kRimSamples;
+        AddPoint(set.RimWrench(contact, angle));
+      }
+    }
+  }
+
+  [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
+
+  /// Refines once. @returns false where nothing can be refined any more.
+  bool Refine(double goal) {
+    const ConvexHull hull = ComputeConvexHull(points_);
+    std::vector<const HullFacet*> facets;
+    facets.reserve(hull.facets.size());
+    for (const HullFacet& facet : hull.facets) facets.push_back(&facet);
+    std::sort(facets.begin(), facets.end(),
+              [](const auto* a, const auto* b) { return a->offset < b->offset; });
+    bounds_.lower = std::max(bounds_.lower, facets.front()->offset - hull.joggle);
+    int refined = 0;
+    for (const HullFacet* facet : facets) {
+      if (refined == kFacetsPerRound || facet->offset - hull.joggle >= goal * bounds_.upper) break;
+      const auto support = set_.Support(facet->normal);
+      bounds_.upper = std::min(bounds_.upper, support.value);
+      AddPoint(support.point);
+      ++refined;
+    }
+    return refined > 0;
+  }
+
+ private:
+  void AddPoint(const Eigen::Matrix<double, kDim, 1>& point) {
+    points_.conservativeResize(kDim, points_.cols() + 1);
+    points_.col(points_.cols() - 1) = point;
+  }
+
+  const WrenchSet<kDim>& set_;
+  Eigen::MatrixXd points_{kDim, 0};
+  QualityBounds bounds_;
+};
+
+template <int kDim>
+QualityBounds Quality(const UnitContacts& contacts, double relative_gap) {
+  const WrenchSet<kDim> set(contacts);
+  BallSearch<kDim> search(set, {0, std::numeric_limits<double>::infinity()});
+  for (int round = 0; round < kMaxRounds; ++round) {
+    if (!search.Refine(1 - relative_gap)) break;
+    const QualityBounds& bounds = search.bounds();
+    if (bounds.upper - bounds.lower <= relative_gap * bounds.upper) break;
+  }
+  return search.bounds();
+}
+
+/// Ray shooting ends at this part of the threshold, and where the set reaches this many times it:
+/// beyond, nothing that would change the decision is learned.
+constexpr double kShootGap = 0.02;
+constexpr double kShootEnough = 8;
+
+/// Frames of directions tried before Qhull is asked.
+constexpr int kFrames = 3;
+
+/// Descents from the nearest boundary point found so far to a nearer one.
+constexpr int kDescents = 6;
+
+/// What ray shooting learns: the boundary points on ± the columns of an orthogonal frame span a
+/// cross-polytope inside the set, and each hit's normal bounds the ball from above.
+template <int kDim>
+class RaySearch {
+ public:
+  using Vector = typename WrenchSet<kDim>::Vector;
+  using Frame = Eigen::Matrix<double, kDim, kDim>;
+
+  RaySearch(const WrenchSet<kDim>& set, double threshold) : set_(set), threshold_(threshold) {}
+
+  [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
+  [[nodiscard]] bool decided() const {
+    return bounds_.lower >= threshold_ || bounds_.upper < threshold_;
+  }
+
+  /// The ball inside the cross-polytope of the frame: its facets, one of each ± pair, are
+  /// 1 / √Σ 1/s² from the origin.
+  void ShootFrame(const Frame& frame) {
+    double sum = 0;
+    for (int axis = 0; axis < kDim && !decided(); ++axis) {
+      const double shorter = std::min(Shoot(frame.col(axis)), Shoot(-frame.col(axis)));
+      sum += 1 / (shorter * shorter);
+    }
+    if (!decided()) bounds_.lower = std::max(bounds_.lower, 1 / std::sqrt(sum));
+  }
+
+  /// The normal of the boundary at the nearest known supporting plane is where a nearer boundary
+  /// point is: shooting along it never gives a larger bound (the support function's descent).
+  void Descend() {
+    for (int step = 0; step < kDescents && !decided(); ++step) {
+      const double before = bounds_.upper;
+      Shoot(nearest_);
+      if (bounds_.upper > (1 - kShootGap) * before) break;
+    }
+  }
+
+  /// An orthogonal frame whose first axis is the nearest normal.
+  [[nodiscard]] Frame NearestFrame() const {
+    return Eigen::HouseholderQR<Vector>(nearest_).householderQ();
+  }
+
+ private:
+  double Shoot(const Vector& direction) {
+    const auto hit = set_.Shoot(direction, kShootGap * threshold_, kShootEnough * threshold_);
+    const double size = hit.normal.norm();
+    if (size > 0) {
+      const Vector normal = hit.normal / size;
+      const double support = set_.Support(normal).value;
+      if (support < bounds_.upper) {
+        bounds_.upper = support;
+        nearest_ = normal;
+      }
+    }
+    return std::max(hit.distance, std::numeric_limits<double>::min());
+  }
+
+  const WrenchSet<kDim>& set_;
+  double threshold_;
+  Vector nearest_ = Vector::UnitX();
+  QualityBounds bounds_{0, std::numeric_limits<double>::infinity()};
+};
+
+template <int kDim>
+bool AtLeast(const UnitContacts& contacts, double threshold) {
+  const WrenchSet<kDim> set(contacts);
+  RaySearch<kDim> rays(set, threshold);
+  rays.ShootFrame(RaySearch<kDim>::Frame::Identity());
+  for (int frame = 1; frame < kFrames && !rays.decided(); ++frame) {
+    rays.Descend();
+    if (!rays.decided()) rays.ShootFrame(rays.NearestFrame());
+  }
+  BallSearch<kDim> balls(set, rays.bounds());
+  const QualityBounds& bounds = balls.bounds();
+  for (int round = 0; round < kMaxRounds; ++round) {
+    if (bounds.lower >= threshold || bounds.upper < threshold) break;
+    if (!balls.Refine(threshold / bounds.upper)) break;
+  }
+  return bounds.lower >= threshold;
+}
+
+}  // namespace
+
+QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFrame& frame,
+                             double half_angle, double relative_gap) {
+  if (!(relative_gap > 0)) throw std::invalid_argument("quality: relative gap not positive");
+  if (!IsForceClosure(contacts, frame, half_angle)) return {};
+  UnitContacts units = MakeUnitContacts(contacts, frame);
+  SetUnitNormalForces(units, half_angle);
+  return frame.dimension == 3 ? Quality<6>(units, relative_gap) : Quality<3>(units, relative_gap);
+}
+
+bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame, double half_angle,
+                    double threshold) {
+  if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
+  if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
+  if (threshold <= 0) return true;
+  UnitContacts units = MakeUnitContacts(contacts, frame);
+  SetUnitNormalForces(units, half_angle);
+  return frame.dimension == 3 ? AtLeast<6>(units, threshold) : AtLeast<3>(units, threshold);
+}
+
+}  // namespace regrasp

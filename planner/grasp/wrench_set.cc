@@ -1,0 +1,60 @@
+#include "planner/grasp/wrench_set.h"
+
+#include <cmath>
+
+#include "planner/grasp/cone_support.h"
+
+namespace regrasp {
+
+template <int kDim>
+WrenchSet<kDim>::WrenchSet(std::span<const UnitContact> contacts)
+    : contacts_(contacts), simplex_(contacts, {}) {
+  simplex_.FindWeights(/*stop_early=*/false);
+}
+
+template <int kDim>
+typename WrenchSet<kDim>::SupportPoint WrenchSet<kDim>::Support(const Vector& twist) const {
+  SupportPoint support{0, Vector::Zero()};
+  for (const UnitContact& contact : contacts_) {
+    const Eigen::Vector3d u = Velocity<kDim>(contact, twist.data());
+    const double value = ConeSupport(contact, u);
+    if (value > support.value) {
+      support.value = value;
+      WriteWrench<kDim>(contact, SupportForce<kDim>(contact, u), support.point.data());
+    }
+  }
+  return support;
+}
+
+template <int kDim>
+typename WrenchSet<kDim>::Hit WrenchSet<kDim>::Shoot(const Vector& direction, double gap,
+                                                     double enough) const {
+  typename WrenchSimplex<kDim>::Vector column;
+  for (int r = 0; r < kDim; ++r) column[r] = -direction[r];
+  WrenchSimplex<kDim> simplex = simplex_;
+  Hit hit;
+  hit.distance = simplex.Maximise(column, 0, {.gap = gap, .enough = enough}).lower;
+  const auto twist = simplex.twist();
+  hit.normal = Eigen::Map<const Vector>(twist.data());
+  return hit;
+}
+
+template <int kDim>
+typename WrenchSet<kDim>::Vector WrenchSet<kDim>::RimWrench(int contact, double angle) const {
+  const UnitContact& unit = contacts_[contact];
+  const Eigen::Vector3d first = AnyTangent<kDim>(unit.n);
+  Eigen::Vector3d tangent;
+  if constexpr (kDim == 3) {
+    tangent = std::cos(angle) < 0 ? Eigen::Vector3d(-first) : first;
+  } else {
+    tangent = std::cos(angle) * first + std::sin(angle) * unit.n.cross(first);
+  }
+  Vector wrench;
+  WriteWrench<kDim>(unit, unit.axial * unit.n + unit.tangential * tangent, wrench.data());
+  return wrench;
+}
+
+template class WrenchSet<3>;
+template class WrenchSet<6>;
+
+}  // namespace regrasp
