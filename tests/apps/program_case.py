@@ -1,0 +1,86 @@
+"""Runs a program of the build as a user does, and checks what every program promises.
+
+A test script takes `--programs DIR` (the folder of the built programs) and `--source DIR` (the
+project), then unittest's own arguments.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ARGUMENTS = argparse.Namespace(programs="", source="")
+
+# Far above what any case needs: a program that hangs fails instead of blocking the run.
+HANG_SECONDS = 300
+
+
+class ProgramCase(unittest.TestCase):
+    """A folder of its own for each test, and the program's promises as assertions."""
+
+    program = ""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def model(self, name):
+        return os.path.join(ARGUMENTS.source, "models", name)
+
+    def write(self, name, content):
+        path = self.path(name)
+        mode = "wb" if isinstance(content, bytes) else "w"
+        with open(path, mode) as file:
+            file.write(content)
+        return path
+
+    def write_json(self, name, value):
+        return self.write(name, json.dumps(value))
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def run_program(self, *arguments, program=None, environment=None, stdout=subprocess.PIPE):
+        command = [os.path.join(ARGUMENTS.programs, program or self.program), *arguments]
+        return subprocess.run(
+            command, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, text=True,
+            cwd=self.folder, timeout=HANG_SECONDS, check=False,
+            env=dict(os.environ, **(environment or {})))
+
+    def assert_done(self, *arguments, **options):
+        """Exit code 0; returns what ran."""
+        done = self.run_program(*arguments, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def assert_refused(self, code, words, *arguments, **options):
+        """That exit code, one line on standard error with these words, and no file left behind."""
+        before = sorted(os.listdir(self.folder))
+        done = self.run_program(*arguments, **options)
+        said = f"{arguments}\nstdout: {done.stdout}\nstderr: {done.stderr}"
+        self.assertEqual(done.returncode, code, said)
+        self.assertEqual(done.stderr.count("\n"), 1, said)
+        self.assertTrue(done.stderr.endswith("\n"), said)
+        self.assertTrue(done.stderr.startswith(self.program + ": "), said)
+        for word in [words] if isinstance(words, str) else words:
+            self.assertIn(word, done.stderr, said)
+        self.assertFalse(done.stdout, said)
+        self.assertEqual(sorted(os.listdir(self.folder)), before, said)
+        return done
+
+
+def main():
+    """What a test script calls at its end."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--programs", required=True)
+    parser.add_argument("--source", required=True)
+    _, rest = parser.parse_known_args(namespace=ARGUMENTS)
+    unittest.main(argv=[sys.argv[0], *rest])
