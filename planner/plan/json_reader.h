@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/base/json.h"
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// A place in a JSON file that is being read: the value, and how messages call it.
+///
+/// Every reading function throws InputError "plan.json: /steps/3/place/0/normal: expected …".
+class JsonReader {
+ public:
+  JsonReader(const Json& value, std::string file, std::string pointer = "")
+      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)) {}
+
+  [[nodiscard]] bool Has(const char* key) const { return value_.contains(key); }
+  /// The member `key` of an object; missing is an error.
+  [[nodiscard]] JsonReader Member(const char* key) const;
+  /// The elements of an array.
+  [[nodiscard]] std::vector<JsonReader> Elements() const;
+
+  [[nodiscard]] std::string String() const;
+  /// A finite number no larger in size than kLargestNumber.
+  [[nodiscard]] double Number() const;
+  /// An integer in [lower, upper].
+  [[nodiscard]] int Integer(int lower, int upper) const;
+  /// `dimension` numbers; the third is 0 in the plane.
+  [[nodiscard]] Eigen::Vector3d Vector(int dimension) const;
+
+  /// Demands `"format": format` and `"version": 1`.
+  void ExpectFormat(const std::string& format) const;
+
+  [[noreturn]] void Fail(const std::string& what) const;
+
+ private:
+  const Json& value_;
+  std::string file_;
+  std::string pointer_;
+};
+
+/// Coordinates beyond this are refused: their squares must not overflow.
+inline constexpr double kLargestNumber = 1e15;
+
+/// Numbers of a vector as JSON, two in the plane.
+[[nodiscard]] Json VectorJson(const Eigen::Vector3d& vector, int dimension);
+
+}  // namespace regrasp
