@@ -133,6 +133,13 @@ bool AreCollinear(const UnitContacts& contacts) {
 }  // namespace
 
 template <int kDim>
+ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+  const ForceClosure answer = DecideBySimplex<kDim>(contacts, proof);
+  const bool unsettled = kDim == 6 && answer.decision == Decision::kTooClose;
+  return unsettled && AreCollinear(contacts) ? No(contacts.size(), 0) : answer;
+}
+
+template <int kDim>
 ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
@@ -145,14 +152,14 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
       return Yes<kDim>(contacts, std::numeric_limits<double>::min());
     }
   }
-  const ForceClosure answer = DecideBySimplex<kDim>(contacts, proof);
-  if (answer.decision != Decision::kTooClose || !space) return answer;
-  if (AreCollinear(contacts)) return No(contacts.size(), 0);
-  if (!few && JudgePairLines(contacts) == PairLineVerdict::kNo) return No(contacts.size(), 0);
-  return answer;
+  const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof);
+  const bool unsettled = space && !few && answer.decision == Decision::kTooClose;
+  return unsettled && JudgePairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
+                                                                       : answer;
 }
 
 template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*);
 template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
+template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
 
 }  // namespace regrasp

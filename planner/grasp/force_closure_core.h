@@ -21,4 +21,9 @@ template <int kDim>
 [[nodiscard]] ForceClosure DecideForceClosure(const UnitContacts& contacts,
                                               ForceClosureProof<kDim>* proof = nullptr);
 
+/// The same for a grasp that the lines through pairs of contacts have been seen not to settle.
+template <int kDim>
+[[nodiscard]] ForceClosure DecideOpenForceClosure(const UnitContacts& contacts,
+                                                  ForceClosureProof<kDim>* proof = nullptr);
+
 }  // namespace regrasp

@@ -58,6 +58,20 @@ WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension) {
   return frame;
 }
 
+void Recentre(UnitContacts& contacts) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const UnitContact& contact : contacts) centre += contact.q;
+  centre /= static_cast<double>(contacts.size());
+  double squared = 0;
+  for (UnitContact& contact : contacts) {
+    contact.q -= centre;
+    squared = std::max(squared, contact.q.squaredNorm());
+  }
+  if (!(squared > 0)) return;
+  const double scale = 1 / std::sqrt(squared);
+  for (UnitContact& contact : contacts) contact.q *= scale;
+}
+
 void SetUnitForces(UnitContacts& contacts, double half_angle) {
   const double axial = std::cos(half_angle);
   const double tangential = std::sin(half_angle);

@@ -1,0 +1,179 @@
+#include "planner/grasp/subset_force_closure.h"
+
+#include <bit>
+#include <stdexcept>
+
+#include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/turn_table.h"
+
+namespace regrasp {
+namespace {
+
+using Word = TurnTable::Word;
+
+UnitContacts MakeRimmedContacts(std::span<const Contact> points, const WrenchFrame& frame,
+                                double half_angle) {
+  UnitContacts units = MakeUnitContacts(points, frame);
+  SetUnitForces(units, half_angle);
+  return units;
+}
+
+/// Enumerates with three contacts fixed and the fourth as the bit of a word.
+class SubsetSearch {
+ public:
+  SubsetSearch(std::span<const Contact> points, const WrenchFrame& frame, double half_angle)
+      : count_(static_cast<int>(points.size())),
+        units_(MakeRimmedContacts(points, frame, half_angle)),
+        turns_(units_),
+        triples_(static_cast<std::size_t>(count_) * count_ * turns_.words()) {}
+
+  std::vector<std::array<int, 4>> Run() {
+    ForEachTriple([this](int i, int j, int k) { StoreTriple(i, j, k); });
+    ForEachTriple([this](int i, int j, int k) { ExtendTriple(i, j, k); });
+    return std::move(found_);
+  }
+
+  [[nodiscard]] const SubsetCounts& counts() const { return counts_; }
+
+ private:
+  template <typename Function>
+  void ForEachTriple(Function function) const {
+    for (int i = 0; i < count_; ++i) {
+      for (int j = i + 1; j < count_; ++j) {
+        for (int k = j + 1; k < count_; ++k) function(i, j, k);
+      }
+    }
+  }
+
+  [[nodiscard]] Decision Simplex(std::initializer_list<int> subset) const {
+    UnitContacts contacts;
+    for (int index : subset) contacts.push_back(units_[index]);
+    Recentre(contacts);
+    return DecideOpenForceClosure<6>(contacts).decision;
+  }
+
+  [[nodiscard]] Word* Triple(int a, int b) {
+    return &triples_[(static_cast<std::size_t>(a) * count_ + b) * turns_.words()];
+  }
+
+  /// Three contacts can be force closure only if each turns the object both ways about the line of
+  /// the other two.
+  void StoreTriple(int i, int j, int k) {
+    if (!TurnTable::Has(turns_.ByContact(i, j).both, k) ||
+        !TurnTable::Has(turns_.ByContact(i, k).both, j) ||
+        !TurnTable::Has(turns_.ByContact(j, k).both, i)) {
+      return;
+    }
+    if (Simplex({i, j, k}) != Decision::kYes) return;
+    for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
+      TurnTable::Set(Triple(a, b), c);
+      TurnTable::Set(Triple(b, a), c);
+    }
+  }
+
+  void ExtendTriple(int i, int j, int k) {
+    for (int word = (k + 1) / TurnTable::kWordBits; word < turns_.words(); ++word) {
+      const Word range = Range(k, word);
+      const Word open = range & ~SameWay(i, j, k, word);
+      const Word pairs = open & BalancedPair(i, j, k, word);
+      const Word triples = open & ~pairs & FromTriples(i, j, k, word);
+      counts_.subsets += std::popcount(range);
+      counts_.rejected_by_lines += std::popcount(range & ~open);
+      counts_.accepted_by_pairs += std::popcount(pairs);
+      counts_.accepted_by_triples += std::popcount(triples);
+      Collect(i, j, k, word, open, pairs | triples);
+    }
+  }
+
+  /// The bits of a word that are indices above k.
+  [[nodiscard]] Word Range(int k, int word) const {
+    const int first = std::max(k + 1 - word * TurnTable::kWordBits, 0);
+    const int last = std::min(count_ - word * TurnTable::kWordBits, TurnTable::kWordBits);
+    if (first >= last) return 0;
+    const Word above = ~Word{0} << first;
+    return last == TurnTable::kWordBits ? above : above & ((Word{1} << last) - 1);
+  }
+
+  /// Fourth contacts l for which, about the line of some pair of i, j, k, l, the other two turn the
+  /// object the same way.
+  [[nodiscard]] Word SameWay(int i, int j, int k, int word) const {
+    Word result = 0;
+    for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
+      const TurnTable::Rows line = turns_.ByContact(a, b);
+      if (TurnTable::Has(line.positive, c)) result |= line.positive[word];
+      if (TurnTable::Has(line.negative, c)) result |= line.negative[word];
+      const TurnTable::Rows first = turns_.ByLine(c, a);
+      const TurnTable::Rows second = turns_.ByLine(c, b);
+      result |= first.positive[word] & second.positive[word];
+      result |= first.negative[word] & second.negative[word];
+    }
+    return result;
+  }
+
+  /// Fourth contacts l for which some pair of i, j, k, l is antipodal and about its line the other
+  /// two turn the object both ways.
+  [[nodiscard]] Word BalancedPair(int i, int j, int k, int word) const {
+    Word result = 0;
+    for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
+      if (TurnTable::Has(turns_.Antipodal(a), b)) {
+        const TurnTable::Rows line = turns_.ByContact(a, b);
+        result |= line.both[word];
+        if (TurnTable::Has(line.both, c)) result = ~Word{0};
+        if (TurnTable::Has(line.positive, c)) result |= line.negative[word];
+        if (TurnTable::Has(line.negative, c)) result |= line.positive[word];
+      }
+      const TurnTable::Rows first = turns_.ByLine(c, a);
+      const TurnTable::Rows second = turns_.ByLine(c, b);
+      result |= turns_.Antipodal(c)[word] & (first.both[word] | second.both[word] |
+                                             (first.positive[word] & second.negative[word]) |
+                                             (first.negative[word] & second.positive[word]));
+    }
+    return result;
+  }
+
+  /// Fourth contacts l with which three of i, j, k, l are force closure.
+  [[nodiscard]] Word FromTriples(int i, int j, int k, int word) {
+    if (TurnTable::Has(Triple(i, j), k)) return ~Word{0};
+    return Triple(i, j)[word] | Triple(i, k)[word] | Triple(j, k)[word];
+  }
+
+  void Collect(int i, int j, int k, int word, Word open, Word accepted) {
+    for (Word rest = open; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      const int l = word * TurnTable::kWordBits + bit;
+      if (((accepted >> bit) & 1U) == 0) {
+        ++counts_.by_simplex;
+        const Decision decision = Simplex({i, j, k, l});
+        if (decision == Decision::kTooClose) ++counts_.too_close;
+        if (decision != Decision::kYes) continue;
+      }
+      found_.push_back({i, j, k, l});
+    }
+  }
+
+  int count_;
+  UnitContacts units_;
+  TurnTable turns_;
+  std::vector<Word> triples_;  // row (a, b), bit c: a, b, c are force closure
+  std::vector<std::array<int, 4>> found_;
+  SubsetCounts counts_;
+};
+
+}  // namespace
+
+std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
+                                                    const WrenchFrame& frame, double half_angle,
+                                                    SubsetCounts* counts) {
+  CheckGrasp(points, frame);
+  CheckHalfAngle(half_angle);
+  if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
+  const WrenchFrame own = ContactFrame(points, frame.dimension);
+  if (counts != nullptr) *counts = {};
+  if (!(own.radius > 0)) return {};
+  SubsetSearch search(points, own, half_angle);
+  std::vector<std::array<int, 4>> found = search.Run();
+  if (counts != nullptr) *counts = search.counts();
+  return found;
+}
+
+}  // namespace regrasp
