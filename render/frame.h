@@ -1,24 +1,18 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "planner/object/object.h"
 #include "planner/plan/snapshot.h"
+#include "render/image.h"
 
 namespace regrasp {
 
-/// An image, 8 bits RGB, rows from the top.
-struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<unsigned char> rgb;  ///< 3 · width · height
-};
-
-/// @throws EnvironmentError  the file cannot be written.
-void WritePng(const std::filesystem::path& path, const Image& image);
+/// Sizes that frames may have, along either axis.
+inline constexpr int kMinFrameSide = 48;
+inline constexpr int kMaxFrameSide = 4096;
 
 struct FrameOptions {
   int width = 1280;
@@ -27,24 +21,30 @@ struct FrameOptions {
 };
 
 /// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a
-/// stem along the normal, one colour a finger for the whole sequence, true friction cones, force
-/// arrows, and the finger that moves told apart.
+/// stem along the normal, one colour and number a finger for the whole sequence, true friction
+/// cones, force arrows, and the finger that moves told apart: a placed one has a ring and an arrow
+/// that arrives, a released one is a ghost with an arrow that leaves, an aligned one has a dashed
+/// track. Planar objects are drawn as prisms.
 ///
 /// One renderer serves a whole plan, with one camera, so that frames can be laid side by side. The
 /// camera is chosen once so that the contacts of all `snapshots` are seen as well as possible.
+/// Force arrows have one scale for all of them too. Deterministic: the same bytes every time.
 class FrameRenderer {
  public:
   /// @param scale       metres per unit of the object.
   /// @param half_angle  of the friction cones drawn, radians.
   /// @param snapshots   of the whole sequence, to choose the camera.
-  /// @throws EnvironmentError  no off-screen rendering context.
+  /// @throws EnvironmentError       no off-screen rendering context.
+  /// @throws std::invalid_argument  a side is outside [kMinFrameSide, kMaxFrameSide], or
+  ///                                supersampling outside [1, 4].
   FrameRenderer(const Object& object, double scale, double half_angle,
                 const std::vector<Snapshot>& snapshots, const FrameOptions& options = {});
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&&) noexcept;
   FrameRenderer& operator=(FrameRenderer&&) noexcept;
 
-  [[nodiscard]] Image Render(const Snapshot& snapshot);
+  /// @param caption  one line of UTF-8 at the bottom left; none where empty.
+  [[nodiscard]] Image Render(const Snapshot& snapshot, const std::string& caption = "");
 
  private:
   class Impl;

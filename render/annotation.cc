@@ -1,0 +1,266 @@
+#include "render/annotation.h"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/base/number.h"
+#include "render/label_layout.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Shares of the image's height, and pixels.
+constexpr double kFontSize = 0.024;
+constexpr double kSmallestFont = 7;
+constexpr double kMargin = 0.032;
+constexpr double kLongestBar = 0.20;
+
+// In font sizes.
+constexpr double kNumberSize = 1.2;
+constexpr double kLabelRadius = 0.66;
+constexpr double kHalo = 0.32;
+constexpr double kRingGap = 0.36;
+constexpr double kRingWidth = 0.14;
+
+/// Labels should not cover these; to cover a cone is a lesser evil.
+constexpr double kFingerWeight = 1;
+constexpr double kConeWeight = 0.25;
+constexpr double kTextWeight = 3;
+/// The friction cone counts as a strip of this share of its length.
+constexpr double kConeStrip = 0.3;
+
+/// Numbers in pale colours get an outline in a darker shade.
+constexpr double kShade = 0.78;
+
+struct SurfaceDeleter {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+struct ContextDeleter {
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+
+/// An image that Cairo draws on.
+class Page {
+ public:
+  explicit Page(const Image& image)
+      : width_(image.width),
+        height_(image.height),
+        surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
+        context_(cairo_create(surface_.get())) {
+    if (cairo_status(context_.get()) != CAIRO_STATUS_SUCCESS) {
+      throw std::runtime_error(cairo_status_to_string(cairo_status(context_.get())));
+    }
+    const unsigned char* in = image.rgb.data();
+    for (int y = 0; y < height_; ++y) {
+      std::uint32_t* out = Row(y);
+      for (int x = 0; x < width_; ++x, in += 3) {
+        out[x] = std::uint32_t{in[0]} << 16 | std::uint32_t{in[1]} << 8 | in[2];
+      }
+    }
+    cairo_surface_mark_dirty(surface_.get());
+  }
+
+  [[nodiscard]] cairo_t* context() const { return context_.get(); }
+
+  [[nodiscard]] Image ToImage() const {
+    cairo_surface_flush(surface_.get());
+    Image image = MakeImage(width_, height_);
+    unsigned char* out = image.rgb.data();
+    for (int y = 0; y < height_; ++y) {
+      const std::uint32_t* in = Row(y);
+      for (int x = 0; x < width_; ++x) {
+        for (const int shift : {16, 8, 0}) *out++ = static_cast<unsigned char>(in[x] >> shift);
+      }
+    }
+    return image;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t* Row(int y) const {
+    unsigned char* data = cairo_image_surface_get_data(surface_.get());
+    return reinterpret_cast<std::uint32_t*>(data + std::ptrdiff_t{y} * Stride());
+  }
+  [[nodiscard]] int Stride() const { return cairo_image_surface_get_stride(surface_.get()); }
+
+  int width_, height_;
+  std::unique_ptr<cairo_surface_t, SurfaceDeleter> surface_;
+  std::unique_ptr<cairo_t, ContextDeleter> context_;
+};
+
+void SetColor(cairo_t* cr, Color color, double shade = 1) {
+  constexpr double kMax = 255;
+  cairo_set_source_rgb(cr, shade * color.r / kMax, shade * color.g / kMax, shade * color.b / kMax);
+}
+
+void SetFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+double TextWidth(cairo_t* cr, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+/// Fills the current path over a white halo.
+void FillWithHalo(cairo_t* cr, Color color, double halo) {
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_set_line_width(cr, halo);
+  cairo_stroke_preserve(cr);
+  SetColor(cr, color);
+  cairo_fill(cr);
+}
+
+void DrawCentred(cairo_t* cr, const std::string& text, const Vector2d& centre, Color color,
+                 double halo) {
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, text.c_str(), &e);
+  cairo_move_to(cr, centre.x() - e.x_bearing - e.width / 2,
+                centre.y() - e.y_bearing - e.height / 2);
+  cairo_text_path(cr, text.c_str());
+  FillWithHalo(cr, color, halo);
+}
+
+/// A ring just outside the ball, dark within white, so that it shows on any ground.
+void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, double font) {
+  const Vector2d centre = camera.Project(glyph.ball);
+  const double radius = glyph.ball_radius * camera.PixelsPerUnit(glyph.ball) + kRingGap * font;
+  for (const bool white : {true, false}) {
+    cairo_new_path(cr);
+    cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * std::numbers::pi);
+    cairo_set_line_width(cr, (white ? 2.2 : 1) * kRingWidth * font);
+    white ? cairo_set_source_rgb(cr, 1, 1, 1) : SetColor(cr, FingerColor(glyph.finger), kShade);
+    cairo_stroke(cr);
+  }
+}
+
+std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
+  std::vector<Obstacle> obstacles;
+  for (const FingerGlyph& glyph : fingers) {
+    const double pixels = camera.PixelsPerUnit(glyph.ball);
+    const Vector2d ball = camera.Project(glyph.ball);
+    obstacles.push_back({ball, ball, glyph.ball_radius * pixels, kFingerWeight});
+    obstacles.push_back(
+        {ball, camera.Project(glyph.end), glyph.ball_radius / 2 * pixels, kFingerWeight});
+    obstacles.push_back({camera.Project(glyph.contact),
+                         camera.Project(glyph.contact - glyph.outward * kConeLength),
+                         kConeStrip * kConeLength * pixels, kConeWeight});
+  }
+  return obstacles;
+}
+
+void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph> fingers,
+                 std::vector<Obstacle> text, double font) {
+  std::vector<LabelAnchor> anchors;
+  for (const FingerGlyph& glyph : fingers) {
+    const Vector2d anchor = camera.Project(glyph.end);
+    anchors.push_back({anchor, anchor - camera.Project(glyph.contact)});
+  }
+  std::vector<Obstacle> obstacles = ObstaclesOf(camera, fingers);
+  obstacles.insert(obstacles.end(), text.begin(), text.end());
+  const std::vector<Vector2d> centres =
+      PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
+  SetFont(cr, kNumberSize * font, /*bold=*/true);
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], FingerColor(fingers[i].finger),
+                kHalo * font);
+  }
+}
+
+/// Writes the caption, in a smaller font where it would be too wide, and returns what it covers.
+std::vector<Obstacle> DrawCaption(cairo_t* cr, const Camera& camera, const std::string& caption,
+                                  double font) {
+  if (caption.empty()) return {};
+  const double margin = kMargin * camera.height;
+  const double room = camera.width * (1 - kLongestBar) - 3 * margin;
+  SetFont(cr, font, /*bold=*/false);
+  const double size = font * std::min(1.0, room / TextWidth(cr, caption));
+  if (size < kSmallestFont) return {};
+  SetFont(cr, size, /*bold=*/false);
+  const double base = camera.height - margin;
+  cairo_move_to(cr, margin, base);
+  cairo_text_path(cr, caption.c_str());
+  FillWithHalo(cr, kInk, kHalo * font);
+  const double middle = base - size / 3;
+  return {{{margin, middle}, {margin + TextWidth(cr, caption), middle}, size / 2, kTextWeight}};
+}
+
+std::vector<Obstacle> DrawScaleBar(cairo_t* cr, const Camera& camera, double metres_per_unit,
+                                   double font) {
+  if (font < kSmallestFont) return {};
+  const double pixels_per_metre = camera.PixelsPerUnit(Eigen::Vector3d::Zero()) / metres_per_unit;
+  const double metres = RoundLength(kLongestBar * camera.width / pixels_per_metre);
+  const double length = metres * pixels_per_metre;
+  const double margin = kMargin * camera.height;
+  const double y = camera.height - margin;
+  const double right = camera.width - margin;
+  const double left = right - length;
+  const double tick = font / 4;
+  for (const double x : {left, right}) {
+    cairo_move_to(cr, x, y - tick);
+    cairo_line_to(cr, x, y + tick);
+  }
+  cairo_move_to(cr, left, y);
+  cairo_line_to(cr, right, y);
+  cairo_set_line_width(cr, std::max(1.0, font / 10));
+  SetColor(cr, kInk);
+  cairo_stroke(cr);
+  SetFont(cr, font, /*bold=*/false);
+  DrawCentred(cr, FormatLength(metres), {(left + right) / 2, y - 0.8 * font}, kInk, kHalo * font);
+  return {{{left, y - font / 2}, {right, y - font / 2}, font, kTextWeight}};
+}
+
+}  // namespace
+
+double RoundLength(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= limit) return digit * power;
+  }
+  return power;
+}
+
+std::string FormatLength(double metres) {
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  static constexpr std::array<Unit, 4> kUnits = {
+      {{1, " m"}, {1e-2, " cm"}, {1e-3, " mm"}, {1e-6, " µm"}}};
+  // A hair below one: 0.01 / 1e-2 may round down.
+  constexpr double kOne = 1 - 1e-9;
+  for (const auto& [size, name] : kUnits) {
+    if (metres / size >= kOne) return FormatShort(metres / size) + name;
+  }
+  return FormatShort(metres) + " m";
+}
+
+Image Annotate(const Image& image, const Camera& camera, std::span<const FingerGlyph> fingers,
+               const std::string& caption, double metres_per_unit) {
+  const Page page(image);
+  cairo_t* cr = page.context();
+  const double font = kFontSize * image.height;
+  for (const FingerGlyph& glyph : fingers) {
+    if (glyph.role == FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
+  }
+  std::vector<Obstacle> text = DrawCaption(cr, camera, caption, font);
+  for (const Obstacle& bar : DrawScaleBar(cr, camera, metres_per_unit, font)) text.push_back(bar);
+  DrawNumbers(cr, camera, fingers, text, std::max(font, kSmallestFont));
+  return page.ToImage();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "render/camera.h"
+#include "render/finger_glyph.h"
+#include "render/image.h"
+
+namespace regrasp {
+
+/// Writes on a picture: the fingers' numbers in their colours, a ring around each finger that was
+/// just placed, the caption at the bottom left, and a scale bar at the bottom right (its length
+/// holds at the centre of the object). What does not fit a small image is left out.
+/// @param metres_per_unit  of the picture's frame.
+[[nodiscard]] Image Annotate(const Image& image, const Camera& camera,
+                             std::span<const FingerGlyph> fingers, const std::string& caption,
+                             double metres_per_unit);
+
+/// The longest of 1, 2 or 5 times a power of ten that is no longer than `limit` (> 0).
+[[nodiscard]] double RoundLength(double limit);
+
+/// A length for people, in the unit that suits it: "5 mm", "2 cm", "1 m".
+[[nodiscard]] std::string FormatLength(double metres);
+
+}  // namespace regrasp

@@ -1,0 +1,168 @@
+#include "render/body_shape.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_triangulation_decomposition_2.h>
+#include <CGAL/Polygon_with_holes_2.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "planner/base/angle.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Faces that meet at a smaller angle than this look like one: no edge is drawn.
+constexpr double kFeatureAngle = Radians(5);
+
+/// Thickness of the prism that stands for a polygon, in diameters.
+constexpr double kPrismThickness = 0.25;
+
+/// Segments of the cone's rim: its outline is within 0.1 % of a circle.
+constexpr int kConeSegments = 72;
+
+/// Moves points of the object to the shape's frame.
+struct Normaliser {
+  Vector3d centroid;
+  double diameter;
+  Vector3d operator()(const Vector3d& p) const { return (p - centroid) / diameter; }
+};
+
+BodyShape MakeSolidShape(const Polyhedron& body, const Normaliser& place) {
+  BodyShape shape;
+  const std::vector<Vector3d>& vertices = body.vertices();
+  for (const auto& [a, b, c] : body.triangles()) {
+    shape.surface.AddFlat(place(vertices[a]), place(vertices[b]), place(vertices[c]));
+  }
+  std::map<std::pair<int, int>, std::vector<int>> faces_of_edge;
+  for (int face = 0; face < body.face_count(); ++face) {
+    for (const auto& [a, b] : body.faces()[face].border) {
+      faces_of_edge[std::minmax(a, b)].push_back(face);
+    }
+  }
+  for (const auto& [edge, faces] : faces_of_edge) {
+    const Vector3d n = body.inward_normal(faces.front());
+    const double cosine = n.dot(body.inward_normal(faces.back()));
+    if (faces.size() == 2 && cosine > std::cos(kFeatureAngle)) continue;
+    shape.edges.push_back({place(vertices[edge.first]), place(vertices[edge.second])});
+  }
+  return shape;
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Polygon2 = CGAL::Polygon_2<Kernel>;
+
+std::vector<Polygon2> Triangulate(const Polygon& polygon) {
+  std::vector<Polygon2> rings;
+  for (const auto& ring : polygon.rings()) {
+    Polygon2& out = rings.emplace_back();
+    for (const Eigen::Vector2d& p : ring) out.push_back({p.x(), p.y()});
+  }
+  const CGAL::Polygon_with_holes_2<Kernel> region(rings.front(), rings.begin() + 1, rings.end());
+  std::vector<Polygon2> triangles;
+  CGAL::Polygon_triangulation_decomposition_2<Kernel>()(region, std::back_inserter(triangles));
+  for (Polygon2& triangle : triangles) {
+    if (triangle.is_clockwise_oriented()) triangle.reverse_orientation();
+  }
+  return triangles;
+}
+
+BodyShape MakePrismShape(const Polygon& polygon, const Normaliser& place) {
+  BodyShape shape;
+  const Vector3d up = Vector3d::UnitZ() * (kPrismThickness / 2);
+  for (const Polygon2& triangle : Triangulate(polygon)) {
+    std::array<Vector3d, 3> p;
+    for (int i = 0; i < 3; ++i) p[i] = place(Vector3d(triangle[i].x(), triangle[i].y(), 0));
+    shape.surface.AddFlat(p[0] + up, p[1] + up, p[2] + up);
+    shape.surface.AddFlat(p[0] - up, p[2] - up, p[1] - up);
+  }
+  for (int face = 0; face < polygon.face_count(); ++face) {
+    const auto [from, to] = polygon.edge(face);
+    const Vector3d a = place(from);
+    const Vector3d b = place(to);
+    shape.surface.AddFlat(a - up, b - up, b + up);
+    shape.surface.AddFlat(a - up, b + up, a + up);
+    shape.edges.push_back({a - up, b - up});
+    shape.edges.push_back({a + up, b + up});
+    shape.edges.push_back({a - up, a + up});
+  }
+  return shape;
+}
+
+}  // namespace
+
+void TriangleMesh::AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d normal = (b - a).cross(c - a).normalized();
+  triangles.push_back({a, b, c});
+  normals.push_back({normal, normal, normal});
+}
+
+TriangleMesh TurnInsideOut(TriangleMesh mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    std::swap(mesh.normals[i][1], mesh.normals[i][2]);
+    for (Vector3d& normal : mesh.normals[i]) normal = -normal;
+  }
+  return mesh;
+}
+
+BodyShape MakeBodyShape(const Object& object) {
+  const Normaliser place = {object.mass_properties().centroid, object.diameter()};
+  if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
+    return MakePrismShape(*polygon, place);
+  }
+  return MakeSolidShape(dynamic_cast<const Polyhedron&>(object), place);
+}
+
+TriangleMesh MakeCone(double half_angle, double slant) {
+  TriangleMesh cone;
+  const double sine = std::sin(half_angle);
+  const double cosine = std::cos(half_angle);
+  const auto rim = [&](double i) -> Vector3d {
+    const double angle = 2 * std::numbers::pi * i / kConeSegments;
+    return slant * Vector3d(sine * std::cos(angle), sine * std::sin(angle), cosine);
+  };
+  const auto normal = [&](double i) -> Vector3d {
+    const double angle = 2 * std::numbers::pi * i / kConeSegments;
+    return {cosine * std::cos(angle), cosine * std::sin(angle), -sine};
+  };
+  for (int i = 0; i < kConeSegments; ++i) {
+    cone.triangles.push_back({Vector3d::Zero(), rim(i + 1), rim(i)});
+    cone.normals.push_back({normal(i + 0.5), normal(i + 1), normal(i)});
+    cone.AddFlat({0, 0, slant * cosine}, rim(i), rim(i + 1));
+  }
+  return cone;
+}
+
+double RayDistance(const TriangleMesh& mesh, const Vector3d& origin, const Vector3d& direction,
+                   double skip) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    // Möller and Trumbore 1997.
+    const Vector3d u = b - a;
+    const Vector3d v = c - a;
+    const Vector3d p = direction.cross(v);
+    const double determinant = u.dot(p);
+    if (determinant == 0) continue;
+    const Vector3d s = origin - a;
+    const double alpha = s.dot(p) / determinant;
+    const Vector3d q = s.cross(u);
+    const double beta = direction.dot(q) / determinant;
+    const double distance = v.dot(q) / determinant;
+    const bool inside = alpha >= 0 && beta >= 0 && alpha + beta <= 1;
+    if (inside && distance > skip) nearest = std::min(nearest, distance);
+  }
+  return nearest;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// Triangles with a normal at each corner; flat facets have three equal ones.
+struct TriangleMesh {
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside
+  std::vector<std::array<Eigen::Vector3d, 3>> normals;
+
+  void AddFlat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+};
+
+/// The same surface seen from its other side.
+[[nodiscard]] TriangleMesh TurnInsideOut(TriangleMesh mesh);
+
+/// What is drawn of an object: its true surface and the edges between its faces.
+struct BodyShape {
+  TriangleMesh surface;
+  std::vector<std::array<Eigen::Vector3d, 2>> edges;
+};
+
+/// The shape of an object about its centroid in units of its diameter. A polygon becomes a prism
+/// about the plane z = 0.
+///
+/// Edges between faces that meet at less than 5° are left out: on finely meshed curved bodies they
+/// would cover everything else.
+[[nodiscard]] BodyShape MakeBodyShape(const Object& object);
+
+/// A closed cone with apex at the origin that opens along +z.
+[[nodiscard]] TriangleMesh MakeCone(double half_angle, double slant);
+
+/// The distance along the ray from `origin` in unit `direction` to the first triangle, infinite
+/// where there is none. Hits nearer than `skip` do not count.
+[[nodiscard]] double RayDistance(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
+                                 const Eigen::Vector3d& direction, double skip);
+
+}  // namespace regrasp

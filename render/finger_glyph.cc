@@ -1,0 +1,137 @@
+#include "render/finger_glyph.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Lengths in diameters of the object.
+constexpr double kBallRadius = 0.030;
+constexpr double kStemRadius = 0.013;
+constexpr double kStemLength = 0.125;  // from the contact to the stem's end
+constexpr double kForceRadius = 0.0065;
+constexpr double kLongestForce = 0.21;
+constexpr double kShortestForce = 0.055;
+constexpr double kMotionGap = 0.030;
+constexpr double kMotionLength = 0.085;
+constexpr double kMotionRadius = 0.009;
+constexpr double kTrackRadius = 0.007;
+constexpr double kTrackDash = 0.030;
+
+/// Shares of the free space in front of a contact that ball and stem may take.
+constexpr double kBallShare = 0.15;
+constexpr double kStemShare = 0.75;
+
+/// Nearer than this a ray meets the face that it starts on.
+constexpr double kRaySkip = 1e-4;
+
+constexpr double kConeOpacity = 0.42;
+constexpr double kGhostOpacity = 0.33;
+
+/// The pose of a mesh that opens along +z at the origin: apex at `apex`, opening along `direction`.
+Eigen::Isometry3d PoseAlong(const Vector3d& apex, const Vector3d& direction) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction).matrix();
+  pose.translation() = apex;
+  return pose;
+}
+
+void AddArrow(const Vector3d& tail, const Vector3d& tip, double radius, Color color,
+              const GlyphMeshes& meshes, std::vector<Shape>& shapes) {
+  const Vector3d direction = (tip - tail).normalized();
+  const Vector3d neck = tip - direction * (0.8 * kArrowHeadLength);
+  shapes.push_back({Rod{tail, neck, radius}, color});
+  shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -direction)}, color});
+}
+
+void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
+              std::vector<Shape>& shapes) {
+  const double size = glyph.force.norm();
+  if (!(size > 0 && largest_force > 0)) return;
+  const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
+  AddArrow(glyph.contact, glyph.contact + glyph.force / size * length, kForceRadius, kForceInk,
+           meshes, shapes);
+}
+
+/// Dashes along the way that a finger came, just off the surface, and a small ball at its start.
+void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes) {
+  const Vector3d lift = glyph.outward * kTrackRadius;
+  const Vector3d from = glyph.previous + lift;
+  const Vector3d way = glyph.contact - glyph.previous;
+  const double length = way.norm();
+  if (length < kTrackDash) return;
+  shapes.push_back({Ball{from, 2 * kTrackRadius}, color});
+  const int dashes = static_cast<int>(length / (2 * kTrackDash));
+  for (int i = 0; i < dashes; ++i) {
+    const double start = (2 * i + 1) * kTrackDash;
+    const double end = std::min(start + kTrackDash, length);
+    shapes.push_back(
+        {Rod{from + way * (start / length), from + way * (end / length), kTrackRadius}, color});
+  }
+}
+
+bool IsInMotion(FingerRole role) {
+  return role == FingerRole::kPlaced || role == FingerRole::kReleased;
+}
+
+}  // namespace
+
+Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
+  Eigen::Isometry3d pose = X_WO;
+  pose.translation() = FromWorld(X_WO * centroid_m);
+  return pose;
+}
+
+std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const PictureFrame& frame,
+                                          const TriangleMesh& surface) {
+  const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
+  std::vector<FingerGlyph> glyphs;
+  for (const FingerState& state : snapshot.fingers) {
+    if (state.role == FingerRole::kFree) continue;
+    FingerGlyph glyph;
+    glyph.finger = state.finger;
+    glyph.role = state.role;
+    glyph.contact = frame.FromWorld(state.contact_W);
+    glyph.previous = frame.FromWorld(state.previous_W);
+    glyph.outward = -state.normal_W.normalized();
+    glyph.force = state.force_W;
+    const double room =
+        RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
+    glyph.ball_radius = std::min(kBallRadius, kBallShare * room);
+    const double stem = std::min(kStemLength, kStemShare * room);
+    glyph.ball = glyph.contact + glyph.outward * glyph.ball_radius;
+    glyph.stem_end = glyph.contact + glyph.outward * stem;
+    const bool roomy = room > kStemLength + kMotionGap + kMotionLength;
+    glyph.end = IsInMotion(state.role) && roomy
+                    ? Vector3d(glyph.stem_end + glyph.outward * (kMotionGap + kMotionLength))
+                    : glyph.stem_end;
+    glyphs.push_back(glyph);
+  }
+  return glyphs;
+}
+
+void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
+                     std::vector<Shape>& shapes) {
+  const Color color = FingerColor(glyph.finger);
+  const bool ghost = glyph.role == FingerRole::kReleased;
+  const double opacity = ghost ? kGhostOpacity : 1;
+  const double stem_radius = kStemRadius * glyph.ball_radius / kBallRadius;
+  shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
+  const Vector3d stem_start = glyph.ball + glyph.outward * glyph.ball_radius;
+  shapes.push_back({Rod{stem_start, glyph.stem_end, stem_radius}, color, opacity});
+  if (glyph.end != glyph.stem_end) {
+    const Vector3d near = glyph.stem_end + glyph.outward * kMotionGap;
+    AddArrow(ghost ? near : glyph.end, ghost ? glyph.end : near, kMotionRadius, color, meshes,
+             shapes);
+  }
+  if (ghost) return;
+  const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
+  shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
+  AddForce(glyph, largest_force, meshes, shapes);
+  if (glyph.role == FingerRole::kMoved) AddTrack(glyph, color, shapes);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,172 @@
+#include "render/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "render/annotation.h"
+#include "render/body_shape.h"
+#include "render/camera.h"
+#include "render/canvas.h"
+#include "render/finger_glyph.h"
+#include "render/palette.h"
+#include "render/viewpoint.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Half of the vertical field of view: a long lens, so that parallel edges look so.
+const double kTanHalfHeight = std::tan(0.21);
+
+constexpr double kEdgeRadius = 0.0032;  // in diameters
+
+/// Opacity of the body's near surface, and of its far surface behind that.
+constexpr double kOutsideOpacity = 0.33;
+constexpr double kInsideOpacity = 0.30;
+
+/// Room for a finger's number beyond its end, in diameters.
+constexpr double kLabelRoom = 0.05;
+
+/// An object that moved farther than this (diameters) does not widen the picture.
+constexpr double kFarAway = 0.5;
+
+constexpr int kMaxSupersampling = 4;
+
+enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh };
+
+/// a + (b − a) · opacity.
+void BlendOver(Image& a, const Image& b, double opacity) {
+  constexpr int kOne = 256;
+  const int weight = static_cast<int>(std::lround(opacity * kOne));
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    const int sum = a.rgb[i] * (kOne - weight) + b.rgb[i] * weight;
+    a.rgb[i] = static_cast<unsigned char>((sum + kOne / 2) / kOne);
+  }
+}
+
+void CheckOptions(const FrameOptions& options) {
+  const auto good = [](int side) { return side >= kMinFrameSide && side <= kMaxFrameSide; };
+  if (!good(options.width) || !good(options.height) || options.supersampling < 1 ||
+      options.supersampling > kMaxSupersampling) {
+    throw std::invalid_argument("FrameRenderer: image size or supersampling out of range");
+  }
+}
+
+std::vector<TriangleMesh> MakeMeshes(const BodyShape& body, double half_angle) {
+  return {body.surface, TurnInsideOut(body.surface), MakeCone(half_angle, kConeLength),
+          MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+}
+
+bool IsNear(const Eigen::Isometry3d& pose) {
+  return pose.translation().allFinite() && pose.translation().norm() < kFarAway;
+}
+
+}  // namespace
+
+class FrameRenderer::Impl {
+ public:
+  Impl(const Object& object, double scale, double half_angle,
+       const std::vector<Snapshot>& snapshots, const FrameOptions& options)
+      : options_(options),
+        body_(MakeBodyShape(object)),
+        frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
+        camera_(MakeCamera(object.dimension() == 2, snapshots)),
+        largest_force_(LargestForce(snapshots)),
+        canvas_(MakeMeshes(body_, half_angle), options.width * options.supersampling,
+                options.height * options.supersampling) {}
+
+  Image Render(const Snapshot& snapshot, const std::string& caption) {
+    const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame_, body_.surface);
+    const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
+    std::vector<Shape> shapes = MakeEdges(pose);
+    for (const FingerGlyph& glyph : fingers) {
+      AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
+    }
+    return Annotate(Shrink(DrawLayers(shapes, pose), options_.supersampling), camera_, fingers,
+                    caption, frame_.diameter_m);
+  }
+
+ private:
+  /// The body is translucent in two layers, exactly and independent of the order of its triangles:
+  /// the picture without it, then that with its far surface opaque, then that with its near surface
+  /// opaque, laid over each other. What the body hides, edges too, comes out paler by itself.
+  Image DrawLayers(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
+    Image image = canvas_.Draw(camera_, shapes);
+    shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
+    BlendOver(image, canvas_.Draw(camera_, shapes), kInsideOpacity);
+    shapes.back() = {MeshInstance{kOutsideMesh, pose}, kBodyOutside};
+    BlendOver(image, canvas_.Draw(camera_, shapes), kOutsideOpacity);
+    return image;
+  }
+
+  [[nodiscard]] std::vector<Shape> MakeEdges(const Eigen::Isometry3d& pose) const {
+    std::vector<Shape> shapes;
+    for (const auto& [a, b] : body_.edges) {
+      shapes.push_back({Rod{pose * a, pose * b, kEdgeRadius}, kInk});
+    }
+    return shapes;
+  }
+
+  [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<Snapshot>& snapshots) const {
+    std::vector<std::vector<FingerGlyph>> frames;
+    std::vector<Vector3d> points;
+    AddBody(Eigen::Isometry3d::Identity(), points);
+    for (const Snapshot& snapshot : snapshots) {
+      const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
+      if (!IsNear(pose)) continue;
+      frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface));
+      AddBody(pose, points);
+      for (const FingerGlyph& glyph : frames.back()) {
+        points.push_back(glyph.contact);
+        points.push_back(glyph.end + glyph.outward * kLabelRoom);
+      }
+    }
+    const Vector3d back = ChooseViewpoint(body_, planar, frames);
+    return FitCamera(CameraAxes(back), kTanHalfHeight, options_.width, options_.height, Margins(),
+                     points);
+  }
+
+  void AddBody(const Eigen::Isometry3d& pose, std::vector<Vector3d>& points) const {
+    for (const auto& corners : body_.surface.triangles) {
+      for (const Vector3d& p : corners) points.push_back(pose * p);
+    }
+  }
+
+  static double LargestForce(const std::vector<Snapshot>& snapshots) {
+    double largest = 0;
+    for (const Snapshot& snapshot : snapshots) {
+      for (const FingerState& finger : snapshot.fingers) {
+        if (finger.role != FingerRole::kReleased) {
+          largest = std::max(largest, finger.force_W.norm());
+        }
+      }
+    }
+    return largest;
+  }
+
+  FrameOptions options_;
+  BodyShape body_;
+  PictureFrame frame_;
+  Camera camera_;
+  double largest_force_;
+  Canvas canvas_;
+};
+
+FrameRenderer::FrameRenderer(const Object& object, double scale, double half_angle,
+                             const std::vector<Snapshot>& snapshots, const FrameOptions& options) {
+  CheckOptions(options);
+  impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
+}
+FrameRenderer::~FrameRenderer() = default;
+FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
+FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;
+
+Image FrameRenderer::Render(const Snapshot& snapshot, const std::string& caption) {
+  return impl_->Render(snapshot, caption);
+}
+
+}  // namespace regrasp

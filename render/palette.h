@@ -1,0 +1,24 @@
+#pragma once
+
+namespace regrasp {
+
+/// A colour, 8 bits a channel, sRGB.
+struct Color {
+  unsigned char r = 0;
+  unsigned char g = 0;
+  unsigned char b = 0;
+};
+
+/// The colour of a finger in all pictures; it repeats after five fingers, the largest hand.
+///
+/// The five hues stay apart for the common kinds of colour blindness (after Okabe and Ito 2008, and
+/// Tol 2021), and their lightness rises in steps (CIE L* 31, 41, 52, 65, 76), so that they stay
+/// apart in grey too.
+[[nodiscard]] Color FingerColor(int finger);
+
+inline constexpr Color kInk = {34, 40, 52};       ///< edges of the object, text
+inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows
+inline constexpr Color kBodyOutside = {158, 180, 208};
+inline constexpr Color kBodyInside = {196, 208, 222};
+
+}  // namespace regrasp
