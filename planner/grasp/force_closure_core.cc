@@ -18,6 +18,9 @@ constexpr std::size_t kPairLinesFirst = 4;
 /// Looking farther than this beyond the origin would not make an answer more certain.
 constexpr double kClearReach = 1e-6;
 
+/// Contacts this far from one line span space by far more than rounding.
+constexpr double kClearSpread = 1e-6;
+
 /// Σ w(n_i), the wrench of unit normal forces.
 template <int kDim>
 typename WrenchSimplex<kDim>::Vector NormalWrench(const UnitContacts& contacts) {
@@ -44,7 +47,8 @@ double Dot(const typename WrenchSimplex<kDim>::Vector& a,
 
 /// ε* is at least −1/k: forces along the normals reach that.
 ForceClosure No(std::size_t count, double upper) {
-  return {Decision::kNo, -1 / static_cast<double>(count), upper};
+  const double lower = -1 / static_cast<double>(count);
+  return {Decision::kNo, lower, std::max(lower, upper)};
 }
 
 /// The bound of a twist y: ε* ≤ max y·w / (−y·W), the columns w of unit normal force.
@@ -81,6 +85,19 @@ double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simpl
   return std::min(simplex.Reach(direction) / contacts[0].axial, std::numeric_limits<double>::max());
 }
 
+/// The largest distance of a contact from the line through the centre and the contact farthest from
+/// it: 0 where all are on one line, and no force resists a turn about that.
+double DistanceFromLine(const UnitContacts& contacts) {
+  const auto farthest = std::max_element(
+      contacts.begin(), contacts.end(),
+      [](const auto& a, const auto& b) { return a.q.squaredNorm() < b.q.squaredNorm(); });
+  double distance = 0;
+  for (const UnitContact& contact : contacts) {
+    distance = std::max(distance, farthest->q.cross(contact.q).norm());
+  }
+  return distance;
+}
+
 /// Where the origin lies on the border of the basic columns' simplex, as it does when two contacts
 /// alone balance: it is inside the hull iff the ray from a point inside, the simplex's start c,
 /// reaches beyond it, to −s c with s > 0. With a the least weight of c = Σ a_i w(n_i),
@@ -88,6 +105,8 @@ double LowerBound(const UnitContacts& contacts, const WrenchSimplex<kDim>& simpl
 ///     −s a W = −s c + s Σ (a_i − a) w(n_i)  ∈  (1 + s (1 − k a)) hull,
 ///
 /// which bounds the margin.
+///
+/// The start is inside the hull, and not in a flat one, only if the contacts are not collinear.
 template <int kDim>
 double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& simplex) {
   const double reach = simplex.Maximise(simplex.start(), 0, {.enough = kClearReach}).lower;
@@ -99,9 +118,10 @@ double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& 
   return reach * least / (1 + reach * (1 - static_cast<double>(contacts.size()) * least));
 }
 
-/// Decides by the simplex; kTooClose where it cannot.
+}  // namespace
+
 template <int kDim>
-ForceClosure DecideBySimplex(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
+ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
   using Simplex = WrenchSimplex<kDim>;
   Simplex simplex(contacts, typename Simplex::Vector{});
   const typename Simplex::Status status = simplex.FindWeights(/*stop_early=*/true);
@@ -109,34 +129,18 @@ ForceClosure DecideBySimplex(const UnitContacts& contacts, ForceClosureProof<kDi
     if (proof != nullptr) proof->twist = simplex.twist();
     return No(contacts.size(), UpperBound<kDim>(contacts, simplex.twist()));
   }
-  if (status == Simplex::Status::kFeasible) {
-    StoreForces<kDim>(simplex, contacts.size(), proof);
-    if (simplex.BallRadius() > kForceClosureEpsilon) {
-      return Yes<kDim>(contacts, LowerBound<kDim>(contacts, simplex));
-    }
+  const bool feasible = status == Simplex::Status::kFeasible;
+  if (feasible) StoreForces<kDim>(simplex, contacts.size(), proof);
+  if (feasible && simplex.BallRadius() > kForceClosureEpsilon) {
+    return Yes<kDim>(contacts, LowerBound<kDim>(contacts, simplex));
+  }
+  const double spread = kDim == 6 ? DistanceFromLine(contacts) : 1;
+  if (spread <= kForceClosureEpsilon) return No(contacts.size(), 0);
+  if (feasible && spread > kClearSpread) {
     const double lower = LowerBoundBeyondStart<kDim>(contacts, simplex);
     if (lower > 0) return Yes<kDim>(contacts, lower);
   }
   return {Decision::kTooClose, -kForceClosureEpsilon, kForceClosureEpsilon};
-}
-
-/// All contacts on one line: no forces resist a turn about it.
-bool AreCollinear(const UnitContacts& contacts) {
-  const auto farthest = std::max_element(
-      contacts.begin(), contacts.end(),
-      [](const auto& a, const auto& b) { return a.q.squaredNorm() < b.q.squaredNorm(); });
-  return std::all_of(contacts.begin(), contacts.end(), [&](const UnitContact& contact) {
-    return farthest->q.cross(contact.q).norm() <= kForceClosureEpsilon;
-  });
-}
-
-}  // namespace
-
-template <int kDim>
-ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
-  const ForceClosure answer = DecideBySimplex<kDim>(contacts, proof);
-  const bool unsettled = kDim == 6 && answer.decision == Decision::kTooClose;
-  return unsettled && AreCollinear(contacts) ? No(contacts.size(), 0) : answer;
 }
 
 template <int kDim>

@@ -1,7 +1,5 @@
 #include "planner/grasp/required_half_angle.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -16,22 +14,53 @@ constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
 /// The bracket halves at every step, so that 64 steps are more than any tolerance needs.
 constexpr int kMaxSteps = 64;
 
+/// Around an angle that is too close to call, certain ones are looked for this many times farther
+/// at every step.
+constexpr double kWiden = 4;
+
 template <int kDim>
-std::optional<RequiredHalfAngle> Bracket(UnitContacts& contacts, double tolerance) {
-  const auto decide = [&](double half_angle) {
-    SetUnitForces(contacts, half_angle);
-    return DecideForceClosure<kDim>(contacts).decision;
-  };
-  if (decide(kLargestHalfAngle) != Decision::kYes) return std::nullopt;
-  RequiredHalfAngle bounds{0, kLargestHalfAngle};
-  for (int step = 0; step < kMaxSteps && bounds.upper - bounds.lower > tolerance; ++step) {
-    const double middle = bounds.lower + (bounds.upper - bounds.lower) / 2;
-    const Decision decision = decide(middle);
-    if (decision == Decision::kTooClose) break;
-    (decision == Decision::kYes ? bounds.upper : bounds.lower) = middle;
+class Bracket {
+ public:
+  Bracket(UnitContacts& contacts, double tolerance) : contacts_(contacts), tolerance_(tolerance) {}
+
+  std::optional<RequiredHalfAngle> Find() {
+    if (Decide(kLargestHalfAngle) != Decision::kYes) return std::nullopt;
+    for (int step = 0; step < kMaxSteps && bounds_.upper - bounds_.lower > tolerance_; ++step) {
+      const double middle = bounds_.lower + (bounds_.upper - bounds_.lower) / 2;
+      switch (Decide(middle)) {
+        case Decision::kYes:
+          bounds_.upper = middle;
+          break;
+        case Decision::kNo:
+          bounds_.lower = middle;
+          break;
+        case Decision::kTooClose:
+          CloseIn(middle);
+          return bounds_;
+      }
+    }
+    return bounds_;
   }
-  return bounds;
-}
+
+ private:
+  Decision Decide(double half_angle) {
+    SetUnitForces(contacts_, half_angle);
+    return DecideForceClosure<kDim>(contacts_).decision;
+  }
+
+  void CloseIn(double half_angle) {
+    for (double d = tolerance_ / kWiden; half_angle - d > bounds_.lower; d *= kWiden) {
+      if (Decide(half_angle - d) == Decision::kNo) bounds_.lower = half_angle - d;
+    }
+    for (double d = tolerance_ / kWiden; half_angle + d < bounds_.upper; d *= kWiden) {
+      if (Decide(half_angle + d) == Decision::kYes) bounds_.upper = half_angle + d;
+    }
+  }
+
+  UnitContacts& contacts_;
+  double tolerance_;
+  RequiredHalfAngle bounds_{0, kLargestHalfAngle};
+};
 
 }  // namespace
 
@@ -43,7 +72,8 @@ std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(std::span<const Contac
   const WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) return std::nullopt;
   UnitContacts units = MakeUnitContacts(contacts, own);
-  return frame.dimension == 3 ? Bracket<6>(units, tolerance) : Bracket<3>(units, tolerance);
+  return frame.dimension == 3 ? Bracket<6>(units, tolerance).Find()
+                              : Bracket<3>(units, tolerance).Find();
 }
 
 }  // namespace regrasp
