@@ -40,8 +40,8 @@ constexpr double kTextWeight = 3;
 /// The friction cone counts as a strip of this share of its length.
 constexpr double kConeStrip = 0.3;
 
-/// Numbers in pale colours get an outline in a darker shade.
-constexpr double kShade = 0.78;
+/// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
+constexpr double kShade = 0.82;
 
 struct SurfaceDeleter {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -98,9 +98,15 @@ class Page {
   std::unique_ptr<cairo_t, ContextDeleter> context_;
 };
 
-void SetColor(cairo_t* cr, Color color, double shade = 1) {
+void SetColor(cairo_t* cr, Color color) {
   constexpr double kMax = 255;
-  cairo_set_source_rgb(cr, shade * color.r / kMax, shade * color.g / kMax, shade * color.b / kMax);
+  cairo_set_source_rgb(cr, color.r / kMax, color.g / kMax, color.b / kMax);
+}
+
+Color NumberColor(int finger) {
+  const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
+  const Color color = FingerColor(finger);
+  return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
 void SetFont(cairo_t* cr, double size, bool bold) {
@@ -143,7 +149,7 @@ void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, doubl
     cairo_new_path(cr);
     cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * std::numbers::pi);
     cairo_set_line_width(cr, (white ? 2.2 : 1) * kRingWidth * font);
-    white ? cairo_set_source_rgb(cr, 1, 1, 1) : SetColor(cr, FingerColor(glyph.finger), kShade);
+    white ? cairo_set_source_rgb(cr, 1, 1, 1) : SetColor(cr, NumberColor(glyph.finger));
     cairo_stroke(cr);
   }
 }
@@ -159,6 +165,8 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
     obstacles.push_back({camera.Project(glyph.contact),
                          camera.Project(glyph.contact - glyph.outward * kConeLength),
                          kConeStrip * kConeLength * pixels, kConeWeight});
+    obstacles.push_back(
+        {camera.Project(glyph.previous), camera.Project(glyph.contact), 0, kFingerWeight});
   }
   return obstacles;
 }
@@ -176,7 +184,7 @@ void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph>
       PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
   SetFont(cr, kNumberSize * font, /*bold=*/true);
   for (std::size_t i = 0; i < fingers.size(); ++i) {
-    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], FingerColor(fingers[i].finger),
+    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].finger),
                 kHalo * font);
   }
 }

@@ -101,13 +101,13 @@ BodyShape MakePrismShape(const Polygon& polygon, const Normaliser& place) {
 
 }  // namespace
 
-void TriangleMesh::AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+void FacetMesh::AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d normal = (b - a).cross(c - a).normalized();
   triangles.push_back({a, b, c});
   normals.push_back({normal, normal, normal});
 }
 
-TriangleMesh TurnInsideOut(TriangleMesh mesh) {
+FacetMesh TurnInsideOut(FacetMesh mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
     std::swap(mesh.normals[i][1], mesh.normals[i][2]);
@@ -124,8 +124,8 @@ BodyShape MakeBodyShape(const Object& object) {
   return MakeSolidShape(dynamic_cast<const Polyhedron&>(object), place);
 }
 
-TriangleMesh MakeCone(double half_angle, double slant) {
-  TriangleMesh cone;
+FacetMesh MakeCone(double half_angle, double slant) {
+  FacetMesh cone;
   const double sine = std::sin(half_angle);
   const double cosine = std::cos(half_angle);
   const auto rim = [&](double i) -> Vector3d {
@@ -144,7 +144,7 @@ TriangleMesh MakeCone(double half_angle, double slant) {
   return cone;
 }
 
-double RayDistance(const TriangleMesh& mesh, const Vector3d& origin, const Vector3d& direction,
+double RayDistance(const FacetMesh& mesh, const Vector3d& origin, const Vector3d& direction,
                    double skip) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : mesh.triangles) {

@@ -9,7 +9,7 @@
 namespace regrasp {
 
 /// Triangles with a normal at each corner; flat facets have three equal ones.
-struct TriangleMesh {
+struct FacetMesh {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<std::array<Eigen::Vector3d, 3>> normals;
 
@@ -17,11 +17,11 @@ struct TriangleMesh {
 };
 
 /// The same surface seen from its other side.
-[[nodiscard]] TriangleMesh TurnInsideOut(TriangleMesh mesh);
+[[nodiscard]] FacetMesh TurnInsideOut(FacetMesh mesh);
 
 /// What is drawn of an object: its true surface and the edges between its faces.
 struct BodyShape {
-  TriangleMesh surface;
+  FacetMesh surface;
   std::vector<std::array<Eigen::Vector3d, 2>> edges;
 };
 
@@ -33,11 +33,11 @@ struct BodyShape {
 [[nodiscard]] BodyShape MakeBodyShape(const Object& object);
 
 /// A closed cone with apex at the origin that opens along +z.
-[[nodiscard]] TriangleMesh MakeCone(double half_angle, double slant);
+[[nodiscard]] FacetMesh MakeCone(double half_angle, double slant);
 
 /// The distance along the ray from `origin` in unit `direction` to the first triangle, infinite
 /// where there is none. Hits nearer than `skip` do not count.
-[[nodiscard]] double RayDistance(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
+[[nodiscard]] double RayDistance(const FacetMesh& mesh, const Eigen::Vector3d& origin,
                                  const Eigen::Vector3d& direction, double skip);
 
 }  // namespace regrasp

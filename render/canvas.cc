@@ -75,7 +75,7 @@ void AppendCorners(std::string& bytes,
 
 /// A mesh in MuJoCo's MSH format: counts of vertices, normals, texture coordinates and faces, then
 /// the arrays. Every triangle has its own three vertices, so that it can be flat.
-std::string FormatMsh(const TriangleMesh& mesh) {
+std::string FormatMsh(const FacetMesh& mesh) {
   const int triangles = static_cast<int>(mesh.triangles.size());
   std::string bytes;
   for (const int count : {3 * triangles, 3 * triangles, 0, triangles}) Append(bytes, count);
@@ -86,7 +86,7 @@ std::string FormatMsh(const TriangleMesh& mesh) {
 }
 
 /// MuJoCo moves a mesh to its principal axes when it compiles it; this puts it back.
-void RestoreMesh(mjModel& model, int mesh, const TriangleMesh& original) {
+void RestoreMesh(mjModel& model, int mesh, const FacetMesh& original) {
   if (model.mesh_vertnum[mesh] != 3 * static_cast<int>(original.triangles.size())) {
     throw std::logic_error("MuJoCo changed the number of vertices of a mesh");
   }
@@ -102,7 +102,7 @@ void RestoreMesh(mjModel& model, int mesh, const TriangleMesh& original) {
   }
 }
 
-ModelPtr MakeModel(const std::vector<TriangleMesh>& meshes) {
+ModelPtr MakeModel(const std::vector<FacetMesh>& meshes) {
   VirtualFiles files;
   std::string xml = kModelHead;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -204,8 +204,8 @@ mjvLight MakeLight(const Camera& camera) {
   CopyTo(light.dir, -from.normalized());
   light.directional = 1;
   light.attenuation[0] = 1;
-  Fill(light.ambient, 0.52F);
-  Fill(light.diffuse, 0.52F);
+  Fill(light.ambient, 0.60F);
+  Fill(light.diffuse, 0.48F);
   Fill(light.specular, 0.12F);
   return light;
 }
@@ -263,7 +263,7 @@ void CopyBand(Image& image, int top, const std::vector<unsigned char>& band, int
 
 class Canvas::Impl {
  public:
-  Impl(const std::vector<TriangleMesh>& meshes, int width, int height)
+  Impl(const std::vector<FacetMesh>& meshes, int width, int height)
       : width_(width),
         height_(height),
         band_height_(std::clamp(kMaxBandSamples / width, 1, height)),
@@ -308,7 +308,7 @@ class Canvas::Impl {
   mjrContext renderer_ = {};
 };
 
-Canvas::Canvas(const std::vector<TriangleMesh>& meshes, int width, int height)
+Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height)
     : impl_(std::make_unique<Impl>(meshes, width, height)) {}
 Canvas::~Canvas() = default;
 

@@ -52,7 +52,7 @@ class Canvas {
   /// @param meshes  what MeshInstance names.
   /// @param width, height  pixels of its images.
   /// @throws EnvironmentError  no off-screen rendering context.
-  Canvas(const std::vector<TriangleMesh>& meshes, int width, int height);
+  Canvas(const std::vector<FacetMesh>& meshes, int width, int height);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;

@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 constexpr double kBallRadius = 0.030;
 constexpr double kStemRadius = 0.013;
 constexpr double kStemLength = 0.125;  // from the contact to the stem's end
-constexpr double kForceRadius = 0.0065;
-constexpr double kLongestForce = 0.21;
+constexpr double kForceRadius = 0.0055;
+constexpr double kLongestForce = 0.20;
 constexpr double kShortestForce = 0.055;
 constexpr double kMotionGap = 0.030;
 constexpr double kMotionLength = 0.085;
@@ -28,7 +28,7 @@ constexpr double kStemShare = 0.75;
 /// Nearer than this a ray meets the face that it starts on.
 constexpr double kRaySkip = 1e-4;
 
-constexpr double kConeOpacity = 0.42;
+constexpr double kConeOpacity = 0.5;
 constexpr double kGhostOpacity = 0.33;
 
 /// The pose of a mesh that opens along +z at the origin: apex at `apex`, opening along `direction`.
@@ -86,7 +86,7 @@ Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
 }
 
 std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const PictureFrame& frame,
-                                          const TriangleMesh& surface) {
+                                          const FacetMesh& surface) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const FingerState& state : snapshot.fingers) {

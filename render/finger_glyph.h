@@ -41,7 +41,7 @@ struct FingerGlyph {
 /// inner corner) balls and stems are smaller, so that they don't run into the opposite wall.
 [[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot,
                                                         const PictureFrame& frame,
-                                                        const TriangleMesh& surface);
+                                                        const FacetMesh& surface);
 
 /// The canvas's meshes that glyphs are made of.
 struct GlyphMeshes {
@@ -53,7 +53,7 @@ struct GlyphMeshes {
 inline constexpr double kConeLength = 0.15;
 /// The head of every arrow: a cone with this half-angle (radians) and slant length.
 inline constexpr double kArrowHeadHalfAngle = 0.36;
-inline constexpr double kArrowHeadLength = 0.042;
+inline constexpr double kArrowHeadLength = 0.040;
 
 /// The shapes of one finger: ball, stem, friction cone and force; a released finger is a ghost with
 /// an arrow that leaves, a placed one has an arrow that arrives, a moved one a track behind it.

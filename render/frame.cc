@@ -20,9 +20,9 @@ namespace {
 using Eigen::Vector3d;
 
 /// Half of the vertical field of view: a long lens, so that parallel edges look so.
-const double kTanHalfHeight = std::tan(0.21);
+const double kTanHalfHeight = std::tan(0.15);
 
-constexpr double kEdgeRadius = 0.0032;  // in diameters
+constexpr double kEdgeRadius = 0.0026;  // in diameters
 
 /// Opacity of the body's near surface, and of its far surface behind that.
 constexpr double kOutsideOpacity = 0.33;
@@ -56,7 +56,7 @@ void CheckOptions(const FrameOptions& options) {
   }
 }
 
-std::vector<TriangleMesh> MakeMeshes(const BodyShape& body, double half_angle) {
+std::vector<FacetMesh> MakeMeshes(const BodyShape& body, double half_angle) {
   return {body.surface, TurnInsideOut(body.surface), MakeCone(half_angle, kConeLength),
           MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
 }
@@ -86,8 +86,7 @@ class FrameRenderer::Impl {
     for (const FingerGlyph& glyph : fingers) {
       AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
     }
-    return Annotate(Shrink(DrawLayers(shapes, pose), options_.supersampling), camera_, fingers,
-                    caption, frame_.diameter_m);
+    return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
   }
 
  private:
@@ -95,11 +94,12 @@ class FrameRenderer::Impl {
   /// the picture without it, then that with its far surface opaque, then that with its near surface
   /// opaque, laid over each other. What the body hides, edges too, comes out paler by itself.
   Image DrawLayers(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
-    Image image = canvas_.Draw(camera_, shapes);
+    const auto draw = [&] { return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling); };
+    Image image = draw();
     shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
-    BlendOver(image, canvas_.Draw(camera_, shapes), kInsideOpacity);
+    BlendOver(image, draw(), kInsideOpacity);
     shapes.back() = {MeshInstance{kOutsideMesh, pose}, kBodyOutside};
-    BlendOver(image, canvas_.Draw(camera_, shapes), kOutsideOpacity);
+    BlendOver(image, draw(), kOutsideOpacity);
     return image;
   }
 

@@ -18,7 +18,7 @@ struct Color {
 
 inline constexpr Color kInk = {34, 40, 52};       ///< edges of the object, text
 inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows
-inline constexpr Color kBodyOutside = {158, 180, 208};
-inline constexpr Color kBodyInside = {196, 208, 222};
+inline constexpr Color kBodyOutside = {148, 184, 226};
+inline constexpr Color kBodyInside = {186, 208, 236};
 
 }  // namespace regrasp

@@ -16,9 +16,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kAzimuths = 36;
-constexpr std::array<double, 5> kElevationsDeg = {28, 20, 38, 12, -18};
+constexpr std::array<double, 6> kElevationsDeg = {28, 38, 20, 48, 12, -18};
 /// What each of these elevations costs: pictures from below look odd.
-constexpr std::array<double, 5> kElevationCosts = {0, 0.05, 0.08, 0.15, 0.8};
+constexpr std::array<double, 6> kElevationCosts = {0, 0.02, 0.05, 0.08, 0.15, 0.8};
 
 /// A planar object is tilted a little, so that the prism shows which way the fingers stand.
 const Vector3d kPlanarView = Vector3d(0.0, -0.28, 1.0).normalized();
@@ -26,10 +26,10 @@ const Vector3d kPlanarView = Vector3d(0.0, -0.28, 1.0).normalized();
 // Weights of the score, per contact or per pair of contacts.
 constexpr double kSeen = 1.0;           ///< the contact is on the near side, nothing before it
 constexpr double kForeshortened = 0.6;  ///< the stem points at the camera, or away
-constexpr double kOverlap = 1.2;        ///< two fingers cover each other
+constexpr double kOverlap = 1.5;        ///< two fingers cover each other
 constexpr double kEdgeOnFace = 0.5;     ///< all faces are seen edge-on
 /// Two fingers nearer than this in the picture (diameters) disturb each other.
-constexpr double kApart = 0.10;
+constexpr double kApart = 0.15;
 /// A normal that leaves the image plane by less than this sine is a face seen edge-on.
 constexpr double kEdgeOnSine = 0.14;
 /// A stem within this cosine of the line of sight is foreshortened.
@@ -53,7 +53,7 @@ double SegmentDistance(const Vector2d& a, const Vector2d& b, const Vector2d& c, 
       {to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
 }
 
-double ScoreFinger(const FingerGlyph& glyph, const Vector3d& back, const TriangleMesh& surface) {
+double ScoreFinger(const FingerGlyph& glyph, const Vector3d& back, const FacetMesh& surface) {
   const double facing = glyph.outward.dot(back);
   double score = 0;
   const bool front = facing > 0;
@@ -75,7 +75,7 @@ double Overlap(const FingerGlyph& a, const FingerGlyph& b, const Eigen::Matrix3d
   return std::max(0.0, 1 - distance / kApart);
 }
 
-double EdgeOnShare(const TriangleMesh& surface, const Vector3d& back) {
+double EdgeOnShare(const FacetMesh& surface, const Vector3d& back) {
   double edge_on = 0;
   double total = 0;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/snapshot.h"
+
+namespace regrasp {
+
+/// Bodies in metres, built without files.
+[[nodiscard]] Polyhedron MakeCube();        ///< side 0.06, centred at the origin
+[[nodiscard]] Polyhedron MakeLBlock();      ///< 0.08 × 0.08 × 0.03, legs 0.035 wide
+[[nodiscard]] Polyhedron MakeHoledBlock();  ///< 0.08 × 0.06 × 0.03 with a square hole along z
+
+/// A finger at rest on a body in its first pose, pressing with 2 N at 8° to the normal.
+[[nodiscard]] FingerState MakeFinger(int finger, FingerRole role, const Eigen::Vector3d& contact,
+                                     const Eigen::Vector3d& inward_normal);
+
+/// Frames of a regrasp: hold, switch (place 4, release 0), align of finger 2.
+[[nodiscard]] std::vector<Snapshot> MakeCubeSequence();
+/// Holds with fingers in the inner corner, and inside the hole.
+[[nodiscard]] std::vector<Snapshot> MakeLBlockSequence();
+[[nodiscard]] std::vector<Snapshot> MakeHoledBlockSequence();
+
+}  // namespace regrasp
