@@ -4,7 +4,7 @@
 #include <cassert>
 #include <iterator>
 
-#include "planner/grasp/force_closure.h"
+#include "planner/grasp/subset_force_closure.h"
 #include "planner/roadmap/combination_rank.h"
 
 namespace regrasp {
@@ -21,23 +21,6 @@ std::vector<std::array<int, 2>> PairsAtSamePoint(const std::vector<Contact>& poi
     }
   }
   return pairs;
-}
-
-std::vector<Quadruple> ForceClosureSubsets(const std::vector<Contact>& points,
-                                           const WrenchFrame& frame, double half_angle) {
-  std::vector<Quadruple> subsets;
-  const int count = static_cast<int>(points.size());
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b) {
-      for (int c = b + 1; c < count; ++c) {
-        for (int d = c + 1; d < count; ++d) {
-          const std::array<Contact, 4> grasp = {points[a], points[b], points[c], points[d]};
-          if (IsForceClosure(grasp, frame, half_angle)) subsets.push_back({a, b, c, d});
-        }
-      }
-    }
-  }
-  return subsets;
 }
 
 /// The triple that is left when one contact of a grasp leaves.

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 
 import program_case
 from program_case import ProgramCase
@@ -154,10 +155,18 @@ class Plan(ProgramCase):
     # Negative answers.
 
     def test_no_sequence_is_a_negative_answer_that_says_what_was_searched(self):
-        # Barely more friction than start and goal need, and hardly a contact point between them.
-        self.refuse(["no sequence", "contact points", "subsets of four", "force-closure grasps",
-                     "the start's component has"],
-                    code=1, friction_angle="10", contacts="4", seed="1")
+        # Hardly any friction and hardly a contact point between two grasps that stand apart.
+        grasps = {"start": "random-any", "goal": "random-any", "friction_angle": "2", "seed": "5",
+                  "min_quality": "0"}
+        said = self.refuse(["no sequence", "12 contact points", "495 subsets of four"],
+                           code=1, contacts="4", **grasps).stderr
+        sizes = re.search(r"subsets of four, (\d+) force-closure grasps; the start's component "
+                          r"has (\d+) of them, the goal's (\d+)$", said)
+        self.assertTrue(sizes, said)
+        grasp_count, start_size, goal_size = map(int, sizes.groups())
+        self.assertGreater(min(start_size, goal_size), 0)
+        self.assertLessEqual(start_size + goal_size, grasp_count)
+        self.assert_done(*self.arguments(contacts="40", **grasps))
 
     def test_a_random_grasp_better_than_all_is_a_negative_answer(self):
         self.refuse("--start random-any: none of", code=1, start="random-any", min_quality="0.9")
@@ -186,7 +195,7 @@ class Plan(ProgramCase):
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.refuse("--" + option.replace("_", "-"), **{option: value})
-        for value in ("0", "-1", "nan", "1e300", "1e-320"):
+        for value in ("0", "-1", "nan", "1e300", "1e-400"):
             with self.subTest(mu=value):
                 self.refuse("--mu", friction_angle=None, mu=value)
 

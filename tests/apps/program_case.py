@@ -83,4 +83,6 @@ def main():
     parser.add_argument("--programs", required=True)
     parser.add_argument("--source", required=True)
     _, rest = parser.parse_known_args(namespace=ARGUMENTS)
+    ARGUMENTS.programs = os.path.abspath(ARGUMENTS.programs)
+    ARGUMENTS.source = os.path.abspath(ARGUMENTS.source)
     unittest.main(argv=[sys.argv[0], *rest])
