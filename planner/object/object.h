@@ -6,19 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "planner/object/mass_properties.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp {
-
-/// Volume (area in the plane), centroid and inertia of a homogeneous solid of density 1.
-///
-/// In the plane the solid is a sheet of thickness 1: `volume` is the area, and `inertia` holds the
-/// second moments of the area about the centroid, its (2,2) entry the polar one.
-struct MassProperties {
-  double volume = 0;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centroid, along the axes
-};
 
 /// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
 ///

@@ -1,33 +1,17 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "planner/object/mesh_defect.h"
 #include "planner/object/object.h"
+#include "planner/object/polygon_soup.h"
 
 namespace regrasp {
 
-/// Vertices and facets as a file gives them, unchecked. A facet is a polygon of vertex indices,
-/// counter-clockwise from outside.
-struct PolygonSoup {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::vector<int>> facets;
-};
-
-/// What makes a soup not the surface of one solid.
-enum class MeshDefect {
-  kEmpty,             ///< no facet, or no volume
-  kNotFinite,         ///< a coordinate is NaN, infinite or beyond 1e15
-  kIndexOutOfRange,   ///< a facet names a vertex that is not there
-  kDegenerateFacet,   ///< fewer than three different corners, or no area
-  kNotPlanar,         ///< a polygon's corners do not lie in one plane
-  kNotClosed,         ///< an edge has one facet
-  kNotManifold,       ///< an edge has more than two facets, or a vertex joins two fans
-  kNotOriented,       ///< neighbouring facets run along their edge the same way
-  kSelfIntersecting,  ///< two facets meet elsewhere than at a shared edge or vertex
-  kSeveralSolids,     ///< two shells beside each other, or a cavity oriented outward
-};
+class FaceIndex;
 
 /// A solid bounded by a closed triangle mesh whose coplanar neighbours are joined into faces.
 class Polyhedron final : public Object {
@@ -42,9 +26,13 @@ class Polyhedron final : public Object {
     std::vector<std::array<int, 2>> border;
   };
 
-  /// Checks, orients (a wholly inward mesh is turned) and joins a soup.
+  /// Checks, orients (a wholly inward mesh is turned) and joins a soup. Vertices with exactly equal
+  /// coordinates are one; those that no facet uses are dropped.
+  ///
+  /// Laws: faces, areas and mass do not depend on how facets are cut or on the order of a facet's
+  /// corners' start.
   /// @param name  how messages call it, usually the file's path.
-  /// @throws InputError  names the facet or vertex (counted from 0) and the MeshDefect.
+  /// @throws MeshError  (an InputError) with the MeshDefect; names the facet or vertex, from 0.
   static Polyhedron FromSoup(const PolygonSoup& soup, const std::string& name);
 
   [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
@@ -73,6 +61,8 @@ class Polyhedron final : public Object {
   std::vector<std::array<int, 3>> triangles_;
   std::vector<int> face_of_triangle_;
   std::vector<Face> faces_;
+  /// Shared between copies: it does not change, and it is as large as the mesh.
+  std::shared_ptr<const FaceIndex> index_;
 };
 
 }  // namespace regrasp

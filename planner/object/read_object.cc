@@ -1,38 +1,40 @@
-#include <sstream>
+#include <memory>
 
-#include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/number.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_with_assimp.h"
+#include "planner/object/text_scanner.h"
 
 namespace regrasp {
+
+namespace {
+
+PolygonSoup ReadSoup(const std::filesystem::path& path, const std::string& ending,
+                     const std::string& bytes) {
+  const std::string name = path.string();
+  if (ending == ".obj") return ReadObj(bytes, name);
+  if (ending == ".off") return ReadOff(bytes, name);
+  if (ending == ".ply") return ReadPly(bytes, name);
+  if (ending == ".stl") return ReadStl(bytes, name);
+  return ReadWithAssimp(path);
+}
+
+}  // namespace
+
 ObjectFile ReadObject(const std::filesystem::path& path) {
   const std::string bytes = ReadFile(path);
+  const std::string ending = LowerCase(path.extension().string());
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
-  if (path.extension() == ".wkt") {
+  if (ending == ".wkt") {
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
-    return file;
+  } else {
+    file.object = std::make_unique<Polyhedron>(
+        Polyhedron::FromSoup(ReadSoup(path, ending, bytes), path.string()));
   }
-  PolygonSoup soup;
-  std::istringstream lines(bytes);
-  lines.imbue(std::locale::classic());
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    words.imbue(std::locale::classic());
-    std::string key;
-    words >> key;
-    if (key == "v") {
-      Eigen::Vector3d v;
-      words >> v.x() >> v.y() >> v.z();
-      soup.vertices.push_back(v);
-    } else if (key == "f") {
-      std::vector<int> facet;
-      for (std::string word; words >> word;) facet.push_back(std::stoi(word) - 1);
-      soup.facets.push_back(facet);
-    }
-  }
-  file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string()));
   return file;
 }
+
 }  // namespace regrasp

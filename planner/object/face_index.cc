@@ -1,0 +1,190 @@
+#include "planner/object/face_index.h"
+
+#include <CGAL/AABB_segment_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "planner/object/segment_coverage.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangle = Kernel::Triangle_3;
+using Segment = Kernel::Segment_3;
+
+/// Faces with fewer triangles or border segments are searched one by one, which is then faster.
+constexpr std::ptrdiff_t kFew = 16;
+
+/// Distances are rounded: within this times the diameter two triangles that share an edge leave no
+/// gap, however a segment crosses it.
+constexpr double kRounding = 1e-12;
+
+Point ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Consecutive primitives (triangles or segments) of one face, with a tree where they are many.
+template <class Primitive>
+class Patch {
+ public:
+  using Iterator = typename Primitive::Id;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+  Patch(Iterator first, Iterator last) : first_(first), last_(last) {
+    if (last - first < kFew) return;
+    tree_ = std::make_unique<Tree>(first, last);
+    tree_->build();  // now, as queries from several threads would build it twice
+    tree_->do_not_accelerate_distance_queries();
+  }
+
+  [[nodiscard]] Point Closest(const Point& point) const {
+    // The tree starts from a guess and prunes by it: any point of the patch will do.
+    if (tree_) return tree_->closest_point(point, (*first_)[0]);
+    const auto project = Kernel().construct_projected_point_3_object();
+    Point closest = (*first_)[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (Iterator i = first_; i != last_; ++i) {
+      const Point candidate = project(*i, point);
+      const double distance = CGAL::squared_distance(candidate, point);
+      if (distance >= least) continue;
+      least = distance;
+      closest = candidate;
+    }
+    return closest;
+  }
+
+  /// Calls `visit` with every primitive whose box may meet `box`.
+  template <class Visit>
+  void VisitNear(const CGAL::Bbox_3& box, const Visit& visit) const {
+    if (!tree_) {
+      for (Iterator i = first_; i != last_; ++i) {
+        if (CGAL::do_overlap(i->bbox(), box)) visit(*i);
+      }
+      return;
+    }
+    std::vector<Iterator> found;
+    tree_->all_intersected_primitives(box, std::back_inserter(found));
+    for (const Iterator& i : found) visit(*i);
+  }
+
+ private:
+  Iterator first_, last_;
+  std::unique_ptr<Tree> tree_;
+};
+
+using TriangleIterator = std::vector<Triangle>::const_iterator;
+using SegmentIterator = std::vector<Segment>::const_iterator;
+using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>;
+using SegmentPrimitive = CGAL::AABB_segment_primitive<Kernel, SegmentIterator>;
+using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+
+double DistanceTo(const Triangle& triangle, const Vector3d& point) {
+  const Point closest = Kernel().construct_projected_point_3_object()(triangle, ToPoint(point));
+  return (ToVector(closest) - point).norm();
+}
+
+CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
+  const Vector3d low = a.cwiseMin(b).array() - distance;
+  const Vector3d high = a.cwiseMax(b).array() + distance;
+  return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+}
+
+}  // namespace
+
+struct FaceIndex::Impl {
+  double diameter = 0;
+  std::vector<Triangle> triangles;  ///< sorted by face
+  std::vector<int> face_of_triangle;
+  std::vector<Segment> segments;  ///< borders, sorted by face
+  std::vector<Patch<TrianglePrimitive>> surface;
+  std::vector<Patch<SegmentPrimitive>> border;
+  TriangleTree tree;
+};
+
+FaceIndex::FaceIndex(const std::vector<Vector3d>& vertices,
+                     const std::vector<std::array<int, 3>>& triangles,
+                     const std::vector<Polyhedron::Face>& faces, double diameter) {
+  auto impl = std::make_unique<Impl>();
+  impl->diameter = diameter;
+  std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
+  for (int f = 0; f < std::ssize(faces); ++f) {
+    for (const int t : faces[f].triangles) {
+      const auto& [a, b, c] = triangles[t];
+      impl->triangles.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]),
+                                   ToPoint(vertices[c]));
+      impl->face_of_triangle.push_back(f);
+    }
+    for (const auto& [a, b] : faces[f].border) {
+      impl->segments.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]));
+    }
+    triangle_ends.push_back(std::ssize(impl->triangles));
+    segment_ends.push_back(std::ssize(impl->segments));
+  }
+  // Only now: the patches keep iterators.
+  const auto first_triangle = impl->triangles.cbegin();
+  const auto first_segment = impl->segments.cbegin();
+  for (int f = 0; f < std::ssize(faces); ++f) {
+    impl->surface.emplace_back(first_triangle + (f == 0 ? 0 : triangle_ends[f - 1]),
+                               first_triangle + triangle_ends[f]);
+    impl->border.emplace_back(first_segment + (f == 0 ? 0 : segment_ends[f - 1]),
+                              first_segment + segment_ends[f]);
+  }
+  impl->tree.insert(first_triangle, impl->triangles.cend());
+  impl->tree.build();
+  impl_ = std::move(impl);
+}
+
+FaceIndex::~FaceIndex() = default;
+
+Vector3d FaceIndex::ClosestPoint(int face, const Vector3d& point) const {
+  return ToVector(impl_->surface[face].Closest(ToPoint(point)));
+}
+
+std::vector<int> FaceIndex::FacesNear(const Vector3d& point, double tolerance) const {
+  // Wider than asked by more than rounding; the distances below decide.
+  const CGAL::Bbox_3 box = Around(point, point, tolerance + kRounding * impl_->diameter);
+  std::vector<TriangleIterator> candidates;
+  impl_->tree.all_intersected_primitives(box, std::back_inserter(candidates));
+  std::map<int, double> distance_to;
+  for (const TriangleIterator& candidate : candidates) {
+    const double distance = DistanceTo(*candidate, point);
+    if (!(distance <= tolerance)) continue;
+    const int face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
+    const auto [found, is_new] = distance_to.try_emplace(face, distance);
+    found->second = std::min(found->second, distance);
+  }
+  std::vector<int> faces;
+  for (const auto& [face, distance] : distance_to) faces.push_back(face);
+  std::ranges::stable_sort(faces, {}, [&](int face) { return distance_to.at(face); });
+  return faces;
+}
+
+double FaceIndex::DistanceToBorder(int face, const Vector3d& point) const {
+  return (ToVector(impl_->border[face].Closest(ToPoint(point))) - point).norm();
+}
+
+bool FaceIndex::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
+                                double tolerance) const {
+  const double within = std::max(tolerance, kRounding * impl_->diameter);
+  // The points near one triangle form an interval, as the distance to a convex set is convex along
+  // a line: the segment is on the face iff the intervals of all triangles cover it.
+  std::vector<Interval> near;
+  impl_->surface[face].VisitNear(Around(a, b, within), [&](const Triangle& triangle) {
+    const auto distance = [&](double t) { return DistanceTo(triangle, a + t * (b - a)); };
+    if (const auto interval = SublevelInterval(distance, within)) near.push_back(*interval);
+  });
+  return CoverUnitInterval(std::move(near));
+}
+
+}  // namespace regrasp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+/// Answers where points and segments lie on the faces of a polyhedron, by trees of boxes.
+///
+/// A query costs microseconds on meshes of 50 000 triangles. It keeps its own copy of the geometry.
+/// Queries are const and safe from several threads.
+class FaceIndex {
+ public:
+  FaceIndex(const std::vector<Eigen::Vector3d>& vertices,
+            const std::vector<std::array<int, 3>>& triangles,
+            const std::vector<Polyhedron::Face>& faces, double diameter);
+  ~FaceIndex();
+  FaceIndex(const FaceIndex&) = delete;
+  FaceIndex& operator=(const FaceIndex&) = delete;
+
+  /// As the functions of Object with these names.
+  [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::vector<int> FacesNear(const Eigen::Vector3d& point, double tolerance) const;
+  [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const;
+  [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                     double tolerance) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,150 @@
+#include "planner/object/facet_triangulation.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/number.h"
+#include "planner/object/mesh_defect.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point2 = Kernel::Point_2;
+using Point3 = Kernel::Point_3;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<bool, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    CGAL::No_constraint_intersection_tag>;
+
+Point3 ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Newell's normal: the area vector of the polygon, from its first corner.
+Vector3d AreaVector(const std::vector<Vector3d>& corners) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  }
+  return sum / 2;
+}
+
+/// Exactly on one line, decided with exact predicates.
+bool AllCollinear(const std::vector<Vector3d>& corners) {
+  const Point3 a = ToPoint(corners[0]), b = ToPoint(corners[1]);
+  return std::all_of(corners.begin() + 2, corners.end(),
+                     [&](const Vector3d& c) { return CGAL::collinear(a, b, ToPoint(c)); });
+}
+
+double DistanceFromPlane(const std::vector<Vector3d>& corners, const Vector3d& normal) {
+  Vector3d mean = Vector3d::Zero();
+  for (const auto& corner : corners) mean += (corner - corners[0]) / double(corners.size());
+  double largest = 0;
+  for (const auto& corner : corners) {
+    largest = std::max(largest, std::abs(normal.dot(corner - corners[0] - mean)));
+  }
+  return largest;
+}
+
+/// The corners without the coordinate that the normal is largest in: exact, and counter-clockwise
+/// as seen from outside.
+std::vector<Point2> Project(const std::vector<Vector3d>& corners, const Vector3d& normal) {
+  int dropped = 0;
+  normal.cwiseAbs().maxCoeff(&dropped);
+  int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  if (normal[dropped] < 0) std::swap(u, v);
+  std::vector<Point2> projected;
+  for (const auto& corner : corners) projected.emplace_back(corner[u], corner[v]);
+  return projected;
+}
+
+/// Marks the faces that can be reached from outside without crossing the outline.
+void MarkOutside(Cdt& cdt) {
+  for (const auto face : cdt.all_face_handles()) face->info() = false;
+  std::vector<Cdt::Face_handle> stack{cdt.infinite_face()};
+  cdt.infinite_face()->info() = true;
+  while (!stack.empty()) {
+    const Cdt::Face_handle face = stack.back();
+    stack.pop_back();
+    for (int side = 0; side < 3; ++side) {
+      const Cdt::Face_handle next = face->neighbor(side);
+      if (next->info() || face->is_constrained(side)) continue;
+      next->info() = true;
+      stack.push_back(next);
+    }
+  }
+}
+
+/// Triangles as indices into `outline`, which is simple and counter-clockwise.
+std::vector<std::array<int, 3>> TriangulateSimple(const std::vector<Point2>& outline) {
+  Cdt cdt;
+  std::vector<Cdt::Vertex_handle> handles;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    handles.push_back(cdt.insert(outline[i]));
+    handles.back()->info() = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    cdt.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
+  }
+  MarkOutside(cdt);
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto face : cdt.finite_face_handles()) {
+    if (face->info()) continue;
+    triangles.push_back(
+        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  }
+  return triangles;
+}
+
+std::vector<std::array<int, 3>> TriangulatePolygon(const std::vector<Vector3d>& corners,
+                                                   double diameter, const std::string& facet) {
+  if (AllCollinear(corners)) {
+    throw MeshError(MeshDefect::kDegenerateFacet, facet + ": degenerate: it has no area");
+  }
+  if (corners.size() == 3) return {{0, 1, 2}};
+  const Vector3d area = AreaVector(corners);
+  const double deviation = DistanceFromPlane(corners, area.normalized());
+  if (deviation > kPlanarTolerance * diameter) {
+    throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner lies " +
+                                                FormatShort(deviation) + " off its plane");
+  }
+  const std::vector<Point2> outline = Project(corners, area);
+  const CGAL::Polygon_2<Kernel> polygon(outline.begin(), outline.end());
+  if (!polygon.is_simple() || polygon.is_clockwise_oriented()) {
+    throw MeshError(MeshDefect::kSelfIntersecting,
+                    facet + ": self-intersecting: its outline meets itself");
+  }
+  return TriangulateSimple(outline);
+}
+
+}  // namespace
+
+TriangleMesh TriangulateFacets(const WeldedSoup& soup, double diameter, const std::string& name) {
+  TriangleMesh mesh{
+      soup.vertices, soup.vertex_in_file, {}, {}, static_cast<int>(soup.facets.size())};
+  for (int f = 0; f < mesh.facet_count; ++f) {
+    const std::vector<int>& facet = soup.facets[f];
+    std::vector<Vector3d> corners;
+    for (const int v : facet) corners.push_back(soup.vertices[v]);
+    for (const auto& [a, b, c] :
+         TriangulatePolygon(corners, diameter, name + ": facet " + std::to_string(f))) {
+      mesh.triangles.push_back({facet[a], facet[b], facet[c]});
+      mesh.facet_of_triangle.push_back(f);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace regrasp

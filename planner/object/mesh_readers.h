@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "planner/object/polygon_soup.h"
+
+namespace regrasp {
+
+// Readers of the common surface formats, in double precision and the same under any locale.
+//
+// They read what the surface needs (vertices and facets) and skip the rest (normals, colours,
+// textures, groups). What a header declares is never trusted with memory. They are written here
+// because CGAL's and assimp's say only that a file is bad, and the contract asks for the element.
+// All throw InputError, one line that names the line, facet or vertex; what the surface itself must
+// be like is not their business but Polyhedron's.
+
+/// Wavefront OBJ: `v` and `f` (positive or negative indices, with or without texture and normal).
+[[nodiscard]] PolygonSoup ReadObj(std::string_view text, const std::string& name);
+
+/// OFF, also COFF, NOFF and their like, as text.
+[[nodiscard]] PolygonSoup ReadOff(std::string_view text, const std::string& name);
+
+/// PLY: ascii, binary_little_endian and binary_big_endian; elements and properties of any kind and
+/// order around `vertex` (x, y, z) and `face` (vertex_indices or vertex_index).
+[[nodiscard]] PolygonSoup ReadPly(std::string_view bytes, const std::string& name);
+
+/// STL, ASCII or binary. Facets share no vertices here: equal coordinates are merged later.
+[[nodiscard]] PolygonSoup ReadStl(std::string_view bytes, const std::string& name);
+
+}  // namespace regrasp

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "planner/object/mesh_defect.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/text_scanner.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Statements of the format that say nothing about flat facets.
+constexpr auto kIgnored = std::to_array<std::string_view>(
+    {"vt",        "vn",       "vp",    "cstype", "deg",    "bmat",   "step",   "p",
+     "l",         "curv",     "curv2", "surf",   "parm",   "trim",   "hole",   "scrv",
+     "sp",        "end",      "con",   "g",      "s",      "mg",     "o",      "bevel",
+     "c_interp",  "d_interp", "lod",   "usemap", "maplib", "usemtl", "mtllib", "shadow_obj",
+     "trace_obj", "ctech",    "stech", "call",   "csh"});
+
+Eigen::Vector3d ReadVertex(TextScanner& scanner, std::size_t index) {
+  Eigen::Vector3d vertex;
+  for (double& x : vertex) x = scanner.ReadDouble("vertex " + std::to_string(index));
+  return vertex;
+}
+
+/// A corner as the file has it: "7", "7/1", "7//3" or "-1/2/3".
+long long ReadCorner(TextScanner& scanner, std::string_view word, std::size_t facet) {
+  const auto index = ParseInteger(word.substr(0, word.find('/')));
+  if (!index) {
+    scanner.Fail("facet " + std::to_string(facet) + ": " + Quoted(word) + " is not a corner");
+  }
+  return *index;
+}
+
+/// Negative indices count back from the last vertex so far. The file may name vertices that are
+/// still to come, so the upper end is checked when all are known.
+int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, std::size_t facet) {
+  const auto count = static_cast<long long>(vertices);
+  if (index != 0 && index >= -count && index <= std::numeric_limits<int>::max()) {
+    return static_cast<int>(index > 0 ? index - 1 : count + index);
+  }
+  scanner.Fail("facet " + std::to_string(facet) + ": vertex index " + std::to_string(index) +
+               " is out of range (" + std::to_string(count) + " vertices so far)");
+}
+
+void CheckIndices(const PolygonSoup& soup, const std::string& name) {
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (const int index : soup.facets[f]) {
+      if (index < std::ssize(soup.vertices)) continue;
+      throw MeshError(MeshDefect::kIndexOutOfRange,
+                      name + ": facet " + std::to_string(f) + ": vertex index " +
+                          std::to_string(index + 1LL) + " is out of range (1 to " +
+                          std::to_string(soup.vertices.size()) + ")");
+    }
+  }
+}
+
+}  // namespace
+
+PolygonSoup ReadObj(std::string_view text, const std::string& name) {
+  PolygonSoup soup;
+  TextScanner scanner(text, name);
+  while (const auto statement = scanner.Next()) {
+    if (*statement == "v") {
+      soup.vertices.push_back(ReadVertex(scanner, soup.vertices.size()));
+    } else if (*statement == "f") {
+      std::vector<int>& facet = soup.facets.emplace_back();
+      const std::size_t index = soup.facets.size() - 1;
+      while (const auto word = scanner.NextOnLine()) {
+        const long long corner = ReadCorner(scanner, *word, index);
+        facet.push_back(ResolveIndex(scanner, corner, soup.vertices.size(), index));
+      }
+    } else if (std::ranges::find(kIgnored, *statement) == kIgnored.end()) {
+      scanner.Fail(Quoted(*statement) + " is not a statement of OBJ");
+    }
+    scanner.SkipLine();
+  }
+  CheckIndices(soup, name);
+  return soup;
+}
+
+}  // namespace regrasp

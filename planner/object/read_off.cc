@@ -1,0 +1,76 @@
+#include <limits>
+
+#include "planner/object/mesh_defect.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/text_scanner.h"
+
+namespace regrasp {
+
+namespace {
+
+struct Header {
+  bool plain = true;  ///< vertices have three numbers and nothing behind them
+  long long vertices = 0, facets = 0;
+};
+
+/// [ST][C][N]OFF: texture coordinates, colours and normals behind the three numbers of a vertex.
+/// "4OFF" and "nOFF" are other dimensions.
+bool IsKnownKind(const std::string& kind) {
+  std::string_view rest = kind;
+  for (const std::string_view prefix : {"st", "c", "n"}) {
+    if (rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
+  }
+  return rest == "off";
+}
+
+Header ReadHeader(TextScanner& scanner) {
+  Header header;
+  const std::string kind = LowerCase(scanner.Next().value_or(""));
+  if (!IsKnownKind(kind)) scanner.Fail(Quoted(kind) + " is not the start of an OFF file");
+  header.plain = kind == "off";
+  header.vertices = scanner.ReadInteger("the number of vertices");
+  header.facets = scanner.ReadInteger("the number of facets");
+  scanner.SkipLine();  // the number of edges, which nobody counts
+  if (header.vertices < 0 || header.facets < 0) scanner.Fail("a negative number of elements");
+  return header;
+}
+
+std::vector<int> ReadFacet(TextScanner& scanner, const Header& header, long long facet) {
+  const std::string what = "facet " + std::to_string(facet);
+  const long long corners = scanner.ReadInteger(what);
+  if (corners < 0) scanner.Fail(what + ": a negative number of corners");
+  std::vector<int> indices;
+  for (long long k = 0; k < corners; ++k) {
+    const long long index = scanner.ReadInteger(what);
+    if (index < 0 || index >= header.vertices || index > std::numeric_limits<int>::max()) {
+      scanner.Fail(what + ": vertex index " + std::to_string(index) + " is out of range (" +
+                   std::to_string(header.vertices) + " vertices)");
+    }
+    indices.push_back(static_cast<int>(index));
+  }
+  scanner.SkipLine();  // its colour
+  return indices;
+}
+
+}  // namespace
+
+PolygonSoup ReadOff(std::string_view text, const std::string& name) {
+  PolygonSoup soup;
+  TextScanner scanner(text, name);
+  const Header header = ReadHeader(scanner);
+  for (long long v = 0; v < header.vertices; ++v) {
+    Eigen::Vector3d& vertex = soup.vertices.emplace_back();
+    for (double& x : vertex) x = scanner.ReadDouble("vertex " + std::to_string(v));
+    if (!header.plain) scanner.SkipLine();
+  }
+  for (long long f = 0; f < header.facets; ++f) {
+    soup.facets.push_back(ReadFacet(scanner, header, f));
+  }
+  if (const auto word = scanner.Next()) {
+    scanner.Fail(Quoted(*word) + " behind the last of " + std::to_string(header.facets) +
+                 " facets");
+  }
+  return soup;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/object/mesh_defect.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/text_scanner.h"
+
+namespace regrasp {
+
+static_assert(std::endian::native == std::endian::little, "values are swapped from big to little");
+
+namespace {
+
+enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+struct TypeName {
+  std::string_view name, other_name;
+  Type type;
+};
+constexpr auto kTypes = std::to_array<TypeName>({{"char", "int8", Type::kInt8},
+                                                 {"uchar", "uint8", Type::kUint8},
+                                                 {"short", "int16", Type::kInt16},
+                                                 {"ushort", "uint16", Type::kUint16},
+                                                 {"int", "int32", Type::kInt32},
+                                                 {"uint", "uint32", Type::kUint32},
+                                                 {"float", "float32", Type::kFloat32},
+                                                 {"double", "float64", Type::kFloat64}});
+
+struct Property {
+  std::string name;
+  Type type = Type::kFloat64;
+  std::optional<Type> count_type;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  long long count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  enum class Format { kAscii, kLittle, kBig } format = Format::kAscii;
+  std::vector<Element> elements;
+  std::size_t body = 0;  ///< where the values start
+};
+
+bool IsFloat(Type type) { return type == Type::kFloat32 || type == Type::kFloat64; }
+
+std::string Name(const Element& element, long long index) {
+  return (element.name == "face" ? "facet" : element.name) + " " + std::to_string(index);
+}
+
+/// Reads the header line by line: it ends with a line end, and binary values follow at once.
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  Header Read() {
+    if (NextLine() != "ply") Fail("not the start of a PLY file");
+    for (;;) {
+      if (header_.body >= bytes_.size()) Fail("the file ends inside the header");
+      const std::string_view line = NextLine();
+      if (line == "end_header") break;
+      TextScanner words(line, name_);
+      ReadStatement(words);
+    }
+    if (!has_format_) Fail("no format");
+    return std::move(header_);
+  }
+
+ private:
+  std::string_view NextLine() {
+    ++line_;
+    const std::size_t first = header_.body;
+    const std::size_t last = std::min(bytes_.find_first_of("\r\n", first), bytes_.size());
+    header_.body = std::min(last + 1, bytes_.size());
+    if (bytes_.substr(last).starts_with("\r\n")) ++header_.body;
+    return bytes_.substr(first, last - first);
+  }
+
+  void ReadStatement(TextScanner& words) {
+    const std::string keyword(words.Next().value_or("comment"));
+    if (keyword == "comment" || keyword == "obj_info") return;
+    if (keyword == "format") return ReadFormat(Word(words));
+    if (keyword == "element") {
+      const std::string name = Word(words);
+      const auto count = ParseInteger(Word(words));
+      if (!count || *count < 0) Fail("element " + Quoted(name) + ": not a number of elements");
+      header_.elements.push_back({name, *count, {}});
+    } else if (keyword == "property") {
+      if (header_.elements.empty()) Fail("a property before the first element");
+      ReadProperty(words);
+    } else {
+      Fail(Quoted(keyword) + " is not a statement of a PLY header");
+    }
+  }
+
+  void ReadFormat(const std::string& format) {
+    has_format_ = true;
+    if (format == "ascii") {
+      header_.format = Header::Format::kAscii;
+    } else if (format == "binary_little_endian") {
+      header_.format = Header::Format::kLittle;
+    } else if (format == "binary_big_endian") {
+      header_.format = Header::Format::kBig;
+    } else {
+      Fail(Quoted(format) + " is not a format of PLY");
+    }
+  }
+
+  void ReadProperty(TextScanner& words) {
+    Property property;
+    std::string type = Word(words);
+    if (type == "list") {
+      property.count_type = FindType(Word(words));
+      if (IsFloat(*property.count_type)) Fail("a list whose length is not an integer");
+      type = Word(words);
+    }
+    property.type = FindType(type);
+    property.name = Word(words);
+    header_.elements.back().properties.push_back(property);
+  }
+
+  Type FindType(const std::string& word) const {
+    const auto found = std::ranges::find_if(
+        kTypes, [&](const TypeName& type) { return word == type.name || word == type.other_name; });
+    if (found == kTypes.end()) Fail(Quoted(word) + " is not a type of PLY");
+    return found->type;
+  }
+
+  std::string Word(TextScanner& words) const {
+    const auto word = words.Next();
+    if (!word) Fail("a word is missing");
+    return std::string(*word);
+  }
+
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw InputError(name_ + ": line " + std::to_string(line_) + ": " + message);
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  Header header_;
+  bool has_format_ = false;
+  int line_ = 0;
+};
+
+/// The values behind the header, whichever way they are written. All types fit into a double.
+class ValueReader {
+ public:
+  ValueReader(std::string_view body, Header::Format format, const std::string& name)
+      : body_(body), format_(format), name_(name), words_(body, name) {}
+
+  double Read(Type type, const std::string& what) {
+    if (format_ == Header::Format::kAscii) {
+      const auto word = words_.Next();
+      if (!word) FailAtEnd(what);
+      const auto value = ParseDouble(*word);
+      if (!value || (!IsFloat(type) && *value != std::floor(*value))) {
+        throw InputError(name_ + ": " + what + ": " + Quoted(*word) +
+                         " is not a finite number of its type");
+      }
+      return *value;
+    }
+    switch (type) {
+      case Type::kInt8:
+        return ReadBinary<std::int8_t>(what);
+      case Type::kUint8:
+        return ReadBinary<std::uint8_t>(what);
+      case Type::kInt16:
+        return ReadBinary<std::int16_t>(what);
+      case Type::kUint16:
+        return ReadBinary<std::uint16_t>(what);
+      case Type::kInt32:
+        return ReadBinary<std::int32_t>(what);
+      case Type::kUint32:
+        return ReadBinary<std::uint32_t>(what);
+      case Type::kFloat32:
+        return ReadBinary<float>(what);
+      case Type::kFloat64:
+        return ReadBinary<double>(what);
+    }
+    return 0;
+  }
+
+  [[nodiscard]] bool AtEnd() {
+    return format_ == Header::Format::kAscii ? !words_.Next() : position_ == body_.size();
+  }
+
+ private:
+  template <class T>
+  double ReadBinary(const std::string& what) {
+    std::array<char, sizeof(T)> bytes;
+    if (body_.size() - position_ < bytes.size()) FailAtEnd(what);
+    std::memcpy(bytes.data(), body_.data() + position_, bytes.size());
+    position_ += bytes.size();
+    if (format_ == Header::Format::kBig) std::ranges::reverse(bytes);
+    return static_cast<double>(std::bit_cast<T>(bytes));
+  }
+
+  [[noreturn]] void FailAtEnd(const std::string& what) const {
+    throw InputError(name_ + ": the file ends inside " + what);
+  }
+
+  std::string_view body_;
+  Header::Format format_;
+  const std::string& name_;
+  TextScanner words_;
+  std::size_t position_ = 0;
+};
+
+void ReadVertex(ValueReader& values, const Element& element, long long index, PolygonSoup& soup,
+                const std::string& name) {
+  const std::string what = Name(element, index);
+  Eigen::Vector3d vertex = Eigen::Vector3d::Zero();
+  for (const Property& property : element.properties) {
+    if (property.count_type) throw InputError(name + ": " + what + ": has a list");
+    const double value = values.Read(property.type, what);
+    const std::size_t axis = std::string_view("xyz").find(property.name);
+    if (property.name.size() != 1 || axis == std::string_view::npos) continue;
+    if (!std::isfinite(value)) {
+      throw InputError(name + ": " + what + ": the coordinate " + FormatDouble(value) +
+                       " is not finite");
+    }
+    vertex[static_cast<int>(axis)] = value;
+  }
+  soup.vertices.push_back(vertex);
+}
+
+bool IsVertexIndices(const Property& property) {
+  return property.count_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/// A list's length; negative ones of signed types are refused.
+long long ReadCount(ValueReader& values, const Property& property, const std::string& what,
+                    const std::string& name) {
+  const double count = values.Read(*property.count_type, what);
+  if (count < 0 || count > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError(name + ": " + what + ": a list of length " + FormatDouble(count));
+  }
+  return static_cast<long long>(count);
+}
+
+void ReadFacet(ValueReader& values, const Element& element, long long index, PolygonSoup& soup,
+               const std::string& name) {
+  const std::string what = Name(element, index);
+  std::vector<int> facet;
+  for (const Property& property : element.properties) {
+    const bool wanted = IsVertexIndices(property);
+    const long long count = property.count_type ? ReadCount(values, property, what, name) : 1;
+    for (long long k = 0; k < count; ++k) {
+      const double value = values.Read(property.type, what);
+      if (!wanted) continue;
+      if (!(value >= 0 && value <= std::numeric_limits<int>::max())) {
+        throw MeshError(MeshDefect::kIndexOutOfRange, name + ": " + what + ": vertex index " +
+                                                          FormatDouble(value) + " is out of range");
+      }
+      facet.push_back(static_cast<int>(value));
+    }
+  }
+  soup.facets.push_back(std::move(facet));
+}
+
+void SkipRow(ValueReader& values, const Element& element, long long index,
+             const std::string& name) {
+  const std::string what = Name(element, index);
+  for (const Property& property : element.properties) {
+    const long long count = property.count_type ? ReadCount(values, property, what, name) : 1;
+    for (long long k = 0; k < count; ++k) static_cast<void>(values.Read(property.type, what));
+  }
+}
+
+/// Also keeps a declared number of rows from being counted through without reading a byte.
+void CheckElement(const Element& element, const std::string& name) {
+  const auto has = [&](std::string_view property) {
+    return std::ranges::any_of(element.properties,
+                               [&](const Property& p) { return p.name == property; });
+  };
+  if (element.properties.empty() && element.count > 0) {
+    throw InputError(name + ": element " + Quoted(element.name) + " has no properties");
+  }
+  if (element.name == "vertex" && !(has("x") && has("y") && has("z"))) {
+    throw InputError(name + ": element \"vertex\" lacks x, y or z");
+  }
+  if (element.name != "face") return;
+  const auto indices = std::ranges::find_if(element.properties, IsVertexIndices);
+  if (indices == element.properties.end() || IsFloat(indices->type)) {
+    throw InputError(name + ": element \"face\" lacks an integer list vertex_indices");
+  }
+}
+
+}  // namespace
+
+PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
+  const Header header = HeaderReader(bytes, name).Read();
+  PolygonSoup soup;
+  ValueReader values(bytes.substr(header.body), header.format, name);
+  for (const Element& element : header.elements) {
+    CheckElement(element, name);
+    for (long long i = 0; i < element.count; ++i) {
+      if (element.name == "vertex") {
+        ReadVertex(values, element, i, soup, name);
+      } else if (element.name == "face") {
+        ReadFacet(values, element, i, soup, name);
+      } else {
+        SkipRow(values, element, i, name);
+      }
+    }
+  }
+  if (!values.AtEnd()) throw InputError(name + ": the file goes on behind the last element");
+  return soup;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,31 @@
+#include "planner/object/read_with_assimp.h"
+
+#include "planner/base/error.h"
+#include "planner/object/assimp_scene.h"
+#include "planner/object/limited_child.h"
+#include "planner/object/soup_bytes.h"
+
+namespace regrasp {
+
+PolygonSoup ReadWithAssimp(const std::filesystem::path& path, const AssimpLimits& limits) {
+  const std::string name = path.string();
+  const ChildResult result =
+      RunInLimitedChild([&] { return SoupToBytes(ReadAssimpScene(name)); },
+                        {limits.memory_bytes, limits.processor, limits.wall});
+  switch (result.end) {
+    case ChildEnd::kDone:
+      break;
+    case ChildEnd::kThrew:
+      throw InputError(name + ": " +
+                       (result.bytes.empty() ? "assimp cannot read it" : result.bytes));
+    case ChildEnd::kTookTooLong:
+      throw InputError(name + ": assimp took longer than allowed to read it");
+    case ChildEnd::kCrashed:
+      throw InputError(name + ": assimp crashed or ran out of memory reading it");
+  }
+  auto soup = SoupFromBytes(result.bytes);
+  if (!soup) throw InputError(name + ": assimp did not read it to its end");
+  return *std::move(soup);
+}
+
+}  // namespace regrasp

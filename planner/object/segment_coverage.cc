@@ -1,0 +1,76 @@
+#include "planner/object/segment_coverage.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace regrasp {
+
+namespace {
+
+/// Halvings of [0, 1] until it is as narrow as a double's last place.
+constexpr int kBisections = 54;
+/// Golden sections for the same.
+constexpr int kGoldenSections = 78;
+
+/// A point within the threshold, or the lowest that golden section search finds.
+double FindLow(const std::function<double(double)>& distance, double threshold) {
+  const double ratio = std::numbers::phi - 1;
+  double low = 0, high = 1;
+  double left = high - ratio, right = low + ratio;
+  double at_left = distance(left), at_right = distance(right);
+  for (int i = 0; i < kGoldenSections; ++i) {
+    if (at_left <= threshold) return left;
+    if (at_right <= threshold) return right;
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = high - ratio * (high - low);
+      at_left = distance(left);
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = low + ratio * (high - low);
+      at_right = distance(right);
+    }
+  }
+  return at_left < at_right ? left : right;
+}
+
+/// The last point within the threshold on the way from `inside` to `end`.
+double FindEnd(const std::function<double(double)>& distance, double threshold, double inside,
+               double end) {
+  if (distance(end) <= threshold) return end;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (inside + end) / 2;
+    (distance(middle) <= threshold ? inside : end) = middle;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::optional<Interval> SublevelInterval(const std::function<double(double)>& distance,
+                                         double threshold) {
+  for (const double end : {0.0, 1.0}) {
+    if (distance(end) > threshold) continue;
+    const double other = FindEnd(distance, threshold, end, 1 - end);
+    return std::minmax(end, other);
+  }
+  const double low = FindLow(distance, threshold);
+  if (distance(low) > threshold) return std::nullopt;
+  return Interval{FindEnd(distance, threshold, low, 0), FindEnd(distance, threshold, low, 1)};
+}
+
+bool CoverUnitInterval(std::vector<Interval> intervals) {
+  std::ranges::sort(intervals);
+  double covered = 0;
+  for (const auto& [from, to] : intervals) {
+    if (from > covered) return false;
+    covered = std::max(covered, to);
+  }
+  return covered >= 1 && !intervals.empty();
+}
+
+}  // namespace regrasp

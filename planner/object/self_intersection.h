@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "planner/object/triangle_mesh.h"
+
+namespace regrasp {
+
+/// Checks with exact predicates that no two triangles meet elsewhere than at the vertices and the
+/// edge that they share.
+/// @param mesh  a closed, consistently oriented 2-manifold without degenerate triangles.
+/// @throws MeshError  kSelfIntersecting, with two facets named.
+void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name);
+
+}  // namespace regrasp

@@ -1,0 +1,115 @@
+#include "planner/object/text_scanner.h"
+
+#include <charconv>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+
+namespace regrasp {
+
+namespace {
+
+bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+}  // namespace
+
+bool TextScanner::SkipBlanks(bool across_lines) {
+  while (position_ < text_.size()) {
+    const char c = text_[position_];
+    const std::string_view rest = text_.substr(position_);
+    if (rest.starts_with("\\\n") || rest.starts_with("\\\r\n")) {
+      position_ = text_.find('\n', position_) + 1;
+      ++line_;
+    } else if (IsBlank(c)) {
+      ++position_;
+    } else if (c == '#') {
+      while (position_ < text_.size() && !IsLineEnd(text_[position_])) ++position_;
+    } else if (IsLineEnd(c) && across_lines) {
+      if (c == '\n') ++line_;
+      ++position_;
+    } else {
+      return !IsLineEnd(c);
+    }
+  }
+  return false;
+}
+
+std::optional<std::string_view> TextScanner::NextOnLine() {
+  if (!SkipBlanks(false)) return std::nullopt;
+  const std::size_t first = position_;
+  while (position_ < text_.size()) {
+    const char c = text_[position_];
+    if (IsBlank(c) || IsLineEnd(c) || c == '#') break;
+    ++position_;
+  }
+  return text_.substr(first, position_ - first);
+}
+
+std::optional<std::string_view> TextScanner::Next() {
+  if (!SkipBlanks(true)) return std::nullopt;
+  return NextOnLine();
+}
+
+void TextScanner::SkipLine() {
+  while (NextOnLine()) {
+  }
+}
+
+std::string_view TextScanner::ReadWord(const std::string& what) {
+  const auto word = Next();
+  if (!word) Fail("the file ends where " + what + " should be");
+  return *word;
+}
+
+double TextScanner::ReadDouble(const std::string& what) {
+  const std::string_view word = ReadWord(what);
+  const auto value = ParseDouble(word);
+  if (!value) Fail(what + ": " + Quoted(word) + " is not a finite number");
+  return *value;
+}
+
+long long TextScanner::ReadInteger(const std::string& what) {
+  const std::string_view word = ReadWord(what);
+  const auto value = ParseInteger(word);
+  if (!value) Fail(what + ": " + Quoted(word) + " is not an integer");
+  return *value;
+}
+
+void TextScanner::Expect(std::string_view expected) {
+  const std::string what = "\"" + std::string(expected) + "\"";
+  const std::string_view word = ReadWord(what);
+  if (LowerCase(word) != expected) Fail(Quoted(word) + " where " + what + " should be");
+}
+
+void TextScanner::Fail(const std::string& message) const {
+  throw InputError(name_ + ": line " + std::to_string(line_) + ": " + message);
+}
+
+std::string Quoted(std::string_view word) {
+  constexpr std::size_t kLongest = 24;
+  std::string quoted = "\"";
+  for (const char c : word.substr(0, kLongest)) {
+    const bool printable = c >= 0x20 && c < 0x7f;
+    quoted += printable ? c : '?';
+  }
+  return quoted + (word.size() > kLongest ? "…\"" : "\"");
+}
+
+std::string LowerCase(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+std::optional<long long> ParseInteger(std::string_view word) {
+  long long value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || word.empty()) return std::nullopt;
+  return value;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,201 @@
+#include "planner/object/polyhedron.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/planner/object/meshes.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::ElementsAre;
+using ::testing::UnorderedElementsAre;
+using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+
+constexpr double kTight = 1e-12;
+
+/// The face whose outward normal is nearest to `outward`.
+int FaceTowards(const Polyhedron& body, const Vector3d& outward) {
+  int best = 0;
+  for (int f = 1; f < body.face_count(); ++f) {
+    if (body.inward_normal(f).dot(outward) < body.inward_normal(best).dot(outward)) best = f;
+  }
+  return best;
+}
+
+TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
+  const Polyhedron cube = Polyhedron::FromSoup(UnitCubeSoup(), "cube");
+  ASSERT_EQ(cube.face_count(), 6);
+  EXPECT_EQ(cube.triangles().size(), 12u);
+  EXPECT_EQ(cube.vertices().size(), 8u);
+  EXPECT_NEAR(cube.diameter(), std::sqrt(3), kTight);
+  for (int f = 0; f < 6; ++f) {
+    EXPECT_NEAR(cube.face_measure(f), 1, kTight);
+    EXPECT_NEAR(cube.inward_normal(f).dot(cube.faces()[f].point), -0.5, kTight);
+    EXPECT_EQ(cube.faces()[f].border.size(), 4u);
+    EXPECT_EQ(cube.faces()[f].triangles.size(), 2u);
+  }
+}
+
+TEST(Polyhedron, AMeshThatIsWhollyInwardIsTurned) {
+  PolygonSoup soup = HoleBlockSoup();
+  const Polyhedron outward = Polyhedron::FromSoup(soup, "block");
+  Turn(soup);
+  const Polyhedron turned = Polyhedron::FromSoup(soup, "block");
+  ASSERT_EQ(turned.face_count(), outward.face_count());
+  EXPECT_NEAR(turned.mass_properties().volume, 8, kTight);
+  for (int f = 0; f < turned.face_count(); ++f) {
+    EXPECT_NEAR((turned.inward_normal(f) - outward.inward_normal(f)).norm(), 0, kTight);
+    EXPECT_EQ(turned.faces()[f].border.size(), outward.faces()[f].border.size());
+  }
+}
+
+TEST(Polyhedron, ACavityOrientedIntoTheMaterialIsPartOfTheSolid) {
+  PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.1), Vector3d::Constant(0.2));
+  Turn(cavity);
+  const Polyhedron body = Polyhedron::FromSoup(Join(UnitCubeSoup(), cavity), "hollow");
+  EXPECT_EQ(body.face_count(), 12);
+  EXPECT_NEAR(body.mass_properties().volume, 1 - 0.027, kTight);
+  EXPECT_THAT(body.FacesNear({0.2, 0, 0}, 1e-9), ElementsAre(9));
+  EXPECT_NEAR(body.inward_normal(9).x(), 1, kTight);
+}
+
+TEST(Polyhedron, FacesBorderOnTheirOutlineAndHoles) {
+  const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
+  ASSERT_EQ(block.face_count(), 10);
+  const int top = FaceTowards(block, {0, 0, 1});
+  EXPECT_NEAR(block.face_measure(top), 8, kTight);
+  EXPECT_EQ(block.faces()[top].border.size(), 8u);
+  // Material on the left, seen from outside.
+  for (const auto& [from, to] : block.faces()[top].border) {
+    const Vector3d a = block.vertices()[from], b = block.vertices()[to];
+    const Vector3d left = Vector3d::UnitZ().cross(b - a).normalized();
+    const Vector3d inside = (a + b) / 2 + 0.1 * left;
+    EXPECT_NEAR((block.ClosestPoint(top, inside) - inside).norm(), 0, kTight);
+  }
+}
+
+TEST(Polyhedron, ClosestPointsRespectHolesAndNonConvexOutlines) {
+  const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
+  const int top = FaceTowards(block, {0, 0, 1});
+  EXPECT_NEAR((block.ClosestPoint(top, {1.2, 1.5, 3}) - Vector3d(1, 1.5, 1)).norm(), 0, kTight);
+  EXPECT_NEAR((block.ClosestPoint(top, {0.5, 1.5, 3}) - Vector3d(0.5, 1.5, 1)).norm(), 0, kTight);
+  const Polyhedron bent = Polyhedron::FromSoup(LBlockSoup(), "l");
+  ASSERT_EQ(bent.face_count(), 8);
+  const int end = FaceTowards(bent, {0, 0, 1});
+  EXPECT_NEAR((bent.ClosestPoint(end, {1.5, 1.2, 1}) - Vector3d(1.5, 1, 1)).norm(), 0, kTight);
+}
+
+TEST(Polyhedron, FacesNearAreSortedByDistance) {
+  const Polyhedron cube = Polyhedron::FromSoup(UnitCubeSoup(), "cube");
+  const int right = FaceTowards(cube, {1, 0, 0}), top = FaceTowards(cube, {0, 0, 1});
+  EXPECT_THAT(cube.FacesNear({0.45, 0, 0.48}, 0.1), ElementsAre(top, right));
+  EXPECT_THAT(cube.FacesNear({0.48, 0, 0.45}, 0.1), ElementsAre(right, top));
+  EXPECT_THAT(cube.FacesNear({0.48, 0, 0.45}, 0.03), ElementsAre(right));
+  EXPECT_THAT(cube.FacesNear({0.5, 0, 0.5}, 0), UnorderedElementsAre(right, top));
+  EXPECT_THAT(cube.FacesNear({0, 0, 0}, 0.4), ElementsAre());
+  EXPECT_EQ(cube.FacesNear({0, 0, 0}, 10).size(), 6u);
+}
+
+TEST(Polyhedron, SegmentsMustStayOnTheFaceAllTheWay) {
+  const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
+  const int top = FaceTowards(block, {0, 0, 1});
+  const double within = 1e-6;
+  EXPECT_TRUE(block.ContainsSegment(top, {0.1, 0.5, 1}, {2.9, 0.5, 1}, within));
+  EXPECT_FALSE(block.ContainsSegment(top, {0.5, 1.5, 1}, {2.5, 1.5, 1}, within)) << "over the hole";
+  EXPECT_TRUE(block.ContainsSegment(top, {0.5, 1, 1}, {2.5, 1, 1}, within)) << "along its border";
+  EXPECT_TRUE(block.ContainsSegment(top, {0, 0, 1}, {3, 0, 1}, within)) << "along the outline";
+  EXPECT_FALSE(block.ContainsSegment(top, {0, 0, 1}, {3.1, 0, 1}, within));
+  EXPECT_FALSE(block.ContainsSegment(top, {0.5, 0.5, 1}, {0.5, 0.6, 1.1}, within)) << "off it";
+  EXPECT_TRUE(block.ContainsSegment(top, {0.5, 0.5, 1}, {0.5, 0.5, 1}, within)) << "a point";
+  const Polyhedron bent = Polyhedron::FromSoup(LBlockSoup(), "l");
+  const int end = FaceTowards(bent, {0, 0, 1});
+  EXPECT_FALSE(bent.ContainsSegment(end, {1.8, 0.5, 1}, {0.5, 1.8, 1}, within)) << "over the notch";
+  EXPECT_TRUE(bent.ContainsSegment(end, {1.5, 0.5, 1}, {0.5, 1.5, 1}, within)) << "by the corner";
+}
+
+/// The same answers on every side of the comparison: many points, a face of many triangles, and a
+/// second route that measures the rectangle with its hole in closed form.
+TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
+  // The top of the block cut into 4 · 32 · 2 triangles, so that the trees of boxes are at work.
+  constexpr int kCuts = 12;
+  PolygonSoup soup;
+  const auto grid = [&](int i, int j, int k) { return (k * (kCuts + 1) + j) * (kCuts + 1) + i; };
+  const auto solid = [&](int i, int j) {
+    const auto middle = [](int c) { return c >= kCuts / 3 && c < 2 * kCuts / 3; };
+    return i >= 0 && j >= 0 && i < kCuts && j < kCuts && !(middle(i) && middle(j));
+  };
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j <= kCuts; ++j) {
+      for (int i = 0; i <= kCuts; ++i) {
+        soup.vertices.push_back({3.0 * i / kCuts, 3.0 * j / kCuts, double(k)});
+      }
+    }
+  }
+  for (int i = 0; i < kCuts; ++i) {
+    for (int j = 0; j < kCuts; ++j) {
+      if (!solid(i, j)) continue;
+      const auto wall = [&](int a, int b, int c, int d) {
+        soup.facets.push_back({grid(a, b, 0), grid(c, d, 0), grid(c, d, 1), grid(a, b, 1)});
+      };
+      soup.facets.push_back(
+          {grid(i, j, 1), grid(i + 1, j, 1), grid(i + 1, j + 1, 1), grid(i, j + 1, 1)});
+      soup.facets.push_back(
+          {grid(i, j, 0), grid(i, j + 1, 0), grid(i + 1, j + 1, 0), grid(i + 1, j, 0)});
+      if (!solid(i, j - 1)) wall(i, j, i + 1, j);
+      if (!solid(i + 1, j)) wall(i + 1, j, i + 1, j + 1);
+      if (!solid(i, j + 1)) wall(i + 1, j + 1, i, j + 1);
+      if (!solid(i - 1, j)) wall(i, j + 1, i, j);
+    }
+  }
+  const Polyhedron block = Polyhedron::FromSoup(soup, "fine block");
+  ASSERT_EQ(block.face_count(), 10);
+  EXPECT_NEAR(block.mass_properties().volume, 8, 1e-9);
+  const int top = FaceTowards(block, {0, 0, 1});
+  ASSERT_EQ(block.faces()[top].triangles.size(), 256u);
+
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(-0.5, 3.5);
+  const auto outside_rectangle = [](const Vector3d& p, double low, double high) {
+    const Vector3d nearest(std::clamp(p.x(), low, high), std::clamp(p.y(), low, high), p.z());
+    return (p - nearest).norm();
+  };
+  const auto inside_rectangle = [](const Vector3d& p, double low, double high) {
+    return std::min({p.x() - low, high - p.x(), p.y() - low, high - p.y()});
+  };
+  int on_face = 0, off_face = 0, covered = 0, uncovered = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p(within(random), within(random), 1);
+    const double outside = outside_rectangle(p, 0, 3);
+    const double in_hole = inside_rectangle(p, 1, 2);
+    const double expected = std::max({outside, in_hole, 0.0});
+    EXPECT_NEAR((block.ClosestPoint(top, p) - p).norm(), expected, 1e-9);
+    (expected == 0 ? on_face : off_face)++;
+    const double to_outline = outside > 0 ? outside : inside_rectangle(p, 0, 3);
+    const double to_hole = in_hole > 0 ? in_hole : outside_rectangle(p, 1, 2);
+    EXPECT_NEAR(block.DistanceToBorder(top, p), std::min(to_outline, to_hole), 1e-9);
+    const auto near = block.FacesNear(p, 1e-9);
+    EXPECT_EQ(std::ranges::count(near, top), expected == 0 ? 1 : 0);
+
+    // A segment is on the face iff none of many points on it is off.
+    const Vector3d q = p + Vector3d(within(random) - 1.5, within(random) - 1.5, 0);
+    double worst = 0;
+    for (int s = 0; s <= 1000; ++s) {
+      const Vector3d r = p + s / 1000.0 * (q - p);
+      worst = std::max({worst, outside_rectangle(r, 0, 3), inside_rectangle(r, 1, 2)});
+    }
+    const bool contained = block.ContainsSegment(top, p, q, 1e-6);
+    EXPECT_EQ(contained, worst <= 1e-6) << p.transpose() << " to " << q.transpose();
+    (contained ? covered : uncovered)++;
+  }
+  EXPECT_GT(on_face, 100);
+  EXPECT_GT(off_face, 100);
+  EXPECT_GT(covered, 100);
+  EXPECT_GT(uncovered, 100);
+}
+
+}  // namespace
+}  // namespace regrasp
