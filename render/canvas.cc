@@ -22,19 +22,19 @@ constexpr int kDepthBits = 24;
 constexpr int kBytesPerPixel = 4;
 /// A frame is drawn in bands of at most this many samples, so that memory stays bounded (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
-/// The depth range, in distances from the camera to the origin; MuJoCo hangs the background at 0.7
-/// of the far end.
+/// The depth range and the place of the white wall behind everything, in distances from the camera
+/// to the origin.
 constexpr double kNearFactor = 0.1;
 constexpr double kFarFactor = 4;
+constexpr double kWallFactor = 3;
 
-/// Nothing but a white background: meshes are assets, shapes are drawn without bodies.
+/// Nothing but meshes: shapes are drawn without bodies.
 constexpr char kModelHead[] = R"(<mujoco model="canvas">
   <visual>
     <global offwidth="16" offheight="16"/>
     <quality shadowsize="0" offsamples="0" numslices="48" numstacks="24"/>
   </visual>
   <asset>
-    <texture type="skybox" builtin="flat" rgb1="1 1 1" rgb2="1 1 1" width="8" height="8"/>
 )";
 constexpr char kModelTail[] = "  </asset>\n</mujoco>\n";
 
@@ -210,6 +210,20 @@ mjvLight MakeLight(const Camera& camera) {
   return light;
 }
 
+/// A wall that shines white behind the scene. MuJoCo clears to black, and its own background, a
+/// textured box, takes as long to draw as all the rest.
+void InitWall(mjvGeom& geom, const Camera& camera) {
+  const double distance = kWallFactor * camera.position.norm();
+  const double aspect = std::max(1.0, static_cast<double>(camera.width) / camera.height);
+  const double half = 2 * distance * camera.tan_half_height * aspect;
+  const mjtNum size[3] = {half, half, distance * kNearFactor};
+  const Eigen::Vector3d centre = camera.position - distance * camera.axes.col(2);
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = camera.axes;
+  const Rgba white = MakeRgba({255, 255, 255}, 1);
+  mjv_initGeom(&geom, mjGEOM_BOX, size, centre.data(), rotation.data(), white.values);
+  geom.emission = 1;
+}
+
 /// What is drawn: geoms, light and background.
 class Scene {
  public:
@@ -217,12 +231,12 @@ class Scene {
     mjv_defaultScene(&scene_);
     mjv_makeScene(&model, &scene_, static_cast<int>(shapes.size()) + 1);
     std::fill(std::begin(scene_.flags), std::end(scene_.flags), 0);
-    scene_.flags[mjRND_SKYBOX] = 1;
     scene_.flags[mjRND_CULL_FACE] = 1;
     for (const Shape& shape : shapes) {
       const Rgba rgba = MakeRgba(shape.color, shape.opacity);
       std::visit(GeomMaker{scene_.geoms[scene_.ngeom++], rgba}, shape.form);
     }
+    InitWall(scene_.geoms[scene_.ngeom++], camera);
     scene_.lights[0] = MakeLight(camera);
     scene_.nlight = 1;
   }

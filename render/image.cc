@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -21,19 +22,21 @@ Image Shrink(const Image& image, int factor) {
   }
   if (factor == 1) return image;
   Image small = MakeImage(image.width / factor, image.height / factor);
-  const std::size_t row = std::size_t{3} * image.width;
+  const int row = 3 * image.width;
   const int count = factor * factor;
-  std::size_t out = 0;
+  std::vector<int> sums(row);
+  const unsigned char* in = image.rgb.data();
+  unsigned char* out = small.rgb.data();
   for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      const unsigned char* block =
-          image.rgb.data() + y * factor * row + std::size_t{3} * x * factor;
-      int sum[3] = {};
-      for (int dy = 0; dy < factor; ++dy) {
-        for (int i = 0; i < 3 * factor; ++i) sum[i % 3] += block[dy * row + i];
-      }
-      for (const int channel : sum) {
-        small.rgb[out++] = static_cast<unsigned char>((channel + count / 2) / count);
+    std::fill(sums.begin(), sums.end(), 0);
+    for (int dy = 0; dy < factor; ++dy, in += row) {
+      for (int i = 0; i < row; ++i) sums[i] += in[i];
+    }
+    for (int x = 0; x < row; x += 3 * factor) {
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0;
+        for (int dx = 0; dx < factor; ++dx) sum += sums[x + 3 * dx + channel];
+        *out++ = static_cast<unsigned char>((sum + count / 2) / count);
       }
     }
   }
