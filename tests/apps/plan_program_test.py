@@ -155,18 +155,27 @@ class Plan(ProgramCase):
     # Negative answers.
 
     def test_no_sequence_is_a_negative_answer_that_says_what_was_searched(self):
-        # Hardly any friction and hardly a contact point between two grasps that stand apart.
-        grasps = {"start": "random-any", "goal": "random-any", "friction_angle": "2", "seed": "5",
-                  "min_quality": "0"}
+        # Two pairs whose torques cancel, so that hardly any friction holds and no contact can leave
+        # unless another takes its very line of force.
+        def pinwheel(first, second):
+            contacts = []
+            for axis, other in ((first, second), (second, first)):
+                for side in (-1, 1):
+                    point, normal = [0, 0, 0], [0, 0, 0]
+                    point[axis], point[other], normal[axis] = side * 0.03, side * 0.02, -side
+                    contacts.append({"point": point, "normal": normal})
+            return self.grasp(contacts)
+        grasps = {"start": self.write_json("start.json", pinwheel(0, 1)),
+                  "goal": self.write_json("goal.json", pinwheel(1, 2))}
         said = self.refuse(["no sequence", "12 contact points", "495 subsets of four"],
-                           code=1, contacts="4", **grasps).stderr
+                           code=1, friction_angle="2", contacts="4", **grasps).stderr
         sizes = re.search(r"subsets of four, (\d+) force-closure grasps; the start's component "
                           r"has (\d+) of them, the goal's (\d+)$", said)
         self.assertTrue(sizes, said)
         grasp_count, start_size, goal_size = map(int, sizes.groups())
         self.assertGreater(min(start_size, goal_size), 0)
         self.assertLessEqual(start_size + goal_size, grasp_count)
-        self.assert_done(*self.arguments(contacts="40", **grasps))
+        self.assert_done(*self.arguments(**grasps))
 
     def test_a_random_grasp_better_than_all_is_a_negative_answer(self):
         self.refuse("--start random-any: none of", code=1, start="random-any", min_quality="0.9")

@@ -77,7 +77,7 @@ TEST(DrawGraspOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
   const Polyhedron cube = MakeCube();
   RandomStream random(1, RandomUse::kStart);
   std::vector<int> on_face(cube.face_count(), 0);
-  constexpr int kGrasps = 100;
+  constexpr int kGrasps = 48;
   for (int i = 0; i < kGrasps; ++i) {
     const auto grasp = DrawGraspOnSurface(cube, Radians(20), 0.02, kSamePoint, random);
     ASSERT_TRUE(grasp.has_value());
