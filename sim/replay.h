@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,32 +8,9 @@
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 #include "planner/plan/snapshot.h"
+#include "sim/settings.h"
 
 namespace regrasp {
-
-/// How the replay is set up. What is left out is derived from the body (sim/scaling.h).
-struct ReplayOptions {
-  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
-  std::optional<double> mass_kg;     ///< instead of density
-  double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
-  std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
-  double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
-  double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
-  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame
-};
-
-/// The values that the replay ran with.
-struct ReplaySettings {
-  double mu = 0;
-  double mass_kg = 0;
-  double squeeze_N = 0;
-  double shake = 0;
-  double tolerance = 0;
-  double fingertip_radius_m = 0;
-  double finger_mass_kg = 0;
-  double finger_stiffness_N_m = 0;
-  double timestep_s = 0;
-};
 
 /// How an align was carried out; kNone for other steps.
 enum class AlignMode { kNone, kImitated, kSlid };
@@ -47,6 +23,7 @@ struct StepReplay {
   double displacement_m = 0;  ///< largest translation of the object's centroid in this step
   double rotation_deg = 0;    ///< largest rotation of the object in this step
   double slip_m = 0;          ///< largest slide of a holding fingertip along the surface
+  double drift_m = 0;         ///< |Δx| + R|Δrotation| at its end since the sequence began
   bool contact_lost = false;  ///< a holding finger left the surface
   AlignMode align_mode = AlignMode::kNone;
   Snapshot snapshot;  ///< the rest state after the step

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// The radius of the largest ball that touches the object from outside at `contact` and nowhere
+/// enters it, at most `limit`: how thick a fingertip can be there. 0 on a concave edge.
+///
+/// By the shrinking ball of Ma, Bae and Choi 2012: a ball tangent at p with inward normal n that
+/// contains a surface point q shrinks to the one through q, of radius |q − p|² / (−2 n·(q − p)).
+///
+/// Lengths are the object's own units; `contact.face` is the face that it lies on.
+[[nodiscard]] double ComputeClearance(const Object& object, const Contact& contact, double limit);
+
+}  // namespace regrasp

@@ -1,0 +1,152 @@
+#include "sim/contact_patches.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Iso_rectangle_2.h>
+#include <CGAL/Polygon_2_algorithms.h>
+#include <CGAL/convex_hull_2.h>
+#include <CGAL/intersections.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/variant/get.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using Rectangle = Kernel::Iso_rectangle_2;
+using Ring = std::vector<Point>;
+
+/// Two areas that differ by less than this, relatively, are equal: rounding of clipped corners.
+/// A notch that is missed is smaller than a ten-thousandth of the patch's side.
+constexpr double kAreaTolerance = 1e-9;
+
+/// Pieces smaller than this share of the square are slivers of rounding along its border.
+constexpr double kLeastPiece = 1e-8;
+
+/// Coordinates in the plane of a face: u along `axis`, v to its left seen from outside.
+struct Chart {
+  Vector3d origin, u, v;
+
+  [[nodiscard]] Point Project(const Vector3d& p) const {
+    return {u.dot(p - origin), v.dot(p - origin)};
+  }
+  [[nodiscard]] Vector3d Lift(const Point& p) const { return origin + p.x() * u + p.y() * v; }
+};
+
+/// Along the path; along the nearest border where the path is a point, so that a rectangle can lie
+/// along it.
+Vector3d ChartAxis(const Polyhedron& body, const ContactSite& site) {
+  const Vector3d path = site.to - site.from;
+  if (path.norm() > kPointTolerance * body.diameter()) return path;
+  Vector3d axis = Vector3d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b] : body.faces()[site.face].border) {
+    const Vector3d& start = body.vertices()[a];
+    const Vector3d along = body.vertices()[b] - start;
+    const double t = std::clamp((site.from - start).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double distance = (start + t * along - site.from).norm();
+    if (distance < least) {
+      least = distance;
+      axis = along;
+    }
+  }
+  return axis;
+}
+
+Chart MakeChart(const Polyhedron& body, const ContactSite& site) {
+  const Vector3d outward = -body.inward_normal(site.face);
+  Vector3d u = ChartAxis(body, site);
+  u = (u - u.dot(outward) * outward).normalized();
+  return {site.from, u, outward.cross(u)};
+}
+
+double Area(const Ring& ring) {
+  return std::abs(CGAL::polygon_area_2(ring.begin(), ring.end(), Kernel()));
+}
+
+std::vector<Ring> ClipTriangles(const Polyhedron& body, int face, const Chart& chart,
+                                const Rectangle& window) {
+  std::vector<Ring> pieces;
+  for (const int t : body.faces()[face].triangles) {
+    const auto& [a, b, c] = body.triangles()[t];
+    const Kernel::Triangle_2 triangle(chart.Project(body.vertices()[a]),
+                                      chart.Project(body.vertices()[b]),
+                                      chart.Project(body.vertices()[c]));
+    if (triangle.is_degenerate()) continue;
+    const auto common = CGAL::intersection(triangle, window);
+    if (!common) continue;
+    Ring ring;
+    if (const auto* cut = boost::get<Kernel::Triangle_2>(&*common)) {
+      ring = {cut->vertex(0), cut->vertex(1), cut->vertex(2)};
+    } else if (const auto* polygon = boost::get<Ring>(&*common)) {
+      ring = *polygon;
+    } else {
+      continue;
+    }
+    if (Area(ring) > kLeastPiece * window.area()) pieces.push_back(std::move(ring));
+  }
+  return pieces;
+}
+
+double TotalArea(const std::vector<Ring>& pieces) {
+  double area = 0;
+  for (const Ring& piece : pieces) area += Area(piece);
+  return area;
+}
+
+/// The largest extent up to `size` from the path towards ±v that stays on the face, by the nearest
+/// border parallel to u; 0 extents are as good as any other, on a border.
+Rectangle FittingWindow(const Polyhedron& body, const ContactSite& site, const Chart& chart,
+                        double size) {
+  const double end = chart.u.dot(site.to - site.from);
+  const double reach = std::min(size, body.DistanceToBorder(site.face, site.from));
+  for (const double side : {1.0, -1.0}) {
+    const Point low(-size, side > 0 ? -reach : -size), high(end + size, side > 0 ? size : reach);
+    const Rectangle window(low, high);
+    const double covered = TotalArea(ClipTriangles(body, site.face, chart, window));
+    if (covered > (1 - kAreaTolerance) * window.area()) return window;
+  }
+  return {Point(0, 0), Point(0, 0)};
+}
+
+ContactPatch Lift(const Chart& chart, Ring ring, bool rectangle) {
+  if (CGAL::orientation_2(ring.begin(), ring.end()) == CGAL::CLOCKWISE) {
+    std::reverse(ring.begin(), ring.end());
+  }
+  ContactPatch patch;
+  patch.rectangle = rectangle;
+  for (const Point& p : ring) patch.outline.push_back(chart.Lift(p));
+  return patch;
+}
+
+}  // namespace
+
+std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const ContactSite& site,
+                                             double size) {
+  const Chart chart = MakeChart(body, site);
+  const Rectangle fitting = FittingWindow(body, site, chart, size);
+  if (!fitting.is_degenerate()) {
+    return {Lift(chart, {fitting[0], fitting[1], fitting[2], fitting[3]}, true)};
+  }
+  const double end = chart.u.dot(site.to - site.from);
+  const Rectangle window(Point(-size, -size), Point(end + size, size));
+  const std::vector<Ring> pieces = ClipTriangles(body, site.face, chart, window);
+  Ring corners, hull;
+  for (const Ring& piece : pieces) corners.insert(corners.end(), piece.begin(), piece.end());
+  CGAL::convex_hull_2(corners.begin(), corners.end(), std::back_inserter(hull));
+  if (hull.size() >= 3 && Area(hull) * (1 - kAreaTolerance) <= TotalArea(pieces)) {
+    return {Lift(chart, hull, false)};
+  }
+  std::vector<ContactPatch> patches;
+  for (const Ring& piece : pieces) patches.push_back(Lift(chart, piece, false));
+  return patches;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+/// Where a finger touches: a face, and the straight path of the contact on it (a point where
+/// `from` is `to`). Lengths are the object's own units.
+struct ContactSite {
+  int face = -1;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+};
+
+/// A convex piece of the true surface near a site; its prism is what a finger collides with.
+struct ContactPatch {
+  std::vector<Eigen::Vector3d> outline;  ///< counter-clockwise from outside
+  bool rectangle = false;                ///< of four right angles: a box serves, found exactly
+};
+
+/// The surface of the site's face within `size` of its path, as few convex pieces.
+///
+/// A rectangle where one fits between the borders, cut short at the border nearest to the path;
+/// otherwise the part of the face inside the square of half-side `size` about the path, in one
+/// piece where that is convex, else one per triangle. A finger that leaves its patch has left the
+/// face or has moved by `size`. MuJoCo collides convex shapes only, so a body that is not convex is
+/// touched through these and never through its hull.
+[[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,
+                                                           const ContactSite& site, double size);
+
+}  // namespace regrasp

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace regrasp {
+
+/// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
+class UnstableError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// MuJoCo's model and data of one scene (sim/scene.h): a free body "object" whose centre of mass is
+/// its origin, and fingers "finger0" … on three slides each.
+///
+/// Warnings and errors of the engine neither reach the terminal nor leave a log file: they become
+/// exceptions. Lengths in metres, forces in newtons, all in the world frame of the scene.
+class Engine {
+ public:
+  /// Everything that the next steps depend on: replaying from a saved state gives the same bits.
+  struct State {
+    double time = 0;
+    std::vector<double> qpos, qvel, qacc_warmstart;
+  };
+
+  /// @throws EnvironmentError  the engine does not take the scene.
+  Engine(const std::string& mjcf, int fingers);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  [[nodiscard]] double time() const;
+  [[nodiscard]] Eigen::Isometry3d object_pose() const;
+  [[nodiscard]] Eigen::Vector3d tip(int finger) const;
+  /// Force of a finger on the object in the last step; zero where they do not touch.
+  [[nodiscard]] Eigen::Vector3d contact_force(int finger) const;
+
+  /// Moves a finger there at once, at rest.
+  void PlaceTip(int finger, const Eigen::Vector3d& tip);
+  /// What the finger's servo steers for: its tip position at rest under no force.
+  void SetTarget(int finger, const Eigen::Vector3d& target);
+  /// The patches of this site, and no others, stop the finger; none where −1.
+  void SetSite(int finger, int site);
+  void AddSite(int finger, int site);
+  /// Acceleration along −z, m/s².
+  void SetGravity(double gravity);
+  /// Force and torque on the object about its centre of mass, besides gravity and fingers.
+  void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+  /// One time step.
+  /// @throws UnstableError
+  void Step();
+
+  [[nodiscard]] State Save() const;
+  void Restore(const State& state);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace regrasp

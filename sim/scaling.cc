@@ -1,0 +1,60 @@
+#include "sim/scaling.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+
+namespace regrasp {
+namespace {
+
+/// Bodies that can be simulated. MuJoCo takes inertias and volumes below 1e-15 for zero: a patch
+/// prism of a 2 mm body has 1e-14 m³, a body of 2 mm and 1 mg an inertia of 1e-13 kg m².
+constexpr double kLeastDiameter = 2e-3, kLargestDiameter = 1e3;  // metres
+constexpr double kLeastMass = 1e-6, kLargestMass = 1e9;          // kilograms
+constexpr double kLeastSqueeze = 1e-9, kLargestSqueeze = 1e15;   // newtons
+
+/// Limits that the constants of the header must keep; see DeriveSettings.
+static_assert(kStiffness >= 5);
+static_assert(kDampingStep <= 0.6);
+
+void CheckRange(const char* what, double value, double least, double largest, const char* unit) {
+  if (value >= least && value <= largest) return;
+  throw InputError("replay: the object's " + std::string(what) + " of " + FormatShort(value) + " " +
+                   unit + " is outside " + FormatShort(least) + " to " + FormatShort(largest) +
+                   " " + unit + " (check --scale and --mass)");
+}
+
+}  // namespace
+
+ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
+                              double clearance, const ReplayOptions& options) {
+  if (object.dimension() != 3) throw InputError("replay: planar objects cannot be replayed yet");
+  ReplaySettings s;
+  s.diameter_m = object.diameter() * scale;
+  CheckRange("diameter", s.diameter_m, kLeastDiameter, kLargestDiameter, "m");
+  s.mu = std::tan(options.half_angle.value_or(half_angle));
+  s.mass_kg = options.mass_kg.value_or(options.density_kg_m3 * object.mass_properties().volume *
+                                       scale * scale * scale);
+  CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
+  s.shake = options.shake;
+  s.tolerance = options.tolerance;
+  s.gravity_m_s2 = options.gravity ? kGravity : 0;
+  s.squeeze_N = options.squeeze_N.value_or(
+      s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
+  CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
+  s.timestep_s = kTimestep * std::sqrt(s.diameter_m / kReferenceDiameter);
+  s.finger_stiffness_N_m = kStiffness * s.squeeze_N / s.diameter_m;
+  const double steps = 2 * s.timestep_s / kDampingStep;
+  s.finger_mass_kg = s.finger_stiffness_N_m * steps * steps;
+  s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
+  s.fingertip_radius_m =
+      std::clamp(clearance / 2, kLeastTipRadius * s.diameter_m, kTipRadius * s.diameter_m);
+  s.patch_size_m = kPatchSize * s.diameter_m;
+  s.patch_thickness_m = kPatchThickness * s.diameter_m;
+  return s;
+}
+
+}  // namespace regrasp

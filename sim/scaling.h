@@ -1,0 +1,44 @@
+#pragma once
+
+#include "planner/object/object.h"
+#include "sim/settings.h"
+
+namespace regrasp {
+
+/// Derives mass, squeeze, finger and time step from the body, so that every replay is the same
+/// experiment up to units: two bodies of one shape move through the same positions relative to
+/// their size, after the same number of steps, whatever their size and mass.
+///
+/// With D the diameter, W the weight and F the squeeze (total normal force of a grasp at rest):
+/// - F = W / (kWeightOfShake · shake): the weight is a tenth of the shake, so that a grasp of
+///   quality a little above `shake` resists both together. Less squeeze, by option, asks more
+///   friction of every grasp.
+/// - time step = kTimestep · √(D / kReferenceDiameter), as pendulums scale.
+/// - finger stiffness k = kStiffness · F / D. Below 5 F / D a grasp buckles under its own squeeze.
+/// - finger mass from k so that damping times step over mass, 2 √(k / m) · dt, is kDampingStep:
+///   above 0.6 the explicit damping of the finger's motion turns unstable.
+/// - fingertip radius = kTipRadius · D, or half of `clearance` where that is less.
+///
+/// @param half_angle  θ, radians.
+/// @param scale       metres per unit of the object.
+/// @param clearance   metres: the largest ball that touches the object only at a contact, smallest
+///                    over the plan's contacts (sim/clearance.h).
+/// @throws InputError  size, mass or squeeze out of the range that can be simulated; a planar
+///                     object.
+[[nodiscard]] ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
+                                            double clearance, const ReplayOptions& options);
+
+inline constexpr double kGravity = 9.81;               ///< m/s²
+inline constexpr double kWeightOfShake = 0.1;          ///< weight over shake force
+inline constexpr double kLeastShakeForSqueeze = 1e-3;  ///< a shake of 0 still needs a squeeze
+inline constexpr double kReferenceDiameter = 0.1;      ///< metres
+inline constexpr double kTimestep = 1e-3;              ///< seconds, of a body 10 cm across
+inline constexpr double kStiffness = 20;               ///< k D / F
+inline constexpr double kDampingStep = 0.4;            ///< damping · step / mass
+inline constexpr double kTipRadius = 0.04;             ///< over D
+inline constexpr double kLeastTipRadius = 1e-3;  ///< over D; closer to a concave edge than this
+                                                 ///< the finger is a point all the same
+inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
+inline constexpr double kPatchThickness = 0.01;  ///< over D
+
+}  // namespace regrasp

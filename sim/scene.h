@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+#include "sim/contact_patches.h"
+#include "sim/settings.h"
+
+namespace regrasp {
+
+/// A body and a plan in the frame S of the simulation: metres about the object's centroid.
+struct Scene {
+  ReplaySettings settings;
+  std::vector<ContactSite> sites;                     ///< where fingers touch, metres in S
+  std::vector<std::vector<ContactPatch>> patches;     ///< per site, metres in S
+  std::vector<std::vector<int>> fingers_of_site;      ///< which fingers touch there in the plan
+  std::vector<Eigen::Vector3d> finger_start_S;        ///< tip of every finger at the beginning
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m², about the centroid
+};
+
+/// Metres about the centroid; normal and face stay.
+[[nodiscard]] Contact ToScene(const Object& object, double scale, const Contact& contact);
+
+/// Everything that the replay of `plan` needs to know about the body. Only the initial grasp and
+/// the first `steps` steps are looked at.
+/// @throws InputError  a planar object, a size or mass out of range, a contact that is on no face.
+[[nodiscard]] Scene MakeScene(const Polyhedron& body, const Plan& plan, int steps,
+                              const ReplayOptions& options);
+
+/// The site on `contact.face` whose path passes nearest to the contact.
+[[nodiscard]] int FindSite(const Scene& scene, const Contact& contact_S);
+
+/// The scene as MJCF; every number reads back as the same double.
+/// @param hold  the control of every finger, newtons over stiffness (sim/hand.h), that holds the
+///              initial grasp; stored as the keyframe "hold".
+/// @param surface  whether the object's true surface is written too, for the eye only.
+[[nodiscard]] std::string FormatScene(const Scene& scene, const Polyhedron& body,
+                                      const std::vector<Eigen::Vector3d>& hold, bool surface);
+
+}  // namespace regrasp

@@ -1,0 +1,163 @@
+#include <Eigen/Geometry>
+#include <map>
+
+#include "planner/base/number.h"
+#include "scene_template.h"
+#include "sim/scaling.h"
+#include "sim/scene.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Collision distances are found to this, over D; contacts are 1e-7 D deep.
+constexpr double kCollisionTolerance = 1e-9;
+
+/// The engine needs some inertia for the fingers, which never turn: that of a ball, 2/5 m r².
+constexpr double kBallInertia = 0.4;
+
+/// Impacts are softened over two time steps, the least that the engine's integration bears.
+constexpr double kContactSteps = 2;
+
+std::string Join(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += ' ';
+    text += FormatDouble(value);
+  }
+  return text;
+}
+
+std::string Join(const Vector3d& v) { return Join({v.x(), v.y(), v.z()}); }
+
+std::string Collision(const std::vector<int>& fingers) {
+  int bits = 0;
+  for (const int finger : fingers) bits |= 1 << finger;
+  return " conaffinity=\"" + std::to_string(bits) + "\"";
+}
+
+std::string FormatBox(const ContactPatch& patch, double thickness) {
+  const Vector3d u = patch.outline[1] - patch.outline[0];
+  const Vector3d v = patch.outline[2] - patch.outline[1];
+  const Vector3d inward = v.cross(u).normalized();
+  const Vector3d centre = (patch.outline[0] + patch.outline[2]) / 2 + thickness / 2 * inward;
+  return " type=\"box\" pos=\"" + Join(centre) + "\" xyaxes=\"" + Join(u.normalized()) + " " +
+         Join(v.normalized()) + "\" size=\"" + Join({u.norm() / 2, v.norm() / 2, thickness / 2}) +
+         "\"";
+}
+
+std::string FormatPrismMesh(const std::string& name, const ContactPatch& patch,
+                            const Vector3d& inward, double thickness) {
+  std::string vertices;
+  for (const double depth : {0.0, thickness}) {
+    for (const Vector3d& corner : patch.outline) vertices += Join(corner + depth * inward) + " ";
+  }
+  return "    <mesh name=\"" + name + "\" vertex=\"" + vertices + "\"/>\n";
+}
+
+struct Parts {
+  std::string assets, object_geoms, fingers, actuators;
+};
+
+void AddSurface(const Polyhedron& body, double scale, Parts& parts) {
+  parts.assets += "    <mesh name=\"surface\" vertex=\"";
+  for (const Vector3d& v : body.vertices()) {
+    parts.assets += Join((v - body.mass_properties().centroid) * scale) + " ";
+  }
+  parts.assets += "\" face=\"";
+  for (const auto& [a, b, c] : body.triangles()) {
+    parts.assets += std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + " ";
+  }
+  parts.assets += "\"/>\n";
+  parts.object_geoms += "      <geom class=\"surface\" type=\"mesh\" mesh=\"surface\"/>\n";
+}
+
+void AddPatches(const Scene& scene, const Polyhedron& body, Parts& parts) {
+  for (std::size_t i = 0; i < scene.sites.size(); ++i) {
+    const Vector3d inward = body.inward_normal(scene.sites[i].face);
+    for (std::size_t k = 0; k < scene.patches[i].size(); ++k) {
+      const ContactPatch& patch = scene.patches[i][k];
+      const std::string name = "site" + std::to_string(i) + "_" + std::to_string(k);
+      const double thickness = scene.settings.patch_thickness_m;
+      std::string shape;
+      if (patch.rectangle) {
+        shape = FormatBox(patch, thickness);
+      } else {
+        parts.assets += FormatPrismMesh(name, patch, inward, thickness);
+        shape = " type=\"mesh\" mesh=\"" + name + "\"";
+      }
+      parts.object_geoms += "      <geom name=\"" + name + "\" class=\"patch\"" + shape +
+                            Collision(scene.fingers_of_site[i]) + "/>\n";
+    }
+  }
+}
+
+void AddFinger(const Scene& scene, int finger, Parts& parts) {
+  const std::string name = "finger" + std::to_string(finger);
+  const double mass = scene.settings.finger_mass_kg;
+  const double inertia =
+      kBallInertia * mass * scene.settings.fingertip_radius_m * scene.settings.fingertip_radius_m;
+  parts.fingers += "    <body name=\"" + name + "\" pos=\"" + Join(scene.finger_start_S[finger]) +
+                   "\" childclass=\"finger\">\n      <inertial pos=\"0 0 0\" mass=\"" +
+                   Join({mass}) + "\" diaginertia=\"" + Join({inertia, inertia, inertia}) +
+                   "\"/>\n";
+  for (const char* const axis : {"x", "y", "z"}) {
+    const std::string joint = name + axis;
+    const std::string direction = *axis == 'x' ? "1 0 0" : *axis == 'y' ? "0 1 0" : "0 0 1";
+    parts.fingers += "      <joint name=\"" + joint + "\" axis=\"" + direction + "\"/>\n";
+    parts.actuators +=
+        "    <general class=\"finger\" name=\"" + joint + "\" joint=\"" + joint + "\"/>\n";
+  }
+  parts.fingers += "      <geom name=\"" + name + "\" contype=\"" + std::to_string(1 << finger) +
+                   "\"/>\n    </body>\n";
+}
+
+std::string Fill(const std::map<std::string, std::string>& values) {
+  std::string_view rest = kSceneTemplate;
+  std::string text;
+  for (;;) {
+    const std::size_t open = rest.find("{{");
+    text += rest.substr(0, open);
+    if (open == std::string_view::npos) return text;
+    const std::size_t close = rest.find("}}", open);
+    text += values.at(std::string(rest.substr(open + 2, close - open - 2)));
+    rest.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace
+
+std::string FormatScene(const Scene& scene, const Polyhedron& body,
+                        const std::vector<Vector3d>& hold, bool surface) {
+  const ReplaySettings& s = scene.settings;
+  Parts parts;
+  if (surface) AddSurface(body, s.diameter_m / body.diameter(), parts);
+  AddPatches(scene, body, parts);
+  for (std::size_t f = 0; f < scene.finger_start_S.size(); ++f) {
+    AddFinger(scene, static_cast<int>(f), parts);
+  }
+  std::string controls;
+  for (const Vector3d& control : hold) controls += Join(control) + " ";
+  const Eigen::Matrix3d& I = scene.inertia;
+  return Fill({{"timestep", FormatDouble(s.timestep_s)},
+               {"gravity", FormatDouble(-s.gravity_m_s2)},
+               {"mpr_tolerance", FormatDouble(kCollisionTolerance * s.diameter_m)},
+               {"diameter", FormatDouble(s.diameter_m)},
+               {"light", FormatDouble(s.diameter_m)},
+               {"mu", FormatDouble(s.mu)},
+               {"contact_time", FormatDouble(kContactSteps * s.timestep_s)},
+               {"tip_radius", FormatDouble(s.fingertip_radius_m)},
+               {"stiffness", FormatDouble(s.finger_stiffness_N_m)},
+               {"damping", FormatDouble(s.finger_damping_Ns_m)},
+               {"mass", FormatDouble(s.mass_kg)},
+               {"inertia", Join({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)})},
+               {"assets", parts.assets},
+               {"object_geoms", parts.object_geoms},
+               {"fingers", parts.fingers},
+               {"actuators", parts.actuators},
+               {"hold", controls}});
+}
+
+}  // namespace regrasp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+namespace regrasp {
+
+/// How the replay is set up. What is left out is derived from the body (sim/scaling.h).
+struct ReplayOptions {
+  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
+  std::optional<double> mass_kg;     ///< instead of density
+  double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
+  std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
+  double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
+  double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame
+};
+
+/// The values that the replay ran with.
+struct ReplaySettings {
+  double mu = 0;
+  double mass_kg = 0;
+  double squeeze_N = 0;
+  double shake = 0;
+  double tolerance = 0;
+  double gravity_m_s2 = 0;
+  double diameter_m = 0;  ///< D, the object's; R is half of it
+  double fingertip_radius_m = 0;
+  double finger_mass_kg = 0;
+  double finger_stiffness_N_m = 0;
+  double finger_damping_Ns_m = 0;
+  double timestep_s = 0;
+  double patch_size_m = 0;       ///< half the side of a contact patch
+  double patch_thickness_m = 0;  ///< of the prism under a contact patch
+};
+
+}  // namespace regrasp
