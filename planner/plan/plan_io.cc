@@ -108,7 +108,7 @@ int FaceOf(const JsonReader& json, const Object& object, const Eigen::Vector3d& 
     if (faces.size() > 1) json.Fail("on a border of faces the normal cannot be left out");
     return faces.front();
   }
-  if (std::abs(normal->norm() - 1) > kUnitTolerance) {
+  if (std::abs(normal->norm() - 1) > kNormalLengthTolerance) {
     json.Member("normal").Fail("not of unit length, but " + FormatShort(normal->norm()));
   }
   for (const int face : faces) {
