@@ -25,6 +25,9 @@ constexpr double kSamePoint = 2 * kPointTolerance;
 /// Vertices that a random draw looks at before it gives up; a second of quality tests.
 constexpr int kMaxVertexDraws = 20'000;
 
+/// Quality tests between two reports of progress, a tenth of a second or so.
+constexpr int kProgressEvery = 100;
+
 using Status = RoadmapPlanResult::Status;
 
 /// Thrown inside this file where a random grasp cannot be drawn, a negative answer for the caller.
@@ -75,8 +78,7 @@ class RoadmapPlanner {
   RoadmapPlanResult Run() {
     const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
     const int goal = ChooseVertex(goal_, RandomUse::kGoal, start);
-    options_.progress("searching a sequence among " + std::to_string(roadmap_.vertex_count()) +
-                      " grasps");
+    ReportSearch();
     const std::vector<int> path = FindPath(start, goal);
     RoadmapPlanResult result;
     if (path.empty()) {
@@ -166,8 +168,19 @@ class RoadmapPlanner {
   }
 
   std::vector<int> FindPath(int start, int goal) {
-    const std::vector<int> good = FindPath(start, goal, [&](int v) { return quality_.IsGood(v); });
-    return good.empty() ? FindPath(start, goal, [](int) { return true; }) : good;
+    const VertexFilter good = [&](int vertex) {
+      const bool is_good = quality_.IsGood(vertex);
+      if (quality_.quality_count() % kProgressEvery == 0) ReportSearch();
+      return is_good;
+    };
+    const std::vector<int> path = FindPath(start, goal, good);
+    return path.empty() ? FindPath(start, goal, [](int) { return true; }) : path;
+  }
+
+  void ReportSearch() const {
+    options_.progress("searching a sequence among " + std::to_string(roadmap_.vertex_count()) +
+                      " grasps, quality of " + std::to_string(quality_.quality_count()) +
+                      " tested");
   }
 
   std::vector<int> FindPath(int start, int goal, const VertexFilter& admits) {

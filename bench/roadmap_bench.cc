@@ -1,0 +1,122 @@
+// Building the plain roadmap, and planning on it; the baseline asks the force-closure test of every
+// subset, one after the other.
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <filesystem>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/contact_points.h"
+#include "planner/roadmap/plan_roadmap.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr double kHalfAngleDegrees = 20;
+
+/// The models that are measured: a block, whose contacts oppose each other, and a convex body of
+/// irregular faces, whose contacts hardly ever do.
+constexpr std::array<const char*, 2> kModels = {"cube.obj", "stone.obj"};
+
+const Polyhedron& Model(std::int64_t index) {
+  static std::array<ObjectFile, kModels.size()> files = [] {
+    std::array<ObjectFile, kModels.size()> read;
+    for (std::size_t i = 0; i < kModels.size(); ++i) {
+      read[i] = ReadObject(std::filesystem::path(REGRASP_MODELS) / kModels[i]);
+    }
+    return read;
+  }();
+  return dynamic_cast<const Polyhedron&>(*files.at(index).object);
+}
+
+RoadmapOptions Options(std::int64_t contacts) {
+  RoadmapOptions options;
+  options.half_angle = Radians(kHalfAngleDegrees);
+  options.contacts = static_cast<int>(contacts);
+  return options;
+}
+
+void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertices) {
+  state.SetLabel(kModels.at(state.range(0)));
+  state.counters["subsets"] = static_cast<double>(subsets);
+  state.counters["vertices"] = static_cast<double>(vertices);
+}
+
+/// What a roadmap costs when each of its subsets is tested alone.
+void BM_TestEverySubset(benchmark::State& state) {
+  const Polyhedron& solid = Model(state.range(0));
+  const RoadmapOptions options = Options(state.range(1));
+  const std::vector<Contact> p = SpreadContactPoints(solid, options.contacts, options.seed);
+  const WrenchFrame frame = solid.wrench_frame();
+  const int count = static_cast<int>(p.size());
+  std::int64_t subsets = 0;
+  std::int64_t vertices = 0;
+  for (auto _ : state) {
+    subsets = vertices = 0;
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        for (int c = b + 1; c < count; ++c) {
+          for (int d = c + 1; d < count; ++d) {
+            const std::array<Contact, 4> grasp = {p[a], p[b], p[c], p[d]};
+            ++subsets;
+            vertices += IsForceClosure(grasp, frame, options.half_angle) ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  Describe(state, subsets, vertices);
+}
+
+/// Spreading the points, finding all vertices, and listing them by their triples.
+void BM_BuildRoadmap(benchmark::State& state) {
+  const Polyhedron& solid = Model(state.range(0));
+  const RoadmapOptions options = Options(state.range(1));
+  std::int64_t subsets = 0;
+  std::int64_t vertices = 0;
+  for (auto _ : state) {
+    const Roadmap roadmap = BuildRoadmap(solid, options);
+    subsets = roadmap.candidate_count();
+    vertices = roadmap.vertex_count();
+  }
+  Describe(state, subsets, vertices);
+}
+
+void BM_CountEdgesAndComponents(benchmark::State& state) {
+  const Roadmap roadmap = BuildRoadmap(Model(state.range(0)), Options(state.range(1)));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(roadmap.edge_count());
+    benchmark::DoNotOptimize(roadmap.components());
+  }
+  Describe(state, roadmap.candidate_count(), roadmap.vertex_count());
+}
+
+/// A whole plan between two random grasps, the roadmap included; another seed in each iteration.
+void BM_Plan(benchmark::State& state) {
+  const Polyhedron& solid = Model(state.range(0));
+  RoadmapOptions options = Options(state.range(1));
+  const GraspChoice random = {GraspChoice::Kind::kRandomAny, {}, "random-any"};
+  double switches = 0;
+  std::int64_t vertices = 0;
+  for (auto _ : state) {
+    const RoadmapPlanResult result = PlanOnRoadmap(solid, random, random, options);
+    ++options.seed;
+    switches += result.plan ? static_cast<double>(result.plan->steps.size()) : 0;
+    vertices = result.vertices;
+  }
+  Describe(state, 0, vertices);
+  state.counters["switches"] = benchmark::Counter(switches, benchmark::Counter::kAvgIterations);
+}
+
+const std::vector<std::vector<std::int64_t>> kCases = {{0, 1}, {60, 70}};
+
+BENCHMARK(BM_TestEverySubset)->ArgsProduct(kCases)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_BuildRoadmap)->ArgsProduct(kCases)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_CountEdgesAndComponents)->ArgsProduct(kCases)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Plan)->ArgsProduct({{0, 1}, {60}})->Unit(benchmark::kMillisecond);
+
+}  // namespace
