@@ -56,10 +56,18 @@ template <int kDim>
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d SupportForce(const UnitContact& contact,
                                                   const Eigen::Vector3d& u) {
-  const Eigen::Vector3d sliding = u - contact.n.dot(u) * contact.n;
-  const double speed = sliding.norm();
-  const Eigen::Vector3d tangent =
-      speed > 0 ? Eigen::Vector3d(sliding / speed) : AnyTangent<kDim>(contact.n);
+  Eigen::Vector3d tangent = AnyTangent<kDim>(contact.n);
+  if constexpr (kDim == 3) {
+    if (tangent.dot(u) < 0) tangent = -tangent;
+  } else {
+    const Eigen::Vector3d sliding = u - contact.n.dot(u) * contact.n;
+    const double speed = sliding.norm();
+    if (speed > 0) {
+      // Next to nothing, the sliding is rounding and need not be perpendicular: project once more.
+      tangent = sliding / speed;
+      tangent = (tangent - contact.n.dot(tangent) * contact.n).normalized();
+    }
+  }
   return contact.axial * contact.n + contact.tangential * tangent;
 }
 

@@ -109,7 +109,9 @@ double DistanceFromLine(const UnitContacts& contacts) {
 /// The start is inside the hull, and not in a flat one, only if the contacts are not collinear.
 template <int kDim>
 double LowerBoundBeyondStart(const UnitContacts& contacts, WrenchSimplex<kDim>& simplex) {
-  const double reach = simplex.Maximise(simplex.start(), 0, {.enough = kClearReach}).lower;
+  const double reach =
+      simplex.Maximise(simplex.start(), 0, {.gap = kForceClosureEpsilon, .enough = kClearReach})
+          .lower;
   if (!(reach > kForceClosureEpsilon) || !std::isfinite(reach)) return 0;
   double least = 1;
   for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -12,7 +12,11 @@ constexpr double kTorqueRounding = 1e-13;
 }  // namespace
 
 Turn TurnAboutLine(const UnitContact& a, const UnitContact& b, const UnitContact& c) {
-  const Eigen::Vector3d u = (b.q - a.q).cross(c.q - a.q);
+  const Eigen::Vector3d line = b.q - a.q;
+  const double length_squared = line.squaredNorm();
+  if (length_squared <= kOnLine * kOnLine) return Turn::kUnclear;  // coincident: no line
+  const Eigen::Vector3d u = line.cross(c.q - a.q);
+  if (u.squaredNorm() <= kOnLine * kOnLine * length_squared) return Turn::kNone;
   const double along = c.n.dot(u);
   const double normal = std::abs(c.axial * along);
   const double sliding_squared = c.tangential * c.tangential * (u - along * c.n).squaredNorm();
@@ -54,6 +58,8 @@ PairLineVerdict JudgePairLines(std::span<const UnitContact> contacts) {
             break;
           case Turn::kBoth:
             positive = negative = true;
+            break;
+          case Turn::kNone:
             break;
           case Turn::kUnclear:
             unclear = true;

@@ -11,7 +11,8 @@ enum class Turn : unsigned char {
   kPositive,  ///< certain: all of them the positive way
   kNegative,  ///< certain: all of them the negative way
   kBoth,      ///< certain: some this way, some the other
-  kUnclear,   ///< rounding hides it; so for a contact on the line
+  kNone,      ///< the contact is on the line
+  kUnclear,   ///< rounding hides it
 };
 
 /// The way contact c turns the object about the line from a to b.
@@ -31,6 +32,9 @@ enum class PairLineVerdict {
   kYes,   ///< an antipodal pair, and about its line the others turn the object both ways
   kOpen,  ///< neither
 };
+
+/// Contacts this close to a line, in a frame where the contacts have radius 1, count as on it.
+inline constexpr double kOnLine = 1e-12;
 
 /// Looks at all pairs. Forces at the two contacts have no torque about their line, whatever the
 /// friction, so kNo holds even for grasps that a separating twist can only touch: two contacts that

@@ -24,6 +24,11 @@ TurnTable::TurnTable(std::span<const UnitContact> contacts)
 
 void TurnTable::Store(int a, int b, int c, Turn turn) {
   if (turn == Turn::kUnclear) return;
+  if (turn == Turn::kNone) {
+    Store(a, b, c, Turn::kPositive);
+    Store(a, b, c, Turn::kNegative);
+    return;
+  }
   const int kind = turn == Turn::kPositive ? 0 : turn == Turn::kNegative ? 1 : 2;
   Set(&by_contact_[Row(Pair(a, b) + kind)], c);
   Set(&by_contact_[Row(Pair(b, a) + kind)], c);

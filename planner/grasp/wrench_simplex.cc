@@ -27,6 +27,10 @@ constexpr double kRatioSlack = 1e-13;
 /// A column improves only if its reduced cost exceeds this, relative to |twist| · |wrench|.
 constexpr double kImprovement = 1e-14;
 
+/// The distance to the hull is found to this part of itself: closer, neighbouring rim forces of one
+/// contact become nearly the same column, and the inverse loses its digits.
+constexpr double kNearestGap = 1e-6;
+
 /// Grasps take 5 to 20 pivots, forces of full precision 30 to 60: what takes more is stalling.
 constexpr int kMaxPivots = 200;
 
@@ -218,9 +222,11 @@ typename WrenchSimplex<kDim>::Status WrenchSimplex<kDim>::FindWeights(bool stop_
     const double reduced_cost = ReducedCost(column);
     if (stop_early && Separates(reduced_cost)) return Status::kInfeasible;
     if (!(reduced_cost > kImprovement * TwistSize() * column_size_)) break;
+    if (reduced_cost <= kNearestGap * unbalanced()) break;
     if (!Enter(column)) break;
     if (artificial_count_ == 0) return Status::kFeasible;
   }
+  Refactor();
   if (unbalanced() <= kSeparation * column_size_) return Status::kFeasible;
   return Separates(ReducedCost(BestColumn())) ? Status::kInfeasible : Status::kStalled;
 }
@@ -245,7 +251,7 @@ typename WrenchSimplex<kDim>::Maximum WrenchSimplex<kDim>::Maximise(const Vector
     maximum.lower = tableau_[row][kSolution];
     maximum.upper = std::min(maximum.upper, maximum.lower + std::max(reduced_cost, 0.0));
     if (maximum.upper - maximum.lower <= goal.gap) break;
-    if (maximum.lower > goal.enough || maximum.upper < goal.enough) break;
+    if (maximum.lower > goal.enough) break;
     if (!Enter(best)) return {kInfinity, kInfinity};
   }
   Refactor();

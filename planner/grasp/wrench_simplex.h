@@ -51,7 +51,7 @@ class WrenchSimplex {
   /// Where Maximise may end.
   struct Goal {
     double gap = 0;                                           ///< upper − lower ≤ gap
-    double enough = std::numeric_limits<double>::infinity();  ///< lower > enough, upper < enough
+    double enough = std::numeric_limits<double>::infinity();  ///< lower > enough
   };
 
   /// Once weights are found: maximises the weight of `column`, a wrench, whose part of the sum

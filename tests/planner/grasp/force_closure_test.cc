@@ -1,0 +1,281 @@
+#include "planner/grasp/force_closure.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "planner/base/angle.h"
+#include "pyramid_program.h"
+#include "random_grasps.h"
+
+namespace regrasp {
+namespace {
+
+constexpr int kSides = 64;
+/// GLPK's own feasibility tolerance is 1e-7: margins within this say nothing.
+constexpr double kProgramTolerance = 1e-6;
+
+bool PyramidForceClosure(const Grasp& grasp, int dimension, double half_angle, bool circumscribed) {
+  const auto margin =
+      PyramidMargin(grasp, UnitFrame(dimension), half_angle, {kSides, circumscribed}, {});
+  return margin && *margin > kProgramTolerance;
+}
+
+bool PyramidRulesOut(const Grasp& grasp, int dimension, double half_angle) {
+  const auto margin = PyramidMargin(grasp, UnitFrame(dimension), half_angle, {kSides, true}, {});
+  return !margin || *margin < -kProgramTolerance;
+}
+
+Decision Decide(const Grasp& grasp, int dimension, double half_angle) {
+  return TestForceClosure(grasp, UnitFrame(dimension), half_angle).decision;
+}
+
+struct Agreement {
+  int yes = 0;
+  int no = 0;
+  int between = 0;
+};
+
+/// Compares with both pyramids; what lies between them proves nothing.
+void Compare(const Grasp& grasp, int dimension, double half_angle, Agreement& agreement) {
+  const ForceClosure answer = TestForceClosure(grasp, UnitFrame(dimension), half_angle);
+  EXPECT_LE(answer.margin_lower, answer.margin_upper);
+  if (PyramidForceClosure(grasp, dimension, half_angle, false)) {
+    EXPECT_EQ(answer.decision, Decision::kYes) << "half-angle " << Degrees(half_angle);
+    EXPECT_GT(answer.margin_lower, 0);
+    ++agreement.yes;
+  } else if (PyramidRulesOut(grasp, dimension, half_angle)) {
+    EXPECT_EQ(answer.decision, Decision::kNo) << "half-angle " << Degrees(half_angle);
+    EXPECT_LE(answer.margin_upper, 0);
+    ++agreement.no;
+  } else {
+    ++agreement.between;
+  }
+}
+
+TEST(ForceClosureTest, AgreesWithInscribedAndCircumscribedPyramidsInSpace) {
+  RandomGrasps random(1);
+  Agreement agreement;
+  for (int trial = 0; trial < 2400; ++trial) {
+    const int count = 3 + trial % 4;
+    const double half_angle = Radians(random.Uniform(2, 60));
+    Compare(trial % 2 == 0 ? random.OnBall(count, 3) : random.OnBox(count, 3), 3, half_angle,
+            agreement);
+  }
+  EXPECT_GT(agreement.yes, 300);
+  EXPECT_GT(agreement.no, 300);
+  // Two of 1000 fall into the gap of the pyramids or onto a structural zero of the pair lines.
+  EXPECT_LT(agreement.between, 1200);
+  RecordProperty("between", agreement.between);
+}
+
+TEST(ForceClosureTest, AgreesWithTheLinearProgramInThePlane) {
+  RandomGrasps random(2);
+  Agreement agreement;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int count = 2 + trial % 4;
+    const double half_angle = Radians(random.Uniform(2, 60));
+    Compare(trial % 2 == 0 ? random.OnBall(count, 2) : random.OnBox(count, 2), 2, half_angle,
+            agreement);
+  }
+  EXPECT_GT(agreement.yes, 300);
+  EXPECT_GT(agreement.no, 300);
+  EXPECT_LT(agreement.between, 20);
+}
+
+/// Four fingers around the equator of a ball, tetrahedra, …: named grasps of known answer.
+Grasp Tetrahedron() {
+  Grasp grasp;
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, -1, -1),
+                                        Eigen::Vector3d(-1, 1, -1), Eigen::Vector3d(-1, -1, 1)}) {
+    const Eigen::Vector3d p = corner.normalized();
+    grasp.push_back({p, -p});
+  }
+  return grasp;
+}
+
+TEST(ForceClosureTest, ARegularTetrahedronIsForceClosureAtAnyFriction) {
+  for (const double degrees : {0.1, 1.0, 10.0, 45.0, 89.9}) {
+    EXPECT_EQ(Decide(Tetrahedron(), 3, Radians(degrees)), Decision::kYes) << degrees;
+  }
+}
+
+TEST(ForceClosureTest, CollinearContactsInSpaceAreNever) {
+  for (const int count : {2, 3, 4, 6}) {
+    Grasp grasp;
+    for (int i = 0; i < count; ++i) {
+      const double x = i - 0.5 * (count - 1);
+      grasp.push_back({{x, 0, 0}, Eigen::Vector3d(x < 0 ? 1 : -1, 0, 0)});
+    }
+    EXPECT_EQ(Decide(grasp, 3, Radians(60)), Decision::kNo) << count;
+    RandomGrasps random(3);
+    const Eigen::Matrix3d turn = random.Rotation(3);
+    for (Contact& contact : grasp) contact = {turn * contact.p, turn * contact.n};
+    EXPECT_EQ(Decide(grasp, 3, Radians(60)), Decision::kNo) << count;
+  }
+}
+
+TEST(ForceClosureTest, ThreeCollinearContactsAndOneBesideTheirLineAreNever) {
+  Grasp grasp{{{-1, 0, 0}, {1, 0, 0}},
+              {{0.1, 0, 0}, {0, 1, 0}},
+              {{1, 0, 0}, {-1, 0, 0}},
+              {{0, 1, 0.2}, {0, -0.6, 0.8}}};
+  EXPECT_EQ(Decide(grasp, 3, Radians(30)), Decision::kNo);
+  // The control: the fourth contact's cone contains the line's direction about which it turned.
+  grasp[3].n = Eigen::Vector3d(0, -1, -0.2).normalized();
+  EXPECT_EQ(Decide(grasp, 3, Radians(30)), Decision::kYes);
+}
+
+TEST(ForceClosureTest, OneContactAndCoincidentContactsAreNever) {
+  const Contact contact{{1, 0, 0}, {-1, 0, 0}};
+  const Contact opposite{{1, 0, 0}, {1, 0, 0}};
+  for (const int dimension : {2, 3}) {
+    EXPECT_EQ(Decide({contact}, dimension, Radians(80)), Decision::kNo);
+    EXPECT_EQ(Decide({contact, opposite, contact, opposite}, dimension, Radians(80)),
+              Decision::kNo);
+  }
+}
+
+TEST(ForceClosureTest, TwoBalancingContactsDoNotHelpWhereTheOthersPushTheSameWayAboutTheirLine) {
+  // Fingers 0 and 1 squeeze along x; 2 and 3 touch the top and turn the object the same way.
+  Grasp grasp{{{-1, 0, 0}, {1, 0, 0}},
+              {{1, 0, 0}, {-1, 0, 0}},
+              {{-0.3, 0.8, 1}, {0, 0, -1}},
+              {{0.4, 0.9, 1}, {0, 0, -1}}};
+  EXPECT_EQ(Decide(grasp, 3, Radians(20)), Decision::kNo);
+  // The control: finger 3 on the other side of the line.
+  grasp[3].p.y() = -0.9;
+  EXPECT_EQ(Decide(grasp, 3, Radians(20)), Decision::kYes);
+  // And with more friction the force of finger 2 reaches across the line.
+  grasp[3].p.y() = 0.9;
+  EXPECT_EQ(Decide(grasp, 3, Radians(45)), Decision::kYes);
+}
+
+TEST(ForceClosureTest, CoplanarContactsCanBeForceClosureInSpace) {
+  Grasp grasp;
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 3;
+    const Eigen::Vector3d p(std::cos(angle), std::sin(angle), 0);
+    grasp.push_back({p, -p});
+  }
+  EXPECT_EQ(Decide(grasp, 3, Radians(5)), Decision::kYes);
+  // Bent out of the plane by more than the cone, all push upwards.
+  for (Contact& contact : grasp) {
+    contact.n = (contact.n + std::tan(Radians(6)) * Eigen::Vector3d::UnitZ()).normalized();
+  }
+  EXPECT_EQ(Decide(grasp, 3, Radians(5)), Decision::kNo);
+}
+
+TEST(ForceClosureTest, TwoCoincidentContactsCountAsTheHullOfTheirCones) {
+  Grasp grasp = Tetrahedron();
+  const Contact& repeated = grasp[2];
+  EXPECT_EQ(Decide({grasp[0], grasp[1], repeated, repeated}, 3, Radians(60)), Decision::kYes);
+  EXPECT_EQ(Decide({grasp[0], grasp[1], repeated}, 3, Radians(60)), Decision::kYes);
+  grasp.push_back(grasp.front());
+  EXPECT_EQ(Decide(grasp, 3, Radians(10)), Decision::kYes);
+  EXPECT_EQ(Decide({grasp[0], grasp[4], grasp[1], grasp[1]}, 3, Radians(10)), Decision::kNo);
+}
+
+TEST(ForceClosureTest, PlanarFourFingersOnASquareAreForceClosureThoughColumnsAreOpposite) {
+  const Grasp square{{{-1, 0, 0}, {1, 0, 0}},
+                     {{1, 0, 0}, {-1, 0, 0}},
+                     {{0, -1, 0}, {0, 1, 0}},
+                     {{0, 1, 0}, {0, -1, 0}}};
+  for (const double degrees : {0.1, 10.0, 45.0, 80.0}) {
+    EXPECT_EQ(Decide(square, 2, Radians(degrees)), Decision::kYes) << degrees;
+    EXPECT_EQ(Decide(square, 3, Radians(degrees)), Decision::kYes) << degrees;
+  }
+}
+
+/// Calls `check` with random grasps in space and in the plane, about half of them force closure.
+template <typename Check>
+void ForManyGrasps(unsigned seed, Check check) {
+  RandomGrasps random(seed);
+  int yes = 0;
+  int no = 0;
+  for (int trial = 0; trial < 800; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const int count = dimension + trial % 5;
+    const double half_angle = Radians(random.Uniform(2, 50));
+    const Grasp grasp =
+        trial % 3 == 0 ? random.OnBox(count, dimension) : random.OnBall(count, dimension);
+    const bool holds = IsForceClosure(grasp, UnitFrame(dimension), half_angle);
+    ++(holds ? yes : no);
+    check(random, grasp, dimension, half_angle, holds);
+  }
+  EXPECT_GT(yes, 100);
+  EXPECT_GT(no, 100);
+}
+
+TEST(ForceClosureTest, TheOrderOfTheContactsDoesNotMatter) {
+  ForManyGrasps(4, [](RandomGrasps& random, Grasp grasp, int dimension, double angle, bool holds) {
+    for (std::size_t i = grasp.size(); i > 1; --i) {
+      std::swap(grasp[i - 1], grasp[random.Index(static_cast<int>(i))]);
+    }
+    EXPECT_EQ(IsForceClosure(grasp, UnitFrame(dimension), angle), holds);
+  });
+}
+
+TEST(ForceClosureTest, RigidMotionAndTheUnitOfLengthDoNotMatter) {
+  ForManyGrasps(5, [](RandomGrasps& random, Grasp grasp, int dimension, double angle, bool holds) {
+    const double unit = std::pow(10, random.Uniform(-6, 6));
+    const Eigen::Matrix3d turn = random.Rotation(dimension);
+    const Eigen::Vector3d shift = 1e3 * unit * random.Direction(dimension);
+    for (Contact& contact : grasp) {
+      contact = {unit * (turn * contact.p) + shift, turn * contact.n};
+    }
+    EXPECT_EQ(IsForceClosure(grasp, {shift, unit, dimension}, angle), holds);
+    EXPECT_EQ(IsForceClosure(grasp, {Eigen::Vector3d::Zero(), 1, dimension}, angle), holds);
+  });
+}
+
+TEST(ForceClosureTest, MoreFrictionAndMoreContactsNeverTurnYesIntoNo) {
+  ForManyGrasps(6, [](RandomGrasps& random, Grasp grasp, int dimension, double angle, bool holds) {
+    if (!holds) return;
+    const double more = random.Uniform(angle, Radians(89.9));
+    EXPECT_TRUE(IsForceClosure(grasp, UnitFrame(dimension), more));
+    grasp.push_back(random.OnBall(1, dimension).front());
+    EXPECT_TRUE(IsForceClosure(grasp, UnitFrame(dimension), angle));
+  });
+}
+
+TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
+  // Fingers on a coarse grid of a cube: antipodal pairs, coplanar and collinear ones in plenty.
+  RandomGrasps random(7);
+  int yes = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    Grasp grasp = random.OnBox(4, 3);
+    for (Contact& contact : grasp) contact.p = (2 * contact.p).array().round() / 2;
+    const double half_angle = Radians(random.Uniform(10, 40));
+    if (!PyramidForceClosure(grasp, 3, half_angle, false)) continue;
+    EXPECT_EQ(Decide(grasp, 3, half_angle), Decision::kYes);
+    ++yes;
+  }
+  EXPECT_GT(yes, 150);
+}
+
+TEST(ForceClosureTest, BadArgumentsThrow) {
+  const Grasp good = Tetrahedron();
+  const WrenchFrame frame = UnitFrame(3);
+  EXPECT_NO_THROW((void)TestForceClosure(good, frame, 0.3));
+  for (const double angle : {0.0, -0.1, std::numbers::pi / 2, std::nan("")}) {
+    EXPECT_THROW((void)TestForceClosure(good, frame, angle), std::invalid_argument) << angle;
+  }
+  EXPECT_THROW((void)TestForceClosure({}, frame, 0.3), std::invalid_argument);
+  EXPECT_THROW((void)TestForceClosure(good, {frame.origin, 0, 3}, 0.3), std::invalid_argument);
+  EXPECT_THROW((void)TestForceClosure(good, {frame.origin, 1, 4}, 0.3), std::invalid_argument);
+  EXPECT_THROW((void)TestForceClosure(good, UnitFrame(2), 0.3), std::invalid_argument);
+  Grasp bad = good;
+  bad[1].n *= 1.01;
+  EXPECT_THROW((void)TestForceClosure(bad, frame, 0.3), std::invalid_argument);
+  bad = good;
+  bad[2].p.x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)TestForceClosure(bad, frame, 0.3), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,148 @@
+#include "planner/grasp/grasp_forces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/force_closure.h"
+#include "pyramid_program.h"
+#include "random_grasps.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kTotal = 7.5;      // newtons, the total normal force of these tests
+constexpr double kRounding = 1e-9;  // newtons, far above what 60 pivots lose
+
+Wrench RandomLoad(RandomGrasps& random, int dimension, double size) {
+  Wrench load;
+  load.force = size * random.Direction(dimension);
+  load.torque_over_radius =
+      size * (dimension == 3 ? random.Direction(3) : Eigen::Vector3d(0, 0, random.Uniform(-1, 1)));
+  return load;
+}
+
+double Unbalanced(const Grasp& grasp, const WrenchFrame& frame, const GraspForces& result,
+                  const Wrench& load) {
+  Eigen::Vector3d force = load.force;
+  Eigen::Vector3d torque = load.torque_over_radius;
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    force += result.forces[i];
+    torque += (grasp[i].p - frame.origin).cross(result.forces[i]) / frame.radius;
+  }
+  return force.norm() + torque.norm();
+}
+
+/// How much normal force the force has to spare inside the cone; negative outside.
+double Spare(const Contact& contact, const Eigen::Vector3d& force, double half_angle) {
+  const double normal = contact.n.dot(force);
+  return normal - (force - normal * contact.n).norm() / std::tan(half_angle);
+}
+
+double NormalSum(const Grasp& grasp, const GraspForces& result) {
+  double sum = 0;
+  for (std::size_t i = 0; i < grasp.size(); ++i) sum += grasp[i].n.dot(result.forces[i]);
+  return sum;
+}
+
+TEST(GraspForcesTest, BalanceTheLoadInsideTheConesWithTheMarginThatTheyReport) {
+  RandomGrasps random(21);
+  int balanced = 0;
+  int best_effort = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const int count = dimension + trial % 4;
+    const Grasp grasp =
+        trial % 3 == 0 ? random.OnBox(count, dimension) : random.OnBall(count, dimension);
+    const WrenchFrame frame = UnitFrame(dimension);
+    const double half_angle = Radians(random.Uniform(5, 50));
+    const Wrench load = RandomLoad(random, dimension, trial % 4 == 0 ? 0 : 0.01 * kTotal);
+    const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, kTotal);
+    ASSERT_EQ(result.forces.size(), grasp.size());
+    EXPECT_NEAR(NormalSum(grasp, result), kTotal, kRounding);
+    double least = kTotal;
+    for (std::size_t i = 0; i < grasp.size(); ++i) {
+      least = std::min(least, Spare(grasp[i], result.forces[i], half_angle));
+    }
+    EXPECT_GE(least, -kRounding);
+    if (result.balanced) {
+      ++balanced;
+      EXPECT_LT(Unbalanced(grasp, frame, result, load), kRounding);
+      EXPECT_GE(result.margin, 0);
+      EXPECT_GE(least, result.margin * kTotal / count - kRounding);
+    } else {
+      ++best_effort;
+      EXPECT_LT(result.margin, 0);
+      EXPECT_GT(Unbalanced(grasp, frame, result, load), kRounding);
+    }
+  }
+  EXPECT_GT(balanced, 300);
+  EXPECT_GT(best_effort, 300);
+}
+
+TEST(GraspForcesTest, TheMarginIsTheOptimumOfTheLinearProgram) {
+  RandomGrasps random(22);
+  int compared = 0;
+  int infeasible = 0;
+  for (int trial = 0; trial < 800; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = random.OnBall(dimension + 1 + trial % 3, dimension);
+    const WrenchFrame frame = UnitFrame(dimension);
+    const double half_angle = Radians(random.Uniform(10, 50));
+    const Wrench load = RandomLoad(random, dimension, 0.02);
+    const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, 1);
+    const auto inside = PyramidMargin(grasp, frame, half_angle, {64, false}, load);
+    const auto outside = PyramidMargin(grasp, frame, half_angle, {64, true}, load);
+    constexpr double kProgramTolerance = 1e-6;
+    if (inside && *inside > kProgramTolerance) {
+      EXPECT_TRUE(result.balanced);
+      EXPECT_GE(result.margin, *inside - kProgramTolerance);
+      ASSERT_TRUE(outside);
+      EXPECT_LE(result.margin, *outside + kProgramTolerance);
+      ++compared;
+    } else if (!outside || *outside < -kProgramTolerance) {
+      EXPECT_FALSE(result.balanced);
+      ++infeasible;
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(infeasible, 100);
+}
+
+TEST(GraspForcesTest, TwoOpposedFingersPressEquallyAndCarryALoadByFriction) {
+  const Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
+  Wrench load;
+  load.force = {0, -1, 0};
+  const GraspForces result = ComputeGraspForces(grasp, UnitFrame(2), Radians(30), load, 10);
+  EXPECT_TRUE(result.balanced);
+  EXPECT_NEAR((result.forces[0] - Eigen::Vector3d(5, 0.5, 0)).norm(), 0, kRounding);
+  EXPECT_NEAR((result.forces[1] - Eigen::Vector3d(-5, 0.5, 0)).norm(), 0, kRounding);
+  EXPECT_NEAR(result.margin, 1 - 0.1 / std::tan(Radians(30)), kRounding);
+}
+
+TEST(GraspForcesTest, BestEffortUsesWhatTheConesAllow) {
+  // Two fingers that slip: offset 1 over width 2 needs 26.6°. All they can do is to lean.
+  const Grasp grasp{{{-1, -0.5, 0}, {1, 0, 0}}, {{1, 0.5, 0}, {-1, 0, 0}}};
+  const GraspForces result = ComputeGraspForces(grasp, UnitFrame(2), Radians(20), {}, 10);
+  EXPECT_FALSE(result.balanced);
+  const GraspForces enough = ComputeGraspForces(grasp, UnitFrame(2), Radians(27), {}, 10);
+  EXPECT_TRUE(enough.balanced);
+  // Forces cancel; the torque left is (offset − width tan θ) · 5 N over R = 1.
+  EXPECT_NEAR(Unbalanced(grasp, UnitFrame(2), result, {}), 5 - 10 * std::tan(Radians(20)), 1e-6);
+}
+
+TEST(GraspForcesTest, BadArgumentsThrow) {
+  const Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
+  EXPECT_NO_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 0.3, {}, 1));
+  EXPECT_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 0.3, {}, 0), std::invalid_argument);
+  EXPECT_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 2.0, {}, 1), std::invalid_argument);
+  Wrench load;
+  load.force.x() = std::nan("");
+  EXPECT_THROW((void)ComputeGraspForces(grasp, UnitFrame(2), 0.3, load, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

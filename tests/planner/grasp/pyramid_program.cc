@@ -1,0 +1,105 @@
+#include "pyramid_program.h"
+
+#include <glpk.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace regrasp {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+constexpr int kRows = 7;  // balance, and the sum of the normal forces
+/// Lower bound of the margin: any number below what a test compares with.
+constexpr double kLeastMargin = -1e3;
+
+Vector6 WrenchOf(const Contact& contact, const WrenchFrame& frame, const Eigen::Vector3d& force) {
+  Vector6 wrench;
+  wrench << force, (contact.p - frame.origin).cross(force) / frame.radius;
+  return wrench;
+}
+
+class Program {
+ public:
+  Program() : problem_(glp_create_prob(), &glp_delete_prob) {
+    glp_set_obj_dir(problem_.get(), GLP_MAX);
+    glp_add_rows(problem_.get(), kRows);
+  }
+
+  void SetRow(int row, double value) {
+    glp_set_row_bnds(problem_.get(), row, GLP_FX, value, value);
+  }
+
+  /// A column with a wrench and a part of the sum of normal forces; its least value.
+  int AddColumn(const Vector6& wrench, double normal, double least) {
+    const int column = glp_add_cols(problem_.get(), 1);
+    glp_set_col_bnds(problem_.get(), column, GLP_LO, least, 0);
+    std::array<int, kRows + 1> rows{};
+    std::array<double, kRows + 1> values{};
+    for (int r = 1; r <= kRows; ++r) {
+      rows[r] = r;
+      values[r] = r < kRows ? wrench[r - 1] : normal;
+    }
+    glp_set_mat_col(problem_.get(), column, kRows, rows.data(), values.data());
+    return column;
+  }
+
+  std::optional<double> Maximise(int column) {
+    glp_set_obj_coef(problem_.get(), column, 1);
+    glp_smcp parameters;
+    glp_init_smcp(&parameters);
+    parameters.msg_lev = GLP_MSG_OFF;
+    const bool solved = glp_simplex(problem_.get(), &parameters) == 0;
+    if (!solved || glp_get_status(problem_.get()) != GLP_OPT) return std::nullopt;
+    return glp_get_obj_val(problem_.get());
+  }
+
+ private:
+  std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem_;
+};
+
+/// The edges of a contact's pyramid, of unit normal force; in the plane those of the cone itself.
+std::vector<Eigen::Vector3d> Edges(const Contact& contact, int dimension, double half_angle,
+                                   const Pyramid& pyramid) {
+  const double tangential = std::tan(half_angle);
+  if (dimension == 2) {
+    const Eigen::Vector3d tangent(-contact.n.y(), contact.n.x(), 0);
+    return {contact.n + tangential * tangent, contact.n - tangential * tangent};
+  }
+  const double radius =
+      pyramid.circumscribed ? tangential / std::cos(std::numbers::pi / pyramid.sides) : tangential;
+  const Eigen::Vector3d first = contact.n.unitOrthogonal();
+  const Eigen::Vector3d second = contact.n.cross(first);
+  std::vector<Eigen::Vector3d> edges;
+  for (int side = 0; side < pyramid.sides; ++side) {
+    const double angle = 2 * std::numbers::pi * side / pyramid.sides;
+    edges.push_back(contact.n + radius * (std::cos(angle) * first + std::sin(angle) * second));
+  }
+  return edges;
+}
+
+}  // namespace
+
+std::optional<double> PyramidMargin(std::span<const Contact> contacts, const WrenchFrame& frame,
+                                    double half_angle, const Pyramid& pyramid, const Wrench& load) {
+  Program program;
+  for (int r = 0; r < 3; ++r) {
+    program.SetRow(1 + r, -load.force[r]);
+    program.SetRow(4 + r, -load.torque_over_radius[r]);
+  }
+  program.SetRow(kRows, 1);
+  Vector6 inset = Vector6::Zero();
+  for (const Contact& contact : contacts) {
+    inset += WrenchOf(contact, frame, contact.n) / static_cast<double>(contacts.size());
+    for (const Eigen::Vector3d& edge : Edges(contact, frame.dimension, half_angle, pyramid)) {
+      program.AddColumn(WrenchOf(contact, frame, edge), 1, 0);
+    }
+  }
+  return program.Maximise(program.AddColumn(inset, 1, kLeastMargin));
+}
+
+}  // namespace regrasp
