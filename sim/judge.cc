@@ -1,0 +1,72 @@
+#include "sim/judge.h"
+
+#include <algorithm>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+
+namespace regrasp {
+namespace {
+
+double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::Quaterniond a(from.linear()), b(to.linear());
+  return a.angularDistance(b);
+}
+
+}  // namespace
+
+double MeasureMotion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double radius) {
+  return (to.translation() - from.translation()).norm() + radius * RotationAngle(from, to);
+}
+
+void Judge::Start(const Eigen::Isometry3d& X_SB) {
+  const ReplaySettings settings = settings_;
+  *this = Judge(settings);
+  start_ = X_SB;
+}
+
+void Judge::AddPose(const Eigen::Isometry3d& X_SB) {
+  const double moved = MeasureMotion(start_, X_SB, settings_.diameter_m / 2);
+  displacement_ = std::max(displacement_, (X_SB.translation() - start_.translation()).norm());
+  rotation_ = std::max(rotation_, RotationAngle(start_, X_SB));
+  moved_ = std::max(moved_, moved);
+  if (object_moved_.empty() && moved > settings_.tolerance * settings_.diameter_m) {
+    object_moved_ = phase_ + ": the object moved";
+  }
+}
+
+void Judge::AddSlip(int finger, double slip_m) {
+  slip_ = std::max(slip_, slip_m);
+  if (slipped_.empty() && slip_m > settings_.tolerance * settings_.diameter_m) {
+    slipped_ = phase_ + ": finger " + std::to_string(finger) + " slipped";
+  }
+}
+
+void Judge::AddGap(int finger, double gap_m) {
+  if (!lost_.empty() || gap_m <= kLostGap * settings_.diameter_m) return;
+  lost_ = phase_ + ": finger " + std::to_string(finger) + " is " + FormatShort(gap_m) +
+          " m off the surface";
+}
+
+Reason Judge::reason() const {
+  if (!lost_.empty()) return Reason::kContactLost;
+  if (!slipped_.empty()) return Reason::kSlipped;
+  if (!object_moved_.empty()) return Reason::kObjectMoved;
+  return Reason::kNone;
+}
+
+std::string Judge::detail() const {
+  switch (reason()) {
+    case Reason::kContactLost:
+      return lost_;
+    case Reason::kSlipped:
+      return slipped_ + ", " + FormatShort(slip_) + " m in the end";
+    case Reason::kObjectMoved:
+      return object_moved_ + ", " + FormatShort(displacement_) + " m and " +
+             FormatShort(Degrees(rotation_)) + " deg in the end";
+    default:
+      return {};
+  }
+}
+
+}  // namespace regrasp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/plan/plan.h"
+#include "sim/stage.h"
+
+namespace regrasp {
+
+/// The fingers appear at their contacts and take the object: squeeze and weight grow together.
+void TakeHold(Stage& stage, const FingerGrasp& grasp_B);
+
+/// Free fingers come down along the normals, all at once: quickly to kApproachGap, then ever slower
+/// until each feels a force of kTouchForce; there it is anchored.
+void PlaceFingers(Stage& stage, const FingerGrasp& placed_B);
+
+/// Forces go over, on a straight line, into those with which `fingers` hold the object.
+void TransferForces(Stage& stage, const std::vector<int>& fingers);
+
+/// Fingers that push with no force go back along the normals.
+void RetractFingers(Stage& stage, const std::vector<int>& fingers);
+
+/// Place, transfer to the grasp without the released fingers, retract.
+void SwitchFingers(Stage& stage, const FingerGrasp& placed_B, const std::vector<int>& released);
+
+/// Until nothing moves any more.
+void Settle(Stage& stage);
+
+/// Lengths over D, forces over the squeeze, durations in time steps.
+inline constexpr double kStandOff = 0.05;     ///< where a free finger waits before and after
+inline constexpr double kApproachGap = 2e-3;  ///< 0.2 mm on a body of 10 cm
+inline constexpr double kCreepGap = 2e-5;
+inline constexpr double kCreepStep = 1e-6;   ///< a touch at this speed jolts less than 1e-4 F
+inline constexpr double kTouchForce = 2e-4;  ///< 0.01 N at a squeeze of 50 N
+inline constexpr int kHoldSteps = 100;
+inline constexpr int kApproachSteps = 60;
+inline constexpr int kCloseSteps = 60;
+inline constexpr int kMostCreepSteps = 1200;  ///< past the tolerance for the object's motion
+inline constexpr int kTransferSteps = 80;
+inline constexpr int kRetractSteps = 60;
+inline constexpr int kSettleSteps = 40;
+
+}  // namespace regrasp

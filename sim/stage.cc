@@ -1,0 +1,130 @@
+#include "sim/stage.h"
+
+#include <cmath>
+
+namespace regrasp {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Stage::Stage(const Polyhedron& body, const Plan& plan, Scene scene, const ReplayObserver& observer)
+    : body_(body),
+      p_WS_(body.mass_properties().centroid * plan.scale),
+      scene_(std::move(scene)),
+      observer_(observer),
+      engine_(FormatScene(scene_, body, {}, /*surface=*/false),
+              static_cast<int>(scene_.finger_start_S.size())),
+      fingers_(scene_.finger_start_S.size()),
+      judge_(scene_.settings) {
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    engine_.SetSite(static_cast<int>(f), -1);
+    fingers_[f].anchor_S = scene_.finger_start_S[f];
+  }
+  SetGravity(0);
+  StartJudging();
+}
+
+WrenchFrame Stage::frame_B() const { return {Vector3d::Zero(), settings().diameter_m / 2, 3}; }
+
+double Stage::half_angle() const { return std::atan(settings().mu); }
+
+std::vector<int> Stage::HoldingFingers() const {
+  std::vector<int> holding;
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    if (fingers_[f].holding) holding.push_back(static_cast<int>(f));
+  }
+  return holding;
+}
+
+Vector3d Stage::ContactPoint_B(int finger) const {
+  return X_SB().inverse() * engine_.tip(finger) +
+         settings().fingertip_radius_m * fingers_[finger].contact.n;
+}
+
+Vector3d Stage::TipAt_S(const Contact& contact_B, double gap) const {
+  return X_SB() * (contact_B.p - (settings().fingertip_radius_m + gap) * contact_B.n);
+}
+
+Vector3d Stage::weight_S() const { return {0, 0, -settings().mass_kg * gravity_}; }
+
+void Stage::SetGravity(double gravity) {
+  gravity_ = gravity;
+  engine_.SetGravity(gravity);
+}
+
+void Stage::Step() {
+  const Vector3d own_weight(0, 0, settings().finger_mass_kg * gravity_);
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    const StageFinger& finger = fingers_[f];
+    engine_.SetTarget(static_cast<int>(f), finger.anchor_S + (finger.force_S + own_weight) /
+                                                                 settings().finger_stiffness_N_m);
+  }
+  engine_.Step();
+  JudgeMotion();
+  if (sampling_) Sample();
+}
+
+void Stage::Run(int steps) {
+  for (int i = 0; i < steps; ++i) Step();
+}
+
+void Stage::Run(int steps, const std::function<void(double)>& drive) {
+  for (int i = 1; i <= steps; ++i) {
+    drive(static_cast<double>(i) / steps);
+    Step();
+  }
+}
+
+void Stage::StartJudging() {
+  judge_.Start(X_SB());
+  for (const int f : HoldingFingers()) fingers_[f].touch_B = ContactPoint_B(f);
+}
+
+void Stage::JudgeMotion() {
+  judge_.AddPose(X_SB());
+  for (const int f : HoldingFingers()) {
+    const StageFinger& finger = fingers_[f];
+    if (finger.sliding) continue;
+    const Vector3d slide = ContactPoint_B(f) - finger.touch_B;
+    judge_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
+  }
+}
+
+void Stage::JudgeRest() {
+  for (const int f : HoldingFingers()) {
+    const Contact& contact = fingers_[f].contact;
+    judge_.AddGap(f, contact.n.dot(contact.p - ContactPoint_B(f)));
+  }
+}
+
+void Stage::Sample() {
+  if (!observer_.on_sample || engine_.time() < next_sample_) return;
+  observer_.on_sample(TakeSnapshot());
+  next_sample_ = engine_.time() + observer_.sample_interval_s;
+}
+
+Snapshot Stage::TakeSnapshot() const {
+  Snapshot snapshot;
+  snapshot.time_s = engine_.time();
+  const Isometry3d X_SB = this->X_SB();
+  snapshot.X_WO = Eigen::Translation3d(p_WS_) * X_SB * Eigen::Translation3d(-p_WS_);
+  snapshot.fingertip_radius_m = settings().fingertip_radius_m;
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    const StageFinger& finger = fingers_[f];
+    if (finger.contact.face < 0) continue;
+    FingerState state;
+    state.finger = static_cast<int>(f);
+    state.role = finger.role;
+    state.tip_W = p_WS_ + engine_.tip(state.finger);
+    state.normal_W = X_SB.linear() * finger.contact.n;
+    state.contact_W =
+        p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
+    state.force_W = engine_.contact_force(state.finger);
+    state.previous_W =
+        finger.role == FingerRole::kMoved ? p_WS_ + X_SB * finger.previous_B : state.contact_W;
+    snapshot.fingers.push_back(state);
+  }
+  return snapshot;
+}
+
+}  // namespace regrasp
