@@ -9,7 +9,8 @@ namespace regrasp {
 /// What makes a soup not the surface of one solid.
 enum class MeshDefect {
   kEmpty,             ///< no facet, or no volume
-  kNotFinite,         ///< a coordinate is NaN, infinite or out of range, or the size is
+  kNotFinite,         ///< a coordinate is NaN, infinite or beyond kMaxCoordinate
+  kBadSize,           ///< too small, or too far from the origin for its size
   kIndexOutOfRange,   ///< a facet names a vertex that is not there
   kDegenerateFacet,   ///< fewer than three corners, a corner named twice, or no area
   kNotPlanar,         ///< a polygon's corners do not lie in one plane
@@ -18,7 +19,7 @@ enum class MeshDefect {
   kNotOriented,       ///< neighbouring facets run along their edge the same way
   kSelfIntersecting,  ///< two facets meet elsewhere than at a shared edge or vertex
   kSeveralSolids,     ///< two shells beside each other, or a cavity oriented outward
-  kTooLarge,          ///< more facets than kMaxFacets
+  kTooLarge,          ///< more facets or entangled pairs of them than can be checked
 };
 
 /// A mesh that is refused. `what()` is one line: the file, the facet or vertex as the file counts

@@ -14,12 +14,17 @@ namespace regrasp {
 /// so that the material is on the left of every edge.
 class Polygon final : public Object {
  public:
-  /// Checks and orients rings; a ring's last point is not repeated.
-  /// @throws InputError  names the ring, the vertex and what is wrong.
+  /// Checks and orients rings, the outer one first; a ring's last point is not repeated.
+  ///
+  /// Rings must be simple, holes strictly inside the outer ring and not inside or touching each
+  /// other, all decided with exact predicates. Collinear neighbouring edges stay separate edges.
+  /// @throws InputError  names the ring, the vertex or edge (from 0) and what is wrong.
   static Polygon FromRings(std::vector<std::vector<Eigen::Vector2d>> rings,
                            const std::string& name);
 
-  /// Reads `POLYGON((x y, …),(hole …))` or a MULTIPOLYGON of one polygon.
+  /// Reads `POLYGON((x y, …),(hole …))` or a MULTIPOLYGON of one polygon (OGC 06-103r4): any case
+  /// and white space; each ring ends with its first point. The same under any locale.
+  /// @throws InputError  names the ring and vertex, or the place in the text.
   static Polygon FromWkt(std::string_view text, const std::string& name);
 
   /// The outer ring first.

@@ -5,12 +5,12 @@
 #include <cassert>
 #include <utility>
 
-#include "planner/base/number.h"
 #include "planner/object/diameter.h"
 #include "planner/object/face_index.h"
 #include "planner/object/face_joining.h"
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/self_intersection.h"
+#include "planner/object/size_limits.h"
 #include "planner/object/solid.h"
 #include "planner/object/surface_topology.h"
 #include "planner/object/weld.h"
@@ -20,27 +20,6 @@ namespace regrasp {
 using Eigen::Vector3d;
 
 namespace {
-
-/// Smaller objects are refused: inertia (length to the fifth) must stay far from where doubles end.
-constexpr double kMinDiameter = 1e-15;
-
-/// An object farther from the origin than this times its diameter is refused: coordinates there are
-/// rounded to 1e-9 of the diameter, a thousandth of the tolerance of points.
-constexpr double kMaxOffset = 1e7;
-
-void CheckSize(const WeldedSoup& soup, double diameter, const std::string& name) {
-  if (diameter < kMinDiameter) {
-    throw MeshError(MeshDefect::kNotFinite, name + ": vertex 0: all vertices lie within " +
-                                                FormatDouble(kMinDiameter) + " of each other");
-  }
-  for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-    if (soup.vertices[v].norm() <= kMaxOffset * diameter) continue;
-    throw MeshError(MeshDefect::kNotFinite,
-                    name + ": vertex " + std::to_string(soup.vertex_in_file[v]) +
-                        ": too far from the origin for an object with diameter " +
-                        FormatShort(diameter));
-  }
-}
 
 std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
                                            const SurfaceTopology& topology,
@@ -79,7 +58,9 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
 Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name) {
   const WeldedSoup welded = WeldVertices(soup, name);
   const double diameter = ComputeDiameter(welded.vertices);
-  CheckSize(welded, diameter, name);
+  if (const std::string complaint = SizeComplaint(welded.vertices, diameter); !complaint.empty()) {
+    throw MeshError(MeshDefect::kBadSize, name + ": vertices: " + complaint);
+  }
   TriangleMesh mesh = TriangulateFacets(welded, diameter, name);
   SurfaceTopology topology = ComputeTopology(mesh, name);
   CheckSelfIntersection(mesh, name);

@@ -7,6 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
+#include "planner/object/size_limits.h"
 
 namespace regrasp {
 

@@ -8,14 +8,6 @@
 
 namespace regrasp {
 
-/// Larger coordinates are refused: their products of up to five factors, which inertia needs, would
-/// come near the end of double's range, and no object is a million kilometres wide.
-inline constexpr double kMaxCoordinate = 1e15;
-
-/// Meshes with more facets are refused: far above any that can be planned on, and what keeps the
-/// checks below minutes on any input.
-inline constexpr std::size_t kMaxFacets = 1'000'000;
-
 /// A soup in which equal coordinates are one vertex and every vertex is used.
 struct WeldedSoup {
   std::vector<Eigen::Vector3d> vertices;

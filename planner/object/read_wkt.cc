@@ -1,0 +1,131 @@
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/object/polygon_rings.h"
+#include "planner/object/text_scanner.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+/// Boost.Geometry reads WKT too, but follows the locale and says neither ring nor vertex.
+class WktReader {
+ public:
+  WktReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  }
+
+  PolygonRings Read() {
+    const std::string kind = LowerCase(Word());
+    if (kind != "polygon" && kind != "multipolygon") {
+      Fail(Quoted(kind) + " where POLYGON or MULTIPOLYGON should be");
+    }
+    RefuseWords();
+    const bool several = kind == "multipolygon";
+    if (several) Expect('(');
+    RefuseWords();
+    PolygonRings rings = ReadPolygon();
+    if (several && Peek() == ',') Fail("a MULTIPOLYGON of more than one polygon");
+    if (several) Expect(')');
+    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " behind the polygon");
+    return rings;
+  }
+
+ private:
+  PolygonRings ReadPolygon() {
+    PolygonRings rings;
+    Expect('(');
+    do {
+      where_ = "ring " + std::to_string(rings.size());
+      rings.push_back(ReadRing());
+    } while (Take(','));
+    where_.clear();
+    Expect(')');
+    return rings;
+  }
+
+  std::vector<Vector2d> ReadRing() {
+    const std::string ring = where_;
+    if (LowerCase(PeekWord()) == "empty") Fail("empty");
+    std::vector<Vector2d> points;
+    Expect('(');
+    do {
+      where_ = ring + ": vertex " + std::to_string(points.size());
+      const double x = ReadNumber();
+      points.emplace_back(x, ReadNumber());
+      if (Peek() != ',' && Peek() != ')') Fail("more than two coordinates");
+    } while (Take(','));
+    where_ = ring;
+    Expect(')');
+    if (points.size() < 2 || points.front() != points.back()) {
+      Fail("not closed: its last point is not its first");
+    }
+    points.pop_back();
+    return points;
+  }
+
+  double ReadNumber() {
+    const std::string_view word = Word();
+    const auto value = ParseDouble(word);
+    if (!value) Fail(Quoted(word) + " is not a finite number");
+    return *value;
+  }
+
+  /// "POLYGON EMPTY", "POLYGON Z", "POLYGON M".
+  void RefuseWords() {
+    const std::string word = LowerCase(PeekWord());
+    if (word == "empty") Fail("empty");
+    if (!word.empty()) Fail(Quoted(word) + " where \"(\" should be");
+  }
+
+  /// The next character that is not blank; '\0' at the end.
+  char Peek() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
+    return rest_.empty() ? '\0' : rest_.front();
+  }
+
+  bool Take(char c) {
+    if (Peek() != c || rest_.empty()) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+
+  void Expect(char c) {
+    if (Take(c)) return;
+    const std::string expected = std::string("\"") + c + "\"";
+    if (rest_.empty()) Fail("the text ends where " + expected + " should be");
+    Fail(Quoted(rest_.substr(0, 1)) + " where " + expected + " should be");
+  }
+
+  std::string_view PeekWord() {
+    Peek();
+    const std::size_t end = rest_.find_first_of(" \t\r\n\v\f,()");
+    return rest_.substr(0, end);
+  }
+
+  std::string_view Word() {
+    const std::string_view word = PeekWord();
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+
+  [[noreturn]] void Fail(const std::string& what) const {
+    throw InputError(name_ + ": " + (where_.empty() ? "" : where_ + ": ") + what);
+  }
+
+  std::string_view rest_;
+  const std::string& name_;
+  std::string where_;  ///< ring and vertex, for messages
+};
+
+}  // namespace
+
+PolygonRings ReadWktRings(std::string_view text, const std::string& name) {
+  return WktReader(text, name).Read();
+}
+
+}  // namespace regrasp

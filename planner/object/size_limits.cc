@@ -1,0 +1,20 @@
+#include "planner/object/size_limits.h"
+
+#include <algorithm>
+
+#include "planner/base/number.h"
+
+namespace regrasp {
+
+std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices, double diameter) {
+  if (!(diameter >= kMinDiameter)) {
+    return "all vertices lie within " + FormatDouble(kMinDiameter) + " of each other";
+  }
+  const auto too_far = [&](const Eigen::Vector3d& v) { return v.norm() > kMaxOffset * diameter; };
+  const auto found = std::ranges::find_if(vertices, too_far);
+  if (found == vertices.end()) return "";
+  return "too far from the origin (" + FormatShort(found->norm()) + ") for an object of diameter " +
+         FormatShort(diameter);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace regrasp {
+
+/// Larger coordinates are refused: their products of up to five factors, which inertia needs, would
+/// come near the end of double's range, and no object is that wide.
+inline constexpr double kMaxCoordinate = 1e15;
+
+/// Smaller objects are refused, for the same reason at the other end.
+inline constexpr double kMinDiameter = 1e-15;
+
+/// An object farther from the origin than this times its diameter is refused: coordinates there are
+/// rounded to 1e-9 of the diameter, a thousandth of the tolerance of points.
+inline constexpr double kMaxOffset = 1e7;
+
+/// Meshes with more facets and polygons with more edges are refused: far above any that can be
+/// planned on.
+inline constexpr std::size_t kMaxFacets = 1'000'000;
+
+/// More pairs of facets or edges whose boxes overlap are refused, as they would take hours to check
+/// for intersection; a finely meshed body has some ten pairs a facet.
+inline constexpr std::size_t kMaxOverlaps = 100'000'000;
+
+/// What is wrong with the size or place of these vertices; empty where nothing is.
+[[nodiscard]] std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices,
+                                        double diameter);
+
+}  // namespace regrasp
