@@ -1,28 +1,26 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace regrasp {
 
-/// n over k for small k; 0 where n < k.
-[[nodiscard]] constexpr std::int64_t Binomial(int n, int k) {
-  if (n < k) return 0;
-  std::int64_t value = 1;
-  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
-  return value;
+/// n over K; 0 where n < K. A template, so that the divisions are by constants.
+template <int K>
+[[nodiscard]] constexpr std::int64_t Binomial(int n) {
+  if constexpr (K == 0) {
+    return 1;
+  } else {
+    return Binomial<K - 1>(n) * (n - K + 1) / K;
+  }
 }
 
-/// The rank of an ascending combination among all combinations of its size in colexicographic
-/// order: Σ (c_i over i + 1), the combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
+/// The rank of an ascending triple among all triples in colexicographic order: Σ (c_i over i + 1),
+/// the combinatorial number system (Knuth, TAOCP 4A, 7.2.1.3).
 ///
-/// Law: a bijection between the k-subsets of {0, …, n − 1} and {0, …, (n over k) − 1}.
-template <std::size_t K>
-[[nodiscard]] constexpr std::int64_t CombinationRank(const std::array<int, K>& ascending) {
-  std::int64_t rank = 0;
-  for (std::size_t i = 0; i < K; ++i) rank += Binomial(ascending[i], static_cast<int>(i) + 1);
-  return rank;
+/// Law: a bijection between the triples of {0, …, n − 1} and {0, …, (n over 3) − 1}.
+[[nodiscard]] constexpr std::int64_t CombinationRank(const std::array<int, 3>& ascending) {
+  return Binomial<1>(ascending[0]) + Binomial<2>(ascending[1]) + Binomial<3>(ascending[2]);
 }
 
 }  // namespace regrasp

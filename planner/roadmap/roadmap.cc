@@ -51,7 +51,7 @@ Roadmap::Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double h
 }
 
 void Roadmap::ListByTriples() {
-  const auto triples = Binomial(static_cast<int>(points_.size()), 3);
+  const auto triples = Binomial<3>(static_cast<int>(points_.size()));
   triple_begin_.assign(triples + 1, 0);
   for (const Quadruple& vertex : vertices_) {
     for (int i = 0; i < 4; ++i) ++triple_begin_[TripleWithout(vertex, i) + 1];
@@ -97,7 +97,7 @@ int Roadmap::MinSwitches(int from, int to) const {
 }
 
 std::int64_t Roadmap::candidate_count() const {
-  return Binomial(static_cast<int>(points_.size()), 4);
+  return Binomial<4>(static_cast<int>(points_.size()));
 }
 
 std::int64_t Roadmap::edge_count() const {

@@ -8,10 +8,10 @@ namespace regrasp {
 namespace {
 
 TEST(Binomial, KnowsPascalsTriangle) {
-  EXPECT_EQ(Binomial(3, 4), 0);
-  EXPECT_EQ(Binomial(4, 4), 1);
-  EXPECT_EQ(Binomial(60, 4), 487'635);
-  EXPECT_EQ(Binomial(70, 4), 916'895);
+  EXPECT_EQ(Binomial<4>(3), 0);
+  EXPECT_EQ(Binomial<4>(4), 1);
+  EXPECT_EQ(Binomial<4>(60), 487'635);
+  EXPECT_EQ(Binomial<4>(70), 916'895);
 }
 
 TEST(CombinationRank, IsABijectionOntoTheFirstNumbers) {
@@ -20,13 +20,13 @@ TEST(CombinationRank, IsABijectionOntoTheFirstNumbers) {
   for (int a = 0; a < kThings; ++a) {
     for (int b = a + 1; b < kThings; ++b) {
       for (int c = b + 1; c < kThings; ++c) {
-        ranks.insert(CombinationRank(std::array<int, 3>{a, b, c}));
+        ranks.insert(CombinationRank({a, b, c}));
       }
     }
   }
-  EXPECT_EQ(std::ssize(ranks), Binomial(kThings, 3));
+  EXPECT_EQ(std::ssize(ranks), Binomial<3>(kThings));
   EXPECT_EQ(*ranks.begin(), 0);
-  EXPECT_EQ(*ranks.rbegin(), Binomial(kThings, 3) - 1);
+  EXPECT_EQ(*ranks.rbegin(), Binomial<3>(kThings) - 1);
 }
 
 }  // namespace
