@@ -1,0 +1,179 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Model {
+  std::string file;
+  int faces;
+  double diameter;  ///< metres
+  double volume;    ///< cubic metres, square metres in the plane; 0 where there is no closed form
+};
+
+const Model kModels[] = {
+    {"cube.obj", 6, 0.06 * std::sqrt(3), 0.06 * 0.06 * 0.06},
+    {"tetrahedron.obj", 4, 0.072 * std::sqrt(2), 0.072 * 0.072 * 0.072 / 3},
+    {"prism.obj", 5, std::hypot(0.09, 0.08), std::sqrt(3) / 4 * 0.09 * 0.09 * 0.08},
+    {"l_block.obj", 8, std::hypot(0.1, 0.1, 0.06), (0.01 - 0.0036) * 0.06},
+    {"hole_block.obj", 10, std::hypot(0.1, 0.1, 0.06), (0.01 - 0.0025) * 0.06},
+    {"pyramid.obj", 6, 0, 0},
+    {"stone.obj", 20, 0, 0},
+    {"square.wkt", 4, 0.06 * std::sqrt(2), 0.06 * 0.06},
+};
+
+std::filesystem::path ModelPath(const std::string& file) {
+  return std::filesystem::path(REGRASP_SOURCE_DIR) / "models" / file;
+}
+
+/// The contacts of a grasp file, on the faces that they name.
+Grasp ReadModelGrasp(const Model& model, const Object& object, const std::string& which) {
+  const auto path = ModelPath(model.file).replace_extension(which + ".json");
+  Grasp grasp;
+  const Json file = ParseJson(ReadFile(path), path.string());
+  for (const Json& entry : file.at("contacts")) {
+    Contact contact;
+    for (int i = 0; i < object.dimension(); ++i) {
+      contact.p[i] = entry.at("point").at(i);
+      contact.n[i] = entry.at("normal").at(i);
+    }
+    const auto near = object.FacesNear(contact.p, kPointTolerance * object.diameter());
+    EXPECT_EQ(near.size(), 1u) << path;
+    contact.face = near.at(0);
+    grasp.push_back(contact);
+  }
+  return grasp;
+}
+
+TEST(Models, EachReadsWithItsFacesAndSize) {
+  for (const Model& model : kModels) {
+    SCOPED_TRACE(model.file);
+    const ObjectFile file = ReadObject(ModelPath(model.file));
+    EXPECT_EQ(file.file, model.file);
+    EXPECT_EQ(file.sha256.size(), 64u);
+    const Object& object = *file.object;
+    EXPECT_EQ(object.face_count(), model.faces);
+    EXPECT_GE(object.diameter(), 0.05);
+    EXPECT_LE(object.diameter(), 0.16);
+    if (model.volume == 0) continue;
+    EXPECT_NEAR(object.diameter(), model.diameter, 1e-9);
+    EXPECT_NEAR(object.mass_properties().volume, model.volume, 1e-6 * model.volume);
+  }
+}
+
+TEST(Models, EachSolidHasALineThatSaysWhatItIs) {
+  int checked = 0;
+  for (const Model& model : kModels) {
+    if (!model.file.ends_with(".obj")) continue;
+    EXPECT_EQ(ReadFile(ModelPath(model.file)).find("# A"), 0u) << model.file;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 7);
+}
+
+TEST(Models, EveryModelIsInTheTable) {
+  int found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(ModelPath(""))) {
+    const auto ending = entry.path().extension();
+    found += ending != ".json" && ending != ".md";
+  }
+  EXPECT_EQ(found, std::ssize(kModels));
+}
+
+TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
+  constexpr double kFromBorder = 0.008;  // metres
+  int contacts = 0;
+  for (const Model& model : kModels) {
+    const ObjectFile file = ReadObject(ModelPath(model.file));
+    for (const std::string which : {"start", "goal"}) {
+      SCOPED_TRACE(model.file + " " + which);
+      const Grasp grasp = ReadModelGrasp(model, *file.object, which);
+      EXPECT_EQ(std::ssize(grasp), file.object->dimension() + 1);
+      for (const Contact& contact : grasp) {
+        EXPECT_NEAR((file.object->inward_normal(contact.face) - contact.n).norm(), 0, 1e-8);
+        EXPECT_GE(file.object->DistanceToBorder(contact.face, contact.p), kFromBorder);
+        ++contacts;
+      }
+    }
+  }
+  EXPECT_EQ(contacts, 2 * (7 * 4 + 3));
+}
+
+TEST(Models, GraspsAreForceClosureAtTwentyDegreesWithAClearMargin) {
+  constexpr double kHalfAngle = Radians(20);
+  for (const Model& model : kModels) {
+    const ObjectFile file = ReadObject(ModelPath(model.file));
+    const WrenchFrame frame = file.object->wrench_frame();
+    for (const std::string which : {"start", "goal"}) {
+      SCOPED_TRACE(model.file + " " + which);
+      const Grasp grasp = ReadModelGrasp(model, *file.object, which);
+      EXPECT_TRUE(IsForceClosure(grasp, frame, kHalfAngle));
+      const auto required = ComputeRequiredHalfAngle(grasp, frame);
+      ASSERT_TRUE(required.has_value());
+      EXPECT_LE(Degrees(required->upper), 14);
+      EXPECT_GE(ComputeQuality(grasp, frame, kHalfAngle).lower, 0.02);
+    }
+  }
+}
+
+TEST(Models, StartAndGoalShareNoContact) {
+  constexpr double kApart = 0.005;  // metres
+  int compared = 0;
+  for (const Model& model : kModels) {
+    const ObjectFile file = ReadObject(ModelPath(model.file));
+    const Grasp start = ReadModelGrasp(model, *file.object, "start");
+    const Grasp goal = ReadModelGrasp(model, *file.object, "goal");
+    for (const Contact& a : start) {
+      for (const Contact& b : goal) {
+        EXPECT_TRUE((a.p - b.p).norm() >= kApart || a.face != b.face) << model.file;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_EQ(compared, 7 * 16 + 9);
+}
+
+/// Counts contacts that a line of sight from outside the body's hull would not reach.
+int ContactsIn(const std::string& file, bool (*inside)(const Contact&)) {
+  const Model& model =
+      *std::ranges::find_if(kModels, [&](const Model& m) { return m.file == file; });
+  const ObjectFile read = ReadObject(ModelPath(file));
+  int count = 0;
+  for (const std::string which : {"start", "goal"}) {
+    const Grasp grasp = ReadModelGrasp(model, *read.object, which);
+    count += static_cast<int>(std::ranges::count_if(grasp, inside));
+  }
+  return count;
+}
+
+TEST(Models, SomeContactsAreOnInnerFaces) {
+  // The two faces of the L's inner corner lie 4 cm from the axes.
+  EXPECT_GE(ContactsIn("l_block.obj",
+                       [](const Contact& c) { return std::abs(-c.n.dot(c.p) - 0.04) < 1e-9; }),
+            1);
+  EXPECT_GE(ContactsIn("hole_block.obj",
+                       [](const Contact& c) {
+                         return std::abs(c.n.z()) < 0.5 &&
+                                c.p.head<2>().cwiseAbs().maxCoeff() < 0.03;
+                       }),
+            1);
+}
+
+}  // namespace
+}  // namespace regrasp
