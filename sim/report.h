@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/object/object.h"
@@ -10,41 +11,60 @@
 
 namespace regrasp {
 
+enum class Verdict { kPass, kFail, kSkipped };
+
+/// "pass", "fail" or "skipped", as the report spells it.
+[[nodiscard]] std::string_view VerdictName(Verdict verdict);
+
 /// One entry of a report: the hold or a step, what the analysis and the replay say of it.
 struct ReportStep {
   StepCheck check;
-  std::optional<StepReplay>
-      replay;         ///< none where the analytic check failed or the step is skipped
-  std::string frame;  ///< file name of the picture, empty where there is none
+  std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
+  bool skipped = false;              ///< a step before it failed, in the analysis or the replay
+  std::string frame;                 ///< file name of the picture, empty where there is none
 
+  /// The analytic reason, or else that of the replay; kNone for a skipped step.
   [[nodiscard]] Reason reason() const;
-  [[nodiscard]] bool passed() const;
+  [[nodiscard]] const std::string& detail() const;
+  [[nodiscard]] Verdict verdict() const;
 };
 
-/// Everything that `validate` says of a plan; report.json is this (docs/report.schema.json).
+/// Everything that `validate` says of a plan; report.json is this.
 struct Report {
   std::string object_file, object_sha256;
   std::string plan_file, plan_sha256;
+  std::string planner;
   double scale = 1;
   int dimension = 3;
-  double half_angle = 0;  ///< checked against, radians
-  ReplaySettings settings;
+  double half_angle = 0;                   ///< checked against, radians
+  std::optional<ReplaySettings> settings;  ///< none where nothing was replayed
   std::vector<ReportStep> steps;
 
   [[nodiscard]] bool passed() const;
-  /// The step with the smallest margin to its required half-angle; −1 where no step has one.
+  /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
+  /// where no step has one.
   [[nodiscard]] int weakest_step() const;
 };
 
-/// Checks a plan analytically and replays the steps that pass, up to the first that fails.
-/// `object_sha256`, file names and frames are left to the caller.
+/// Checks a plan analytically and replays the steps that pass, up to the first that fails: a step
+/// that fails the analytic check is not replayed, and what follows a failed step is skipped. Both
+/// use the friction of `check` where it is given, otherwise the plan's.
+///
+/// Files' names and digests, and frames, are left to the caller.
+/// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
 [[nodiscard]] Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
                               const ReplayOptions& replay, const ReplayObserver& observer = {});
 
+/// The text of report.json. Beside what docs/formats.md promises it has, for each step, `detail`
+/// for people, `undecided` and, for an align, how it was carried out. Bytes of file names that are
+/// not UTF-8 are replaced.
 [[nodiscard]] std::string FormatReportJson(const Report& report);
+
+/// JUnit XML for CI servers: a suite for the plan, a case for each entry.
 [[nodiscard]] std::string FormatReportJunit(const Report& report);
-/// A readable table: a line per step with required half-angle, displacement and verdict, then the
-/// weakest step.
+
+/// A readable table: a line per step with required half-angle, displacement, slip and verdict, then
+/// why a step failed, the weakest step, and the verdict.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
 }  // namespace regrasp

@@ -1,0 +1,105 @@
+#include "sim/report.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace regrasp {
+
+namespace {
+
+/// How many steps from the first on pass the analytic check.
+int CountPassing(const std::vector<StepCheck>& steps) {
+  const auto fails = [](const StepCheck& step) {
+    return step.skipped || step.reason != Reason::kNone;
+  };
+  return static_cast<int>(std::find_if(steps.begin(), steps.end(), fails) - steps.begin());
+}
+
+void Replay(const Object& object, const Plan& located, const ReplayOptions& options,
+            const ReplayObserver& observer, int count, Report& report) {
+  ReplayResult result = ReplayPlan(object, located, options, observer, count);
+  report.settings = result.settings;
+  for (StepReplay& step : result.steps) {
+    report.steps[step.index].replay = std::move(step);
+  }
+}
+
+/// What follows the first failure is skipped, whoever found it.
+void SkipAfterFailure(std::vector<ReportStep>& steps) {
+  bool failed = false;
+  for (ReportStep& step : steps) {
+    step.skipped = failed || step.check.skipped;
+    failed = failed || step.reason() != Reason::kNone;
+    // Nothing passes that was not replayed.
+    if (!failed && !step.replay) throw std::logic_error("the replay left out a step");
+  }
+}
+
+}  // namespace
+
+std::string_view VerdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kSkipped:
+      return "skipped";
+  }
+  return "";
+}
+
+Reason ReportStep::reason() const {
+  if (skipped) return Reason::kNone;
+  if (check.reason != Reason::kNone) return check.reason;
+  return replay ? replay->reason : Reason::kNone;
+}
+
+const std::string& ReportStep::detail() const {
+  return replay && check.reason == Reason::kNone ? replay->detail : check.detail;
+}
+
+Verdict ReportStep::verdict() const {
+  if (skipped) return Verdict::kSkipped;
+  return reason() == Reason::kNone ? Verdict::kPass : Verdict::kFail;
+}
+
+bool Report::passed() const {
+  return std::all_of(steps.begin(), steps.end(),
+                     [](const ReportStep& step) { return step.verdict() == Verdict::kPass; });
+}
+
+int Report::weakest_step() const {
+  int weakest = -1;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const ReportStep& step : steps) {
+    if (step.skipped || !step.check.required) continue;
+    if (step.check.required->upper > largest) {
+      largest = step.check.required->upper;
+      weakest = step.check.index;
+    }
+  }
+  return weakest;
+}
+
+Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
+                const ReplayOptions& replay, const ReplayObserver& observer) {
+  const PlanCheck checked = CheckPlan(object, plan, check);
+  Report report;
+  report.scale = plan.scale;
+  report.dimension = plan.dimension;
+  report.planner = plan.planner;
+  report.half_angle = check.half_angle.value_or(plan.half_angle);
+  for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
+  const int passing = CountPassing(checked.steps);
+  if (passing > 0) {
+    ReplayOptions options = replay;
+    options.half_angle = report.half_angle;
+    Replay(object, checked.located, options, observer, passing, report);
+  }
+  SkipAfterFailure(report.steps);
+  return report;
+}
+
+}  // namespace regrasp

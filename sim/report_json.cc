@@ -1,0 +1,90 @@
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/json.h"
+#include "sim/report.h"
+
+namespace regrasp {
+
+namespace {
+
+Json MakeSettings(const Report& report) {
+  Json settings = {{"friction_half_angle_deg", Degrees(report.half_angle)},
+                   {"mu", std::tan(report.half_angle)}};
+  if (!report.settings) return settings;
+  const ReplaySettings& replay = *report.settings;
+  settings["mu"] = replay.mu;
+  settings["mass_kg"] = replay.mass_kg;
+  settings["squeeze_N"] = replay.squeeze_N;
+  settings["shake"] = replay.shake;
+  settings["tolerance"] = replay.tolerance;
+  settings["fingertip_radius_m"] = replay.fingertip_radius_m;
+  settings["finger_mass_kg"] = replay.finger_mass_kg;
+  settings["finger_stiffness_N_m"] = replay.finger_stiffness_N_m;
+  settings["timestep_s"] = replay.timestep_s;
+  return settings;
+}
+
+Json MakeForceClosure(const ReportStep& step) {
+  if (step.check.skipped) return nullptr;
+  Json required = nullptr;
+  if (step.check.required) required = Degrees(step.check.required->upper);
+  return {{"holds", step.check.force_closure}, {"required_half_angle_deg", required}};
+}
+
+Json MakeSimulation(const std::optional<StepReplay>& replay) {
+  if (!replay) return nullptr;
+  return {{"displacement_m", replay->displacement_m},
+          {"rotation_deg", replay->rotation_deg},
+          {"slip_m", replay->slip_m},
+          {"contact_lost", replay->contact_lost}};
+}
+
+Json MakeAlignMode(const std::optional<StepReplay>& replay) {
+  const AlignMode mode = replay ? replay->align_mode : AlignMode::kNone;
+  if (mode == AlignMode::kNone) return nullptr;
+  return mode == AlignMode::kImitated ? "imitated" : "slid";
+}
+
+/// An empty text is null.
+Json MakeText(std::string_view text) {
+  return text.empty() ? Json(nullptr) : Json(std::string(text));
+}
+
+Json MakeStep(const ReportStep& step) {
+  return {{"index", step.check.index},
+          {"kind", step.check.kind},
+          {"verdict", std::string(VerdictName(step.verdict()))},
+          {"reason", MakeText(ReasonName(step.reason()))},
+          {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
+          {"force_closure", MakeForceClosure(step)},
+          {"undecided", step.check.undecided},
+          {"align_mode", MakeAlignMode(step.replay)},
+          {"simulation", MakeSimulation(step.replay)},
+          {"frame", MakeText(step.frame)}};
+}
+
+}  // namespace
+
+std::string FormatReportJson(const Report& report) {
+  Json json = {
+      {"format", "regrasp-report"},
+      {"version", 1},
+      {"verdict", report.passed() ? "pass" : "fail"},
+      {"object",
+       {{"file", report.object_file},
+        {"sha256", report.object_sha256},
+        {"scale", report.scale},
+        {"dimension", report.dimension}}},
+      {"plan",
+       {{"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}}},
+      {"settings", MakeSettings(report)}};
+  const int weakest = report.weakest_step();
+  json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
+  json["steps"] = Json::array();
+  for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step));
+  // File names may be any bytes; JSON must be UTF-8.
+  return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace regrasp
