@@ -114,6 +114,13 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
                    "\"/>\n    </body>\n";
 }
 
+std::string FormatKeyframe(const std::vector<Vector3d>& hold) {
+  if (hold.empty()) return {};
+  std::string controls;
+  for (const Vector3d& control : hold) controls += Join(control) + " ";
+  return "  <keyframe>\n    <key name=\"hold\" ctrl=\"" + controls + "\"/>\n  </keyframe>\n";
+}
+
 std::string Fill(const std::map<std::string, std::string>& values) {
   std::string_view rest = kSceneTemplate;
   std::string text;
@@ -138,8 +145,6 @@ std::string FormatScene(const Scene& scene, const Polyhedron& body,
   for (std::size_t f = 0; f < scene.finger_start_S.size(); ++f) {
     AddFinger(scene, static_cast<int>(f), parts);
   }
-  std::string controls;
-  for (const Vector3d& control : hold) controls += Join(control) + " ";
   const Eigen::Matrix3d& I = scene.inertia;
   return Fill({{"timestep", FormatDouble(s.timestep_s)},
                {"gravity", FormatDouble(-s.gravity_m_s2)},
@@ -157,7 +162,7 @@ std::string FormatScene(const Scene& scene, const Polyhedron& body,
                {"object_geoms", parts.object_geoms},
                {"fingers", parts.fingers},
                {"actuators", parts.actuators},
-               {"hold", controls}});
+               {"keyframe", FormatKeyframe(hold)}});
 }
 
 }  // namespace regrasp
