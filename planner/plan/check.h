@@ -6,6 +6,7 @@
 
 #include "planner/grasp/required_half_angle.h"
 #include "planner/object/object.h"
+#include "planner/plan/locate.h"  // IWYU pragma: export
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 
@@ -18,11 +19,15 @@ struct StepCheck {
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
   bool skipped = false;  ///< a step before it failed
-  /// Every grasp of the step, everywhere on the way, is force closure at the plan's friction.
+  /// Every grasp of the step, everywhere on the way, is force closure at the friction. False, and
+  /// `required` nullopt, also where the step is skipped or has a fault that comes before force
+  /// closure: then there is no sequence of grasps to judge.
   bool force_closure = false;
   /// The smallest half-angle at which every grasp of the step is force closure; nullopt where none.
   std::optional<RequiredHalfAngle> required;
-  /// Intervals of an align's path, 1e-6 of it long, on which force closure stayed undecided.
+  /// Intervals of an align's path, each no longer than 1e-6 of the way between two waypoints, on
+  /// which force closure stayed undecided. They do not fail the step: no instant was found that is
+  /// not force closure.
   int undecided = 0;
 };
 
@@ -43,12 +48,14 @@ struct PlanCheck {
 /// Checks everything that docs/formats.md says of a plan, from the plan and the object alone.
 ///
 /// The first failing step ends the check; later ones are `skipped`. Force closure along an align is
-/// decided over the whole path by bisection with certified margins.
-/// @throws InputError  the plan's dimension is not the object's.
+/// decided over the whole path by bisection with certified margins (path_force_closure.h). What is
+/// too close to call at an instant is not force closure.
+///
+/// Laws: independent of the fingers' numbering and of the order of contacts, of rigid motion and of
+/// the unit of length; enlarging the friction never turns pass into fail.
+/// @throws InputError             the plan's dimension is not the object's.
+/// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
 [[nodiscard]] PlanCheck CheckPlan(const Object& object, const Plan& plan,
                                   const CheckOptions& options = {});
-
-/// Projects every contact of the plan onto the surface, as `PlanCheck::located`, without judging.
-[[nodiscard]] Plan LocatePlan(const Object& object, const Plan& plan);
 
 }  // namespace regrasp

@@ -7,19 +7,43 @@
 
 namespace regrasp {
 
+namespace {
+
+/// Messages show no more of a value than this.
+constexpr std::size_t kLongestQuote = 60;
+
+std::string Range(int lower, int upper) {
+  if (lower == upper) return std::to_string(lower);
+  return "a whole number from " + std::to_string(lower) + " to " + std::to_string(upper);
+}
+
+}  // namespace
+
 void JsonReader::Fail(const std::string& what) const {
-  throw InputError(file_ + ": " + (pointer_.empty() ? "the file" : pointer_) + ": " + what);
+  throw InputError(file_ + ": " + (pointer_.empty() ? "" : pointer_ + ": ") + what);
+}
+
+void JsonReader::FailType(const char* expected) const {
+  Fail(std::string("expected ") + expected + ", found " + Quoted());
+}
+
+std::string JsonReader::Quoted() const {
+  if (value_.is_object()) return "an object";
+  if (value_.is_array()) return "an array";
+  std::string text = value_.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace);
+  if (text.size() > kLongestQuote) text = text.substr(0, kLongestQuote) + "...";
+  return text;
 }
 
 JsonReader JsonReader::Member(const char* key) const {
-  if (!value_.is_object()) Fail(std::string("expected an object, found ") + value_.type_name());
+  if (!value_.is_object()) FailType("an object");
   const auto member = value_.find(key);
   if (member == value_.end()) Fail(std::string("\"") + key + "\" is missing");
   return {*member, file_, pointer_ + "/" + key};
 }
 
 std::vector<JsonReader> JsonReader::Elements() const {
-  if (!value_.is_array()) Fail(std::string("expected an array, found ") + value_.type_name());
+  if (!value_.is_array()) FailType("an array");
   std::vector<JsonReader> elements;
   elements.reserve(value_.size());
   for (std::size_t i = 0; i < value_.size(); ++i) {
@@ -29,31 +53,38 @@ std::vector<JsonReader> JsonReader::Elements() const {
 }
 
 std::string JsonReader::String() const {
-  if (!value_.is_string()) Fail(std::string("expected a string, found ") + value_.type_name());
+  if (!value_.is_string()) FailType("a string");
   return value_.get<std::string>();
 }
 
-double JsonReader::Number() const {
-  if (!value_.is_number()) Fail(std::string("expected a number, found ") + value_.type_name());
-  const double number = value_.get<double>();
-  if (!std::isfinite(number) || std::abs(number) > kLargestNumber) {
-    Fail("the number " + FormatDouble(number) + " is too large");
+std::string JsonReader::OneOf(std::initializer_list<const char*> choices) const {
+  const std::string found = String();
+  std::string expected;
+  for (const char* choice : choices) {
+    if (found == choice) return found;
+    expected += std::string(expected.empty() ? "\"" : " or \"") + choice + "\"";
   }
+  Fail("expected " + expected + ", found " + Quoted());
+}
+
+double JsonReader::Number() const {
+  if (!value_.is_number()) FailType("a number");
+  const double number = value_.get<double>();
+  if (!(std::abs(number) <= kLargestNumber)) Fail("the number " + Quoted() + " is too large");
   return number;
 }
 
 int JsonReader::Integer(int lower, int upper) const {
   const double number = Number();
-  if (!value_.is_number_integer() || number < lower || number > upper) {
-    Fail("expected an integer from " + std::to_string(lower) + " to " + std::to_string(upper) +
-         ", found " + FormatDouble(number));
+  if (number != std::floor(number) || number < lower || number > upper) {
+    Fail("expected " + Range(lower, upper) + ", found " + Quoted());
   }
   return static_cast<int>(number);
 }
 
 Eigen::Vector3d JsonReader::Vector(int dimension) const {
   const std::vector<JsonReader> elements = Elements();
-  if (static_cast<int>(elements.size()) != dimension) {
+  if (elements.size() != static_cast<std::size_t>(dimension)) {
     Fail("expected " + std::to_string(dimension) + " numbers, found " +
          std::to_string(elements.size()));
   }
@@ -62,11 +93,8 @@ Eigen::Vector3d JsonReader::Vector(int dimension) const {
   return vector;
 }
 
-void JsonReader::ExpectFormat(const std::string& format) const {
-  const std::string found = Member("format").String();
-  if (found != format) {
-    Member("format").Fail("expected \"" + format + "\", found \"" + found + "\"");
-  }
+void JsonReader::ExpectFormat(const char* format) const {
+  static_cast<void>(Member("format").OneOf({format}));
   static_cast<void>(Member("version").Integer(1, 1));
 }
 

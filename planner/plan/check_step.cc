@@ -1,0 +1,284 @@
+#include "planner/plan/check_step.h"
+
+#include <algorithm>
+#include <set>
+
+#include "planner/base/number.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/plan/locate.h"
+#include "planner/plan/path_force_closure.h"
+#include "planner/plan/same_grasp.h"
+#include "planner/plan/tolerance.h"
+
+namespace regrasp {
+
+namespace {
+
+std::string FingerName(int finger) { return "finger " + std::to_string(finger); }
+
+std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
+
+/// "waypoint 2: finger 1", or "finger 1" where there is no place to name.
+std::string At(const std::string& place, int finger) {
+  return place.empty() ? FingerName(finger) : place + ": " + FingerName(finger);
+}
+
+const FingerContact* FindFinger(const FingerGrasp& grasp, int finger) {
+  const auto found = std::ranges::find(grasp, finger, &FingerContact::finger);
+  return found == grasp.end() ? nullptr : &*found;
+}
+
+void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, const std::string& place,
+                  StepFault& fault) {
+  for (const FingerContact& held : grasp) {
+    if (held.contact.face >= 0) continue;
+    // Located contacts without a face are as given: looking again tells why.
+    const LocatedContact located = LocateContact(context.object, held.contact);
+    fault.Add(located.reason, At(place, held.finger) + ": " + located.detail);
+  }
+}
+
+void CheckFingerNumber(const CheckContext& context, int finger, StepFault& fault) {
+  if (finger >= 0 && finger < context.plan.fingers) return;
+  fault.Add(Reason::kTooManyFingers,
+            FingerName(finger) + " of a hand of " + std::to_string(context.plan.fingers));
+}
+
+void CheckFingerCount(const CheckContext& context, std::size_t count, StepFault& fault) {
+  if (count <= static_cast<std::size_t>(context.plan.fingers)) return;
+  fault.Add(Reason::kTooManyFingers, std::to_string(count) + " fingers hold, the hand has " +
+                                         std::to_string(context.plan.fingers));
+}
+
+/// For a grasp at rest.
+void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, StepFault& fault) {
+  // More than the hand has is a fault of its own, and may be too many to compare.
+  if (grasp.size() > static_cast<std::size_t>(context.plan.fingers)) return;
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      const double distance = (grasp[i].contact.p - grasp[j].contact.p).norm();
+      if (distance <= context.tolerance()) {
+        fault.Add(Reason::kCoincidentFingers, FingerName(grasp[i].finger) + " and " +
+                                                  FingerName(grasp[j].finger) +
+                                                  " hold at the same point");
+      }
+    }
+  }
+}
+
+/// A finger can make one contact at a time.
+void CheckNamedOnce(const FingerGrasp& grasp, const std::string& place, StepFault& fault) {
+  std::set<int> seen;
+  for (const FingerContact& held : grasp) {
+    if (!seen.insert(held.finger).second) {
+      fault.Add(Reason::kFingerNotFree, At(place, held.finger) + " is named twice");
+    }
+  }
+}
+
+/// Bounds on the larger of two required half-angles; none if either is none.
+std::optional<RequiredHalfAngle> Larger(const std::optional<RequiredHalfAngle>& a,
+                                        const std::optional<RequiredHalfAngle>& b) {
+  if (!a || !b) return std::nullopt;
+  return RequiredHalfAngle{std::max(a->lower, b->lower), std::max(a->upper, b->upper)};
+}
+
+std::string AngleNeeded(const CheckContext& context,
+                        const std::optional<RequiredHalfAngle>& required) {
+  if (!required) return "at no friction half-angle";
+  return "needs a friction half-angle of " + FormatShort(Degrees(required->upper)) +
+         " degrees, has " + FormatShort(Degrees(context.half_angle));
+}
+
+/// Includes a grasp at rest in a step's force closure and required half-angle.
+void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
+                 StepCheck& check, StepFault& fault) {
+  const Grasp contacts = ContactsOf(grasp);
+  const WrenchFrame frame = context.object.wrench_frame();
+  std::optional<RequiredHalfAngle> required;
+  bool holds = false;
+  if (!contacts.empty()) {
+    required = ComputeRequiredHalfAngle(contacts, frame);
+    holds = IsForceClosure(contacts, frame, context.half_angle);
+  }
+  check.required = Larger(check.required, required);
+  check.force_closure = check.force_closure && holds;
+  if (!holds) {
+    fault.Add(Reason::kNotForceClosure,
+              std::string(name) + " is not force closure: " + AngleNeeded(context, required));
+  }
+}
+
+/// Where force closure is about to be judged: nothing found against it yet.
+void BeginForceClosure(StepCheck& check) {
+  check.force_closure = true;
+  check.required = RequiredHalfAngle{0, 0};
+}
+
+StepCheck Finish(StepCheck check, const StepFault& fault) {
+  check.reason = fault.reason();
+  check.detail = fault.detail();
+  return check;
+}
+
+void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
+                     const FingerGrasp& first, StepFault& fault) {
+  for (const FingerContact& held : before) {
+    const FingerContact* moved = FindFinger(first, held.finger);
+    if (moved != nullptr && !AreSameContact(held.contact, moved->contact, context.tolerance())) {
+      const double distance = (held.contact.p - moved->contact.p).norm();
+      const double angle = Degrees(AngleBetween(held.contact.n, moved->contact.n));
+      fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
+                                            " is not where it was: " + FormatShort(distance) +
+                                            " away, normal turned by " + FormatShort(angle) +
+                                            " degrees");
+    }
+  }
+}
+
+/// The fingers of a waypoint are those that hold.
+void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint,
+                      const std::string& place, StepFault& fault) {
+  for (const FingerContact& held : before) {
+    if (FindFinger(waypoint, held.finger) == nullptr) {
+      fault.Add(Reason::kDiscontinuous, At(place, held.finger) + " is missing");
+    }
+  }
+  for (const FingerContact& held : waypoint) {
+    if (FindFinger(before, held.finger) == nullptr) {
+      fault.Add(Reason::kDiscontinuous, At(place, held.finger) + " did not hold before");
+    }
+  }
+}
+
+void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
+                   const FingerGrasp& waypoint, const std::string& place, StepFault& fault) {
+  CheckSurface(context, waypoint, place, fault);
+  CheckNamedOnce(waypoint, place, fault);
+  for (const FingerContact& held : waypoint) CheckFingerNumber(context, held.finger, fault);
+  CheckFingerCount(context, waypoint.size(), fault);
+  CheckSameFingers(before, waypoint, place, fault);
+}
+
+void CheckMotions(const CheckContext& context, const Align& step, StepFault& fault) {
+  for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
+    for (const FingerContact& from : step.waypoints[w]) {
+      const FingerContact* to = FindFinger(step.waypoints[w + 1], from.finger);
+      const bool located = to != nullptr && from.contact.face >= 0 && to->contact.face >= 0;
+      if (!located) continue;  // reported already
+      if (const auto wrong = FindMotionFault(context.object, from.contact, to->contact)) {
+        fault.Add(Reason::kLeavesFace, "from " + At(WaypointName(w), from.finger) + " " + *wrong);
+      }
+    }
+  }
+}
+
+GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to) {
+  GraspMotion motion;
+  for (const FingerContact& held : from) {
+    motion.emplace_back(held.contact, FindFinger(to, held.finger)->contact);
+  }
+  return motion;
+}
+
+/// Includes the way from one waypoint to the next in an align's force closure.
+void IncludeMotion(const CheckContext& context, const GraspMotion& motion, std::size_t waypoint,
+                   StepCheck& check, StepFault& fault) {
+  const WrenchFrame frame = context.object.wrench_frame();
+  const PathForceClosure path = DecidePathForceClosure(motion, frame, context.half_angle);
+  std::optional<double> proven;
+  if (path.holds && path.undecided == 0) proven = context.half_angle;
+  check.required = Larger(check.required, ComputePathRequiredHalfAngle(motion, frame, proven));
+  check.force_closure = check.force_closure && path.holds;
+  check.undecided += path.undecided;
+  if (!path.holds) {
+    const auto there = ComputeRequiredHalfAngle(GraspAt(motion, path.lost_at), frame);
+    fault.Add(Reason::kNotForceClosure,
+              "at " + FormatShort(path.lost_at) + " of the way from " + WaypointName(waypoint) +
+                  " to " + WaypointName(waypoint + 1) +
+                  " the grasp is not force closure: " + AngleNeeded(context, there));
+  }
+}
+
+}  // namespace
+
+void StepFault::Add(Reason reason, const std::string& detail) {
+  if (reason_ != Reason::kNone && reason_ <= reason) return;
+  reason_ = reason;
+  detail_ = detail;
+}
+
+StepCheck CheckHold(const CheckContext& context) {
+  const FingerGrasp& initial = context.plan.initial;
+  StepCheck check;
+  check.kind = "hold";
+  StepFault fault;
+  CheckSurface(context, initial, "", fault);
+  CheckNamedOnce(initial, "", fault);
+  for (const FingerContact& held : initial) CheckFingerNumber(context, held.finger, fault);
+  CheckFingerCount(context, initial.size(), fault);
+  CheckCoincidence(context, initial, fault);
+  if (fault.none()) {
+    BeginForceClosure(check);
+    IncludeRest(context, initial, "the initial grasp", check, fault);
+  }
+  return Finish(check, fault);
+}
+
+StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, const Switch& step) {
+  StepCheck check;
+  check.kind = StepKind(step);
+  StepFault fault;
+  CheckSurface(context, step.place, "", fault);
+  CheckNamedOnce(step.place, "", fault);
+  for (const FingerContact& placed : step.place) {
+    CheckFingerNumber(context, placed.finger, fault);
+    if (FindFinger(before, placed.finger) != nullptr) {
+      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds");
+    }
+  }
+  std::set<int> released;
+  for (const int finger : step.release) {
+    CheckFingerNumber(context, finger, fault);
+    if (FindFinger(before, finger) == nullptr || !released.insert(finger).second) {
+      fault.Add(Reason::kFingerNotHolding, FingerName(finger) + " is released, but does not hold");
+    }
+  }
+  CheckFingerCount(context, before.size() + step.place.size(), fault);
+  const FingerGrasp after = GraspAfter(before, step);
+  CheckCoincidence(context, after, fault);
+  if (fault.none()) {
+    BeginForceClosure(check);
+    IncludeRest(context, before, "the grasp before", check, fault);
+    IncludeRest(context, after, "the grasp after", check, fault);
+  }
+  return Finish(check, fault);
+}
+
+StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, const Align& step) {
+  StepCheck check;
+  check.kind = StepKind(step);
+  StepFault fault;
+  if (step.waypoints.empty()) {
+    fault.Add(Reason::kDiscontinuous, "no waypoints");
+    return Finish(check, fault);
+  }
+  for (std::size_t w = 0; w < step.waypoints.size(); ++w) {
+    CheckWaypoint(context, before, step.waypoints[w], WaypointName(w), fault);
+  }
+  CheckCoincidence(context, step.waypoints.back(), fault);
+  CheckContinuity(context, before, step.waypoints.front(), fault);
+  CheckMotions(context, step, fault);
+  if (fault.none()) {
+    BeginForceClosure(check);
+    IncludeRest(context, step.waypoints.front(), "the grasp before", check, fault);
+    IncludeRest(context, step.waypoints.back(), "the grasp after", check, fault);
+    for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
+      IncludeMotion(context, MotionBetween(step.waypoints[w], step.waypoints[w + 1]), w, check,
+                    fault);
+    }
+  }
+  return Finish(check, fault);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "planner/object/object.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// The faults of one step: the first of the report's order counts.
+class StepFault {
+ public:
+  void Add(Reason reason, const std::string& detail);
+
+  [[nodiscard]] bool none() const { return reason_ == Reason::kNone; }
+  [[nodiscard]] Reason reason() const { return reason_; }
+  [[nodiscard]] const std::string& detail() const { return detail_; }
+
+ private:
+  Reason reason_ = Reason::kNone;
+  std::string detail_;
+};
+
+/// What every step is checked against. The plan is located (LocatePlan).
+struct CheckContext {
+  const Object& object;
+  const Plan& plan;
+  double half_angle;  ///< friction, radians
+
+  [[nodiscard]] double tolerance() const { return kPointTolerance * object.diameter(); }
+};
+
+/// The checks of one entry of the report: reason, detail, force closure, required half-angle and
+/// undecided intervals. Force closure is judged only where there is no other fault.
+/// @param before  the grasp that holds before the step; it has passed.
+[[nodiscard]] StepCheck CheckHold(const CheckContext& context);
+[[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,
+                                    const Switch& step);
+[[nodiscard]] StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before,
+                                   const Align& step);
+
+}  // namespace regrasp

@@ -1,0 +1,45 @@
+#include "planner/plan/contact_json.h"
+
+#include <limits>
+
+namespace regrasp {
+
+Contact ReadContact(const JsonReader& json, int dimension) {
+  return {json.Member("point").Vector(dimension), json.Member("normal").Vector(dimension)};
+}
+
+int ReadFinger(const JsonReader& json) { return json.Integer(0, std::numeric_limits<int>::max()); }
+
+FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension) {
+  FingerGrasp grasp;
+  for (const JsonReader& element : json.Elements()) {
+    grasp.push_back({ReadFinger(element.Member("finger")), ReadContact(element, dimension)});
+  }
+  return grasp;
+}
+
+Json ContactJson(const Contact& contact, int dimension) {
+  Json json = Json::object();
+  json["point"] = VectorJson(contact.p, dimension);
+  json["normal"] = VectorJson(contact.n, dimension);
+  return json;
+}
+
+Json GraspJson(const Grasp& grasp, int dimension) {
+  Json json = Json::array();
+  for (const Contact& contact : grasp) json.push_back(ContactJson(contact, dimension));
+  return json;
+}
+
+Json FingerGraspJson(const FingerGrasp& grasp, int dimension) {
+  Json json = Json::array();
+  for (const FingerContact& held : grasp) {
+    Json contact = Json::object();
+    contact["finger"] = held.finger;
+    contact.update(ContactJson(held.contact, dimension));
+    json.push_back(std::move(contact));
+  }
+  return json;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "planner/grasp/contact.h"
+#include "planner/plan/json_reader.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// Reads `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
+[[nodiscard]] Contact ReadContact(const JsonReader& json, int dimension);
+
+/// Reads an array of contacts, each with its `finger`.
+[[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
+
+/// Reads a finger's number. Numbers outside the hand are left to the checker.
+[[nodiscard]] int ReadFinger(const JsonReader& json);
+
+[[nodiscard]] Json ContactJson(const Contact& contact, int dimension);
+[[nodiscard]] Json GraspJson(const Grasp& grasp, int dimension);
+[[nodiscard]] Json FingerGraspJson(const FingerGrasp& grasp, int dimension);
+
+}  // namespace regrasp

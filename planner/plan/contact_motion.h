@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// The motion of one contact from one waypoint of an align to the next, t from 0 to 1: the point
+/// moves straight, the normal turns on the great circle, both evenly.
+class ContactMotion {
+ public:
+  /// The normals must not be opposite.
+  ContactMotion(const Contact& from, const Contact& to);
+
+  [[nodiscard]] Contact At(double t) const;
+  /// dp/dt.
+  [[nodiscard]] Eigen::Vector3d velocity() const { return to_.p - from_.p; }
+  /// The angle by which the normal turns from t = 0 to 1, radians.
+  [[nodiscard]] double turn() const { return turn_; }
+
+ private:
+  Contact from_;
+  Contact to_;
+  double turn_;
+  Eigen::Vector3d turn_direction_;  ///< unit, perpendicular to from_.n; zero where nothing turns
+};
+
+/// The contacts of a grasp between two waypoints.
+using GraspMotion = std::vector<ContactMotion>;
+
+[[nodiscard]] Grasp GraspAt(const GraspMotion& motion, double t);
+
+/// What is wrong with a motion between two contacts that lie on the object: nullopt where the
+/// contact stays on one face all the way, or keeps its point (to within kPointTolerance · D) and
+/// turns from one face to another that both contain it.
+[[nodiscard]] std::optional<std::string> FindMotionFault(const Object& object, const Contact& from,
+                                                         const Contact& to);
+
+}  // namespace regrasp

@@ -1,0 +1,63 @@
+#include "planner/plan/grasp_io.h"
+
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/plan/contact_json.h"
+#include "planner/plan/locate.h"
+
+namespace regrasp {
+
+namespace {
+
+/// The contact of a point whose normal is left out: its only face's.
+Contact ContactOfPoint(const JsonReader& json, const Object& object, const Eigen::Vector3d& point) {
+  const double tolerance = kPointTolerance * object.diameter();
+  const std::vector<int> faces = object.FacesNear(point, tolerance);
+  if (faces.empty()) {
+    json.Member("point").Fail("farther than " + FormatShort(tolerance) + " from the surface");
+  }
+  const int face = faces.front();
+  if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
+    json.Member("point").Fail("on a border of face " + std::to_string(face) +
+                              ", where the normal cannot be left out");
+  }
+  return {object.ClosestPoint(face, point), object.inward_normal(face), face};
+}
+
+Contact ReadOnObject(const JsonReader& json, const Object& object) {
+  if (!json.Has("normal")) {
+    return ContactOfPoint(json, object, json.Member("point").Vector(object.dimension()));
+  }
+  const LocatedContact located = LocateContact(object, ReadContact(json, object.dimension()));
+  if (located.reason == Reason::kOffSurface) json.Member("point").Fail(located.detail);
+  if (located.reason != Reason::kNone) json.Member("normal").Fail(located.detail);
+  return located.contact;
+}
+
+}  // namespace
+
+Grasp ParseGrasp(std::string_view text, const std::string& name, const Object& object) {
+  const Json json = ParseJson(text, name);
+  const JsonReader root(json, name);
+  root.ExpectFormat("regrasp-grasp");
+  Grasp grasp;
+  for (const JsonReader& element : root.Member("contacts").Elements()) {
+    grasp.push_back(ReadOnObject(element, object));
+  }
+  if (grasp.empty()) root.Member("contacts").Fail("a grasp needs a contact");
+  return grasp;
+}
+
+Grasp ReadGrasp(const std::filesystem::path& path, const Object& object) {
+  return ParseGrasp(ReadFile(path), path.string(), object);
+}
+
+std::string FormatGrasp(const Grasp& grasp, int dimension) {
+  Json json = Json::object();
+  json["format"] = "regrasp-grasp";
+  json["version"] = 1;
+  json["contacts"] = GraspJson(grasp, dimension);
+  return FormatJson(json);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
+
+namespace regrasp {
+
+/// A contact as a file gives it, placed on the object.
+struct LocatedContact {
+  /// The point projected onto its face, the face's own normal, and the face; as given and with face
+  /// −1 where it has none.
+  Contact contact;
+  Reason reason = Reason::kNone;  ///< kOffSurface or kWrongNormal where it has no face
+  std::string detail;             ///< how far off, for people
+};
+
+/// Finds the face of a contact: among the faces within kPointTolerance · D of the point, the one
+/// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
+/// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
+[[nodiscard]] LocatedContact LocateContact(const Object& object, const Contact& contact);
+
+/// Places every contact of a plan on the object, without judging; docs at PlanCheck::located.
+[[nodiscard]] Plan LocatePlan(const Object& object, const Plan& plan);
+
+}  // namespace regrasp

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/grasp/required_half_angle.h"
+#include "planner/object/wrench_frame.h"
+#include "planner/plan/contact_motion.h"
+
+namespace regrasp {
+
+/// Force closure is decided down to intervals of this length, the motion being 1 long.
+inline constexpr double kShortestInterval = 1e-6;
+
+/// A motion of which more than this many of its shortest intervals, a thousandth of the path, stay
+/// undecided keeps too close to the limit to be called force closure.
+inline constexpr int kMostUndecided = 1000;
+
+/// What is known of force closure along a motion.
+struct PathForceClosure {
+  /// No instant was found that is not force closure, and no more than kMostUndecided intervals
+  /// stay undecided. False where an instant is not force closure.
+  bool holds = false;
+  double lost_at = 0;  ///< where `holds` is false: the instant t that decided
+  /// Intervals no longer than kShortestInterval without a certificate, whose ends and centre are
+  /// force closure.
+  int undecided = 0;
+};
+
+/// Decides force closure of a motion everywhere on the way, by bisection with CertifyForceClosure:
+/// an interval is halved until it is certified, an instant fails IsForceClosure, or it is shorter
+/// than kShortestInterval.
+///
+/// Laws: monotone in half_angle; a motion that is not force closure on an interval longer than
+/// kShortestInterval is never said to hold.
+[[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
+                                                      const WrenchFrame& frame, double half_angle);
+
+/// The accuracy of ComputePathRequiredHalfAngle, radians (0.006°), where the certificates reach far
+/// enough at it.
+inline constexpr double kPathAngleAccuracy = 1e-4;
+
+/// Bounds on the largest required half-angle along a motion: `lower` is attained at an instant,
+/// `upper` is certified for the whole way. `upper` is within kPathAngleAccuracy of `lower`, unless
+/// a narrow place of the path needs certificates with more room; then as far off as they need.
+/// @param proven  a half-angle at which the whole motion is known to be force closure, if any:
+///                `upper` is never above it.
+/// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
+///          certified for the whole way.
+[[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven);
+
+}  // namespace regrasp
