@@ -1,0 +1,207 @@
+// Force closure of random 4-contact grasps: exact cones against the two usual ways, an 8-sided
+// pyramid in a linear program (GLPK) and the hull of the wrenches (Qhull), on the same grasps in
+// the same run. Prints how the verdicts compare and the ratios of the times.
+
+#include <benchmark/benchmark.h>
+#include <glpk.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/convex_hull.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/subset_force_closure.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr int kSides = 8;
+constexpr int kContacts = 4;
+constexpr int kDimension = 6;
+constexpr int kGrasps = 2000;
+constexpr int kHullGrasps = 100;  // Qhull takes milliseconds each
+constexpr std::array kDegrees{10.0, 20.0};
+const WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
+
+using Wrenches = Eigen::Matrix<double, kDimension, kContacts * kSides>;
+
+/// Half of the points on a ball with normals up to 17° off, half on a box.
+Contact RandomContact(std::mt19937_64& engine, bool box) {
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return Eigen::Vector3d(normal(engine), normal(engine), normal(engine)).normalized();
+  };
+  if (!box) {
+    const Eigen::Vector3d p = direction();
+    return {p, (-p + 0.3 * direction()).normalized()};
+  }
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Contact contact{{uniform(engine), uniform(engine), uniform(engine)}, {0, 0, 0}};
+  const int axis = std::uniform_int_distribution<int>(0, 2)(engine);
+  const double side = uniform(engine) < 0 ? -1 : 1;
+  contact.p[axis] = side;
+  contact.n[axis] = -side;
+  return contact;
+}
+
+const std::vector<Grasp>& Grasps() {
+  static const std::vector<Grasp> grasps = [] {
+    std::mt19937_64 engine(2026);
+    std::vector<Grasp> result(kGrasps);
+    for (int g = 0; g < kGrasps; ++g) {
+      for (int i = 0; i < kContacts; ++i) result[g].push_back(RandomContact(engine, g % 2 == 0));
+    }
+    return result;
+  }();
+  return grasps;
+}
+
+Wrenches PyramidWrenches(const Grasp& grasp, double half_angle) {
+  Wrenches wrenches;
+  int column = 0;
+  for (const Contact& contact : grasp) {
+    const Eigen::Vector3d first = contact.n.unitOrthogonal();
+    const Eigen::Vector3d second = contact.n.cross(first);
+    for (int side = 0; side < kSides; ++side) {
+      const double angle = 2 * std::numbers::pi * side / kSides;
+      const Eigen::Vector3d force =
+          contact.n + std::tan(half_angle) * (std::cos(angle) * first + std::sin(angle) * second);
+      wrenches.col(column++) << force, contact.p.cross(force);
+    }
+  }
+  return wrenches;
+}
+
+/// Weights of at least 1 on all edges that balance exist iff the pyramids' interiors balance.
+bool GlpkForceClosure(const Grasp& grasp, double half_angle) {
+  const Wrenches wrenches = PyramidWrenches(grasp, half_angle);
+  const std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem(glp_create_prob(), &glp_delete_prob);
+  glp_add_rows(problem.get(), kDimension);
+  glp_add_cols(problem.get(), kContacts * kSides);
+  for (int row = 1; row <= kDimension; ++row) glp_set_row_bnds(problem.get(), row, GLP_FX, 0, 0);
+  std::array<int, kDimension + 1> rows{0, 1, 2, 3, 4, 5, 6};
+  std::array<double, kDimension + 1> values{};
+  for (int column = 0; column < kContacts * kSides; ++column) {
+    glp_set_col_bnds(problem.get(), column + 1, GLP_LO, 1, 0);
+    for (int row = 0; row < kDimension; ++row) values[row + 1] = wrenches(row, column);
+    glp_set_mat_col(problem.get(), column + 1, kDimension, rows.data(), values.data());
+  }
+  glp_smcp parameters;
+  glp_init_smcp(&parameters);
+  parameters.msg_lev = GLP_MSG_OFF;
+  parameters.presolve = GLP_OFF;
+  glp_simplex(problem.get(), &parameters);
+  return glp_get_status(problem.get()) == GLP_OPT;
+}
+
+bool QhullForceClosure(const Grasp& grasp, double half_angle) {
+  const ConvexHull hull = ComputeConvexHull(PyramidWrenches(grasp, half_angle));
+  for (const HullFacet& facet : hull.facets) {
+    if (facet.offset <= hull.joggle) return false;
+  }
+  return true;
+}
+
+bool ExactForceClosure(const Grasp& grasp, double half_angle) {
+  return IsForceClosure(grasp, kFrame, half_angle);
+}
+
+template <bool (*kTest)(const Grasp&, double), int kCount>
+void Time(benchmark::State& state) {
+  const double half_angle = Radians(kDegrees[state.range(0)]);
+  const auto& grasps = Grasps();
+  std::size_t next = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(kTest(grasps[next], half_angle));
+    next = (next + 1) % kCount;
+  }
+  state.counters["degrees"] = kDegrees[state.range(0)];
+}
+
+void TimeRequired(benchmark::State& state) {
+  std::size_t next = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ComputeRequiredHalfAngle(Grasps()[next], kFrame));
+    next = (next + 1) % kGrasps;
+  }
+}
+
+/// All 4-subsets of `range(0)` points on a ball.
+void TimeSubsets(benchmark::State& state) {
+  std::mt19937_64 engine(7);
+  Grasp points;
+  for (int i = 0; i < state.range(0); ++i) points.push_back(RandomContact(engine, false));
+  SubsetCounts counts;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ForceClosureSubsets(points, kFrame, Radians(10), &counts));
+  }
+  state.counters["subsets"] = static_cast<double>(counts.subsets);
+  state.counters["by_simplex"] = static_cast<double>(counts.by_simplex);
+}
+
+BENCHMARK(Time<ExactForceClosure, kGrasps>)->Name("exact cones")->DenseRange(0, 1);
+BENCHMARK(Time<GlpkForceClosure, kGrasps>)->Name("GLPK, 8 sides")->DenseRange(0, 1);
+BENCHMARK(Time<QhullForceClosure, kHullGrasps>)
+    ->Name("Qhull, 8 sides")
+    ->DenseRange(0, 1)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(TimeRequired)->Name("required half-angle")->Unit(benchmark::kMicrosecond);
+BENCHMARK(TimeSubsets)->Name("all 4-subsets")->Arg(60)->Arg(70)->Unit(benchmark::kMillisecond);
+
+template <typename Test>
+double MicrosecondsEach(int count, Test test) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int g = 0; g < count; ++g) benchmark::DoNotOptimize(test(Grasps()[g]));
+  const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+  return time.count() / count;
+}
+
+/// An 8-sided pyramid inside the cone misses grasps; it must never find one that the cone has not.
+void CompareVerdicts(double degrees) {
+  const double half_angle = Radians(degrees);
+  int both = 0;
+  int neither = 0;
+  int only_cone = 0;
+  int only_pyramid = 0;
+  for (const Grasp& grasp : Grasps()) {
+    const bool cone = ExactForceClosure(grasp, half_angle);
+    const bool pyramid = GlpkForceClosure(grasp, half_angle);
+    ++(cone ? (pyramid ? both : only_cone) : (pyramid ? only_pyramid : neither));
+  }
+  int hull_differs = 0;
+  for (int g = 0; g < kHullGrasps; ++g) {
+    hull_differs +=
+        QhullForceClosure(Grasps()[g], half_angle) != GlpkForceClosure(Grasps()[g], half_angle);
+  }
+  std::printf(
+      "%g degrees, %d grasps: both yes %d, both no %d, cone only %d (the inscribed pyramid is "
+      "smaller), pyramid only %d (must be 0); Qhull differs from GLPK on %d of %d\n",
+      degrees, kGrasps, both, neither, only_cone, only_pyramid, hull_differs, kHullGrasps);
+  const double exact =
+      MicrosecondsEach(kGrasps, [&](const Grasp& g) { return ExactForceClosure(g, half_angle); });
+  const double glpk =
+      MicrosecondsEach(kGrasps, [&](const Grasp& g) { return GlpkForceClosure(g, half_angle); });
+  const double qhull = MicrosecondsEach(
+      kHullGrasps, [&](const Grasp& g) { return QhullForceClosure(g, half_angle); });
+  std::printf("  exact cones %.3f us; GLPK %.1f us, %.0f times; Qhull %.0f us, %.0f times\n", exact,
+              glpk, glpk / exact, qhull, qhull / exact);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  for (const double degrees : kDegrees) CompareVerdicts(degrees);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
