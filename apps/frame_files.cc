@@ -1,0 +1,69 @@
+#include "apps/frame_files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "planner/base/error.h"
+#include "render/caption.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Steps are numbered with this many digits, so that names sort.
+constexpr std::size_t kDigits = 3;
+
+std::string FrameName(const ReportStep& step) {
+  const std::string index = std::to_string(step.check.index);
+  const std::size_t zeros = kDigits - std::min(kDigits, index.size());
+  return std::string(zeros, '0') + index + "_" + step.check.kind + ".png";
+}
+
+bool IsFrameName(const std::string& name) {
+  const auto digits = std::find_if_not(name.begin(), name.end(),
+                                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string rest(digits, name.end());
+  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
+         (rest == "_hold.png" || rest == "_switch.png" || rest == "_align.png");
+}
+
+std::string Caption(const Plan& plan, const ReportStep& step) {
+  const std::string caption = FrameCaption(plan, step.check.index);
+  const bool failed = step.verdict() == Verdict::kFail;
+  return failed ? caption + " — " + std::string(ReasonName(step.reason())) : caption;
+}
+
+}  // namespace
+
+void RemoveFrames(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> frames;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (IsFrameName(entry.path().filename().string())) frames.push_back(entry.path());
+  }
+  for (const std::filesystem::path& frame : frames) {
+    if (!error) std::filesystem::remove(frame, error);
+  }
+  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+}
+
+void WriteFrames(const Object& object, const Plan& plan, const FrameOptions& options,
+                 const std::filesystem::path& folder, Report& report) {
+  std::vector<Snapshot> snapshots;
+  for (const ReportStep& step : report.steps) {
+    if (step.replay) snapshots.push_back(step.replay->snapshot);
+  }
+  if (snapshots.empty()) return;
+  FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, options);
+  for (ReportStep& step : report.steps) {
+    if (!step.replay) continue;
+    const std::string name = FrameName(step);
+    WritePng(folder / name, renderer.Render(step.replay->snapshot, Caption(plan, step)));
+    step.frame = name;
+  }
+}
+
+}  // namespace regrasp

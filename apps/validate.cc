@@ -1,0 +1,225 @@
+// validate: checks a plan analytically, replays it in MuJoCo, draws a frame of each step, and says
+// pass or fail.
+
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "apps/frame_files.h"
+#include "apps/options.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "apps/trajectory.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/plan/plan_io.h"
+#include "sim/report.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr char kProgram[] = "validate";
+
+struct ValidateProgram {
+  std::string object_path;
+  std::string plan_path;
+  std::string out;
+  std::string junit;
+  std::string mjcf;
+  std::string trajectory;
+  std::string start;
+  std::string goal;
+  FrictionOptions friction;
+  std::optional<double> scale;
+  ReplayOptions replay;
+  FrameOptions frame;
+  bool no_frames = false;
+  bool allow_object_change = false;
+  bool quiet = false;
+
+  void AddTo(CLI::App& app);
+  int Run();
+
+ private:
+  void AddFiles(CLI::App& app);
+  void AddPhysics(CLI::App& app);
+  void SetSize(const std::string& text);
+  void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
+  Report Check(const Plan& plan, const ObjectFile& object, TrajectoryTable& table) const;
+  void WriteResults(const Plan& plan, const ObjectFile& object, const TrajectoryTable& table,
+                    Report& report) const;
+  [[nodiscard]] std::filesystem::path Folder() const;
+};
+
+void ValidateProgram::AddTo(CLI::App& app) {
+  AddFiles(app);
+  AddPhysics(app);
+  app.add_flag("--no-frames", no_frames, "Draw no frames");
+  app.add_option_function<std::string>(
+         "--size", [this](const std::string& text) { SetSize(text); },
+         "Size of the frames, pixels, each side from " + std::to_string(kMinFrameSide) + " to " +
+             std::to_string(kMaxFrameSide) + " (default 1280x960)")
+      ->type_name("WxH");
+  app.add_flag("--allow-object-change", allow_object_change,
+               "Accept an object file with other bytes than the plan was made for");
+  AddQuiet(app, quiet);
+}
+
+void ValidateProgram::AddFiles(CLI::App& app) {
+  const auto add = [&app](const std::string& name, std::string& value, const std::string& text) {
+    return app.add_option(name, value, text)->type_name("FILE");
+  };
+  add("--object", object_path, "Object file")->required();
+  add("--plan", plan_path, "Plan file")->required();
+  app.add_option("--out", out, "Folder for report and frames (default out/<plan name>)")
+      ->type_name("DIR");
+  add("--start", start, "Grasp file that the plan's initial grasp must be");
+  add("--goal", goal, "Grasp file that the plan's goal must be");
+  add("--junit", junit, "Write the verdicts as JUnit XML");
+  add("--export-mjcf", mjcf, "Write the scene of the replay as MJCF for any MuJoCo");
+  add("--trajectory", trajectory,
+      "Write time (s), place (m) and force (N) of every finger during the replay as CSV");
+}
+
+void ValidateProgram::AddPhysics(CLI::App& app) {
+  friction.AddTo(app);
+  AddScale(app, scale)
+      ->description("Metres per unit of length of the object file; must be the plan's");
+  CLI::Option* mass = AddNumber(app, "--mass", replay.mass_kg, NumberRange::Positive(),
+                                "Mass of the object, kg; instead of --density")
+                          ->type_name("KG");
+  AddNumber(app, "--density", replay.density_kg_m3, NumberRange::Positive(),
+            "Density of the object, kg/m^3 (default 1000)")
+      ->type_name("KG_M3")
+      ->excludes(mass);
+  AddNumber(app, "--squeeze", replay.squeeze_N, NumberRange::Positive(),
+            "Sum of the normal forces of a grasp at rest, newtons (default: from the weight)")
+      ->type_name("N");
+  AddNumber(app, "--shake", replay.shake, NumberRange::NotNegative(),
+            "Size of the shake: force over squeeze, and torque over squeeze times half the "
+            "diameter (default 0.01)")
+      ->type_name("RHO");
+  AddNumber(app, "--tolerance", replay.tolerance, NumberRange::Positive(),
+            "How far the object may move and a fingertip slip, in diameters of the object "
+            "(default 0.001)")
+      ->type_name("X");
+}
+
+void ValidateProgram::SetSize(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const auto side = [&](const std::string& digits) {
+    const std::optional<double> value = ParseDouble(digits);
+    const bool integer = digits.find_first_not_of("0123456789") == std::string::npos;
+    if (!value || !integer || *value < kMinFrameSide || *value > kMaxFrameSide) {
+      throw CLI::ValidationError(
+          "--size", "expected WxH with sides from " + std::to_string(kMinFrameSide) + " to " +
+                        std::to_string(kMaxFrameSide) + ", found \"" + text + "\"");
+    }
+    return static_cast<int>(*value);
+  };
+  frame.width = side(text.substr(0, x));
+  frame.height = side(x == std::string::npos ? "" : text.substr(x + 1));
+}
+
+void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) const {
+  if (plan.dimension != object.object->dimension()) {
+    throw InputError(plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
+                     ", but " + object_path + " has dimension " +
+                     std::to_string(object.object->dimension()));
+  }
+  if (plan.object_sha256 != object.sha256 && !allow_object_change) {
+    throw InputError(plan_path + ": /object/sha256: the plan was made for an object with digest " +
+                     plan.object_sha256 + ", but " + object_path + " has " + object.sha256 +
+                     " (--allow-object-change accepts it)");
+  }
+  if (scale && *scale != plan.scale) {
+    throw InputError("--scale " + FormatDouble(*scale) + ": the plan's scale is " +
+                     FormatDouble(plan.scale));
+  }
+  if (plan.dimension == 2) {
+    throw InputError(plan_path + ": /object/dimension: planar plans cannot be replayed");
+  }
+}
+
+Report ValidateProgram::Check(const Plan& plan, const ObjectFile& object,
+                              TrajectoryTable& table) const {
+  CheckOptions check;
+  check.half_angle = friction.half_angle();
+  Grasp start_grasp;
+  Grasp goal_grasp;
+  if (!start.empty()) {
+    start_grasp = ReadGrasp(start, *object.object);
+    check.start = &start_grasp;
+  }
+  if (!goal.empty()) {
+    goal_grasp = ReadGrasp(goal, *object.object);
+    check.goal = &goal_grasp;
+  }
+  ProgressLine progress(quiet);
+  progress.Report("checking the plan");
+  ReplayObserver observer;
+  observer.on_progress = [&](int done, int total) {
+    progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
+  };
+  if (!trajectory.empty()) {
+    observer.on_sample = [&](const Snapshot& snapshot) { table.Add(snapshot); };
+  }
+  return Validate(*object.object, plan, check, replay, observer);
+}
+
+std::filesystem::path ValidateProgram::Folder() const {
+  if (!out.empty()) return out;
+  return std::filesystem::path("out") / std::filesystem::path(plan_path).stem();
+}
+
+void ValidateProgram::WriteResults(const Plan& plan, const ObjectFile& object,
+                                   const TrajectoryTable& table, Report& report) const {
+  const std::filesystem::path folder = Folder();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+  RemoveFrames(folder);
+  if (!no_frames) {
+    ProgressLine progress(quiet);
+    progress.Report("drawing frames");
+    WriteFrames(*object.object, plan, frame, folder, report);
+  }
+  WriteFile(folder / "report.json", FormatReportJson(report));
+  if (!junit.empty()) WriteFile(junit, FormatReportJunit(report));
+  if (!trajectory.empty()) WriteFile(trajectory, table.text());
+}
+
+int ValidateProgram::Run() {
+  const ObjectFile object = ReadObject(object_path);
+  const std::string plan_text = ReadFile(plan_path);
+  const Plan plan = ParsePlan(plan_text, plan_path);
+  CheckPlanFits(plan, object);
+  replay.half_angle = friction.half_angle();
+  TrajectoryTable table;
+  Report report = Check(plan, object, table);
+  report.object_file = object.file;
+  report.object_sha256 = object.sha256;
+  report.plan_file = std::filesystem::path(plan_path).filename().string();
+  report.plan_sha256 = Sha256(plan_text);
+  WriteResults(plan, object, table, report);
+  if (!mjcf.empty())
+    WriteFile(mjcf, SceneMjcf(*object.object, LocatePlan(*object.object, plan), replay));
+  if (!quiet) std::cout << FormatReportTable(report);
+  return report.passed() ? kExitDone : kExitNegative;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Checks a regrasp plan analytically, replays it in MuJoCo with frictional point fingers, "
+      "shakes the object at every rest state, and says pass or fail.",
+      kProgram);
+  ValidateProgram program;
+  program.AddTo(app);
+  return RunProgram(app, argc, argv, [&] { return program.Run(); });
+}
