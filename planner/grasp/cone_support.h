@@ -52,23 +52,31 @@ template <int kDim>
       .normalized();
 }
 
+/// Sliding slower than this part of the velocity has lost digits that keep it perpendicular.
+inline constexpr double kSlowSliding = 1e-4;
+
+/// The direction in which a contact with velocity u slides, exactly perpendicular to n.
+template <int kDim>
+[[nodiscard]] inline Eigen::Vector3d SlidingDirection(const Eigen::Vector3d& n,
+                                                      const Eigen::Vector3d& u) {
+  if constexpr (kDim == 3) {
+    const Eigen::Vector3d tangent = AnyTangent<kDim>(n);
+    return tangent.dot(u) < 0 ? Eigen::Vector3d(-tangent) : tangent;
+  }
+  const double approach = n.dot(u);
+  const Eigen::Vector3d sliding = u - approach * n;
+  const double speed = sliding.norm();
+  if (!(speed > 0)) return AnyTangent<kDim>(n);
+  const Eigen::Vector3d tangent = sliding * (1 / speed);
+  if (speed > kSlowSliding * std::abs(approach)) return tangent;
+  return (tangent - n.dot(tangent) * n).normalized();
+}
+
 /// The rim force that attains ConeSupport.
 template <int kDim>
 [[nodiscard]] inline Eigen::Vector3d SupportForce(const UnitContact& contact,
                                                   const Eigen::Vector3d& u) {
-  Eigen::Vector3d tangent = AnyTangent<kDim>(contact.n);
-  if constexpr (kDim == 3) {
-    if (tangent.dot(u) < 0) tangent = -tangent;
-  } else {
-    const Eigen::Vector3d sliding = u - contact.n.dot(u) * contact.n;
-    const double speed = sliding.norm();
-    if (speed > 0) {
-      // Next to nothing, the sliding is rounding and need not be perpendicular: project once more.
-      tangent = sliding / speed;
-      tangent = (tangent - contact.n.dot(tangent) * contact.n).normalized();
-    }
-  }
-  return contact.axial * contact.n + contact.tangential * tangent;
+  return contact.axial * contact.n + contact.tangential * SlidingDirection<kDim>(contact.n, u);
 }
 
 }  // namespace regrasp

@@ -142,26 +142,27 @@ bool WrenchSimplex<kDim>::Separates(double reduced_cost) const {
 
 template <int kDim>
 int WrenchSimplex<kDim>::ChooseLeaving(const std::array<double, kTableau>& alpha) const {
+  std::array<double, kRows> ratios;
   double bound = kInfinity;
-  for (int r = 0; r < kRows; ++r) {
-    if (alpha[r] > kPivot && basis_[r].contact != kExtra) {
-      bound = std::min(bound, (std::max(tableau_[r][kSolution], 0.0) + kRatioSlack) / alpha[r]);
-    }
-  }
-  int leaving = -1;
-  double largest = 0;
   for (int r = 0; r < kRows; ++r) {
     const bool artificial = basis_[r].contact == kArtificial;
     // While maximising, artificial columns weigh nothing and must stay so: whichever way the
     // entering column would move them, they leave.
     if (maximising_ && artificial && std::abs(alpha[r]) > kPivot) return r;
-    if (alpha[r] > kPivot && basis_[r].contact != kExtra &&
-        std::max(tableau_[r][kSolution], 0.0) <= bound * alpha[r]) {
-      const double preference = artificial ? 2 * alpha[r] : alpha[r];
-      if (preference > largest) {
-        largest = preference;
-        leaving = r;
-      }
+    ratios[r] = kInfinity;
+    if (!(alpha[r] > kPivot) || basis_[r].contact == kExtra) continue;
+    const double inverse = 1 / alpha[r];
+    ratios[r] = std::max(tableau_[r][kSolution], 0.0) * inverse;
+    bound = std::min(bound, ratios[r] + kRatioSlack * inverse);
+  }
+  int leaving = -1;
+  double largest = 0;
+  for (int r = 0; r < kRows; ++r) {
+    if (!(ratios[r] <= bound) || ratios[r] == kInfinity) continue;
+    const double preference = basis_[r].contact == kArtificial ? 2 * alpha[r] : alpha[r];
+    if (preference > largest) {
+      largest = preference;
+      leaving = r;
     }
   }
   return leaving;
