@@ -19,7 +19,10 @@ struct ForceClosure {
   double margin_upper = 0;
 };
 
-/// Margins within this of zero are too close to call in double precision: …derived in the .cc.
+/// What is within this of the border, relative to the size of the grasp's wrenches in the contacts'
+/// own frame, is too close to call: a twist must separate by more, a ball about the origin or a
+/// step beyond it be larger. Evaluating a wrench or a support loses some twenty roundings, 5e-15;
+/// the rest is room for the inverse of the basic columns.
 inline constexpr double kForceClosureEpsilon = 1e-12;
 
 /// Decides force closure with circular friction cones (cone edges in the plane), in space and in
@@ -28,7 +31,11 @@ inline constexpr double kForceClosureEpsilon = 1e-12;
 /// Force closure holds iff the grasp matrix G (wrenches as in WrenchFrame) has full rank and forces
 /// f_i in the interior of C(n_i, half_angle) with Σ G_i f_i = 0 exist (Murray, Li and Sastry 1994,
 /// Prop. 5.3). The margin is ε* = max ε over forces g_i ∈ C(n_i) with Σ n_i·g_i = 1 and
-/// Σ G_i (g_i + ε n_i) = 0; it is positive iff such interior forces exist.
+/// Σ G_i (g_i + ε n_i) = 0; it is positive iff such interior forces exist, and infinite where unit
+/// normal forces balance by themselves. It depends on neither the frame's origin nor its radius.
+///
+/// kNo is certain by a separating twist, by a line through two contacts about which all others turn
+/// the object the same way, or by rank; kYes by a ball of wrenches about the origin.
 ///
 /// Laws: independent of the order of the contacts, of rigid motion and of the unit of length;
 /// enlarging half_angle or adding a contact never turns yes into no.

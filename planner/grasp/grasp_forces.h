@@ -20,15 +20,19 @@ struct GraspForces {
   std::vector<Eigen::Vector3d> forces;  ///< newtons, one per contact, on the object
   bool balanced = false;                ///< Σ G_i f_i + load = 0 and every f_i inside its cone
   /// Largest m such that every f_i lies in its cone with m · total_normal / k of normal force to
-  /// spare: f_i − m (total_normal / k) n_i ∈ C(n_i). Negative for a best effort.
+  /// spare: f_i − m (total_normal / k) n_i ∈ C(n_i). For a best effort minus the unbalanced wrench
+  /// (the sum of the absolute values of its numbers in the frame) over total_normal.
   double margin = 0;
 };
 
 /// Contact forces with Σ n_i·f_i = total_normal that balance `load` with the largest margin inside
-/// the cones. Where no forces inside the cones balance it, the best effort: balance first (least
-/// unbalanced wrench), cones respected, so that a bad grasp gets a fair try.
+/// the cones, to 1e-9. Where no forces inside the cones balance it, the best effort, so that a bad
+/// grasp gets a fair try: cones and total respected, the unbalanced wrench least in the sum of
+/// absolute values (L1, so it can depend on the frame's axes).
 ///
 /// @param total_normal  sum of the normal forces, newtons, > 0.
+/// @throws std::invalid_argument  as TestForceClosure; the load is not finite, total_normal not >
+/// 0.
 [[nodiscard]] GraspForces ComputeGraspForces(std::span<const Contact> contacts,
                                              const WrenchFrame& frame, double half_angle,
                                              const Wrench& load, double total_normal);

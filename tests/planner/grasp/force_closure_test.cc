@@ -68,8 +68,8 @@ TEST(ForceClosureTest, AgreesWithInscribedAndCircumscribedPyramidsInSpace) {
   }
   EXPECT_GT(agreement.yes, 300);
   EXPECT_GT(agreement.no, 300);
-  // Two of 1000 fall into the gap of the pyramids or onto a structural zero of the pair lines.
-  EXPECT_LT(agreement.between, 1200);
+  // In the gap of the pyramids, or where two contacts balance alone and GLPK's margin is 0.
+  EXPECT_LT(agreement.between, 40);
   RecordProperty("between", agreement.between);
 }
 
