@@ -108,13 +108,30 @@ std::vector<std::array<int, 3>> TriangulateSimple(const std::vector<Point2>& out
   return triangles;
 }
 
+/// A polygon of four or more corners whose area is lost in the rounding of its extent squared has
+/// no plane: its parts cancel, as in a bow tie.
+constexpr double kAreaRounding = 1e-13;
+
+double ExtentSquared(const std::vector<Vector3d>& corners) {
+  double largest = 0;
+  for (const auto& corner : corners) {
+    largest = std::max(largest, (corner - corners[0]).squaredNorm());
+  }
+  return largest;
+}
+
 std::vector<std::array<int, 3>> TriangulatePolygon(const std::vector<Vector3d>& corners,
                                                    double diameter, const std::string& facet) {
   if (AllCollinear(corners)) {
     throw MeshError(MeshDefect::kDegenerateFacet, facet + ": degenerate: it has no area");
   }
   if (corners.size() == 3) return {{0, 1, 2}};
+  const auto fail_outline = [&] {
+    throw MeshError(MeshDefect::kSelfIntersecting,
+                    facet + ": self-intersecting: its outline meets itself");
+  };
   const Vector3d area = AreaVector(corners);
+  if (area.norm() <= kAreaRounding * ExtentSquared(corners)) fail_outline();
   const double deviation = DistanceFromPlane(corners, area.normalized());
   if (deviation > kPlanarTolerance * diameter) {
     throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner lies " +
@@ -122,10 +139,7 @@ std::vector<std::array<int, 3>> TriangulatePolygon(const std::vector<Vector3d>& 
   }
   const std::vector<Point2> outline = Project(corners, area);
   const CGAL::Polygon_2<Kernel> polygon(outline.begin(), outline.end());
-  if (!polygon.is_simple() || polygon.is_clockwise_oriented()) {
-    throw MeshError(MeshDefect::kSelfIntersecting,
-                    facet + ": self-intersecting: its outline meets itself");
-  }
+  if (!polygon.is_simple() || polygon.is_clockwise_oriented()) fail_outline();
   return TriangulateSimple(outline);
 }
 

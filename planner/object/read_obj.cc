@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 
+#include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
@@ -18,9 +19,17 @@ constexpr auto kIgnored = std::to_array<std::string_view>(
      "c_interp",  "d_interp", "lod",   "usemap", "maplib", "usemtl", "mtllib", "shadow_obj",
      "trace_obj", "ctech",    "stech", "call",   "csh"});
 
+/// The first three numbers; a weight or a colour may follow.
 Eigen::Vector3d ReadVertex(TextScanner& scanner, std::size_t index) {
+  const std::string what = "vertex " + std::to_string(index);
   Eigen::Vector3d vertex;
-  for (double& x : vertex) x = scanner.ReadDouble("vertex " + std::to_string(index));
+  for (double& x : vertex) {
+    const auto word = scanner.NextOnLine();
+    if (!word) scanner.Fail(what + ": fewer than three coordinates");
+    const auto value = ParseDouble(*word);
+    if (!value) scanner.Fail(what + ": " + Quoted(*word) + " is not a finite number");
+    x = *value;
+  }
   return vertex;
 }
 

@@ -7,6 +7,19 @@
 
 namespace regrasp {
 
+namespace {
+
+/// assimp's words in one printable line.
+std::string Cleaned(std::string message) {
+  if (message.empty()) return "assimp cannot read it";
+  for (char& c : message) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return message;
+}
+
+}  // namespace
+
 PolygonSoup ReadWithAssimp(const std::filesystem::path& path, const AssimpLimits& limits) {
   const std::string name = path.string();
   const ChildResult result =
@@ -16,8 +29,7 @@ PolygonSoup ReadWithAssimp(const std::filesystem::path& path, const AssimpLimits
     case ChildEnd::kDone:
       break;
     case ChildEnd::kThrew:
-      throw InputError(name + ": " +
-                       (result.bytes.empty() ? "assimp cannot read it" : result.bytes));
+      throw InputError(name + ": " + Cleaned(result.bytes));
     case ChildEnd::kTookTooLong:
       throw InputError(name + ": assimp took longer than allowed to read it");
     case ChildEnd::kCrashed:

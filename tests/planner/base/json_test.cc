@@ -1,0 +1,100 @@
+#include "planner/base/json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+struct BadJson {
+  std::string text;
+  std::string words;  ///< that the message must have
+};
+
+TEST(ParseJson, RefusesWhatIsNotStrictJson) {
+  const std::vector<BadJson> cases = {
+      {"", "not JSON"},
+      {" \n", "not JSON"},
+      {R"({"a": 1, "a": 2})", "the key \"a\" is repeated"},
+      {R"({"a": 1, "\u0061": 2})", "the key \"a\" is repeated"},
+      {R"([{"x": {"b": 1, "c": [], "b": 3}}])", "the key \"b\" is repeated"},
+      {R"({"a": 1} x)", "not JSON"},
+      {R"({"a": 1}{"a": 1})", "not JSON"},
+      {R"({"a": 1)", "not JSON"},
+      {R"({"a": 1,})", "not JSON"},
+      {R"({a: 1})", "not JSON"},
+      {"[1e999]", "number overflow"},
+      {"[-1e999]", "number overflow"},
+      {"[NaN]", "not JSON"},
+      {"[nan]", "not JSON"},
+      {"[Infinity]", "not JSON"},
+      {"[-inf]", "not JSON"},
+      {"[01]", "not JSON"},
+      {"[0x10]", "not JSON"},
+      {"[1,5", "not JSON"},
+      {"[1] // comment", "not JSON"},
+      {"\"\xff\xfe\"", "invalid UTF-8"},
+      {"\"\xc3\"", "UTF-8"},
+      {"{\"\xed\xa0\x80\": 1}", "invalid UTF-8"},
+      {"\"line\nbreak\"", "not JSON"},
+      {std::string("[1]\0", 4), "not JSON"},
+      {"\xEF\xBB\xBF", "not JSON"},
+      {"\xEF\xBB", "not JSON"},
+  };
+  for (const auto& [text, words] : cases) {
+    try {
+      const Json json = ParseJson(text, "bad.json");
+      ADD_FAILURE() << text << " was read as " << json;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), StartsWith("bad.json: "));
+      EXPECT_THAT(error.what(), HasSubstr(words)) << text;
+      EXPECT_THAT(error.what(), Not(HasSubstr("json.exception")));
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n"))) << text;
+    }
+  }
+}
+
+TEST(ParseJson, SkipsAByteOrderMarkAndKeepsTheOrderOfKeys) {
+  const Json json = ParseJson("\xEF\xBB\xBF{\"b\": 1, \"a\": {\"b\": 2}, \"c\": {\"b\": 3}}", "t");
+  EXPECT_EQ(json.dump(), R"({"b":1,"a":{"b":2},"c":{"b":3}})");
+}
+
+std::string Nested(int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) text += i % 2 == 0 ? "[" : "{\"a\":";
+  text += "1";
+  for (int i = depth; i-- > 0;) text += i % 2 == 0 ? "]" : "}";
+  return text;
+}
+
+TEST(ParseJson, ReadsTheDeepestNestingAndRefusesMore) {
+  EXPECT_NO_THROW(static_cast<void>(ParseJson(Nested(kMaxJsonDepth), "t")));
+  EXPECT_THROW(static_cast<void>(ParseJson(Nested(kMaxJsonDepth + 1), "t")), InputError);
+  for (const char c : {'[', '{'}) {
+    EXPECT_THROW(static_cast<void>(ParseJson(std::string(5'000'000, c), "t")), InputError);
+  }
+  std::string objects;
+  for (int i = 0; i < 1'000'000; ++i) objects += "{\"a\":";
+  EXPECT_THROW(static_cast<void>(ParseJson(objects, "t")), InputError);
+}
+
+TEST(FormatJson, DoublesComeBackAsTheSameBits) {
+  for (const double value : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -2.5, 12345678.9}) {
+    const Json back = ParseJson(FormatJson(Json{{"x", value}}), "t");
+    EXPECT_EQ(back.at("x").get<double>(), value);
+  }
+}
+
+TEST(FormatJson, EndsWithALineEnd) { EXPECT_EQ(FormatJson(Json{{"x", 1}}), "{\n \"x\": 1\n}\n"); }
+
+}  // namespace
+}  // namespace regrasp

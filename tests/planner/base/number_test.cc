@@ -1,0 +1,95 @@
+#include "planner/base/number.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <clocale>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <locale>
+#include <random>
+
+#include "planner/base/angle.h"
+#include "planner/base/json.h"
+
+namespace regrasp {
+namespace {
+
+TEST(ParseDouble, ReadsDecimalNumbers) {
+  EXPECT_EQ(ParseDouble("0"), 0.0);
+  EXPECT_EQ(ParseDouble("-1.5"), -1.5);
+  EXPECT_EQ(ParseDouble("+1.5"), 1.5);
+  EXPECT_EQ(ParseDouble(".5"), 0.5);
+  EXPECT_EQ(ParseDouble("5."), 5.0);
+  EXPECT_EQ(ParseDouble("1e3"), 1000.0);
+  EXPECT_EQ(ParseDouble("1E-3"), 0.001);
+  EXPECT_EQ(ParseDouble("0.1"), 0.1);
+  EXPECT_TRUE(std::signbit(*ParseDouble("-0")));
+}
+
+TEST(ParseDouble, RefusesEverythingElse) {
+  int refused = 0;
+  for (const std::string_view text :
+       {"",      "+",   "-",    ".",        "e5",    "1e",    "1 ",    " 1",     "1,5",
+        "1.5.2", "+-1", "-+1",  "++1",      "--1",   "0x10",  "1e999", "-1e999", "nan",
+        "NaN",   "inf", "-inf", "infinity", "1_000", "1'000", "١"}) {
+    EXPECT_FALSE(ParseDouble(text).has_value()) << text;
+    ++refused;
+  }
+  EXPECT_EQ(refused, 25);
+  EXPECT_FALSE(ParseDouble(std::string_view("1\0", 2)).has_value());
+}
+
+TEST(FormatDouble, ComesBackAsTheSameBits) {
+  std::mt19937_64 random(2);
+  int compared = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    const auto back = ParseDouble(FormatDouble(value));
+    ASSERT_TRUE(back.has_value()) << FormatDouble(value);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(*back), std::bit_cast<std::uint64_t>(value));
+    ++compared;
+  }
+  EXPECT_GT(compared, 19000);
+}
+
+TEST(FormatShort, RoundsToTheDigitsAsked) {
+  EXPECT_EQ(FormatShort(0.123456), "0.1235");
+  EXPECT_EQ(FormatShort(1.0 / 3, 2), "0.33");
+  EXPECT_EQ(FormatShort(1234567, 3), "1.23e+06");
+  EXPECT_EQ(FormatShort(0), "0");
+}
+
+class CommaNumbers : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Numbers, AreTheSameUnderALocaleWithCommas) {
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
+  const std::string c_before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) != nullptr) break;  // where the machine has one
+  }
+  EXPECT_EQ(ParseDouble("1.5"), 1.5);
+  EXPECT_FALSE(ParseDouble("1,5").has_value());
+  EXPECT_EQ(FormatDouble(1234.5), "1234.5");
+  EXPECT_EQ(FormatShort(1234.5, 5), "1234.5");
+  EXPECT_EQ(ParseJson("[1234.5, 1e3]", "t").dump(), "[1234.5,1000.0]");
+  EXPECT_EQ(FormatJson(Json(12345678)), "12345678\n");
+  EXPECT_EQ(ParseJson(FormatJson(Json(1234.5)), "t").get<double>(), 1234.5);
+  std::setlocale(LC_ALL, c_before.c_str());
+  std::locale::global(before);
+}
+
+TEST(Angle, DegreesAndRadiansAreInverse) {
+  EXPECT_DOUBLE_EQ(Radians(180), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(Degrees(Radians(20)), 20);
+}
+
+}  // namespace
+}  // namespace regrasp

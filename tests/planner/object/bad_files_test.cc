@@ -1,0 +1,247 @@
+// The corpus of files that must be refused, and what must never crash whatever it holds.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <random>
+#include <string>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/object.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::filesystem::path kObjects = std::filesystem::path(REGRASP_TEST_DATA) / "objects";
+
+/// File in tests/data/objects/bad, and words that the message must have behind the file's name.
+const std::map<std::string, std::string> kBadFiles = {
+    {"bad_format.ply", "line 2: \"ebcdic\" is not a format"},
+    {"bad_type.ply", "line 6: \"quad\" is not a type"},
+    {"bent_quad.obj", "facet 1: not planar: a corner lies 0.0025 off"},
+    {"beside.obj", "facet 4: several solids"},
+    {"bow_tie.obj", "facet 0: self-intersecting"},
+    {"comma.obj", "line 3: vertex 2: \"1,5\" is not a finite number"},
+    {"corner_twice.obj", "facet 0: degenerate: two of its corners are vertex 1"},
+    {"crossing.obj", "self-intersecting: meets facet"},
+    {"edge_of_three.obj", "not manifold: 3 facets meet"},
+    {"empty.glb", "No suitable reader"},
+    {"empty.obj", "empty: no facet"},
+    {"empty.stl", "not an STL file"},
+    {"facet_twice.obj", "facet 0: not manifold: 3 facets meet"},
+    {"far_away.obj", "too far from the origin"},
+    {"flat.obj", "facet 0: self-intersecting: meets facet 1"},
+    {"flipped_facet.obj", "facet 0: not consistently oriented with facet 3"},
+    {"float_count.ply", "line 8: a list whose length is not an integer"},
+    {"float_indices.ply", "lacks an integer list"},
+    {"four_corners.stl", "line 7: \"vertex\" where \"endloop\""},
+    {"fraction_count.off", "line 2: the number of vertices: \"4.5\" is not an integer"},
+    {"fraction_index.ply", "facet 3: \"2.5\" is not"},
+    {"huge.obj", "vertex 2: the coordinate 1e+16"},
+    {"huge_count.stl", "declares 4294967295 facets"},
+    {"huge_counts.off", "ends where vertex 1 should be"},
+    {"huge_counts.ply", "ends inside vertex 4"},
+    {"huge_facet.off", "ends where facet 0 should be"},
+    {"huge_list_binary.ply", "ends inside facet 0"},
+    {"index_beyond.gltf", "not closed"},  // assimp moves the index into range
+    {"index_beyond.obj", "facet 3: vertex index 99 is out of range (1 to 4)"},
+    {"index_beyond.off", "line 10: facet 3: vertex index 4 is out of range (4 vertices)"},
+    {"index_beyond.ply", "facet 3: vertex index 7 is out of range (4 vertices)"},
+    {"index_beyond_binary.ply", "facet 3: vertex index 4294967295 is out of range"},
+    {"index_huge.obj", "line 5: facet 0: \"99999999999999999999\" is not a corner"},
+    {"index_negative.off", "line 10: facet 3: vertex index -3 is out of range"},
+    {"index_negative.ply", "facet 3: vertex index -1 is out of range"},
+    {"index_negative_beyond.obj", "line 5: facet 0: vertex index -9 is out of range"},
+    {"index_not_number.obj", "line 5: facet 0: \"x\" is not a corner"},
+    {"index_over_int.obj", "line 5: facet 0: vertex index 4294967298 is out of range"},
+    {"index_zero.obj", "line 5: facet 0: vertex index 0 is out of range"},
+    {"inf.obj", "vertex 2: \"-inf\" is not a finite number"},
+    {"inward_beside.obj", "facet 4: several solids"},
+    {"json.obj", "line 1: \"{\"format\":\" is not a statement"},
+    {"list_in_vertex.ply", "vertex 0: has a list"},
+    {"moved_vertex.stl", "not closed"},
+    {"nan.obj", "line 3: vertex 2: \"nan\" is not a finite number"},
+    {"nan.off", "line 5: vertex 2: \"nan\" is not a finite number"},
+    {"nan.ply", "vertex 2: \"nan\" is not a finite number"},
+    {"nan.stl", "line 5: facet 0: \"nan\" is not a finite number"},
+    {"nan_binary.ply", "vertex 0: the coordinate nan is not finite"},
+    {"nan_binary.stl", "facet 0: the coordinate inf is not finite"},
+    {"negative_count.off", "line 2: a negative number"},
+    {"negative_list.ply", "facet 0: a list of length -3"},
+    {"no_area.obj", "facet 0: degenerate: it has no area"},
+    {"no_counts.off", "ends where the number of vertices"},
+    {"no_end.ply", "line 5: \"prope\" is not a statement"},
+    {"no_format.ply", "no format"},
+    {"no_format.xyz", "No suitable reader"},
+    {"no_header.ply", "line 1: not the start of a PLY file"},
+    {"no_list.ply", "lacks an integer list"},
+    {"no_properties.ply", "element \"nothing\" has no properties"},
+    {"no_z.ply", "lacks x, y or z"},
+    {"noise.3mf", "noise.3mf"},
+    {"noise.gltf", "No suitable reader"},
+    {"noise.obj", "line 1: \"0Uz????3X}????6[?????9^?…\" is not a statement"},
+    {"only_vertices.obj", "empty: no facet"},
+    {"open.obj", "facet 0: not closed: no other facet at the edge from vertex 2 (0, 1, 0)"},
+    {"other_dimension.off", "\"4off\" is not the start"},
+    {"overflow.obj", "vertex 2: \"1e999\" is not a finite number"},
+    {"property_first.ply", "line 3: a property before the first element"},
+    {"short.stl", "not an STL file"},
+    {"solid_in_solid.obj", "facet 4: several solids: its shell lies inside another"},
+    {"solid_only.stl", "empty: no facet"},
+    {"tiny.obj", "within 1e-15 of each other"},
+    {"too_many.off", "line 11: \"3\" behind the last of 4 facets"},
+    {"too_many.ply", "goes on behind the last element"},
+    {"touching_edge.obj", "not manifold: 4 facets meet"},
+    {"touching_vertex.obj", "vertex 3 (0, 0, 1): not manifold"},
+    {"trailing_binary.ply", "goes on behind the last element"},
+    {"trailing_binary.stl", "the file has 286 bytes"},
+    {"truncated.dae", "truncated.dae"},
+    {"truncated.off", "ends where facet 3 should be"},
+    {"truncated.ply", "ends inside facet 2"},
+    {"truncated.stl", "line 27: \"v\" where \"vertex\""},
+    {"truncated_binary.ply", "ends inside facet 3"},
+    {"truncated_binary.stl", "the file has 283 bytes"},
+    {"two_coordinates.obj", "line 1: vertex 0: fewer than three coordinates"},
+    {"two_corners.obj", "facet 0: degenerate: fewer than three corners (2)"},
+    {"unknown_statement.obj", "line 1: \"hello\" is not a statement"},
+    {"vertex_on_facet.obj", "self-intersecting: meets facet"},
+    {"word.stl", "line 30: \"hello\" where a facet"},
+    {"wrong_header.off", "\"ofg\" is not the start"},
+};
+
+TEST(BadFiles, EachIsRefusedInOneLineThatNamesFileAndElement) {
+  std::size_t refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kObjects / "bad")) {
+    const std::string file = entry.path().filename().string();
+    ASSERT_TRUE(kBadFiles.contains(file)) << file << " is not in the table";
+    try {
+      static_cast<void>(ReadObject(entry.path()));
+      ADD_FAILURE() << file << " was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), StartsWith(entry.path().string() + ": "));
+      EXPECT_THAT(error.what(), HasSubstr(kBadFiles.at(file)));
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+      EXPECT_THAT(error.what(), Not(EndsWith(" ")));
+      ++refused;
+    }
+  }
+  EXPECT_EQ(refused, kBadFiles.size());
+}
+
+TEST(BadFiles, TheirSoundRelativesAreRead) {
+  std::size_t read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kObjects / "good")) {
+    SCOPED_TRACE(entry.path().filename().string());
+    const ObjectFile file = ReadObject(entry.path());
+    EXPECT_EQ(file.object->face_count(), 4);
+    const bool placed = file.file == "placed.gltf";  // twice as large, mirrored
+    EXPECT_NEAR(file.object->mass_properties().volume, (placed ? 8 : 1) / 6.0, 1e-6);
+    ++read;
+  }
+  EXPECT_EQ(read, 13u);
+}
+
+TEST(BadFiles, AFileThatIsMissingOrAFolderIsRefused) {
+  EXPECT_THROW(static_cast<void>(ReadObject(kObjects / "nowhere.obj")), InputError);
+  EXPECT_THROW(static_cast<void>(ReadObject(kObjects)), InputError);
+}
+
+/// Reads bytes in this process as the format of `ending`. @returns whether they are an object.
+bool IsObject(const std::string& ending, const std::string& bytes) {
+  try {
+    if (ending == ".wkt") {
+      static_cast<void>(Polygon::FromWkt(bytes, "bytes"));
+      return true;
+    }
+    const PolygonSoup soup = ending == ".obj"   ? ReadObj(bytes, "bytes")
+                             : ending == ".off" ? ReadOff(bytes, "bytes")
+                             : ending == ".ply" ? ReadPly(bytes, "bytes")
+                                                : ReadStl(bytes, "bytes");
+    static_cast<void>(Polyhedron::FromSoup(soup, "bytes"));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// The sound files of formats that are read in this process.
+std::map<std::string, std::string> SoundFiles() {
+  std::map<std::string, std::string> files;
+  for (const auto& folder :
+       {kObjects / "good", std::filesystem::path(REGRASP_SOURCE_DIR) / "models"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string ending = entry.path().extension().string();
+      for (const std::string known : {".obj", ".off", ".ply", ".stl", ".wkt"}) {
+        if (ending == known) files[entry.path().filename().string()] = ReadFile(entry.path());
+      }
+    }
+  }
+  return files;
+}
+
+TEST(BadFiles, TruncatedAnywhereAFileIsReadOrRefused) {
+  int refused = 0, files = 0;
+  for (const auto& [file, bytes] : SoundFiles()) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    ASSERT_TRUE(IsObject(ending, bytes)) << file;
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      refused += !IsObject(ending, bytes.substr(0, size));
+    }
+    ++files;
+  }
+  EXPECT_GE(files, 19);
+  EXPECT_GT(refused, 5000);
+}
+
+TEST(BadFiles, WithBytesChangedAFileIsReadOrRefused) {
+  constexpr int kChangesPerFile = 400;
+  std::mt19937 random(7);
+  int refused = 0, read = 0;
+  for (const auto& [file, bytes] : SoundFiles()) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    for (int i = 0; i < kChangesPerFile; ++i) {
+      std::string changed = bytes;
+      for (unsigned int k = 0; k <= random() % 3; ++k) {
+        changed[random() % changed.size()] = static_cast<char>(random() % 256);
+      }
+      (IsObject(ending, changed) ? read : refused)++;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(read, 10);
+}
+
+TEST(BadFiles, NoiseIsRefused) {
+  std::mt19937 random(11);
+  int refused = 0;
+  for (const std::string ending : {".obj", ".off", ".ply", ".stl", ".wkt"}) {
+    for (int i = 0; i < 200; ++i) {
+      std::string noise(random() % 400, '\0');
+      for (char& c : noise) c = static_cast<char>(random() % 256);
+      refused += !IsObject(ending, noise);
+    }
+  }
+  EXPECT_EQ(refused, 1000);
+}
+
+TEST(BadFiles, DeepOrLongTextIsRefusedWithoutRecursion) {
+  const std::string deep(1'000'000, '(');
+  EXPECT_FALSE(IsObject(".wkt", "POLYGON" + deep));
+  EXPECT_FALSE(IsObject(".obj", "v " + std::string(1'000'000, '1') + " 0 0\n"));
+  EXPECT_FALSE(IsObject(".obj", std::string(1'000'000, '\\')));
+  EXPECT_FALSE(IsObject(".off", "OFF\n" + std::string(1'000'000, ' ')));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,307 @@
+// Each MeshDefect with the surface that has it and nothing else, and what is sound beside it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "planner/object/face_joining.h"
+#include "planner/object/facet_triangulation.h"
+#include "planner/object/polyhedron.h"
+#include "planner/object/size_limits.h"
+#include "tests/planner/object/meshes.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using namespace regrasp::testing;  // NOLINT: the meshes of this folder
+
+struct Spoilt {
+  std::string what;
+  MeshDefect defect;
+  std::string words;
+  std::function<void(PolygonSoup&)> spoil;
+};
+
+/// The unit cube's facets: 0 is z = −½ (corners 0 2 3 1), 1 is z = ½, then −y, x, y, −x.
+std::vector<Spoilt> SpoiltCubes() {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  return {
+      {"nothing", MeshDefect::kEmpty, "no facet", [](PolygonSoup& s) { s = {}; }},
+      {"no facets", MeshDefect::kEmpty, "no facet", [](PolygonSoup& s) { s.facets.clear(); }},
+      {"NaN", MeshDefect::kNotFinite, "vertex 5: the coordinate nan",
+       [=](PolygonSoup& s) { s.vertices[5].y() = nan; }},
+      {"infinite", MeshDefect::kNotFinite, "vertex 2: the coordinate -inf",
+       [=](PolygonSoup& s) { s.vertices[2].z() = -inf; }},
+      {"beyond range", MeshDefect::kNotFinite, "vertex 2: the coordinate 2e+15",
+       [](PolygonSoup& s) { s.vertices[2].x() = 2e15; }},
+      {"tiny", MeshDefect::kBadSize, "within 1e-15",
+       [](PolygonSoup& s) { Transform(s, Eigen::Affine3d(Eigen::Scaling(1e-17))); }},
+      {"far away", MeshDefect::kBadSize, "too far from the origin",
+       [](PolygonSoup& s) { Transform(s, Eigen::Affine3d(Eigen::Translation3d(3e7, 0, 0))); }},
+      {"index beyond", MeshDefect::kIndexOutOfRange, "facet 4: vertex index 8 is out of range (8",
+       [](PolygonSoup& s) { s.facets[4][1] = 8; }},
+      {"index negative", MeshDefect::kIndexOutOfRange, "facet 4: vertex index -1",
+       [](PolygonSoup& s) { s.facets[4][1] = -1; }},
+      {"two corners", MeshDefect::kDegenerateFacet, "facet 2: degenerate: fewer than three",
+       [](PolygonSoup& s) { s.facets[2].resize(2); }},
+      {"no corners", MeshDefect::kDegenerateFacet, "facet 2: degenerate: fewer than three",
+       [](PolygonSoup& s) { s.facets[2].clear(); }},
+      {"corner twice", MeshDefect::kDegenerateFacet, "facet 2: degenerate: two of its corners",
+       [](PolygonSoup& s) { s.facets[2][1] = s.facets[2][0]; }},
+      {"corner twice by coordinates", MeshDefect::kDegenerateFacet, "facet 0: degenerate: two",
+       [](PolygonSoup& s) { s.vertices[3] = s.vertices[2]; }},
+      {"no area", MeshDefect::kDegenerateFacet, "facet 6: degenerate: it has no area",
+       [](PolygonSoup& s) {
+         s.vertices.push_back((s.vertices[0] + s.vertices[1]) / 2);
+         s.facets.push_back({0, 8, 1});
+       }},
+      {"bent", MeshDefect::kNotPlanar, "facet 1: not planar",
+       [](PolygonSoup& s) { s.vertices[7].z() += 0.01; }},
+      {"bow tie", MeshDefect::kSelfIntersecting, "facet 3: self-intersecting: its outline",
+       [](PolygonSoup& s) { std::swap(s.facets[3][0], s.facets[3][1]); }},
+      {"open", MeshDefect::kNotClosed, "not closed: no other facet",
+       [](PolygonSoup& s) { s.facets.pop_back(); }},
+      {"T-junction", MeshDefect::kNotClosed, "not closed",
+       [](PolygonSoup& s) {
+         s.vertices.push_back((s.vertices[0] + s.vertices[1]) / 2);
+         s.facets[0] = {0, 2, 3, 1, 8};
+       }},
+      {"facet twice", MeshDefect::kNotManifold,
+       "not manifold: ", [](PolygonSoup& s) { s.facets.push_back(s.facets[0]); }},
+      {"fin", MeshDefect::kNotManifold, "not manifold: 3 facets",
+       [](PolygonSoup& s) {
+         s.vertices.push_back({3, 3, 3});
+         s.facets.push_back({0, 1, 8});
+       }},
+      {"vertex of two bodies", MeshDefect::kNotManifold, "vertex 7 (0.5, 0.5, 0.5): not manifold",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup(Vector3d::Constant(0.5), Vector3d::Constant(1)));
+       }},
+      {"edge of two bodies", MeshDefect::kNotManifold, "not manifold: 4 facets",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup({0.5, 0.5, -0.5}, {1, 1, 0.5}));
+       }},
+      {"facet turned", MeshDefect::kNotOriented, "not consistently oriented with facet",
+       [](PolygonSoup& s) { std::ranges::reverse(s.facets[3]); }},
+      {"bodies crossing", MeshDefect::kSelfIntersecting, "self-intersecting: meets facet",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup(Vector3d::Constant(0.3), Vector3d::Constant(1)));
+       }},
+      {"bodies flush", MeshDefect::kSelfIntersecting, "self-intersecting: meets facet",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup({0.5, -0.2, -0.2}, {1, 0.2, 0.2}));
+       }},
+      {"bodies beside", MeshDefect::kSeveralSolids,
+       "facet 6: several solids: its shell lies beside",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5)));
+       }},
+      {"body inside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell lies inside",
+       [](PolygonSoup& s) {
+         s = Join(s, BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
+       }},
+      {"body in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell lies inside",
+       [](PolygonSoup& s) {
+         PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
+         Turn(cavity);
+         s = Join(Join(s, cavity), BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
+       }},
+      {"cavity in a cavity", MeshDefect::kSeveralSolids, "several solids: its shell lies inside a",
+       [](PolygonSoup& s) {
+         PolygonSoup cavity = BoxSoup(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
+         PolygonSoup inner = BoxSoup(Vector3d::Constant(-0.2), Vector3d::Constant(0.2));
+         Turn(cavity);
+         Turn(inner);
+         s = Join(Join(s, cavity), inner);
+       }},
+      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "lies beside",
+       [](PolygonSoup& s) {
+         PolygonSoup other = BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5));
+         Turn(other);
+         s = Join(s, other);
+       }},
+  };
+}
+
+TEST(MeshChecks, EachDefectIsNamedWithItsElement) {
+  ASSERT_EQ(Polyhedron::FromSoup(UnitCubeSoup(), "cube").face_count(), 6) << "sound before";
+  for (const Spoilt& spoilt : SpoiltCubes()) {
+    SCOPED_TRACE(spoilt.what);
+    PolygonSoup soup = UnitCubeSoup();
+    spoilt.spoil(soup);
+    try {
+      static_cast<void>(Polyhedron::FromSoup(soup, "spoilt cube"));
+      ADD_FAILURE() << "accepted";
+    } catch (const MeshError& error) {
+      EXPECT_EQ(error.defect(), spoilt.defect) << error.what();
+      EXPECT_THAT(error.what(), HasSubstr("spoilt cube: "));
+      EXPECT_THAT(error.what(), HasSubstr(spoilt.words));
+    }
+  }
+}
+
+TEST(MeshChecks, EachDefectIsFoundUnderAnyMotion) {
+  int checked = 0;
+  for (const Spoilt& spoilt : SpoiltCubes()) {
+    // These depend on where the body is, or are exact in the axes alone.
+    if (spoilt.what == "far away" || spoilt.what == "tiny" || spoilt.what == "bodies flush" ||
+        spoilt.what == "no area" || spoilt.defect == MeshDefect::kNotFinite ||
+        spoilt.defect == MeshDefect::kEmpty) {
+      continue;
+    }
+    PolygonSoup soup = UnitCubeSoup();
+    spoilt.spoil(soup);
+    Transform(soup, SomeMotion());
+    try {
+      static_cast<void>(Polyhedron::FromSoup(soup, "spoilt cube"));
+      ADD_FAILURE() << spoilt.what << " accepted";
+    } catch (const MeshError& error) {
+      EXPECT_EQ(error.defect(), spoilt.defect) << error.what();
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 15);
+}
+
+TEST(MeshChecks, EqualVerticesAreOneAndUnusedOnesAreIgnored) {
+  const PolygonSoup cube = UnitCubeSoup();
+  PolygonSoup split;
+  split.vertices.push_back({50, 0, 0});  // unused: not part of the diameter
+  for (const auto& facet : cube.facets) {
+    auto& corners = split.facets.emplace_back();
+    for (const int v : facet) {
+      corners.push_back(static_cast<int>(split.vertices.size()));
+      split.vertices.push_back(cube.vertices[v]);
+    }
+  }
+  const Polyhedron body = Polyhedron::FromSoup(split, "split");
+  EXPECT_EQ(body.vertices().size(), 8u);
+  EXPECT_NEAR(body.diameter(), std::sqrt(3), 1e-12);
+  EXPECT_EQ(body.face_count(), 6);
+}
+
+TEST(MeshChecks, NegativeZeroIsZero) {
+  PolygonSoup soup = BoxSoup(Vector3d::Zero(), Vector3d::Ones());
+  soup.vertices.push_back({-0.0, 0, -0.0});
+  soup.facets[0][0] = 8;
+  const Polyhedron body = Polyhedron::FromSoup(soup, "box");
+  EXPECT_EQ(body.vertices().size(), 8u);
+  for (int f = 0; f < 6; ++f) {
+    for (const double x : body.inward_normal(f)) EXPECT_FALSE(x == 0 && std::signbit(x));
+  }
+}
+
+TEST(MeshChecks, PolygonsMayDeviateFromTheirPlaneByTheTolerance) {
+  const auto lifted = [](double by) {
+    PolygonSoup soup = UnitCubeSoup();
+    soup.vertices[7].z() += by;
+    return soup;
+  };
+  // A corner lifted by d lies d/4 off the mean plane of a square.
+  const double limit = 4 * kPlanarTolerance * std::sqrt(3);
+  EXPECT_EQ(Polyhedron::FromSoup(lifted(0.9 * limit), "cube").face_count(), 6);
+  EXPECT_THROW(static_cast<void>(Polyhedron::FromSoup(lifted(1.1 * limit), "cube")), MeshError);
+}
+
+TEST(MeshChecks, FacetsJoinWithinTheCoplanarAngleOnly) {
+  // A roof of two triangles whose ridge is lifted, in place of the cube's upper facet.
+  const auto roof = [](double angle) {
+    PolygonSoup soup = UnitCubeSoup();
+    soup.facets[1] = {4, 5, 7};
+    soup.facets.push_back({4, 7, 6});
+    // Lifting corner 7 by d turns each triangle by about d.
+    soup.vertices[7].z() += angle / std::sqrt(2);
+    return Polyhedron::FromSoup(soup, "roof").face_count();
+  };
+  EXPECT_EQ(roof(0), 6);
+  EXPECT_EQ(roof(0.5 * kCoplanarAngle), 6);
+  EXPECT_EQ(roof(3 * kCoplanarAngle), 7);
+}
+
+TEST(MeshChecks, AFinelyCurvedSurfaceDoesNotBecomeOneFace) {
+  // A prism over a regular polygon so fine that neighbours are within the coplanar angle.
+  constexpr int kSides = 80000;
+  static_assert(2 * std::numbers::pi / kSides < kCoplanarAngle);
+  PolygonSoup soup;
+  for (const double z : {0.0, 1.0}) {
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kSides;
+      soup.vertices.push_back({std::cos(angle), std::sin(angle), z});
+    }
+  }
+  soup.facets.resize(2);
+  for (int i = 0; i < kSides; ++i) {
+    const int j = (i + 1) % kSides;
+    soup.facets[0].push_back(kSides - 1 - i);
+    soup.facets[1].push_back(kSides + i);
+    soup.facets.push_back({i, j, j + kSides, i + kSides});
+  }
+  const Polyhedron body = Polyhedron::FromSoup(soup, "cylinder");
+  // Each face spans at most the angle to both sides of the facet it was grown from.
+  EXPECT_GE(body.face_count(), 2 + std::numbers::pi / kCoplanarAngle);
+  EXPECT_LT(body.face_count(), 2 + kSides);
+}
+
+TEST(MeshChecks, SliversJoinTheirNeighbour) {
+  // A vertex a little off an edge of the cube's upper face makes a needle with a normal of its own.
+  PolygonSoup soup = UnitCubeSoup();
+  soup.vertices.push_back({0, -0.5, 0.5 - 1e-9});
+  soup.facets[2] = {0, 1, 5, 8, 4};
+  soup.facets.push_back({4, 8, 5});
+  EXPECT_EQ(Polyhedron::FromSoup(soup, "needle").face_count(), 6);
+  soup.vertices.back().z() = 0.5 - 1e-3;  // the facet −y now has a notch that is visible
+  soup.vertices.back().y() = -0.5 + 1e-3;
+  soup.facets[2] = {0, 1, 5, 4};
+  soup.facets.back() = {4, 5, 8};
+  soup.facets[1] = {4, 5, 7, 6};
+  EXPECT_THROW(static_cast<void>(Polyhedron::FromSoup(soup, "fin")), MeshError);
+}
+
+TEST(MeshChecks, FacesDoNotDependOnHowFacetsAreCut) {
+  for (const auto& soup : {UnitCubeSoup(), LBlockSoup(), HoleBlockSoup()}) {
+    const Polyhedron whole = Polyhedron::FromSoup(soup, "whole");
+    PolygonSoup cut{whole.vertices(), {}};
+    for (const auto& t : whole.triangles()) cut.facets.push_back({t[1], t[2], t[0]});
+    std::mt19937 random(3);
+    std::ranges::shuffle(cut.facets, random);
+    const Polyhedron triangles = Polyhedron::FromSoup(cut, "cut");
+    ASSERT_EQ(triangles.face_count(), whole.face_count());
+    EXPECT_NEAR(triangles.mass_properties().volume, whole.mass_properties().volume, 1e-12);
+    for (int f = 0; f < whole.face_count(); ++f) {
+      const auto near = triangles.FacesNear(
+          whole.vertices()[whole.triangles()[whole.faces()[f].triangles[0]][0]], 1e-9);
+      const bool same = std::ranges::any_of(near, [&](int g) {
+        return (triangles.inward_normal(g) - whole.inward_normal(f)).norm() < 1e-12 &&
+               std::abs(triangles.face_measure(g) - whole.face_measure(f)) < 1e-12;
+      });
+      EXPECT_TRUE(same) << "face " << f;
+    }
+  }
+}
+
+TEST(MeshChecks, ALargeMeshIsReadAndAHugeOneRefused) {
+  const PolygonSoup sphere = SphereSoup(110);
+  const Polyhedron ball = Polyhedron::FromSoup(sphere, "ball");
+  EXPECT_EQ(ball.triangles().size(), sphere.facets.size());
+  EXPECT_GT(ball.triangles().size(), 45000u);
+  EXPECT_NEAR(ball.diameter(), 2, 1e-12);
+  EXPECT_NEAR(ball.mass_properties().volume, 4 * std::numbers::pi / 3, 0.01);
+  PolygonSoup huge{sphere.vertices, {}};
+  huge.facets.resize(kMaxFacets + 1, {0, 1, 2});
+  try {
+    static_cast<void>(Polyhedron::FromSoup(huge, "huge"));
+    ADD_FAILURE() << "accepted";
+  } catch (const MeshError& error) {
+    EXPECT_EQ(error.defect(), MeshDefect::kTooLarge);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp
