@@ -1,9 +1,12 @@
 #include "sim/replay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/grasp/grasp_forces.h"
+#include "sim/align.h"
 #include "sim/motions.h"
 #include "sim/scene.h"
 #include "sim/shake.h"
@@ -39,8 +42,13 @@ void Perform(Stage& stage, const Object& object, const Plan& plan, int index, St
   const Step& step = plan.steps[index - 1];
   if (const auto* change = std::get_if<Switch>(&step)) {
     SwitchFingers(stage, ToScene(object, plan.scale, change->place), change->release);
+    return;
   }
-  (void)result;
+  Align align = std::get<Align>(step);
+  for (FingerGrasp& waypoint : align.waypoints) {
+    waypoint = ToScene(object, plan.scale, std::move(waypoint));
+  }
+  result.align_mode = PerformAlign(stage, align);
 }
 
 StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int index) {
@@ -71,6 +79,23 @@ StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int 
   return result;
 }
 
+/// The controls with which the fingers hold the initial grasp at rest, for the keyframe.
+std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Polyhedron& body,
+                                          const Plan& plan) {
+  const ReplaySettings& s = scene.settings;
+  const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
+  std::vector<Eigen::Vector3d> push(scene.finger_start_S.size(), s.finger_mass_kg * up);
+  const Grasp contacts = ContactsOf(ToScene(body, plan.scale, plan.initial));
+  const GraspForces forces =
+      ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, 3}, std::atan(s.mu),
+                         {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    push[plan.initial[i].finger] += forces.forces[i];
+  }
+  for (Eigen::Vector3d& control : push) control /= s.finger_stiffness_N_m;
+  return push;
+}
+
 }  // namespace
 
 ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOptions& options,
@@ -93,7 +118,7 @@ ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOpti
 std::string SceneMjcf(const Object& object, const Plan& plan, const ReplayOptions& options) {
   const Polyhedron& body = RequireSolid(object);
   const Scene scene = MakeScene(body, plan, static_cast<int>(plan.steps.size()), options);
-  return FormatScene(scene, body, {}, /*surface=*/true);
+  return FormatScene(scene, body, HoldControls(scene, body, plan), /*surface=*/true);
 }
 
 }  // namespace regrasp

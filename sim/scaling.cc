@@ -45,10 +45,10 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
   s.squeeze_N = options.squeeze_N.value_or(
       s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
   CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
-  s.timestep_s = kTimestep * std::sqrt(s.diameter_m / kReferenceDiameter);
+  const double steps = 2 / kDampingStep;
+  s.finger_mass_kg = kFingerMass * s.mass_kg;
   s.finger_stiffness_N_m = kStiffness * s.squeeze_N / s.diameter_m;
-  const double steps = 2 * s.timestep_s / kDampingStep;
-  s.finger_mass_kg = s.finger_stiffness_N_m * steps * steps;
+  s.timestep_s = std::sqrt(s.finger_mass_kg / s.finger_stiffness_N_m) / steps;
   s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
   s.fingertip_radius_m =
       std::clamp(clearance / 2, kLeastTipRadius * s.diameter_m, kTipRadius * s.diameter_m);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "planner/plan/plan.h"
+#include "sim/stage.h"
+
+namespace regrasp {
+
+/// Moves a holding finger along the surface, straight inside one face, or rolls it about a point of
+/// the border between two faces, while the others balance it.
+///
+/// The finger's force lies on the edge of its cone towards where it goes, as friction wants it. Its
+/// size is the least that leaves the others a good margin inside cones of kSlideFriction μ
+/// (sim/align.h); where none leaves any, the one that comes closest.
+void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B);
+
+}  // namespace regrasp
