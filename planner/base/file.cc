@@ -20,6 +20,12 @@ std::string ReadFile(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError(path.string() + ": no such file");
   if (fs::is_directory(status)) throw InputError(path.string() + ": is a folder, not a file");
+  const auto fail_large = [&] {
+    throw InputError(path.string() + ": larger than " + std::to_string(kMaxInputBytes) + " bytes");
+  };
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > kMaxInputBytes && !error) {
+    fail_large();
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path.string() + ": cannot be read: " + std::strerror(errno));
   // Read in pieces, so that a pipe or a device that never ends meets the limit too.
@@ -27,10 +33,7 @@ std::string ReadFile(const fs::path& path) {
   std::array<char, 1 << 16> piece;
   while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
     bytes.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
-    if (bytes.size() > kMaxInputBytes) {
-      throw InputError(path.string() + ": larger than " + std::to_string(kMaxInputBytes) +
-                       " bytes");
-    }
+    if (bytes.size() > kMaxInputBytes) fail_large();
   }
   if (stream.bad()) throw InputError(path.string() + ": cannot be read");
   return bytes;

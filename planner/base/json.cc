@@ -1,5 +1,6 @@
 #include "planner/base/json.h"
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -9,6 +10,8 @@ namespace regrasp {
 
 Json ParseJson(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  // nlohmann takes a NUL for the end of its input and does not look behind it.
+  if (text.find('\0') != std::string_view::npos) throw InputError(name + ": not JSON: a NUL byte");
   // nlohmann keeps the last of two equal keys without a word, and recurses into any depth when a
   // value is destroyed: the callback sees both before they do harm.
   std::vector<std::set<std::string>> keys;
@@ -35,6 +38,9 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (const auto bracket = what.find("] "); bracket != std::string::npos) {
       what.erase(0, bracket + 2);
     }
+    // It quotes what it read last, broken UTF-8 included.
+    std::ranges::replace_if(
+        what, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }, '?');
     throw InputError(name + ": not JSON: " + what);
   }
 }

@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 inline constexpr int kMaxJsonDepth = 64;
 
 /// Parses JSON strictly: a byte-order mark is skipped; a repeated key, nesting deeper than
-/// `kMaxJsonDepth`, a number out of range, invalid UTF-8 and text behind the value are errors.
+/// `kMaxJsonDepth`, a number out of range, invalid UTF-8, a NUL byte and text behind the value
+/// are errors.
 /// @param name  how messages call the input, usually the file's path.
 /// @throws InputError
 [[nodiscard]] Json ParseJson(std::string_view text, const std::string& name);

@@ -22,9 +22,9 @@ inline constexpr double kMaxOffset = 1e7;
 /// planned on.
 inline constexpr std::size_t kMaxFacets = 1'000'000;
 
-/// More pairs of facets or edges whose boxes overlap are refused, as they would take hours to check
-/// for intersection; a finely meshed body has some ten pairs a facet.
-inline constexpr std::size_t kMaxOverlaps = 100'000'000;
+/// More pairs of facets or edges whose boxes overlap are refused, as they would take minutes to
+/// check for intersection; a finely meshed body has some ten pairs a facet.
+inline constexpr std::size_t kMaxOverlaps = 30'000'000;
 
 /// What is wrong with the size or place of these vertices; empty where nothing is.
 [[nodiscard]] std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices,

@@ -70,7 +70,11 @@ TEST_F(FileTest, WhatCannotBeReadIsBadInput) {
   EXPECT_THAT(message(folder_ / "file" / "below"), HasSubstr("no such file"));
 }
 
-TEST_F(FileTest, AFileWithoutEndIsRefused) {
+TEST_F(FileTest, AFileThatIsTooLargeOrWithoutEndIsRefused) {
+  std::ofstream(folder_ / "large");
+  fs::resize_file(folder_ / "large", kMaxInputBytes + 1);  // sparse
+  EXPECT_THAT(MessageOf<InputError>([&] { static_cast<void>(ReadFile(folder_ / "large")); }),
+              HasSubstr("larger than"));
   EXPECT_THAT(MessageOf<InputError>([] { static_cast<void>(ReadFile("/dev/zero")); }),
               HasSubstr("larger than"));
 }

@@ -42,11 +42,12 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       {"[0x10]", "not JSON"},
       {"[1,5", "not JSON"},
       {"[1] // comment", "not JSON"},
-      {"\"\xff\xfe\"", "invalid UTF-8"},
-      {"\"\xc3\"", "UTF-8"},
-      {"{\"\xed\xa0\x80\": 1}", "invalid UTF-8"},
+      {"\"\xff\xfe\"", "ill-formed UTF-8"},
+      {"\"\xc3\"", "ill-formed UTF-8"},
+      {"{\"\xed\xa0\x80\": 1}", "ill-formed UTF-8"},
       {"\"line\nbreak\"", "not JSON"},
-      {std::string("[1]\0", 4), "not JSON"},
+      {std::string("[1]\0", 4), "a NUL byte"},
+      {std::string("[1]\0{", 5), "a NUL byte"},
       {"\xEF\xBB\xBF", "not JSON"},
       {"\xEF\xBB", "not JSON"},
   };
@@ -58,7 +59,9 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       EXPECT_THAT(error.what(), StartsWith("bad.json: "));
       EXPECT_THAT(error.what(), HasSubstr(words)) << text;
       EXPECT_THAT(error.what(), Not(HasSubstr("json.exception")));
-      EXPECT_THAT(error.what(), Not(HasSubstr("\n"))) << text;
+      for (const char* c = error.what(); *c != 0; ++c) {
+        EXPECT_TRUE(*c >= 0x20 && *c < 0x7f) << text;  // one line, nothing that a terminal acts on
+      }
     }
   }
 }
