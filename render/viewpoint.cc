@@ -25,7 +25,7 @@ const Vector3d kPlanarView = Vector3d(0.0, -0.28, 1.0).normalized();
 
 // Weights of the score, per contact or per pair of contacts.
 constexpr double kSeen = 1.0;           ///< the contact is on the near side, nothing before it
-constexpr double kForeshortened = 0.6;  ///< the stem points at the camera, or away
+constexpr double kForeshortened = 1.0;  ///< the stem points at the camera, or away
 constexpr double kOverlap = 1.5;        ///< two fingers cover each other
 constexpr double kEdgeOnFace = 0.5;     ///< all faces are seen edge-on
 /// Two fingers nearer than this in the picture (diameters) disturb each other.
@@ -33,7 +33,7 @@ constexpr double kApart = 0.15;
 /// A normal that leaves the image plane by less than this sine is a face seen edge-on.
 constexpr double kEdgeOnSine = 0.14;
 /// A stem within this cosine of the line of sight is foreshortened.
-constexpr double kForeshortenedCosine = 0.85;
+constexpr double kForeshortenedCosine = 0.80;
 
 /// Distance of two segments in the plane; zero where they cross.
 double SegmentDistance(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
