@@ -50,7 +50,6 @@ inline constexpr int kMostPieces = 32;
 inline constexpr int kHopelessPieces = 8;       ///< where no number of them serves
 inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers that hold
 inline constexpr double kSlideForce = 0.01;  ///< least force of a sliding finger over the squeeze
-inline constexpr double kSlideStep = 1e-4;   ///< of D in a time step: 10 mm/s at 10 cm, 1 ms
-inline constexpr int kLeastSlideSteps = 20;
+inline constexpr double kSlideStep = 3e-5;   ///< of D in a time step
 
 }  // namespace regrasp

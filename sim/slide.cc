@@ -23,6 +23,10 @@ constexpr double kLargestSlideForce = 0.5;
 /// that a smaller force of the sliding finger is not given up for more.
 constexpr double kGoodMargin = 0.05;
 
+/// Forces are planned anew after this share of D on the way.
+constexpr double kStretch = 0.01;
+constexpr int kLeastStretchSteps = 20;
+
 struct SlideForces {
   HandForces hand;
   double margin = 0;
@@ -79,33 +83,44 @@ Vector3d Direction(const Contact& from, const Contact& to) {
   return along.norm() > 0 ? Vector3d(along.normalized()) : Vector3d::Zero();
 }
 
-/// Moves the tip; at a border it rolls about the contact while both faces stop it.
-void MoveTip(Stage& stage, int finger, const Contact& from, const Contact& to) {
+/// One straight stretch of the way: tip and forces go over together, at constant rates.
+void MoveTip(Stage& stage, int finger, const Contact& from, const Contact& to,
+             const HandForces& forces_after, int steps) {
+  const HandForces forces_before = CurrentForces(stage);
   StageFinger& state = stage.fingers()[finger];
-  const double way = (to.p - from.p).norm() + stage.settings().fingertip_radius_m *
-                                                  std::acos(std::clamp(from.n.dot(to.n), -1., 1.));
-  const int steps =
-      std::max(kLeastSlideSteps,
-               static_cast<int>(std::ceil(way / (kSlideStep * stage.settings().diameter_m))));
-  const Vector3d offset = state.anchor_S - stage.TipAt_S(from, 0);
-  stage.engine().AddSite(finger, FindSite(stage.scene(), to));
   stage.Run(steps, [&](double share) {
-    const Contact at = Interpolate({{finger, from}}, {{finger, to}}, share).front().contact;
-    state.contact = at;
-    state.anchor_S = stage.TipAt_S(at, 0) + (1 - share) * offset;
+    state.contact = Interpolate({{finger, from}}, {{finger, to}}, share).front().contact;
+    state.anchor_S = stage.TipAt_S(state.contact, 0);
+    MixForces(stage, forces_before, forces_after, share);
   });
-  state.contact = to;
-  stage.engine().SetSite(finger, FindSite(stage.scene(), to));
+}
+
+double TipWay(const Stage& stage, const Contact& from, const Contact& to) {
+  const double turn = std::acos(std::clamp(from.n.dot(to.n), -1.0, 1.0));
+  return (to.p - from.p).norm() + turn * stage.settings().fingertip_radius_m;
 }
 
 }  // namespace
 
 void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
-  const SlideForces forces = ChooseSlide(stage, finger, from_B, Direction(from_B, to_B));
-  BlendTo(stage, forces.hand);
+  const double way = TipWay(stage, from_B, to_B) / stage.settings().diameter_m;
+  const int stretches = std::max(1, static_cast<int>(std::ceil(way / kStretch)));
+  const int steps =
+      std::max(kLeastStretchSteps, static_cast<int>(std::ceil(way / (stretches * kSlideStep))));
+  const Vector3d direction = Direction(from_B, to_B);
   StageFinger& state = stage.fingers()[finger];
+  stage.engine().AddSite(finger, FindSite(stage.scene(), to_B));
+  BlendTo(stage, ChooseSlide(stage, finger, from_B, direction).hand);
   state.sliding = true;
-  MoveTip(stage, finger, from_B, to_B);
+  Contact at = from_B;
+  for (int i = 1; i <= stretches; ++i) {
+    const double share = static_cast<double>(i) / stretches;
+    const Contact next = Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
+    MoveTip(stage, finger, at, next, ChooseSlide(stage, finger, next, direction).hand, steps);
+    at = next;
+  }
+  Settle(stage);
+  stage.engine().SetSite(finger, FindSite(stage.scene(), to_B));
   state.sliding = false;
   state.touch_B = to_B.p;
   TransferForces(stage, stage.HoldingFingers());

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+#include "sim/replay.h"
+
+namespace regrasp {
+
+inline ObjectFile ReadModel(const std::string& name) {
+  return ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+}
+
+/// The contact at `p` on the face whose inward normal is `n`; face −1 where there is none.
+inline Contact ContactAt(const Object& object, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+  Contact contact{p, n.normalized(), -1};
+  for (const int face : object.FacesNear(p, kPointTolerance * object.diameter())) {
+    if ((object.inward_normal(face) - contact.n).norm() < 1e-6) contact.face = face;
+  }
+  return contact;
+}
+
+inline Plan MakePlan(FingerGrasp initial, double half_angle_deg, int fingers = 5) {
+  Plan plan;
+  plan.half_angle = Radians(half_angle_deg);
+  plan.fingers = fingers;
+  plan.initial = std::move(initial);
+  return plan;
+}
+
+/// A point drawn evenly over the surface.
+inline Contact DrawContact(const Polyhedron& body, std::mt19937& random) {
+  const auto corners = [&](std::size_t t) {
+    const auto& [a, b, c] = body.triangles()[t];
+    return std::array{body.vertices()[a], body.vertices()[b], body.vertices()[c]};
+  };
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < body.triangles().size(); ++t) {
+    const auto [a, b, c] = corners(t);
+    areas.push_back((b - a).cross(c - a).norm());
+  }
+  std::discrete_distribution<std::size_t> triangle(areas.begin(), areas.end());
+  std::uniform_real_distribution<double> unit(0, 1);
+  const std::size_t t = triangle(random);
+  const auto [a, b, c] = corners(t);
+  const double s = std::sqrt(unit(random)), v = unit(random);
+  const int face = body.face_of_triangle(static_cast<int>(t));
+  return {(1 - s) * a + s * (1 - v) * b + s * v * c, body.inward_normal(face), face};
+}
+
+/// The cube of models/cube.obj held about its middle, and grasps near it.
+struct CubeCase {
+  ObjectFile file = ReadModel("cube.obj");
+  const Object& object = *file.object;
+
+  [[nodiscard]] FingerContact At(int finger, double x, double y, double z) const {
+    const Eigen::Vector3d p(x, y, z);
+    Eigen::Index axis = 0;
+    p.cwiseAbs().maxCoeff(&axis);
+    return {finger,
+            ContactAt(object, p, -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
+  }
+  [[nodiscard]] FingerGrasp Start() const {
+    return {At(0, 0.03, 0.004, 0.002), At(1, -0.03, 0.002, -0.004), At(2, 0.003, 0.03, 0.004),
+            At(3, -0.002, -0.03, 0.001)};
+  }
+};
+
+}  // namespace regrasp
