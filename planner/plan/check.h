@@ -32,9 +32,9 @@ struct StepCheck {
 };
 
 struct CheckOptions {
-  std::optional<double> half_angle;  ///< instead of the plan's friction, radians
-  const Grasp* start = nullptr;      ///< the plan's initial grasp must be this one
-  const Grasp* goal = nullptr;       ///< and its goal this one
+  std::optional<double> half_angle = std::nullopt;  ///< instead of the plan's friction, radians
+  const Grasp* start = nullptr;                     ///< the plan's initial grasp must be this one
+  const Grasp* goal = nullptr;                      ///< and its goal this one
 };
 
 struct PlanCheck {

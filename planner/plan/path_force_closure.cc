@@ -18,7 +18,7 @@ constexpr int kMostAngleIntervals = 20'000;
 
 /// Intervals shorter than this are given more room than kPathAngleAccuracy: twice as much with
 /// every halving, so that the search ends.
-constexpr double kWidenBelow = 1e-3;
+constexpr double kWidenBelow = 1e-4;
 
 /// Required half-angles of single instants are found to this, radians.
 constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "planner/base/angle.h"
+#include "planner/plan/check.h"
+#include "sample_plans.h"
+
+namespace regrasp {
+namespace {
+
+/// A plan whose only step aligns from the first to the last of the waypoints.
+Plan AlignPlan(Plan plan, std::vector<FingerGrasp> waypoints) {
+  plan.initial = waypoints.front();
+  plan.goal = ContactsOf(waypoints.back());
+  plan.steps = {Align{std::move(waypoints)}};
+  return plan;
+}
+
+Reason ReasonOf(const Object& object, const Plan& plan) {
+  const PlanCheck check = CheckPlan(object, plan);
+  EXPECT_EQ(check.steps[0].reason, Reason::kNone) << check.steps[0].detail;
+  return check.steps[1].reason;
+}
+
+/// Slides finger 1 from `from` to `to`; the two others hold the body along z at `hold`.
+Plan SlideOnTop(const Eigen::Vector2d& hold, const Eigen::Vector3d& from,
+                const Eigen::Vector3d& to) {
+  const auto grasp = [&](const Eigen::Vector3d& at) {
+    return FingerGrasp{{0, {{hold.x(), hold.y(), 0}, {0, 0, 1}}},
+                       {1, {at, {0, 0, -1}}},
+                       {2, {{hold.x(), hold.y(), 1}, {0, 0, -1}}}};
+  };
+  return AlignPlan(EmptyPlan(3, 5, 30), {grasp(from), grasp(to)});
+}
+
+TEST(CheckAlign, KeepsFingersInsideAFaceThatIsNotConvex) {
+  const Polyhedron block = MakeLBlock();
+  const Eigen::Vector2d hold(0.5, 0.4);
+  const Eigen::Vector3d arm(0.5, 2.5, 1);
+  EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {0.6, 0.5, 1})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {1, 1, 1})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {2.5, 0.5, 1})), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {1.02, 0.99, 1})), Reason::kLeavesFace);
+}
+
+TEST(CheckAlign, KeepsFingersFromCrossingAHoleOfAFace) {
+  const Polyhedron ring = MakeRing();
+  const Eigen::Vector2d hold(-2, 0.5);
+  const Eigen::Vector3d left(-2, 0, 1);
+  EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 2, 1})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {2, 0, 1})), Reason::kLeavesFace);
+  // Just past the hole's corner at (−1, 1), on either side of it.
+  EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 2.001, 1})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 1.999, 1})), Reason::kLeavesFace);
+}
+
+TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
+  const auto grasp = [](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+    return FingerGrasp{{0, {{1, 0, 0}, {-1, 0, 0}}}, {1, {{-1, 0, 0}, {1, 0, 0}}}, {2, {p, n}}};
+  };
+  const Polyhedron cube = MakeCube();
+  const FingerGrasp back = grasp({0, 1, 0.8}, {0, -1, 0});
+  const FingerGrasp edge_back = grasp({0, 1, 1}, {0, -1, 0});
+  const FingerGrasp edge_top = grasp({0, 1, 1}, {0, 0, -1});
+  const FingerGrasp top = grasp({0, 0.8, 1}, {0, 0, -1});
+  // At 50° the finger can always push towards the line through the other two.
+  const Plan plan = EmptyPlan(3, 5, 50);
+  EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, edge_back, edge_top, top})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, edge_back, top})), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, edge_top, top})), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(cube, AlignPlan(plan, {back, top})), Reason::kLeavesFace);
+}
+
+TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
+  // Finger 1 turns at the corner (1, 1) of a square from the right edge to the upper one, against
+  // finger 0 in the opposite corner: with normals on the diagonal friction of 0 would do, at the
+  // ends of the turn it must be 45°.
+  const Polygon square = MakeSquare();
+  const auto grasp = [](const Eigen::Vector3d& n0, const Eigen::Vector3d& n1) {
+    return FingerGrasp{{0, {{-1, -1, 0}, n0}}, {1, {{1, 1, 0}, n1}}};
+  };
+  const FingerGrasp from = grasp({1, 0, 0}, {-1, 0, 0});
+  const FingerGrasp to = grasp({0, 1, 0}, {0, -1, 0});
+  const PlanCheck check = CheckPlan(square, AlignPlan(EmptyPlan(2, 4, 46), {from, to}));
+  EXPECT_TRUE(check.passed());
+  ASSERT_TRUE(check.steps[1].required);
+  EXPECT_NEAR(Degrees(check.steps[1].required->lower), 45, 0.01);
+  EXPECT_NEAR(Degrees(check.steps[1].required->upper), 45, 0.02);
+  EXPECT_EQ(CheckPlan(square, AlignPlan(EmptyPlan(2, 4, 44.9), {from, to})).steps[0].reason,
+            Reason::kNotForceClosure);
+}
+
+TEST(CheckAlign, KeepsCollinearEdgesOfAPolygonApart) {
+  const auto grasp = [](double x) {
+    return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
+  };
+  const Plan plan = EmptyPlan(2, 4, 30);
+  const auto slide = AlignPlan(plan, {grasp(-0.3), grasp(0.3)});
+  const auto stop = AlignPlan(plan, {grasp(-0.3), grasp(0), grasp(0.3)});
+  EXPECT_EQ(ReasonOf(MakeSquare(), slide), Reason::kNone);
+  EXPECT_EQ(ReasonOf(MakeSquare(/*divided=*/true), slide), Reason::kLeavesFace);
+}
+
+/// Two fingers of the square, below and above.
+FingerGrasp Pair(double below, double above) {
+  return {{0, {{below, -1, 0}, {0, 1, 0}}}, {1, {{above, 1, 0}, {0, -1, 0}}}};
+}
+
+TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
+  const Polygon square = MakeSquare();
+  const Plan plan = EmptyPlan(2, 4, 20);
+  // Finger 1 follows only when finger 0 has arrived: opposite before and after, apart between.
+  const PlanCheck late =
+      CheckPlan(square, AlignPlan(plan, {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)}));
+  EXPECT_EQ(late.steps[1].reason, Reason::kNotForceClosure);
+  EXPECT_FALSE(late.steps[1].force_closure);
+  ASSERT_TRUE(late.steps[1].required);
+  EXPECT_NEAR(late.steps[1].required->upper, std::atan(0.9), 2e-4);
+  const PlanCheck together = CheckPlan(square, AlignPlan(plan, {Pair(-0.9, -0.9), Pair(0.9, 0.9)}));
+  EXPECT_TRUE(together.passed());
+  ASSERT_TRUE(together.steps[1].required);
+  EXPECT_LT(together.steps[1].required->upper, 2e-4);
+}
+
+TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
+  const Polygon square = MakeSquare();
+  Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
+  plan.half_angle = std::atan(0.25);
+  EXPECT_FALSE(CheckPlan(square, plan).passed());
+  plan.half_angle += 1e-9;
+  EXPECT_TRUE(CheckPlan(square, plan).passed());
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,362 @@
+#include "planner/plan/check.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include "bodies.h"
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/grasp/force_closure.h"
+#include "sample_plans.h"
+
+namespace regrasp {
+namespace {
+
+/// One change that makes a passing plan fail, where, and why.
+struct Control {
+  const char* name;
+  std::function<void(Plan&)> change;
+  int index;
+  Reason reason;
+};
+
+/// Expects that exactly the entry `index` fails, with `reason`, and that later ones are skipped.
+void ExpectFails(const PlanCheck& check, int index, Reason reason, const std::string& name) {
+  SCOPED_TRACE(name);
+  EXPECT_FALSE(check.passed());
+  ASSERT_LT(index, std::ssize(check.steps));
+  for (int k = 0; k < std::ssize(check.steps); ++k) {
+    const StepCheck& step = check.steps[k];
+    EXPECT_EQ(step.index, k);
+    EXPECT_EQ(step.skipped, k > index);
+    EXPECT_EQ(ReasonName(step.reason), ReasonName(k == index ? reason : Reason::kNone))
+        << step.detail;
+    EXPECT_EQ(step.detail.empty(), k != index);
+  }
+}
+
+void ExpectPasses(const PlanCheck& check, const std::string& name) {
+  SCOPED_TRACE(name);
+  EXPECT_TRUE(check.passed());
+  for (const StepCheck& step : check.steps) {
+    EXPECT_EQ(ReasonName(step.reason), "") << step.index << ": " << step.detail;
+    EXPECT_TRUE(step.force_closure);
+    EXPECT_EQ(step.undecided, 0);
+  }
+}
+
+void ExpectControlsFail(const Object& object, const Plan& plan,
+                        const std::vector<Control>& controls) {
+  ExpectPasses(CheckPlan(object, plan), "the plan that passes");
+  int checked = 0;
+  for (const Control& control : controls) {
+    Plan changed = plan;
+    control.change(changed);
+    ExpectFails(CheckPlan(object, changed), control.index, control.reason, control.name);
+    ++checked;
+  }
+  EXPECT_GT(checked, 0);
+}
+
+Switch& SwitchOf(Plan& plan, int step) { return std::get<Switch>(plan.steps[step]); }
+Align& AlignOf(Plan& plan, int step) { return std::get<Align>(plan.steps[step]); }
+
+Eigen::Vector3d TurnedAboutZ(const Eigen::Vector3d& v, double degrees) {
+  return Eigen::AngleAxisd(Radians(degrees), Eigen::Vector3d::UnitZ()) * v;
+}
+
+// The controls that are the same in space and in the plane. Both sample plans begin with a switch.
+std::vector<Control> SharedControls() {
+  return {
+      {"an initial contact off the surface",
+       [](Plan& plan) { plan.initial[0].contact.p *= 1 + 1e-4; }, 0, Reason::kOffSurface},
+      {"an initial contact inside", [](Plan& plan) { plan.initial[0].contact.p *= 1 - 1e-4; }, 0,
+       Reason::kOffSurface},
+      {"a placed contact off the surface",
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].contact.p *= 1.001; }, 1, Reason::kOffSurface},
+      {"a waypoint off the surface",
+       [](Plan& plan) {
+         std::get<Align>(plan.steps.back()).waypoints.back()[0].contact.p *= 1.001;
+       },
+       -1, Reason::kOffSurface},
+      {"a normal that points outwards", [](Plan& plan) { plan.initial[0].contact.n *= -1; }, 0,
+       Reason::kWrongNormal},
+      {"a normal 0.2 degrees off",
+       [](Plan& plan) { plan.initial[0].contact.n = TurnedAboutZ(plan.initial[0].contact.n, 0.2); },
+       0, Reason::kWrongNormal},
+      {"a normal too long", [](Plan& plan) { plan.initial[1].contact.n *= 1.001; }, 0,
+       Reason::kWrongNormal},
+      {"a placed contact with a wrong normal",
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].contact.n *= -1; }, 1, Reason::kWrongNormal},
+      {"an initial grasp that names a finger twice",
+       [](Plan& plan) { plan.initial[1].finger = plan.initial[0].finger; }, 0,
+       Reason::kFingerNotFree},
+      {"a placed finger that was already holding",
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = 1; }, 1, Reason::kFingerNotFree},
+      {"a switch that places a finger twice",
+       [](Plan& plan) { SwitchOf(plan, 0).place.push_back(SwitchOf(plan, 0).place[0]); }, 1,
+       Reason::kFingerNotFree},
+      {"a released finger that is placed in the same step",
+       [](Plan& plan) { SwitchOf(plan, 0).release[0] = SwitchOf(plan, 0).place[0].finger; }, 1,
+       Reason::kFingerNotHolding},
+      {"a switch that releases a finger twice",
+       [](Plan& plan) { SwitchOf(plan, 0).release.push_back(SwitchOf(plan, 0).release[0]); }, 1,
+       Reason::kFingerNotHolding},
+      {"a released finger that no hand has",
+       [](Plan& plan) { SwitchOf(plan, 0).release.push_back(99); }, 1, Reason::kFingerNotHolding},
+      {"a hand with a finger too few", [](Plan& plan) { --plan.fingers; }, 1,
+       Reason::kTooManyFingers},
+      {"an initial grasp with a finger outside the hand",
+       [](Plan& plan) { plan.initial[0].finger = plan.fingers; }, 0, Reason::kTooManyFingers},
+      {"a placed finger outside the hand",
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = plan.fingers; }, 1,
+       Reason::kTooManyFingers},
+      {"an initial grasp with two fingers at one point",
+       [](Plan& plan) { plan.initial[1].contact = plan.initial[0].contact; }, 0,
+       Reason::kCoincidentFingers},
+      {"an align that begins where it should end",
+       [](Plan& plan) {
+         auto& waypoints = std::get<Align>(plan.steps.back()).waypoints;
+         waypoints.front()[0].contact = waypoints.back()[0].contact;
+       },
+       -1, Reason::kDiscontinuous},
+      {"an align that loses a finger on the way",
+       [](Plan& plan) { std::get<Align>(plan.steps.back()).waypoints.back().pop_back(); }, -1,
+       Reason::kDiscontinuous},
+      {"an initial grasp without contacts", [](Plan& plan) { plan.initial.clear(); }, 0,
+       Reason::kNotForceClosure},
+      {"a goal with a contact too few", [](Plan& plan) { plan.goal.pop_back(); }, -1,
+       Reason::kGoalNotReached},
+      {"a goal off the last contacts", [](Plan& plan) { plan.goal[0].p = plan.goal[1].p; }, -1,
+       Reason::kGoalNotReached},
+      {"a goal with a normal turned", [](Plan& plan) { plan.goal[0].n *= -1; }, -1,
+       Reason::kGoalNotReached},
+      {"a plan that stops one step before its goal", [](Plan& plan) { plan.steps.pop_back(); }, -2,
+       Reason::kGoalNotReached},
+  };
+}
+
+/// Fills in the index of the plan's last step (−1) and of the last but one (−2).
+std::vector<Control> ForPlan(std::vector<Control> controls, const Plan& plan) {
+  for (Control& control : controls) {
+    if (control.index < 0) control.index += static_cast<int>(plan.steps.size()) + 1;
+  }
+  return controls;
+}
+
+TEST(CheckPlan, FailsEveryControlInSpaceForItsReason) {
+  ExpectControlsFail(MakeCube(), CubePlan(), ForPlan(SharedControls(), CubePlan()));
+}
+
+TEST(CheckPlan, FailsEveryControlInThePlaneForItsReason) {
+  ExpectControlsFail(MakeSquare(), SquarePlan(), ForPlan(SharedControls(), SquarePlan()));
+}
+
+TEST(CheckPlan, FailsControlsOfTheCubeForTheirReasons) {
+  ExpectControlsFail(
+      MakeCube(), CubePlan(),
+      {
+          {"a finger released that carries the grasp",
+           [](Plan& plan) {
+             SwitchOf(plan, 0).release = {2, 0};
+           },
+           1, Reason::kNotForceClosure},
+          {"a finger placed where another holds",
+           [](Plan& plan) { SwitchOf(plan, 0).place[0].contact = plan.initial[0].contact; }, 1,
+           Reason::kCoincidentFingers},
+          {"the first switch left out", [](Plan& plan) { plan.steps.erase(plan.steps.begin()); }, 1,
+           Reason::kFingerNotFree},
+          {"the second switch left out",
+           [](Plan& plan) { plan.steps.erase(plan.steps.begin() + 1); }, 2, Reason::kDiscontinuous},
+          {"an align with a finger that did not hold",
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 3; }, 3,
+           Reason::kDiscontinuous},
+          {"an align that names a finger twice",
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 1; }, 3,
+           Reason::kFingerNotFree},
+          {"an align with a finger outside the hand",
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 8; }, 3,
+           Reason::kTooManyFingers},
+          {"an align without waypoints", [](Plan& plan) { AlignOf(plan, 2).waypoints.clear(); }, 3,
+           Reason::kDiscontinuous},
+          {"an align that goes to another face without a turn",
+           [](Plan& plan) {
+             AlignOf(plan, 2).waypoints[1][2].contact = {{0.2, 0.2, 1}, {0, 0, -1}};
+           },
+           3, Reason::kLeavesFace},
+          {"an align that ends with two fingers at one point",
+           [](Plan& plan) {
+             FingerGrasp& last = AlignOf(plan, 2).waypoints.back();
+             last[0].contact = {{1, 1, 0}, {-1, 0, 0}};
+             last[2].contact = {{1, 1, 0}, {0, -1, 0}};
+           },
+           3, Reason::kCoincidentFingers},
+          {"an align through a grasp that is not force closure",
+           [](Plan& plan) {
+             AlignOf(plan, 2).waypoints[1][0].contact.p = {1, 0.95, 0.95};
+             AlignOf(plan, 2).waypoints[1][1].contact.p = {-1, -0.95, -0.95};
+           },
+           3, Reason::kNotForceClosure},
+      });
+}
+
+TEST(CheckPlan, FailsControlsOfTheSquareForTheirReasons) {
+  ExpectControlsFail(MakeSquare(), SquarePlan(),
+                     {
+                         {"a finger released that carries the grasp",
+                          [](Plan& plan) {
+                            SwitchOf(plan, 0).place.pop_back();
+                            SwitchOf(plan, 0).release = {0};
+                          },
+                          1, Reason::kNotForceClosure},
+                         {"a finger placed where another stays",
+                          [](Plan& plan) {
+                            SwitchOf(plan, 0).place[0].contact = plan.initial[0].contact;
+                            SwitchOf(plan, 0).release = {1};
+                          },
+                          1, Reason::kCoincidentFingers},
+                         {"an align that goes to another edge without a turn",
+                          [](Plan& plan) {
+                            AlignOf(plan, 1).waypoints[1][0].contact = {{0.5, 1, 0}, {0, -1, 0}};
+                          },
+                          2, Reason::kLeavesFace},
+                         {"an align that ends where friction is too small",
+                          [](Plan& plan) { AlignOf(plan, 1).waypoints[1][0].contact.p.y() = -0.9; },
+                          2, Reason::kNotForceClosure},
+                     });
+}
+
+TEST(CheckPlan, AcceptsContactsWithinTheTolerances) {
+  for (const bool planar : {false, true}) {
+    Plan plan = planar ? SquarePlan() : CubePlan();
+    plan.initial[0].contact.p *= 1 + 1e-7;
+    plan.initial[0].contact.n = TurnedAboutZ(plan.initial[0].contact.n, 0.05) * (1 + 5e-5);
+    std::get<Align>(plan.steps.back()).waypoints.front()[0].contact.p *= 1 + 1e-7;
+    if (planar) {
+      ExpectPasses(CheckPlan(MakeSquare(), plan), "square");
+    } else {
+      ExpectPasses(CheckPlan(MakeCube(), plan), "cube");
+    }
+  }
+}
+
+TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
+  // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
+  const Polygon square = MakeSquare();
+  Plan plan = EmptyPlan(2, 4, 20);
+  const double limit = 2 * std::tan(plan.half_angle);
+  for (const double share : {1 - 1e-6, 1 + 1e-6}) {
+    plan.initial = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{0.3 - share * limit, 1, 0}, {0, -1, 0}}}};
+    plan.goal = ContactsOf(plan.initial);
+    const PlanCheck check = CheckPlan(square, plan);
+    if (share < 1) {
+      ExpectPasses(check, "just inside");
+    } else {
+      ExpectFails(check, 0, Reason::kNotForceClosure, "just outside");
+    }
+    ASSERT_TRUE(check.steps[0].required);
+    EXPECT_NEAR(check.steps[0].required->upper, std::atan(share * limit / 2), 1e-8);
+  }
+}
+
+TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
+  const Polyhedron cube = MakeCube();
+  // The finger on +x, moved towards a corner: bisection finds the place where the grasp is lost.
+  const auto with_shift = [](double shift) {
+    Plan plan = CubePlan();
+    plan.steps.clear();
+    plan.initial.pop_back();
+    plan.initial[0].contact.p = {1, 0.05 + shift, -0.1 - shift};
+    plan.goal = ContactsOf(plan.initial);
+    return plan;
+  };
+  double held = 0, lost = 0.9;
+  ASSERT_FALSE(CheckPlan(cube, with_shift(lost)).passed());
+  while (lost - held > 1e-6) {
+    const double middle = (held + lost) / 2;
+    (CheckPlan(cube, with_shift(middle)).passed() ? held : lost) = middle;
+  }
+  EXPECT_GT(held, 0.1);
+  ExpectPasses(CheckPlan(cube, with_shift(held)), "just inside");
+  ExpectFails(CheckPlan(cube, with_shift(lost)), 0, Reason::kNotForceClosure, "just outside");
+}
+
+TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
+  const Polyhedron cube = MakeCube();
+  const Plan plan = CubePlan();
+  const PlanCheck check = CheckPlan(cube, plan);
+  int checked = 0;
+  for (const StepCheck& step : check.steps) {
+    ASSERT_TRUE(step.required);
+    EXPECT_LE(step.required->lower, step.required->upper);
+    CheckOptions options;
+    options.half_angle = step.required->upper + 1e-6;
+    EXPECT_TRUE(CheckPlan(cube, plan, options).steps[step.index].force_closure ||
+                CheckPlan(cube, plan, options).steps[step.index].skipped);
+    options.half_angle = step.required->lower - 1e-6;
+    EXPECT_FALSE(CheckPlan(cube, plan, options).passed());
+    ++checked;
+  }
+  EXPECT_EQ(checked, 4);
+}
+
+TEST(CheckPlan, ComparesStartAndGoalWithTheGivenGrasps) {
+  const Polyhedron cube = MakeCube();
+  const Plan plan = CubePlan();
+  Grasp start = ContactsOf(plan.initial);
+  std::swap(start[0], start[3]);
+  Grasp goal = plan.goal;
+  std::swap(goal[1], goal[2]);
+  ExpectPasses(CheckPlan(cube, plan, {.start = &start, .goal = &goal}), "in another order");
+  start[1].p.y() += 1e-3;
+  ExpectFails(CheckPlan(cube, plan, {.start = &start}), 0, Reason::kStartDiffers, "start");
+  goal[1].p += Eigen::Vector3d(1e-3, 1e-3, 1e-3);
+  ExpectFails(CheckPlan(cube, plan, {.goal = &goal}), 3, Reason::kGoalNotReached, "goal");
+}
+
+TEST(CheckPlan, AcceptsAnEmptyPlanThatIsAtItsGoal) {
+  Plan plan = CubePlan();
+  plan.steps.clear();
+  ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kGoalNotReached, "another goal");
+  plan.goal = ContactsOf(plan.initial);
+  ExpectPasses(CheckPlan(MakeCube(), plan), "at its goal");
+}
+
+TEST(CheckPlan, LetsFingersMeetOnlyWhileASwitchIsUnderWay) {
+  // A spare finger takes over the very place of another: no grasp at rest has both.
+  Plan plan = CubePlan();
+  plan.steps = {Switch{{{4, plan.initial[2].contact}}, {2}}};
+  plan.goal = ContactsOf(plan.initial);
+  ExpectPasses(CheckPlan(MakeCube(), plan), "taken over");
+  SwitchOf(plan, 0).release.clear();
+  ExpectFails(CheckPlan(MakeCube(), plan), 1, Reason::kCoincidentFingers, "both stay");
+}
+
+TEST(CheckPlan, ReportsTheFirstOfSeveralFaults) {
+  Plan plan = CubePlan();
+  plan.initial[1].contact.n *= -1;
+  plan.initial[2].finger = 0;
+  ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kWrongNormal, "normal before finger");
+  plan.initial[3].contact.p *= 1.1;
+  ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kOffSurface, "surface before normal");
+}
+
+TEST(CheckPlan, RefusesAPlanOfAnotherDimension) {
+  EXPECT_THROW(static_cast<void>(CheckPlan(MakeSquare(), CubePlan())), InputError);
+}
+
+TEST(CheckPlan, ProjectsContactsOntoTheirFaces) {
+  Plan plan = CubePlan();
+  plan.initial[0].contact.p.x() += 1e-7;
+  plan.initial[1].contact.p.x() -= 1;
+  const PlanCheck check = CheckPlan(MakeCube(), plan);
+  EXPECT_EQ(check.located.initial[0].contact.p.x(), 1);
+  EXPECT_GE(check.located.initial[0].contact.face, 0);
+  EXPECT_EQ(check.located.initial[1].contact.face, -1);
+  EXPECT_EQ(check.located.initial[1].contact.p, plan.initial[1].contact.p);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,174 @@
+#include "planner/plan/plan_io.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/json.h"
+#include "sample_plans.h"
+
+namespace regrasp {
+namespace {
+
+void ExpectSameContact(const Contact& a, const Contact& b) {
+  EXPECT_EQ(a.p, b.p);
+  EXPECT_EQ(a.n, b.n);
+}
+
+void ExpectSameGrasp(const FingerGrasp& a, const FingerGrasp& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].finger, b[i].finger);
+    ExpectSameContact(a[i].contact, b[i].contact);
+  }
+}
+
+void ExpectSamePlan(const Plan& a, const Plan& b) {
+  EXPECT_EQ(a.object_file, b.object_file);
+  EXPECT_EQ(a.object_sha256, b.object_sha256);
+  EXPECT_EQ(a.scale, b.scale);
+  EXPECT_EQ(a.dimension, b.dimension);
+  EXPECT_EQ(a.half_angle, b.half_angle);
+  EXPECT_EQ(a.fingers, b.fingers);
+  EXPECT_EQ(a.planner, b.planner);
+  ExpectSameGrasp(a.initial, b.initial);
+  ASSERT_EQ(a.goal.size(), b.goal.size());
+  for (std::size_t i = 0; i < a.goal.size(); ++i) ExpectSameContact(a.goal[i], b.goal[i]);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t k = 0; k < a.steps.size(); ++k) {
+    ASSERT_EQ(a.steps[k].index(), b.steps[k].index());
+    if (const auto* a_switch = std::get_if<Switch>(&a.steps[k])) {
+      const auto& b_switch = std::get<Switch>(b.steps[k]);
+      ExpectSameGrasp(a_switch->place, b_switch.place);
+      EXPECT_EQ(a_switch->release, b_switch.release);
+      continue;
+    }
+    const auto& a_waypoints = std::get<Align>(a.steps[k]).waypoints;
+    const auto& b_waypoints = std::get<Align>(b.steps[k]).waypoints;
+    ASSERT_EQ(a_waypoints.size(), b_waypoints.size());
+    for (std::size_t w = 0; w < a_waypoints.size(); ++w) {
+      ExpectSameGrasp(a_waypoints[w], b_waypoints[w]);
+    }
+  }
+}
+
+/// The message of the InputError that reading throws; empty where it reads.
+std::string Complaint(const std::string& text) {
+  try {
+    static_cast<void>(ParsePlan(text, "plan.json"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlanIo, ReadsWhatItWrites) {
+  for (const Plan& plan : {CubePlan(), SquarePlan(), EmptyPlan(3, 5, 20)}) {
+    const std::string text = FormatPlan(plan);
+    const Plan read = ParsePlan(text, "plan.json");
+    ExpectSamePlan(read, plan);
+    EXPECT_EQ(FormatPlan(read), text);
+  }
+}
+
+TEST(PlanIo, KeepsEveryBitOfNumbers) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> value(-1, 1);
+  int checked = 0;
+  for (int i = 0; i < 500; ++i, ++checked) {
+    Plan plan = CubePlan();
+    for (FingerContact& held : plan.initial) {
+      held.contact.p = {value(random), 1e-9 * value(random), 1e9 * value(random)};
+    }
+    const Plan read = ParsePlan(FormatPlan(plan), "plan.json");
+    ExpectSamePlan(read, plan);
+  }
+  EXPECT_EQ(checked, 500);
+}
+
+TEST(PlanIo, WritesRoundHalfAnglesRound) {
+  EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 20)).find("\"half_angle_deg\": 20.0"), std::string::npos);
+  EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 33.3)).find("\"half_angle_deg\": 33.3"), std::string::npos);
+}
+
+TEST(PlanIo, IgnoresFieldsThatItDoesNotKnowAndAByteOrderMark) {
+  Json json = Json::parse(FormatPlan(CubePlan()));
+  json["note"] = "by hand";
+  json["initial"]["contacts"][0]["face"] = 3;
+  json["steps"][0]["focus"] = Json::array({1, 2, 3});
+  ExpectSamePlan(ParsePlan("\xEF\xBB\xBF" + json.dump(), "plan.json"), CubePlan());
+}
+
+TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
+  const Json good = Json::parse(FormatPlan(CubePlan()));
+  struct Case {
+    const char* pointer;
+    Json value;
+    const char* message;
+  };
+  const std::vector<Case> cases = {
+      {"/format", "regrasp-grasp",
+       "plan.json: /format: expected \"regrasp-plan\", found \"regrasp-grasp\""},
+      {"/version", 2, "plan.json: /version: expected 1, found 2"},
+      {"/version", "1", "plan.json: /version: expected a number, found \"1\""},
+      {"/object/scale", 0, "plan.json: /object/scale: must be positive"},
+      {"/object/dimension", 4,
+       "plan.json: /object/dimension: expected a whole number from 2 to 3, found 4"},
+      {"/object/sha256", "abc",
+       "plan.json: /object/sha256: expected 64 lower-case hexadecimal digits, found \"abc\""},
+      {"/friction/half_angle_deg", 90,
+       "plan.json: /friction/half_angle_deg: must lie between 0 and 90, found 90"},
+      {"/fingers", 0, "plan.json: /fingers: expected a whole number from 1 to 64, found 0"},
+      {"/fingers", 4.5, "plan.json: /fingers: expected a whole number from 1 to 64, found 4.5"},
+      {"/steps/0/place/0/normal",
+       {1, 0},
+       "plan.json: /steps/0/place/0/normal: expected 3 numbers, found 2"},
+      {"/steps/0/place/0/point/1", "x",
+       "plan.json: /steps/0/place/0/point/1: expected a number, found \"x\""},
+      {"/steps/0/place/0/point/1", 1e300,
+       "plan.json: /steps/0/place/0/point/1: the number 1e+300 is too large"},
+      {"/steps/0/kind", "jump",
+       "plan.json: /steps/0/kind: expected \"switch\" or \"align\", found \"jump\""},
+      {"/steps/1/release",
+       {2.5},
+       "plan.json: /steps/1/release/0: expected a whole number from 0 to 2147483647, found 2.5"},
+      {"/steps/2/waypoints", Json::array(),
+       "plan.json: /steps/2/waypoints: expected at least 2 waypoints, found 0"},
+      {"/initial/contacts/2/finger", -1,
+       "plan.json: /initial/contacts/2/finger: expected a whole number from 0 to 2147483647, "
+       "found -1"},
+      {"/initial", Json::array(), "plan.json: /initial: expected an object, found an array"},
+      {"/goal/contacts", nullptr, "plan.json: /goal/contacts: expected an array, found null"},
+  };
+  int checked = 0;
+  for (const Case& one : cases) {
+    Json bad = good;
+    bad[Json::json_pointer(one.pointer)] = one.value;
+    EXPECT_EQ(Complaint(bad.dump()), one.message);
+    ++checked;
+  }
+  EXPECT_EQ(checked, std::ssize(cases));
+  Json idle = good;
+  idle["steps"][0]["place"] = Json::array();
+  idle["steps"][0]["release"] = Json::array();
+  EXPECT_EQ(Complaint(idle.dump()), "plan.json: /steps/0: a switch must place or release a finger");
+  Json without = good;
+  without["initial"]["contacts"][1].erase("normal");
+  EXPECT_EQ(Complaint(without.dump()), "plan.json: /initial/contacts/1: \"normal\" is missing");
+}
+
+TEST(PlanIo, LeavesFingersToTheChecker) {
+  Json json = Json::parse(FormatPlan(CubePlan()));
+  json["initial"]["contacts"][0]["finger"] = 77;
+  json["initial"]["contacts"][1]["finger"] = 2;
+  EXPECT_EQ(Complaint(json.dump()), "");
+}
+
+TEST(PlanIo, AFileThatIsNotThereIsBadInput) {
+  EXPECT_THROW(static_cast<void>(ReadPlan("no/such/plan.json")), InputError);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,64 @@
+#include "sample_plans.h"
+
+#include "planner/base/angle.h"
+
+namespace regrasp {
+
+namespace {
+
+const Contact kRight{{1, 0.05, -0.1}, {-1, 0, 0}};
+const Contact kLeft{{-1, -0.1, 0.05}, {1, 0, 0}};
+const Contact kAbove{{0.1, -0.05, 1}, {0, 0, -1}};
+const Contact kBelow{{-0.05, 0.1, -1}, {0, 0, 1}};
+const Contact kBack{{0.05, 1, 0.1}, {0, -1, 0}};
+const Contact kFront{{-0.1, -1, 0.05}, {0, 1, 0}};
+
+Contact Moved(const Contact& contact, double x, double y, double z) {
+  return {contact.p + Eigen::Vector3d(x, y, z), contact.n};
+}
+
+}  // namespace
+
+Plan EmptyPlan(int dimension, int fingers, double half_angle_deg) {
+  Plan plan;
+  plan.object_file = dimension == 2 ? "square.wkt" : "cube.obj";
+  plan.object_sha256 = std::string(64, 'a');
+  plan.scale = 0.05;
+  plan.dimension = dimension;
+  plan.half_angle = Radians(half_angle_deg);
+  plan.fingers = fingers;
+  plan.planner = "general";
+  return plan;
+}
+
+Plan CubePlan() {
+  Plan plan = EmptyPlan(3, 5, 30);
+  plan.initial = {{0, kRight}, {1, kLeft}, {2, kAbove}, {3, kBelow}};
+  plan.steps.push_back(Switch{{{4, kBack}}, {2}});
+  plan.steps.push_back(Switch{{{2, kFront}}, {3}});
+  const FingerGrasp end = {{0, Moved(kRight, 0, 0.1, 0.2)},
+                           {1, Moved(kLeft, 0, 0.2, 0.1)},
+                           {4, Moved(kBack, 0.3, 0, -0.2)},
+                           {2, Moved(kFront, 0.2, 0, -0.1)}};
+  FingerGrasp middle = end;
+  middle[2].contact = Moved(kBack, 0.1, 0, 0.1);
+  middle[3].contact = Moved(kFront, 0.1, 0, 0.1);
+  plan.steps.push_back(Align{{{{0, kRight}, {1, kLeft}, {2, kFront}, {4, kBack}}, middle, end}});
+  plan.goal = ContactsOf(end);
+  return plan;
+}
+
+Plan SquarePlan() {
+  Plan plan = EmptyPlan(2, 4, 20);
+  plan.initial = {{0, {{0.1, -1, 0}, {0, 1, 0}}}, {1, {{-0.1, 1, 0}, {0, -1, 0}}}};
+  const FingerContact right = {2, {{1, -0.2, 0}, {-1, 0, 0}}};
+  const FingerContact left = {3, {{-1, 0, 0}, {1, 0, 0}}};
+  plan.steps.push_back(Switch{{right, left}, {0, 1}});
+  FingerGrasp end = {right, left};
+  for (FingerContact& held : end) held.contact.p.y() += 0.3;
+  plan.steps.push_back(Align{{{right, left}, end}});
+  plan.goal = ContactsOf(end);
+  return plan;
+}
+
+}  // namespace regrasp
