@@ -1,0 +1,247 @@
+"""The schemas of docs/ accept what the project writes and ships, and refuse what is wrong.
+
+usage: schema_test.py --programs DIR --source DIR [unittest's own arguments]
+"""
+
+import argparse
+import copy
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import validate_schema
+
+ARGUMENTS = argparse.Namespace(programs="", source="")
+
+# Far above what planning on a cube needs: a program that hangs fails.
+HANG_SECONDS = 300
+
+REMOVED = object()
+
+
+def source(path):
+    return pathlib.Path(ARGUMENTS.source) / path
+
+
+def schema(name):
+    return validate_schema.validator(source(f"docs/{name}.schema.json"))
+
+
+def changed(value, place, new):
+    """A copy of `value` with the element at `place` replaced, or removed."""
+    result = copy.deepcopy(value)
+    parent = result
+    for key in place[:-1]:
+        parent = parent[key]
+    if new is REMOVED:
+        del parent[place[-1]]
+    else:
+        parent[place[-1]] = new
+    return result
+
+
+REPORT = {
+    "format": "regrasp-report",
+    "version": 1,
+    "verdict": "fail",
+    "object": {"file": "cube.obj"},
+    "plan": {"file": "plan.json"},
+    "settings": {"mu": 0.5},
+    "steps": [
+        {
+            "index": 0, "kind": "hold", "verdict": "pass", "reason": None,
+            "force_closure": {"holds": True, "required_half_angle_deg": 12.4},
+            "simulation": {
+                "displacement_m": 1.1e-6, "rotation_deg": 0.002, "slip_m": 4e-6,
+                "contact_lost": False,
+            },
+            "frame": "000_hold.png",
+        },
+        {
+            "index": 1, "kind": "switch", "verdict": "fail", "reason": "not-force-closure",
+            "force_closure": {"holds": False, "required_half_angle_deg": None},
+            "simulation": None, "frame": None,
+        },
+        {
+            "index": 2, "kind": "align", "verdict": "skipped", "reason": None,
+            "force_closure": None, "simulation": None, "frame": None,
+        },
+    ],
+}
+
+GRAPH = {
+    "format": "regrasp-graph",
+    "version": 1,
+    "planner": "polygon",
+    "friction": {"half_angle_deg": 10},
+    "faces": 40,
+    "types": {"concurrent": {"candidates": 1074, "combinations": 736, "vertices": 740}},
+    "edges": {"concurrent-concurrent": 12, "two_finger-concurrent": 3},
+    "vertices": 740,
+    "components": 1,
+    "seconds": {"vertices": 0.1, "edges": 0.2},
+}
+
+
+class SchemaTest(unittest.TestCase):
+    def expect_valid(self, name, files):
+        checked = 0
+        for file in sorted(files):
+            with self.subTest(file=file):
+                lines = validate_schema.complaints(schema(name), validate_schema.load(file))
+                self.assertEqual(lines, [])
+            checked += 1
+        self.assertGreater(checked, 0)
+
+    def expect_refused(self, name, value, changes):
+        """`value` is valid, and no longer is with any one of the changes."""
+        checker = schema(name)
+        self.assertEqual(validate_schema.complaints(checker, value), [])
+        for place, new in changes:
+            with self.subTest(place=place, new=new):
+                bad = changed(value, place, new)
+                self.assertNotEqual(validate_schema.complaints(checker, bad), [])
+        self.assertTrue(changes)
+
+    def run_program(self, name, *arguments):
+        program = pathlib.Path(ARGUMENTS.programs) / name
+        result = subprocess.run(
+            [program, *map(str, arguments)],
+            capture_output=True, text=True, timeout=HANG_SECONDS, check=False,
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_grasps_of_the_models_are_valid(self):
+        models = source("models")
+        self.expect_valid(
+            "grasp", [*models.glob("*.start.json"), *models.glob("*.goal.json")]
+        )
+
+    def test_the_corpus_of_good_files_is_valid(self):
+        self.expect_valid("grasp", source("tests/data/plans/grasp_good").glob("*.json"))
+        self.expect_valid("plan", source("tests/data/plans/plan_good").glob("*.json"))
+
+    def test_bad_plans_of_the_corpus_are_refused(self):
+        # Every plan that is refused for what it says is refused by the schema too; those that are
+        # refused for how they are written (truncated, a repeated key …) do not load.
+        refused = 0
+        for file in sorted(source("tests/data/plans/plan_bad").glob("*.json")):
+            with self.subTest(file=file):
+                try:
+                    value = validate_schema.load(file)
+                except (ValueError, RecursionError):
+                    refused += 1
+                    continue
+                self.assertNotEqual(validate_schema.complaints(schema("plan"), value), [])
+                refused += 1
+        self.assertGreater(refused, 20)
+
+    def test_what_the_programs_write_is_valid(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plan = pathlib.Path(folder) / "plan.json"
+            graph = pathlib.Path(folder) / "graph.json"
+            cube = source("models/cube.obj")
+            self.run_program(
+                "plan", "--object", cube, "--friction-angle", 25, "--output", plan, "--start",
+                source("models/cube.start.json"), "--goal", source("models/cube.goal.json"),
+            )
+            self.run_program(
+                "graph", "--object", cube, "--planner", "roadmap", "--friction-angle", 25,
+                "--json", graph,
+            )
+            self.expect_valid("plan", [plan])
+            self.expect_valid("graph", [graph])
+
+    def test_wrong_grasps_are_refused(self):
+        grasp = validate_schema.load(source("models/cube.start.json"))
+        self.expect_refused("grasp", grasp, [
+            (["format"], "regrasp-plan"),
+            (["version"], 2),
+            (["contacts"], []),
+            (["contacts"], REMOVED),
+            (["contacts", 0], None),
+            (["contacts", 0, "point"], REMOVED),
+            (["contacts", 0, "point"], [1]),
+            (["contacts", 0, "point", 0], "1"),
+            (["contacts", 0, "point", 0], 1e200),
+            (["contacts", 0, "normal"], [0, 0, 1, 0]),
+        ])
+
+    def test_wrong_plans_are_refused(self):
+        plan = validate_schema.load(
+            source("tests/data/plans/plan_good/cube_switches_and_align.json")
+        )
+        self.expect_refused("plan", plan, [
+            *[([key], REMOVED) for key in plan],
+            *[(["object", key], REMOVED) for key in plan["object"]],
+            (["object", "dimension"], 2),
+            (["object", "sha256"], "F" * 64),
+            (["friction", "half_angle_deg"], 90),
+            (["fingers"], 65),
+            (["initial", "contacts", 0, "finger"], REMOVED),
+            (["initial", "contacts", 0, "normal"], REMOVED),
+            (["initial", "contacts", 0, "point"], [0, 0]),
+            (["steps", 0, "kind"], "jump"),
+            (["steps", 0, "kind"], "align"),
+            (["steps", 0, "place", 0, "point"], [0, 0]),
+            (["steps", 0, "release"], [-1]),
+            (["steps", 0, "release"], REMOVED),
+            (["steps", 2, "waypoints", 1], REMOVED),
+            (["steps", 2, "waypoints", 0, "contacts", 0, "normal"], [0, 1]),
+            (["goal", "contacts", 0, "point"], None),
+        ])
+
+    def test_wrong_reports_are_refused(self):
+        self.expect_refused("report", REPORT, [
+            *[([key], REMOVED) for key in REPORT],
+            *[(["steps", 0, key], REMOVED) for key in REPORT["steps"][0]],
+            (["verdict"], "maybe"),
+            (["verdict"], "pass"),
+            (["steps"], []),
+            (["steps", 0, "kind"], "switch"),
+            (["steps", 1, "kind"], "hold"),
+            (["steps", 0, "reason"], "slipped"),
+            (["steps", 1, "reason"], None),
+            (["steps", 1, "reason"], "bad luck"),
+            (["steps", 1, "verdict"], "pass"),
+            (["steps", 0, "force_closure", "holds"], "yes"),
+            (["steps", 0, "force_closure", "required_half_angle_deg"], 90),
+            (["steps", 0, "simulation", "slip_m"], -1),
+        ])
+
+    def test_wrong_graphs_are_refused(self):
+        self.expect_refused("graph", GRAPH, [
+            *[([key], REMOVED) for key in GRAPH],
+            (["planner"], "guess"),
+            (["faces"], -1),
+            (["types"], {}),
+            (["types", "concurrent", "vertices"], REMOVED),
+            (["types", "skew"], {"candidates": 0, "combinations": 0, "vertices": 0}),
+            (["edges", "concurrent"], 1),
+            (["vertices"], 1.5),
+            (["seconds", "edges"], REMOVED),
+        ])
+
+    def test_the_script_tells_good_files_from_bad_ones(self):
+        good = source("models/cube.start.json")
+        grasp_schema = source("docs/grasp.schema.json")
+        bad = source("tests/data/plans/grasp_bad/is_a_plan.json")
+        self.assertEqual(validate_schema.main([grasp_schema, good, good]), 0)
+        self.assertEqual(validate_schema.main([grasp_schema, good, bad]), 1)
+        self.assertEqual(validate_schema.main([grasp_schema, source("no/such/file.json")]), 1)
+        self.assertEqual(validate_schema.main([good, good]), 2)
+        self.assertEqual(validate_schema.main([grasp_schema]), 2)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--programs", required=True)
+    parser.add_argument("--source", required=True)
+    _, rest = parser.parse_known_args(namespace=ARGUMENTS)
+    unittest.main(argv=[sys.argv[0], *rest])
+
+
+if __name__ == "__main__":
+    main()
