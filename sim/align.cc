@@ -106,6 +106,7 @@ void TellRoles(Stage& stage, const FingerGrasp& start, const FingerGrasp& end) {
 }  // namespace
 
 FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double share) {
+  if (share >= 1) return to;
   FingerGrasp between = to;
   for (std::size_t i = 0; i < to.size(); ++i) {
     const Contact& a = from[i].contact;

@@ -30,6 +30,12 @@ std::string Join(std::initializer_list<double> values) {
   return text;
 }
 
+/// The engine counts a space behind the last number as another number.
+void Append(std::string& list, const std::string& item) {
+  if (!list.empty()) list += ' ';
+  list += item;
+}
+
 std::string Join(const Vector3d& v) { return Join({v.x(), v.y(), v.z()}); }
 
 std::string Collision(const std::vector<int>& fingers) {
@@ -52,7 +58,9 @@ std::string FormatPrismMesh(const std::string& name, const ContactPatch& patch,
                             const Vector3d& inward, double thickness) {
   std::string vertices;
   for (const double depth : {0.0, thickness}) {
-    for (const Vector3d& corner : patch.outline) vertices += Join(corner + depth * inward) + " ";
+    for (const Vector3d& corner : patch.outline) {
+      Append(vertices, Join(corner + depth * inward));
+    }
   }
   return "    <mesh name=\"" + name + "\" vertex=\"" + vertices + "\"/>\n";
 }
@@ -62,15 +70,15 @@ struct Parts {
 };
 
 void AddSurface(const Polyhedron& body, double scale, Parts& parts) {
-  parts.assets += "    <mesh name=\"surface\" vertex=\"";
+  std::string vertices, faces;
   for (const Vector3d& v : body.vertices()) {
-    parts.assets += Join((v - body.mass_properties().centroid) * scale) + " ";
+    Append(vertices, Join((v - body.mass_properties().centroid) * scale));
   }
-  parts.assets += "\" face=\"";
   for (const auto& [a, b, c] : body.triangles()) {
-    parts.assets += std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + " ";
+    for (const int corner : {a, b, c}) Append(faces, std::to_string(corner));
   }
-  parts.assets += "\"/>\n";
+  parts.assets +=
+      "    <mesh name=\"surface\" vertex=\"" + vertices + "\" face=\"" + faces + "\"/>\n";
   parts.object_geoms += "      <geom class=\"surface\" type=\"mesh\" mesh=\"surface\"/>\n";
 }
 
@@ -117,7 +125,7 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
 std::string FormatKeyframe(const std::vector<Vector3d>& hold) {
   if (hold.empty()) return {};
   std::string controls;
-  for (const Vector3d& control : hold) controls += Join(control) + " ";
+  for (const Vector3d& control : hold) Append(controls, Join(control));
   return "  <keyframe>\n    <key name=\"hold\" ctrl=\"" + controls + "\"/>\n  </keyframe>\n";
 }
 

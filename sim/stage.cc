@@ -1,11 +1,28 @@
 #include "sim/stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace regrasp {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+namespace {
+
+/// Where the plan first puts a finger; on no face where it never does.
+Contact FirstContact(const Polyhedron& body, const Scene& scene, int finger) {
+  for (std::size_t i = 0; i < scene.sites.size(); ++i) {
+    const ContactSite& site = scene.sites[i];
+    if (std::ranges::find(scene.fingers_of_site[i], finger) == scene.fingers_of_site[i].end()) {
+      continue;
+    }
+    return {site.from, body.inward_normal(site.face), site.face};
+  }
+  return {};
+}
+
+}  // namespace
 
 Stage::Stage(const Polyhedron& body, const Plan& plan, Scene scene, const ReplayObserver& observer)
     : body_(body),
@@ -19,6 +36,7 @@ Stage::Stage(const Polyhedron& body, const Plan& plan, Scene scene, const Replay
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
     engine_.SetSite(static_cast<int>(f), -1);
     fingers_[f].anchor_S = scene_.finger_start_S[f];
+    fingers_[f].contact = FirstContact(body, scene_, static_cast<int>(f));
   }
   SetGravity(0);
   StartJudging();
