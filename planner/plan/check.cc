@@ -13,13 +13,6 @@ namespace {
 
 bool Passed(const StepCheck& check) { return !check.skipped && check.reason == Reason::kNone; }
 
-void Fault(StepCheck& check, Reason reason, const std::string& detail) {
-  // These reasons are the last of the order: they never hide another.
-  if (check.reason != Reason::kNone) return;
-  check.reason = reason;
-  check.detail = detail;
-}
-
 StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, const Step& step) {
   if (const auto* finger_switch = std::get_if<Switch>(&step)) {
     return CheckSwitch(context, before, *finger_switch);
@@ -27,21 +20,25 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
+/// start-differs and goal-not-reached are the last reasons of the order: they are looked for only
+/// where an entry has no other fault, so that grasps are no larger than a hand.
 void CheckStart(const CheckContext& context, const CheckOptions& options, StepCheck& hold) {
-  if (options.start == nullptr) return;
-  if (!AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) {
-    Fault(hold, Reason::kStartDiffers, "the initial grasp is not the given start grasp");
-  }
+  if (!Passed(hold) || options.start == nullptr) return;
+  if (AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) return;
+  hold.reason = Reason::kStartDiffers;
+  hold.detail = "the initial grasp is not the given start grasp";
 }
 
-void CheckGoal(const CheckContext& context, const CheckOptions& options, const FingerGrasp& last,
-               StepCheck& check) {
-  if (!AreSameGrasp(ContactsOf(last), context.plan.goal, context.tolerance())) {
-    Fault(check, Reason::kGoalNotReached, "the last contacts are not those of the plan's goal");
-  }
-  if (options.goal != nullptr &&
-      !AreSameGrasp(context.plan.goal, *options.goal, context.tolerance())) {
-    Fault(check, Reason::kGoalNotReached, "the plan's goal is not the given goal grasp");
+void CheckGoal(const CheckContext& context, const CheckOptions& options, const FingerGrasp& end,
+               StepCheck& last) {
+  if (!Passed(last)) return;
+  if (!AreSameGrasp(ContactsOf(end), context.plan.goal, context.tolerance())) {
+    last.reason = Reason::kGoalNotReached;
+    last.detail = "the last contacts are not those of the plan's goal";
+  } else if (options.goal != nullptr &&
+             !AreSameGrasp(context.plan.goal, *options.goal, context.tolerance())) {
+    last.reason = Reason::kGoalNotReached;
+    last.detail = "the plan's goal is not the given goal grasp";
   }
 }
 
@@ -78,7 +75,7 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
     result.steps.back().index = index;
     holding = GraspAfter(holding, step);
   }
-  if (Passed(result.steps.back())) CheckGoal(context, options, holding, result.steps.back());
+  CheckGoal(context, options, holding, result.steps.back());
   return result;
 }
 
