@@ -81,12 +81,20 @@ void Imitate(Stage& stage, const AlignPiece& piece, int spare) {
   }
 }
 
+/// The finger that the others balance best goes first.
 void Slide(Stage& stage, const AlignPiece& piece) {
+  std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < piece.from.size(); ++i) {
-    const Contact& from = piece.from[i].contact;
-    const Contact& to = piece.to[i].contact;
-    if (Stays(from, to, stage.settings().diameter_m)) continue;
-    SlideFinger(stage, piece.from[i].finger, from, to);
+    const double diameter = stage.settings().diameter_m;
+    if (!Stays(piece.from[i].contact, piece.to[i].contact, diameter)) waiting.push_back(i);
+  }
+  while (!waiting.empty()) {
+    const auto next = std::ranges::max_element(waiting, {}, [&](std::size_t i) {
+      return SlideMargin(stage, piece.from[i].finger, piece.from[i].contact, piece.to[i].contact);
+    });
+    SlideFinger(stage, piece.from[*next].finger, piece.from[*next].contact,
+                piece.to[*next].contact);
+    waiting.erase(next);
   }
 }
 

@@ -35,7 +35,7 @@ struct SlideForces {
 /// Forces while `finger` slides towards `direction_B`, pressing with `normal`: the finger's is on
 /// its cone's edge, the others balance it and the weight inside narrower cones.
 SlideForces PlanSlide(const Stage& stage, int finger, const Contact& at_B,
-                      const Vector3d& direction_B, double normal) {
+                      const Vector3d& direction_B, double normal, double friction_share) {
   const double mu = stage.settings().mu;
   const double radius = stage.settings().diameter_m / 2;
   const Vector3d pushed_B = normal * (at_B.n + mu * direction_B);
@@ -49,7 +49,7 @@ SlideForces PlanSlide(const Stage& stage, int finger, const Contact& at_B,
   const Wrench load{R_SB.transpose() * stage.weight_S() + pushed_B,
                     at_B.p.cross(pushed_B) / radius};
   const GraspForces planned =
-      ComputeGraspForces(contacts, stage.frame_B(), std::atan(kSlideFriction * mu), load,
+      ComputeGraspForces(contacts, stage.frame_B(), std::atan(friction_share * mu), load,
                          stage.settings().squeeze_N - normal);
   SlideForces result{HandForces(stage.fingers().size(), Vector3d::Zero()), planned.margin};
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -59,15 +59,19 @@ SlideForces PlanSlide(const Stage& stage, int finger, const Contact& at_B,
   return result;
 }
 
-/// The smallest normal force with a good margin, or else the one with the best.
+/// The smallest normal force with a good margin, or else the one with the best; with the whole
+/// friction only where kSlideFriction of it leaves no margin.
 SlideForces ChooseSlide(const Stage& stage, int finger, const Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
-  for (double share = kSlideForce; share <= kLargestSlideForce; share *= kForceFactor) {
-    SlideForces tried =
-        PlanSlide(stage, finger, at_B, direction_B, share * stage.settings().squeeze_N);
-    if (!best || tried.margin > best->margin) best = std::move(tried);
-    if (best->margin >= kGoodMargin) break;
+  for (const double friction_share : {kSlideFriction, 1.0}) {
+    for (double share = kSlideForce; share <= kLargestSlideForce; share *= kForceFactor) {
+      SlideForces tried = PlanSlide(stage, finger, at_B, direction_B,
+                                    share * stage.settings().squeeze_N, friction_share);
+      if (!best || tried.margin > best->margin) best = std::move(tried);
+      if (best->margin >= kGoodMargin) return *best;
+    }
+    if (best->margin > 0) return *best;
   }
   return *best;
 }
@@ -101,6 +105,12 @@ double TipWay(const Stage& stage, const Contact& from, const Contact& to) {
 }
 
 }  // namespace
+
+double SlideMargin(const Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
+  const Vector3d direction = Direction(from_B, to_B);
+  return std::min(ChooseSlide(stage, finger, from_B, direction).margin,
+                  ChooseSlide(stage, finger, to_B, direction).margin);
+}
 
 void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
   const double way = TipWay(stage, from_B, to_B) / stage.settings().diameter_m;

@@ -13,4 +13,9 @@ namespace regrasp {
 /// (sim/align.h); where none leaves any, the one that comes closest.
 void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B);
 
+/// How well the others can balance the finger at both ends of its slide: the smaller margin of
+/// their forces (GraspForces::margin); not positive where they cannot.
+[[nodiscard]] double SlideMargin(const Stage& stage, int finger, const Contact& from_B,
+                                 const Contact& to_B);
+
 }  // namespace regrasp

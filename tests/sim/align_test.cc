@@ -43,11 +43,8 @@ TEST(ReplayAlign, IsImitatedWithASpareFingerAndEveryFingerEndsAtItsTarget) {
 
 TEST(ReplayAlign, IsSlidWhereNoFingerIsSpare) {
   const CubeCase cube;
-  FingerGrasp target = cube.Start();
-  target[0] = cube.At(0, 0.03, 0.009, 0.004);
-  target[1] = cube.At(1, -0.03, -0.002, -0.001);
   Plan plan = MakePlan(cube.Start(), 25, 4);
-  plan.steps = {Align{{cube.Start(), target}}};
+  plan.steps = {Align{{cube.Start(), Moved(cube)}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
   EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
@@ -55,7 +52,7 @@ TEST(ReplayAlign, IsSlidWhereNoFingerIsSpare) {
   int arrived = 0;
   for (const FingerState& state : result.steps[1].snapshot.fingers) {
     const Eigen::Vector3d at = result.steps[1].snapshot.X_WO.inverse() * state.contact_W;
-    EXPECT_LT((at - target[state.finger].contact.p).norm(), 1e-3 * cube.object.diameter());
+    EXPECT_LT((at - Moved(cube)[state.finger].contact.p).norm(), 1e-3 * cube.object.diameter());
     ++arrived;
   }
   EXPECT_EQ(arrived, 4);
@@ -77,7 +74,7 @@ TEST(ReplayAlign, FailsWhereItEndsInAGraspThatDoesNotHold) {
   EXPECT_NE(result.steps[1].reason, Reason::kNone);
 }
 
-TEST(ReplayAlign, TurnsAFingerOverAnEdge) {
+TEST(ReplayAlign, TurnsAFingerOverAnEdgeWithAndWithoutASpareFinger) {
   const CubeCase cube;
   FingerGrasp start = cube.Start();
   start.push_back(cube.At(4, 0.03, -0.010, -0.003));
@@ -87,12 +84,15 @@ TEST(ReplayAlign, TurnsAFingerOverAnEdge) {
   turned[0].contact = ContactAt(cube.object, corner, {0, -1, 0});
   end[0] = cube.At(0, 0.015, 0.03, 0.002);
   ASSERT_GE(turned[0].contact.face, 0);
-  Plan plan = MakePlan(start, 25, 6);
-  plan.steps = {Align{{start, edge, turned, end}}};
-  const ReplayResult result = ReplayPlan(cube.object, plan, {});
-  ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
-  EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
+  for (const auto& [fingers, mode] : {std::pair{6, AlignMode::kImitated}, {5, AlignMode::kSlid}}) {
+    SCOPED_TRACE(fingers);
+    Plan plan = MakePlan(start, 25, fingers);
+    plan.steps = {Align{{start, edge, turned, end}}};
+    const ReplayResult result = ReplayPlan(cube.object, plan, {});
+    ASSERT_EQ(result.steps.size(), 2u);
+    EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
+    EXPECT_EQ(result.steps[1].align_mode, mode);
+  }
 }
 
 TEST(InterpolateContacts, TurnsNormalsOnTheGreatCircle) {
