@@ -224,6 +224,28 @@ TEST(HostileFiles, AnyPartOfAGraspLeftOutOrReplacedIsRefusedOrRead) {
   EXPECT_LT(refused, tried);
 }
 
+TEST(HostileFiles, GraspsOfFarTooManyFingersAreJudged) {
+  // Comparing all pairs of so many contacts would take hours.
+  constexpr int kContacts = 100'000;
+  const Polyhedron cube = MakeCube();
+  FingerGrasp crowd;
+  for (int finger = 0; finger < kContacts; ++finger) {
+    crowd.push_back({finger, {{1, -1 + 2.0 * finger / kContacts, 0}, {-1, 0, 0}}});
+  }
+  Plan plan = CubePlan();
+  plan.initial = crowd;
+  EXPECT_EQ(CheckPlan(cube, plan).steps[0].reason, Reason::kTooManyFingers);
+  plan = CubePlan();
+  std::get<Switch>(plan.steps[0]).place = crowd;
+  EXPECT_EQ(CheckPlan(cube, plan).steps[1].reason, Reason::kFingerNotFree);
+  plan = CubePlan();
+  std::get<Align>(plan.steps[2]).waypoints = {crowd, crowd};
+  EXPECT_EQ(CheckPlan(cube, plan).steps[3].reason, Reason::kTooManyFingers);
+  plan = CubePlan();
+  plan.goal = ContactsOf(crowd);
+  EXPECT_EQ(CheckPlan(cube, plan).steps[3].reason, Reason::kGoalNotReached);
+}
+
 TEST(HostileFiles, RequiredFieldsCannotBeLeftOut) {
   const Json plan = Json::parse(FormatPlan(CubePlan()));
   for (const char* pointer : {"/format",
