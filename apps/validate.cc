@@ -6,23 +6,27 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "apps/frame_files.h"
 #include "apps/options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/trajectory.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/plan/plan_io.h"
 #include "sim/report.h"
+#include "sim/trajectory.h"
 
 namespace {
 
 using namespace regrasp;
 
 constexpr char kProgram[] = "validate";
+
+/// Between two rows of a finger in the trajectory: a switch takes some hundredths of a second.
+constexpr double kSampleInterval_s = 5e-4;
 
 struct ValidateProgram {
   std::string object_path;
@@ -49,9 +53,9 @@ struct ValidateProgram {
   void AddPhysics(CLI::App& app);
   void SetSize(const std::string& text);
   void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
-  Report Check(const Plan& plan, const ObjectFile& object, TrajectoryTable& table) const;
-  void WriteResults(const Plan& plan, const ObjectFile& object, const TrajectoryTable& table,
-                    Report& report) const;
+  Report Check(const Plan& plan, const ObjectFile& object, std::vector<Snapshot>& samples) const;
+  void WriteResults(const Plan& plan, const ObjectFile& object,
+                    const std::vector<Snapshot>& samples, Report& report) const;
   [[nodiscard]] std::filesystem::path Folder() const;
 };
 
@@ -146,7 +150,7 @@ void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) 
 }
 
 Report ValidateProgram::Check(const Plan& plan, const ObjectFile& object,
-                              TrajectoryTable& table) const {
+                              std::vector<Snapshot>& samples) const {
   CheckOptions check;
   check.half_angle = friction.half_angle();
   Grasp start_grasp;
@@ -166,7 +170,8 @@ Report ValidateProgram::Check(const Plan& plan, const ObjectFile& object,
     progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
   };
   if (!trajectory.empty()) {
-    observer.on_sample = [&](const Snapshot& snapshot) { table.Add(snapshot); };
+    observer.sample_interval_s = kSampleInterval_s;
+    observer.on_sample = [&](const Snapshot& snapshot) { samples.push_back(snapshot); };
   }
   return Validate(*object.object, plan, check, replay, observer);
 }
@@ -177,7 +182,7 @@ std::filesystem::path ValidateProgram::Folder() const {
 }
 
 void ValidateProgram::WriteResults(const Plan& plan, const ObjectFile& object,
-                                   const TrajectoryTable& table, Report& report) const {
+                                   const std::vector<Snapshot>& samples, Report& report) const {
   const std::filesystem::path folder = Folder();
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -190,7 +195,7 @@ void ValidateProgram::WriteResults(const Plan& plan, const ObjectFile& object,
   }
   WriteFile(folder / "report.json", FormatReportJson(report));
   if (!junit.empty()) WriteFile(junit, FormatReportJunit(report));
-  if (!trajectory.empty()) WriteFile(trajectory, table.text());
+  if (!trajectory.empty()) WriteFile(trajectory, FormatTrajectory(samples));
 }
 
 int ValidateProgram::Run() {
@@ -199,13 +204,13 @@ int ValidateProgram::Run() {
   const Plan plan = ParsePlan(plan_text, plan_path);
   CheckPlanFits(plan, object);
   replay.half_angle = friction.half_angle();
-  TrajectoryTable table;
-  Report report = Check(plan, object, table);
+  std::vector<Snapshot> samples;
+  Report report = Check(plan, object, samples);
   report.object_file = object.file;
   report.object_sha256 = object.sha256;
   report.plan_file = std::filesystem::path(plan_path).filename().string();
   report.plan_sha256 = Sha256(plan_text);
-  WriteResults(plan, object, table, report);
+  WriteResults(plan, object, samples, report);
   if (!mjcf.empty())
     WriteFile(mjcf, SceneMjcf(*object.object, LocatePlan(*object.object, plan), replay));
   if (!quiet) std::cout << FormatReportTable(report);
