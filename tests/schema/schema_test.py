@@ -5,6 +5,7 @@ usage: schema_test.py --programs DIR --source DIR [unittest's own arguments]
 
 import argparse
 import copy
+import json
 import pathlib
 import subprocess
 import sys
@@ -105,13 +106,13 @@ class SchemaTest(unittest.TestCase):
                 self.assertNotEqual(validate_schema.complaints(checker, bad), [])
         self.assertTrue(changes)
 
-    def run_program(self, name, *arguments):
+    def run_program(self, name, *arguments, code=0):
         program = pathlib.Path(ARGUMENTS.programs) / name
         result = subprocess.run(
             [program, *map(str, arguments)],
             capture_output=True, text=True, timeout=HANG_SECONDS, check=False,
         )
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.returncode, code, result.stderr)
 
     def test_grasps_of_the_models_are_valid(self):
         models = source("models")
@@ -153,6 +154,26 @@ class SchemaTest(unittest.TestCase):
             )
             self.expect_valid("plan", [plan])
             self.expect_valid("graph", [graph])
+
+    def test_reports_of_plans_that_pass_and_fail_are_valid(self):
+        good = validate_schema.load(
+            source("tests/data/plans/plan_good/cube_switches_and_align.json")
+        )
+        cases = {
+            "pass": (0, good),
+            "fail": (1, changed(good, ["steps", 0, "release"], [2, 0])),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for verdict, (code, plan) in cases.items():
+                plan_file = pathlib.Path(folder) / f"{verdict}.json"
+                plan_file.write_text(json.dumps(plan), encoding="utf-8")
+                out = pathlib.Path(folder) / verdict
+                self.run_program(
+                    "validate", "--object", source("models/cube.obj"), "--plan", plan_file,
+                    "--out", out, "--no-frames", "--allow-object-change", code=code,
+                )
+                self.expect_valid("report", [out / "report.json"])
+                self.assertEqual(validate_schema.load(out / "report.json")["verdict"], verdict)
 
     def test_wrong_grasps_are_refused(self):
         grasp = validate_schema.load(source("models/cube.start.json"))
