@@ -9,6 +9,8 @@ import shutil
 import struct
 import xml.etree.ElementTree as ElementTree
 
+import jsonschema
+
 import program_case
 from program_case import ProgramCase
 
@@ -44,7 +46,12 @@ class Validate(ProgramCase):
                 for word in (key, value)] + list(more)
 
     def report(self):
-        return json.loads(self.read("result/report.json"))
+        """The report, which always follows its schema."""
+        report = json.loads(self.read("result/report.json"))
+        schema = os.path.join(program_case.ARGUMENTS.source, "docs", "report.schema.json")
+        with open(schema, encoding="utf-8") as file:
+            jsonschema.validate(report, json.load(file))
+        return report
 
     def frames(self):
         return sorted(name for name in os.listdir(self.path("result")) if name.endswith(".png"))
