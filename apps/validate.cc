@@ -101,7 +101,8 @@ void ValidateProgram::AddPhysics(CLI::App& app) {
       ->type_name("KG_M3")
       ->excludes(mass);
   AddNumber(app, "--squeeze", replay.squeeze_N, NumberRange::Positive(),
-            "Sum of the normal forces of a grasp at rest, newtons (default: from the weight)")
+            "Sum of the normal forces of a grasp at rest, newtons (default: such "
+            "that the weight is a tenth of the shake force, 1000 weights at the default shake)")
       ->type_name("N");
   AddNumber(app, "--shake", replay.shake, NumberRange::NotNegative(),
             "Size of the shake: force over squeeze, and torque over squeeze times half the "

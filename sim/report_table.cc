@@ -12,8 +12,8 @@ namespace {
 constexpr int kColumns = 6;
 using Row = std::array<std::string, kColumns>;
 
-/// Significant digits of angles and lengths.
-constexpr int kAngleDigits = 4;
+/// Angles to a hundredth of a degree, lengths to two significant digits.
+constexpr int kAngleDecimals = 2;
 constexpr int kLengthDigits = 2;
 
 constexpr char kNothing[] = "-";
@@ -21,7 +21,7 @@ constexpr char kNothing[] = "-";
 std::string RequiredAngle(const ReportStep& step) {
   if (step.check.skipped) return kNothing;
   if (!step.check.required) return "none";
-  return FormatShort(Degrees(step.check.required->upper), kAngleDigits);
+  return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
 }
 
 Row MakeRow(const ReportStep& step) {
@@ -60,7 +60,7 @@ std::string FormatWeakest(const Report& report) {
   const ReportStep& step = report.steps[weakest];
   return "weakest: step " + std::to_string(weakest) + " (" + step.check.kind +
          "), which needs a friction half-angle of " + RequiredAngle(step) + " of " +
-         FormatShort(Degrees(report.half_angle), kAngleDigits) + " degrees\n";
+         FormatFixed(Degrees(report.half_angle), kAngleDecimals) + " degrees\n";
 }
 
 std::string FormatFailure(const Report& report) {

@@ -24,6 +24,13 @@ std::string FormatDouble(double value) {
   return {text.data(), end};
 }
 
+std::string FormatFixed(double value, int decimals) {
+  std::array<char, 64> text;
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::fixed, decimals);
+  return {text.data(), end};
+}
+
 std::string FormatShort(double value, int digits) {
   std::array<char, 64> text;
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,

@@ -13,6 +13,10 @@ namespace regrasp {
 /// The shortest decimal that reads back as the same double, the same under any locale.
 [[nodiscard]] std::string FormatDouble(double value);
 
+/// A double for tables: `decimals` digits behind the point, the same under any locale.
+/// @pre |value| < 1e15
+[[nodiscard]] std::string FormatFixed(double value, int decimals);
+
 /// A double for people: `digits` significant digits, the same under any locale.
 [[nodiscard]] std::string FormatShort(double value, int digits = 4);
 

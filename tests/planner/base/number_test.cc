@@ -55,6 +55,12 @@ TEST(FormatDouble, ComesBackAsTheSameBits) {
   EXPECT_GT(compared, 19000);
 }
 
+TEST(FormatFixed, HasTheDecimalsAsked) {
+  EXPECT_EQ(FormatFixed(16, 2), "16.00");
+  EXPECT_EQ(FormatFixed(4.191e-8, 2), "0.00");
+  EXPECT_EQ(FormatFixed(-1.005e3, 1), "-1005.0");
+}
+
 TEST(FormatShort, RoundsToTheDigitsAsked) {
   EXPECT_EQ(FormatShort(0.123456), "0.1235");
   EXPECT_EQ(FormatShort(1.0 / 3, 2), "0.33");
