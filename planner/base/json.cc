@@ -26,7 +26,7 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
-      throw InputError(name + ": the key \"" + value.get<std::string>() + "\" is repeated");
+      throw InputError(name + ": the key " + value.dump() + " is repeated");
     }
     return true;
   };

@@ -27,6 +27,7 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       {R"({"a": 1, "a": 2})", "the key \"a\" is repeated"},
       {R"({"a": 1, "\u0061": 2})", "the key \"a\" is repeated"},
       {R"([{"x": {"b": 1, "c": [], "b": 3}}])", "the key \"b\" is repeated"},
+      {R"({"a\nb": 1, "a\nb": 2})", R"(the key "a\nb" is repeated)"},
       {R"({"a": 1} x)", "not JSON"},
       {R"({"a": 1}{"a": 1})", "not JSON"},
       {R"({"a": 1)", "not JSON"},
