@@ -4,6 +4,7 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/object.h"
+#include "planner/plan/check.h"
 #include "render/frame.h"
 #include "sim/replay.h"
 
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   plan.half_angle = regrasp::Radians(30);
   plan.fingers = 5;
   for (int i = 0; i < 4; ++i) plan.initial.push_back({i, grasp[i]});
+  plan = regrasp::LocatePlan(*file.object, plan);
   const bool scene = !regrasp::SceneMjcf(*file.object, plan, {}).empty();
   const bool image = regrasp::Image{}.rgb.empty();
   std::printf("force closure %d, scene %d, image %d\n", closed, scene, image);
