@@ -146,7 +146,8 @@ void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) 
                      FormatDouble(plan.scale));
   }
   if (plan.dimension == 2) {
-    throw InputError(plan_path + ": /object/dimension: planar plans cannot be replayed in this version");
+    throw InputError(plan_path +
+                     ": /object/dimension: planar plans cannot be replayed in this version");
   }
 }
 
