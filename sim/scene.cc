@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Collision bits are 32, and the contract's largest hand has five fingers.
+/// Collision bits are 32, and the planners' largest hand has five fingers.
 constexpr int kMostFingers = 16;
 
 /// A path is looked at this often for the room that a fingertip has along it.

@@ -11,7 +11,7 @@ namespace regrasp {
 //
 // They read what the surface needs (vertices and facets) and skip the rest (normals, colours,
 // textures, groups). What a header declares is never trusted with memory. They are written here
-// because CGAL's and assimp's say only that a file is bad, and the contract asks for the element.
+// because CGAL's and assimp's say only that a file is bad, and a message must name the element.
 // All throw InputError, one line that names the line, facet or vertex; what the surface itself must
 // be like is not their business but Polyhedron's.
 
