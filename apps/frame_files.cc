@@ -57,7 +57,11 @@ void WriteFrames(const Object& object, const Plan& plan, const FrameOptions& opt
     if (step.replay) snapshots.push_back(step.replay->snapshot);
   }
   if (snapshots.empty()) return;
-  FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, options);
+  FrameOptions frame = options;
+  if (object.dimension() == 2) {
+    frame.thickness = report.settings->thickness_m / report.settings->diameter_m;
+  }
+  FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
   for (ReportStep& step : report.steps) {
     if (!step.replay) continue;
     const std::string name = FrameName(step);

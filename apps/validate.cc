@@ -100,6 +100,10 @@ void ValidateProgram::AddPhysics(CLI::App& app) {
             "Density of the object, kg/m^3 (default 1000)")
       ->type_name("KG_M3")
       ->excludes(mass);
+  AddNumber(app, "--thickness", replay.thickness, NumberRange::Positive(),
+            "Thickness of the prism that a planar object is, in the object file's own unit of "
+            "length (default a quarter of the diameter)")
+      ->type_name("X");
   AddNumber(app, "--squeeze", replay.squeeze_N, NumberRange::Positive(),
             "Sum of the normal forces of a grasp at rest, newtons (default: such "
             "that the weight is a tenth of the shake force, 1000 weights at the default shake)")
@@ -145,9 +149,8 @@ void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) 
     throw InputError("--scale " + FormatDouble(*scale) + ": the plan's scale is " +
                      FormatDouble(plan.scale));
   }
-  if (plan.dimension == 2) {
-    throw InputError(plan_path +
-                     ": /object/dimension: planar plans cannot be replayed in this version");
+  if (replay.thickness && plan.dimension == 3) {
+    throw InputError("--thickness: " + object_path + " is a solid, not a planar object");
   }
 }
 

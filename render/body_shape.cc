@@ -25,9 +25,6 @@ using Eigen::Vector3d;
 /// Faces that meet at a smaller angle than this look like one: no edge is drawn.
 constexpr double kFeatureAngle = Radians(5);
 
-/// Thickness of the prism that stands for a polygon, in diameters.
-constexpr double kPrismThickness = 0.25;
-
 /// Segments of the cone's rim: its outline is within 0.1 % of a circle.
 constexpr int kConeSegments = 72;
 
@@ -77,9 +74,9 @@ std::vector<Polygon2> Triangulate(const Polygon& polygon) {
   return triangles;
 }
 
-BodyShape MakePrismShape(const Polygon& polygon, const Normaliser& place) {
+BodyShape MakePrismShape(const Polygon& polygon, double thickness, const Normaliser& place) {
   BodyShape shape;
-  const Vector3d up = Vector3d::UnitZ() * (kPrismThickness / 2);
+  const Vector3d up = Vector3d::UnitZ() * (thickness / 2);
   for (const Polygon2& triangle : Triangulate(polygon)) {
     std::array<Vector3d, 3> p;
     for (int i = 0; i < 3; ++i) p[i] = place(Vector3d(triangle[i].x(), triangle[i].y(), 0));
@@ -116,10 +113,10 @@ FacetMesh TurnInsideOut(FacetMesh mesh) {
   return mesh;
 }
 
-BodyShape MakeBodyShape(const Object& object) {
+BodyShape MakeBodyShape(const Object& object, double thickness) {
   const Normaliser place = {object.mass_properties().centroid, object.diameter()};
   if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
-    return MakePrismShape(*polygon, place);
+    return MakePrismShape(*polygon, thickness, place);
   }
   return MakeSolidShape(dynamic_cast<const Polyhedron&>(object), place);
 }

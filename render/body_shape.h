@@ -25,12 +25,15 @@ struct BodyShape {
   std::vector<std::array<Eigen::Vector3d, 2>> edges;
 };
 
+/// Thickness of the prism that stands for a polygon where none is given, in diameters.
+inline constexpr double kUsualThickness = 0.25;
+
 /// The shape of an object about its centroid in units of its diameter. A polygon becomes a prism
-/// about the plane z = 0.
+/// of `thickness` (diameters) about the plane z = 0.
 ///
 /// Edges between faces that meet at less than 5° are left out: on finely meshed curved bodies they
 /// would cover everything else.
-[[nodiscard]] BodyShape MakeBodyShape(const Object& object);
+[[nodiscard]] BodyShape MakeBodyShape(const Object& object, double thickness = kUsualThickness);
 
 /// A closed cone with apex at the origin that opens along +z.
 [[nodiscard]] FacetMesh MakeCone(double half_angle, double slant);

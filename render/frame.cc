@@ -72,7 +72,7 @@ class FrameRenderer::Impl {
   Impl(const Object& object, double scale, double half_angle,
        const std::vector<Snapshot>& snapshots, const FrameOptions& options)
       : options_(options),
-        body_(MakeBodyShape(object)),
+        body_(MakeBodyShape(object, options.thickness)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         camera_(MakeCamera(object.dimension() == 2, snapshots)),
         largest_force_(LargestForce(snapshots)),

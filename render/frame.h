@@ -6,6 +6,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/snapshot.h"
+#include "render/body_shape.h"
 #include "render/image.h"
 
 namespace regrasp {
@@ -18,6 +19,7 @@ struct FrameOptions {
   int width = 1280;
   int height = 960;
   int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
+  double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
 };
 
 /// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a

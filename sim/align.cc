@@ -28,26 +28,41 @@ Contact StandIn(const Contact& from, const Contact& to) {
   return {(from.p + to.p) / 2, to.n, to.face};
 }
 
-bool CanGoOver(const AlignPiece& piece, const WrenchFrame& frame, double half_angle, GoOver how) {
+/// The fingers that move in this piece (places in its grasps), in groups that go over together.
+std::vector<std::vector<std::size_t>> MovingGroups(const AlignPiece& piece, double diameter,
+                                                   int size) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < piece.from.size(); ++i) {
+    if (Stays(piece.from[i].contact, piece.to[i].contact, diameter)) continue;
+    if (groups.empty() || static_cast<int>(groups.back().size()) >= size) groups.emplace_back();
+    groups.back().push_back(i);
+  }
+  return groups;
+}
+
+bool CanGoOver(const AlignPiece& piece, const WrenchFrame& frame, double half_angle,
+               int stand_ins) {
   Grasp grasp = ContactsOf(piece.from);
-  for (std::size_t i = 0; i < grasp.size(); ++i) {
-    const Contact& to = piece.to[i].contact;
-    if (Stays(grasp[i], to, 2 * frame.radius)) continue;
-    if (how == GoOver::kByStandIn) {
-      grasp[i] = StandIn(grasp[i], to);
+  for (const auto& group : MovingGroups(piece, 2 * frame.radius, stand_ins)) {
+    if (stand_ins > 0) {
+      for (const std::size_t i : group) grasp[i] = StandIn(grasp[i], piece.to[i].contact);
       if (!IsForceClosure(grasp, frame, half_angle)) return false;
     }
-    grasp[i] = to;
+    for (const std::size_t i : group) grasp[i] = piece.to[i].contact;
     if (!IsForceClosure(grasp, frame, half_angle)) return false;
   }
   return true;
 }
 
+AlignPiece Between(const FingerGrasp& from, const FingerGrasp& to, double start, double end) {
+  return {Interpolate(from, to, start), Interpolate(from, to, end)};
+}
+
 std::vector<AlignPiece> CutEvenly(const FingerGrasp& from, const FingerGrasp& to, int pieces) {
   std::vector<AlignPiece> cut;
   for (int i = 0; i < pieces; ++i) {
-    cut.push_back({Interpolate(from, to, static_cast<double>(i) / pieces),
-                   Interpolate(from, to, static_cast<double>(i + 1) / pieces)});
+    cut.push_back(
+        Between(from, to, static_cast<double>(i) / pieces, static_cast<double>(i + 1) / pieces));
   }
   return cut;
 }
@@ -62,22 +77,29 @@ FingerGrasp InOrderOf(const FingerGrasp& from, const FingerGrasp& to) {
   return ordered;
 }
 
-std::optional<int> FindSpare(const Stage& stage) {
+std::vector<int> FindSpare(const Stage& stage) {
+  std::vector<int> spare;
   for (std::size_t f = 0; f < stage.fingers().size(); ++f) {
-    if (!stage.fingers()[f].holding) return static_cast<int>(f);
+    if (!stage.fingers()[f].holding) spare.push_back(static_cast<int>(f));
   }
-  return std::nullopt;
+  return spare;
 }
 
-void Imitate(Stage& stage, const AlignPiece& piece, int spare) {
+void Imitate(Stage& stage, const AlignPiece& piece, const std::vector<int>& spare) {
   const double diameter = stage.settings().diameter_m;
-  for (std::size_t i = 0; i < piece.from.size(); ++i) {
-    const Contact& from = piece.from[i].contact;
-    const Contact& to = piece.to[i].contact;
-    if (Stays(from, to, diameter)) continue;
-    const int finger = piece.from[i].finger;
-    SwitchFingers(stage, {{spare, StandIn(from, to)}}, {finger});
-    SwitchFingers(stage, {{finger, to}}, {spare});
+  for (const auto& group : MovingGroups(piece, diameter, static_cast<int>(spare.size()))) {
+    FingerGrasp stand_ins, targets;
+    std::vector<int> fingers, substitutes;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      const FingerContact& from = piece.from[group[k]];
+      const FingerContact& to = piece.to[group[k]];
+      stand_ins.push_back({spare[k], StandIn(from.contact, to.contact)});
+      targets.push_back({from.finger, to.contact});
+      fingers.push_back(from.finger);
+      substitutes.push_back(spare[k]);
+    }
+    SwitchFingers(stage, stand_ins, fingers);
+    SwitchFingers(stage, targets, substitutes);
   }
 }
 
@@ -130,32 +152,41 @@ FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double s
 
 std::optional<std::vector<AlignPiece>> CutAlign(const FingerGrasp& from, const FingerGrasp& to,
                                                 const WrenchFrame& frame, double half_angle,
-                                                GoOver how) {
-  for (int pieces = 1; pieces <= kMostPieces; pieces *= 2) {
-    std::vector<AlignPiece> cut = CutEvenly(from, to, pieces);
-    const bool serves = std::ranges::all_of(
-        cut, [&](const AlignPiece& piece) { return CanGoOver(piece, frame, half_angle, how); });
-    if (serves) return cut;
+                                                int stand_ins) {
+  std::vector<AlignPiece> cut;
+  double done = 0, length = 1;
+  while (done < 1) {
+    AlignPiece piece = Between(from, to, done, done + length);
+    if (CanGoOver(piece, frame, half_angle, stand_ins)) {
+      cut.push_back(std::move(piece));
+      done += length;
+      // As in a bisection: the next piece is as long as the way done allows.
+      while (length < 1 && std::fmod(done, 2 * length) == 0 && done + 2 * length <= 1) length *= 2;
+    } else {
+      length /= 2;
+      if (length < kShortestPiece) return std::nullopt;
+    }
   }
-  return std::nullopt;
+  return cut;
 }
 
 AlignMode PerformAlign(Stage& stage, const Align& align_B) {
   AlignMode mode = AlignMode::kImitated;
   if (align_B.waypoints.empty()) return mode;
-  const std::optional<int> spare = FindSpare(stage);
-  const auto cut = [&](const FingerGrasp& from, const FingerGrasp& to, GoOver how) {
-    return CutAlign(from, to, stage.frame_B(), stage.half_angle(), how);
+  const std::vector<int> spare = FindSpare(stage);
+  const auto cut = [&](const FingerGrasp& from, const FingerGrasp& to, int stand_ins) {
+    return CutAlign(from, to, stage.frame_B(), stage.half_angle(), stand_ins);
   };
   FingerGrasp from = align_B.waypoints.front();
   for (std::size_t j = 1; j < align_B.waypoints.size(); ++j) {
     const FingerGrasp to = InOrderOf(from, align_B.waypoints[j]);
-    const auto pieces = spare ? cut(from, to, GoOver::kByStandIn) : std::nullopt;
+    const auto pieces =
+        spare.empty() ? std::nullopt : cut(from, to, static_cast<int>(spare.size()));
     if (pieces) {
-      for (const AlignPiece& piece : *pieces) Imitate(stage, piece, *spare);
+      for (const AlignPiece& piece : *pieces) Imitate(stage, piece, spare);
     } else {
       mode = AlignMode::kSlid;
-      const auto slides = cut(from, to, GoOver::kBySliding);
+      const auto slides = cut(from, to, 0);
       for (const AlignPiece& piece : slides.value_or(CutEvenly(from, to, kHopelessPieces))) {
         Slide(stage, piece);
       }

@@ -149,4 +149,16 @@ std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const Conta
   return patches;
 }
 
+ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site, double size,
+                           double thickness) {
+  const auto [start, end] = polygon.edge(site.face);
+  const double length = polygon.face_measure(site.face);
+  const Vector3d along = (end - start) / length;
+  const auto [low, high] = std::minmax({along.dot(site.from - start), along.dot(site.to - start)});
+  const Vector3d a = start + std::max(low - size, 0.0) * along;
+  const Vector3d b = start + std::min(high + size, length) * along;
+  const Vector3d up = thickness / 2 * Vector3d::UnitZ();
+  return {{a - up, b - up, b + up, a + up}, true};
+}
+
 }  // namespace regrasp

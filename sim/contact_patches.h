@@ -3,12 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 
 namespace regrasp {
 
-/// Where a finger touches: a face, and the straight path of the contact on it (a point where
-/// `from` is `to`). Lengths are the object's own units.
+/// Where a finger touches: a face (an edge, in the plane), and the straight path of the contact on
+/// it (a point where `from` is `to`). Lengths are the object's own units.
 struct ContactSite {
   int face = -1;
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
@@ -30,5 +31,10 @@ struct ContactPatch {
 /// touched through these and never through its hull.
 [[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,
                                                            const ContactSite& site, double size);
+
+/// The piece of a polygon's edge within `size` of the site's path, cut at the edge's ends: a
+/// rectangle of the height `thickness` about the plane z = 0.
+[[nodiscard]] ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site,
+                                         double size, double thickness);
 
 }  // namespace regrasp

@@ -86,6 +86,7 @@ struct Engine::Impl {
   ModelPtr model;
   DataPtr data;
   int object = 0;
+  int slides = 0;  ///< of a finger: 3 in space, 2 in the plane
   std::vector<int> body_of_finger;
   std::vector<int> geom_of_finger;
   std::vector<int> finger_of_geom;  ///< −1 for the object's
@@ -117,10 +118,10 @@ Engine::Impl::Impl(const std::string& mjcf, int fingers) : model(LoadModel(mjcf)
     if (geoms.empty()) break;
     geoms_of_site.push_back(std::move(geoms));
   }
+  slides = fingers > 0 ? model->body_jntnum[body_of_finger.front()] : 0;
   mj_forward(model.get(), data.get());
 }
 
-/// The object's free joint comes first: 7 positions and 6 velocities.
 int Engine::Impl::First(int finger) const { return model->body_jntadr[body_of_finger[finger]]; }
 
 Engine::Engine(const std::string& mjcf, int fingers)
@@ -132,6 +133,11 @@ double Engine::time() const { return impl_->data->time; }
 Eigen::Isometry3d Engine::object_pose() const {
   const mjtNum* q = impl_->data->qpos;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (impl_->model->jnt_type[0] != mjJNT_FREE) {
+    pose.translation() = Vector3d(q[0], q[1], 0);
+    pose.linear() = Eigen::AngleAxisd(q[2], Vector3d::UnitZ()).toRotationMatrix();
+    return pose;
+  }
   pose.translation() = Vector3d(q[0], q[1], q[2]);
   pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
   return pose;
@@ -141,7 +147,9 @@ Vector3d Engine::tip(int finger) const {
   const mjModel& m = *impl_->model;
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
   const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
-  return {start[0] + q[0], start[1] + q[1], start[2] + q[2]};
+  Vector3d tip(start[0], start[1], start[2]);
+  for (int k = 0; k < impl_->slides; ++k) tip[k] += q[k];
+  return tip;
 }
 
 Vector3d Engine::contact_force(int finger) const {
@@ -165,7 +173,7 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
   const mjModel& m = *impl_->model;
   const int joint = impl_->First(finger);
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < impl_->slides; ++k) {
     impl_->data->qpos[m.jnt_qposadr[joint] + k] = tip[k] - start[k];
     impl_->data->qvel[m.jnt_dofadr[joint] + k] = 0;
   }
@@ -173,7 +181,8 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
 
 void Engine::SetTarget(int finger, const Vector3d& target) {
   const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
-  for (int k = 0; k < 3; ++k) impl_->data->ctrl[3 * finger + k] = target[k] - start[k];
+  const int slides = impl_->slides;
+  for (int k = 0; k < slides; ++k) impl_->data->ctrl[slides * finger + k] = target[k] - start[k];
 }
 
 void Engine::SetSite(int finger, int site) {

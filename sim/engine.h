@@ -14,8 +14,9 @@ class UnstableError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// MuJoCo's model and data of one scene (sim/scene.h): a free body "object" whose centre of mass is
-/// its origin, and fingers "finger0" … on three slides each.
+/// MuJoCo's model and data of one scene (sim/scene.h): a body "object" whose centre of mass is its
+/// origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide along
+/// each axis of space or of the plane.
 ///
 /// Warnings and errors of the engine neither reach the terminal nor leave a log file: they become
 /// exceptions. Lengths in metres, forces in newtons, all in the world frame of the scene.

@@ -15,12 +15,6 @@
 namespace regrasp {
 namespace {
 
-const Polyhedron& RequireSolid(const Object& object) {
-  const auto* body = dynamic_cast<const Polyhedron*>(&object);
-  if (body == nullptr) throw InputError("replay: planar objects cannot be replayed yet");
-  return *body;
-}
-
 FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
   for (FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
   return grasp;
@@ -80,15 +74,15 @@ StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int 
 }
 
 /// The controls with which the fingers hold the initial grasp at rest, for the keyframe.
-std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Polyhedron& body,
+std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Object& body,
                                           const Plan& plan) {
   const ReplaySettings& s = scene.settings;
   const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
   std::vector<Eigen::Vector3d> push(scene.finger_start_S.size(), s.finger_mass_kg * up);
   const Grasp contacts = ContactsOf(ToScene(body, plan.scale, plan.initial));
   const GraspForces forces =
-      ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, 3}, std::atan(s.mu),
-                         {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
+      ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension},
+                         std::atan(s.mu), {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     push[plan.initial[i].finger] += forces.forces[i];
   }
@@ -100,12 +94,11 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Polyhedron& 
 
 ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOptions& options,
                         const ReplayObserver& observer, int steps) {
-  const Polyhedron& body = RequireSolid(object);
   const int all = static_cast<int>(plan.steps.size()) + 1;
   const int total = steps < 0 ? all : std::min(steps, all);
   ReplayResult result;
   if (total == 0) return result;
-  Stage stage(body, plan, MakeScene(body, plan, total - 1, options), observer);
+  Stage stage(object, plan, MakeScene(object, plan, total - 1, options), observer);
   result.settings = stage.settings();
   for (int index = 0; index < total; ++index) {
     result.steps.push_back(ReplayStep(stage, object, plan, index));
@@ -116,9 +109,8 @@ ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOpti
 }
 
 std::string SceneMjcf(const Object& object, const Plan& plan, const ReplayOptions& options) {
-  const Polyhedron& body = RequireSolid(object);
-  const Scene scene = MakeScene(body, plan, static_cast<int>(plan.steps.size()), options);
-  return FormatScene(scene, body, HoldControls(scene, body, plan), /*surface=*/true);
+  const Scene scene = MakeScene(object, plan, static_cast<int>(plan.steps.size()), options);
+  return FormatScene(scene, object, HoldControls(scene, object, plan), /*surface=*/true);
 }
 
 }  // namespace regrasp

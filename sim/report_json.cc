@@ -16,6 +16,8 @@ Json MakeSettings(const Report& report) {
   settings["mu"] = replay.mu;
   settings["mass_kg"] = replay.mass_kg;
   settings["squeeze_N"] = replay.squeeze_N;
+  settings["gravity_m_s2"] = replay.gravity_m_s2;
+  if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
   settings["shake"] = replay.shake;
   settings["tolerance"] = replay.tolerance;
   settings["fingertip_radius_m"] = replay.fingertip_radius_m;

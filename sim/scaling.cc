@@ -12,36 +12,54 @@ namespace {
 
 /// Bodies that can be simulated. MuJoCo takes inertias and volumes below 1e-15 for zero: a patch
 /// prism of a 2 mm body has 1e-14 m³, a body of 2 mm and 1 mg an inertia of 1e-13 kg m².
-constexpr double kLeastDiameter = 2e-3, kLargestDiameter = 1e3;  // metres
-constexpr double kLeastMass = 1e-6, kLargestMass = 1e9;          // kilograms
-constexpr double kLeastSqueeze = 1e-9, kLargestSqueeze = 1e15;   // newtons
+constexpr double kLeastDiameter = 2e-3, kLargestDiameter = 1e3;    // metres
+constexpr double kLeastThickness = 1e-3, kLargestThickness = 1e3;  // over the diameter
+constexpr double kLeastMass = 1e-6, kLargestMass = 1e9;            // kilograms
+constexpr double kLeastSqueeze = 1e-9, kLargestSqueeze = 1e15;     // newtons
 
 /// Limits that the constants of the header must keep; see DeriveSettings.
 static_assert(kStiffness >= 5);
 static_assert(kDampingStep <= 0.6);
 
-void CheckRange(const char* what, double value, double least, double largest, const char* unit) {
+void CheckRange(const char* what, double value, double least, double largest, const char* unit,
+                const char* look_at = "--scale and --mass") {
   if (value >= least && value <= largest) return;
   throw InputError("replay: the object's " + std::string(what) + " of " + FormatShort(value) + " " +
                    unit + " is outside " + FormatShort(least) + " to " + FormatShort(largest) +
-                   " " + unit + " (check --scale and --mass)");
+                   " " + unit + " (check " + look_at + ")");
+}
+
+double ThicknessInMetres(const Object& object, double scale, const ReplayOptions& options) {
+  if (object.dimension() == 3) {
+    if (options.thickness) throw InputError("replay: a solid has no thickness to choose");
+    return 0;
+  }
+  const double relative =
+      options.thickness ? *options.thickness / object.diameter() : kPrismThickness;
+  CheckRange("thickness", relative, kLeastThickness, kLargestThickness, "diameters", "--thickness");
+  return relative * object.diameter() * scale;
+}
+
+double Volume(const Object& object, double scale, double thickness_m) {
+  const double measure = object.mass_properties().volume * scale * scale;
+  return measure * (object.dimension() == 3 ? scale : thickness_m);
 }
 
 }  // namespace
 
 ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
                               double clearance, const ReplayOptions& options) {
-  if (object.dimension() != 3) throw InputError("replay: planar objects cannot be replayed yet");
   ReplaySettings s;
   s.diameter_m = object.diameter() * scale;
   CheckRange("diameter", s.diameter_m, kLeastDiameter, kLargestDiameter, "m");
   s.mu = std::tan(options.half_angle.value_or(half_angle));
-  s.mass_kg = options.mass_kg.value_or(options.density_kg_m3 * object.mass_properties().volume *
-                                       scale * scale * scale);
+  s.thickness_m = ThicknessInMetres(object, scale, options);
+  s.mass_kg =
+      options.mass_kg.value_or(options.density_kg_m3 * Volume(object, scale, s.thickness_m));
   CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
   s.shake = options.shake;
   s.tolerance = options.tolerance;
-  s.gravity_m_s2 = options.gravity ? kGravity : 0;
+  s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
   s.squeeze_N = options.squeeze_N.value_or(
       s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
   CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");

@@ -9,11 +9,11 @@ namespace regrasp {
 /// experiment up to units: two bodies of one shape move through the same positions relative to
 /// their size, after the same number of steps, whatever their size and mass.
 ///
-/// With D the diameter, M the mass, W the weight and F the squeeze (total normal force of a grasp
+/// With D the diameter, M the mass, W = M g and F the squeeze (total normal force of a grasp
 /// at rest):
 /// - F = W / (kWeightOfShake · shake): the weight is a tenth of the shake, so that a grasp of
 ///   quality a little above `shake` resists both together. Less squeeze, by option, asks more
-///   friction of every grasp.
+///   friction of every grasp. The same F serves a planar object, although the plane carries it.
 /// - finger stiffness k = kStiffness · F / D. Below 5 F / D a grasp buckles under its own squeeze.
 /// - finger mass m = kFingerMass · M. Heavier fingers shake a light body out of good grasps: of 56
 ///   good random grasps 8 were lost at 50 M, of 536 two at M / 2 and none at M / 5.
@@ -22,12 +22,15 @@ namespace regrasp {
 ///   harder moves faster.
 /// - fingertip radius = kTipRadius · D, or half of `clearance` where that is less.
 ///
+/// A planar object is the prism of its polygon, kPrismThickness · D thick unless the options say
+/// otherwise; M = density · area · thickness. The thickness matters through M only.
+///
 /// @param half_angle  θ, radians.
 /// @param scale       metres per unit of the object.
 /// @param clearance   metres: the largest ball that touches the object only at a contact, smallest
 ///                    over the plan's contacts (sim/clearance.h).
-/// @throws InputError  size, mass or squeeze out of the range that can be simulated; a planar
-///                     object.
+/// @throws InputError  size, thickness, mass or squeeze out of the range that can be simulated; a
+///                     thickness for a solid.
 [[nodiscard]] ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
                                             double clearance, const ReplayOptions& options);
 
@@ -40,6 +43,7 @@ inline constexpr double kDampingStep = 0.4;            ///< damping · step / ma
 inline constexpr double kTipRadius = 0.04;             ///< over D
 inline constexpr double kLeastTipRadius = 1e-3;  ///< over D; closer to a concave edge than this
                                                  ///< the finger is a point all the same
+inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D
 

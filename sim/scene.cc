@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "planner/base/error.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
 #include "sim/clearance.h"
 #include "sim/scaling.h"
 
@@ -99,17 +101,34 @@ double SmallestClearance(const Object& object, double scale, const Scene& scene)
   return least * scale;
 }
 
-std::vector<ContactPatch> MakeScenePatches(const Polyhedron& body, double scale,
-                                           const ContactSite& site, double size) {
-  std::vector<ContactPatch> patches = MakeContactPatches(
+std::vector<ContactPatch> MakePatches(const Object& body, const ContactSite& site, double size,
+                                      double thickness) {
+  if (const auto* polygon = dynamic_cast<const Polygon*>(&body)) {
+    return {MakeEdgePatch(*polygon, site, size, thickness)};
+  }
+  return MakeContactPatches(dynamic_cast<const Polyhedron&>(body), site, size);
+}
+
+std::vector<ContactPatch> MakeScenePatches(const Object& body, double scale,
+                                           const ContactSite& site, const ReplaySettings& s) {
+  std::vector<ContactPatch> patches = MakePatches(
       body, {site.face, FromScene(body, scale, site.from), FromScene(body, scale, site.to)},
-      size / scale);
+      s.patch_size_m / scale, s.thickness_m / scale);
   for (ContactPatch& patch : patches) {
     for (Vector3d& corner : patch.outline) {
       corner = (corner - body.mass_properties().centroid) * scale;
     }
   }
   return patches;
+}
+
+/// Of the homogeneous body about its centroid, kg m². A polygon's moments are those of its area:
+/// its prism adds M t²/12 about the axes in the plane.
+Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& s) {
+  Eigen::Matrix3d inertia =
+      s.mass_kg / body.mass_properties().volume * scale * scale * body.mass_properties().inertia;
+  inertia.diagonal().head<2>().array() += s.mass_kg * s.thickness_m * s.thickness_m / 12;
+  return inertia;
 }
 
 void PlaceFingersAtStart(const Object& object, int fingers, const std::vector<int>& first_site,
@@ -133,8 +152,9 @@ Contact ToScene(const Object& object, double scale, const Contact& contact) {
   return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face};
 }
 
-Scene MakeScene(const Polyhedron& body, const Plan& plan, int steps, const ReplayOptions& options) {
+Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& options) {
   Scene scene;
+  scene.dimension = body.dimension();
   SiteCollector collector{
       body, plan.scale, scene, kPointTolerance * body.diameter() * plan.scale, {}};
   int fingers = plan.fingers;
@@ -156,11 +176,10 @@ Scene MakeScene(const Polyhedron& body, const Plan& plan, int steps, const Repla
   scene.settings = DeriveSettings(body, plan.scale, plan.half_angle,
                                   SmallestClearance(body, plan.scale, scene), options);
   for (const ContactSite& site : scene.sites) {
-    scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings.patch_size_m));
+    scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings));
   }
   PlaceFingersAtStart(body, fingers, collector.first_site, scene);
-  const double density = scene.settings.mass_kg / body.mass_properties().volume;
-  scene.inertia = density * plan.scale * plan.scale * body.mass_properties().inertia;
+  scene.inertia = Inertia(body, plan.scale, scene.settings);
   return scene;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/object/polyhedron.h"
+#include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "sim/contact_patches.h"
 #include "sim/settings.h"
@@ -12,7 +12,11 @@
 namespace regrasp {
 
 /// A body and a plan in the frame S of the simulation: metres about the object's centroid.
+///
+/// A planar object is the prism of its polygon about the plane z = 0, free to move in the plane and
+/// to turn about z; its fingers are capsules along z that move in the plane.
 struct Scene {
+  int dimension = 3;
   ReplaySettings settings;
   std::vector<ContactSite> sites;                     ///< where fingers touch, metres in S
   std::vector<std::vector<ContactPatch>> patches;     ///< per site, metres in S
@@ -26,8 +30,8 @@ struct Scene {
 
 /// Everything that the replay of `plan` needs to know about the body. Only the initial grasp and
 /// the first `steps` steps are looked at.
-/// @throws InputError  a planar object, a size or mass out of range, a contact that is on no face.
-[[nodiscard]] Scene MakeScene(const Polyhedron& body, const Plan& plan, int steps,
+/// @throws InputError  a size or mass out of range, a contact that is on no face.
+[[nodiscard]] Scene MakeScene(const Object& body, const Plan& plan, int steps,
                               const ReplayOptions& options);
 
 /// The site on `contact.face` whose path passes nearest to the contact.
@@ -37,7 +41,7 @@ struct Scene {
 /// @param hold  the control of every finger, newtons over stiffness (sim/hand.h), that holds the
 ///              initial grasp; stored as the keyframe "hold".
 /// @param surface  whether the object's true surface is written too, for the eye only.
-[[nodiscard]] std::string FormatScene(const Scene& scene, const Polyhedron& body,
+[[nodiscard]] std::string FormatScene(const Scene& scene, const Object& body,
                                       const std::vector<Eigen::Vector3d>& hold, bool surface);
 
 }  // namespace regrasp

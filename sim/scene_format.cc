@@ -5,6 +5,7 @@
 #include "scene_template.h"
 #include "sim/scaling.h"
 #include "sim/scene.h"
+#include "sim/visible_surface.h"
 
 namespace regrasp {
 
@@ -17,6 +18,10 @@ constexpr double kCollisionTolerance = 1e-9;
 
 /// The engine needs some inertia for the fingers, which never turn: that of a ball, 2/5 m r².
 constexpr double kBallInertia = 0.4;
+
+/// Half the length of a capsule finger over the prism's thickness: its ends stay clear of the
+/// prism's rims.
+constexpr double kCapsuleLength = 0.25;
 
 /// Impacts are softened over two time steps, the least that the engine's integration bears.
 constexpr double kContactSteps = 2;
@@ -69,12 +74,13 @@ struct Parts {
   std::string assets, object_geoms, fingers, actuators;
 };
 
-void AddSurface(const Polyhedron& body, double scale, Parts& parts) {
+void AddSurface(const Object& body, double scale, double thickness_m, Parts& parts) {
+  const VisibleSurface surface = MakeVisibleSurface(body, thickness_m / scale);
   std::string vertices, faces;
-  for (const Vector3d& v : body.vertices()) {
+  for (const Vector3d& v : surface.vertices) {
     Append(vertices, Join((v - body.mass_properties().centroid) * scale));
   }
-  for (const auto& [a, b, c] : body.triangles()) {
+  for (const auto& [a, b, c] : surface.triangles) {
     for (const int corner : {a, b, c}) Append(faces, std::to_string(corner));
   }
   parts.assets +=
@@ -82,7 +88,7 @@ void AddSurface(const Polyhedron& body, double scale, Parts& parts) {
   parts.object_geoms += "      <geom class=\"surface\" type=\"mesh\" mesh=\"surface\"/>\n";
 }
 
-void AddPatches(const Scene& scene, const Polyhedron& body, Parts& parts) {
+void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
     const Vector3d inward = body.inward_normal(scene.sites[i].face);
     for (std::size_t k = 0; k < scene.patches[i].size(); ++k) {
@@ -111,9 +117,9 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
                    "\" childclass=\"finger\">\n      <inertial pos=\"0 0 0\" mass=\"" +
                    Join({mass}) + "\" diaginertia=\"" + Join({inertia, inertia, inertia}) +
                    "\"/>\n";
-  for (const char* const axis : {"x", "y", "z"}) {
-    const std::string joint = name + axis;
-    const std::string direction = *axis == 'x' ? "1 0 0" : *axis == 'y' ? "0 1 0" : "0 0 1";
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    const std::string joint = name + "xyz"[axis];
+    const std::string direction = Join(Vector3d::Unit(axis));
     parts.fingers += "      <joint name=\"" + joint + "\" axis=\"" + direction + "\"/>\n";
     parts.actuators +=
         "    <general class=\"finger\" name=\"" + joint + "\" joint=\"" + joint + "\"/>\n";
@@ -122,10 +128,25 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
                    "\"/>\n    </body>\n";
 }
 
-std::string FormatKeyframe(const std::vector<Vector3d>& hold) {
+std::string FormatObjectJoints(int dimension) {
+  if (dimension == 3) return "<freejoint/>";
+  return "<joint type=\"slide\" axis=\"1 0 0\"/>\n      <joint type=\"slide\" axis=\"0 1 0\"/>\n"
+         "      <joint type=\"hinge\" axis=\"0 0 1\"/>";
+}
+
+/// The attributes of a finger's geom: a ball, or a capsule along z.
+std::string FormatTip(int dimension, const ReplaySettings& s) {
+  if (dimension == 3) return "type=\"sphere\" size=\"" + Join({s.fingertip_radius_m}) + "\"";
+  return "type=\"capsule\" size=\"" + Join({s.fingertip_radius_m, kCapsuleLength * s.thickness_m}) +
+         "\"";
+}
+
+std::string FormatKeyframe(int dimension, const std::vector<Vector3d>& hold) {
   if (hold.empty()) return {};
   std::string controls;
-  for (const Vector3d& control : hold) Append(controls, Join(control));
+  for (const Vector3d& control : hold) {
+    for (int axis = 0; axis < dimension; ++axis) Append(controls, Join({control[axis]}));
+  }
   return "  <keyframe>\n    <key name=\"hold\" ctrl=\"" + controls + "\"/>\n  </keyframe>\n";
 }
 
@@ -144,24 +165,25 @@ std::string Fill(const std::map<std::string, std::string>& values) {
 
 }  // namespace
 
-std::string FormatScene(const Scene& scene, const Polyhedron& body,
-                        const std::vector<Vector3d>& hold, bool surface) {
+std::string FormatScene(const Scene& scene, const Object& body, const std::vector<Vector3d>& hold,
+                        bool surface) {
   const ReplaySettings& s = scene.settings;
   Parts parts;
-  if (surface) AddSurface(body, s.diameter_m / body.diameter(), parts);
+  if (surface) AddSurface(body, s.diameter_m / body.diameter(), s.thickness_m, parts);
   AddPatches(scene, body, parts);
   for (std::size_t f = 0; f < scene.finger_start_S.size(); ++f) {
     AddFinger(scene, static_cast<int>(f), parts);
   }
   const Eigen::Matrix3d& I = scene.inertia;
   return Fill({{"timestep", FormatDouble(s.timestep_s)},
-               {"gravity", FormatDouble(-s.gravity_m_s2)},
+               {"gravity", FormatDouble(0 - s.gravity_m_s2)},
                {"mpr_tolerance", FormatDouble(kCollisionTolerance * s.diameter_m)},
                {"diameter", FormatDouble(s.diameter_m)},
                {"light", FormatDouble(s.diameter_m)},
                {"mu", FormatDouble(s.mu)},
                {"contact_time", FormatDouble(kContactSteps * s.timestep_s)},
-               {"tip_radius", FormatDouble(s.fingertip_radius_m)},
+               {"object_joints", FormatObjectJoints(scene.dimension)},
+               {"tip", FormatTip(scene.dimension, s)},
                {"stiffness", FormatDouble(s.finger_stiffness_N_m)},
                {"damping", FormatDouble(s.finger_damping_Ns_m)},
                {"mass", FormatDouble(s.mass_kg)},
@@ -170,7 +192,7 @@ std::string FormatScene(const Scene& scene, const Polyhedron& body,
                {"object_geoms", parts.object_geoms},
                {"fingers", parts.fingers},
                {"actuators", parts.actuators},
-               {"keyframe", FormatKeyframe(hold)}});
+               {"keyframe", FormatKeyframe(scene.dimension, hold)}});
 }
 
 }  // namespace regrasp

@@ -9,10 +9,12 @@ struct ReplayOptions {
   std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
   std::optional<double> mass_kg;     ///< instead of density
   double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
+  std::optional<double> thickness;   ///< of a polygon's prism, in the object's own units
   std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
   double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
   double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
-  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame
+  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame; none of
+                                     ///< it in the plane, which carries a planar object's weight
 };
 
 /// The values that the replay ran with.
@@ -22,8 +24,9 @@ struct ReplaySettings {
   double squeeze_N = 0;
   double shake = 0;
   double tolerance = 0;
-  double gravity_m_s2 = 0;
-  double diameter_m = 0;  ///< D, the object's; R is half of it
+  double gravity_m_s2 = 0;  ///< 0 for a planar object: the plane carries it
+  double thickness_m = 0;   ///< of the prism of a planar object, 0 for a solid
+  double diameter_m = 0;    ///< D, the object's; R is half of it
   double fingertip_radius_m = 0;
   double finger_mass_kg = 0;
   double finger_stiffness_N_m = 0;

@@ -22,6 +22,9 @@ void ShakeOnce(Stage& stage, const Wrench& push_S) {
   MixForces(stage, from, from, 0);
 }
 
+/// In the plane there are two forces and one torque.
+bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
+
 }  // namespace
 
 void Shake(Stage& stage) {
@@ -31,6 +34,7 @@ void Shake(Stage& stage) {
   stage.SetSampling(false);
   for (const bool turn : {false, true}) {
     for (int axis = 0; axis < 3; ++axis) {
+      if (!IsAxis(stage.scene().dimension, turn, axis)) continue;
       for (const double sign : {1.0, -1.0}) {
         const Vector3d push = sign * size * Vector3d::Unit(axis);
         stage.judge().SetPhase(std::string("shake, ") + (turn ? "torque " : "force ") +

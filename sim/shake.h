@@ -4,7 +4,8 @@
 
 namespace regrasp {
 
-/// Pushes and turns the object at rest along ± every axis, one after the other: a force of
+/// Pushes and turns the object at rest along ± every axis, one after the other (in the plane along
+/// ± x and y and about ± z): a force of
 /// shake · squeeze, then a torque of that over R, on top of the weight. The fingers answer with
 /// forces planned for each. The stage's judge measures; afterwards everything is as before.
 void Shake(Stage& stage);

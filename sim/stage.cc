@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Where the plan first puts a finger; on no face where it never does.
-Contact FirstContact(const Polyhedron& body, const Scene& scene, int finger) {
+Contact FirstContact(const Object& body, const Scene& scene, int finger) {
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
     const ContactSite& site = scene.sites[i];
     if (std::ranges::find(scene.fingers_of_site[i], finger) == scene.fingers_of_site[i].end()) {
@@ -24,9 +24,8 @@ Contact FirstContact(const Polyhedron& body, const Scene& scene, int finger) {
 
 }  // namespace
 
-Stage::Stage(const Polyhedron& body, const Plan& plan, Scene scene, const ReplayObserver& observer)
-    : body_(body),
-      p_WS_(body.mass_properties().centroid * plan.scale),
+Stage::Stage(const Object& body, const Plan& plan, Scene scene, const ReplayObserver& observer)
+    : p_WS_(body.mass_properties().centroid * plan.scale),
       scene_(std::move(scene)),
       observer_(observer),
       engine_(FormatScene(scene_, body, {}, /*surface=*/false),
@@ -42,7 +41,9 @@ Stage::Stage(const Polyhedron& body, const Plan& plan, Scene scene, const Replay
   StartJudging();
 }
 
-WrenchFrame Stage::frame_B() const { return {Vector3d::Zero(), settings().diameter_m / 2, 3}; }
+WrenchFrame Stage::frame_B() const {
+  return {Vector3d::Zero(), settings().diameter_m / 2, scene_.dimension};
+}
 
 double Stage::half_angle() const { return std::atan(settings().mu); }
 

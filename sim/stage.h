@@ -26,12 +26,12 @@ struct StageFinger {
 
 /// The object, the hand and the engine between them.
 ///
-/// A finger is a ball on three servos without friction: the force on it is
+/// A finger is a ball on servos without friction along each axis: the force on it is
 /// k (anchor − tip) + force − damping · velocity, so a holding finger presses with `force` and
 /// resists with stiffness k. Constant forces without stiffness lose every grasp.
 class Stage {
  public:
-  Stage(const Polyhedron& body, const Plan& plan, Scene scene, const ReplayObserver& observer);
+  Stage(const Object& body, const Plan& plan, Scene scene, const ReplayObserver& observer);
 
   [[nodiscard]] const ReplaySettings& settings() const { return scene_.settings; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -72,7 +72,6 @@ class Stage {
   void JudgeMotion();
   void Sample();
 
-  const Polyhedron& body_;
   Eigen::Vector3d p_WS_;  ///< the centroid in W
   Scene scene_;
   const ReplayObserver& observer_;

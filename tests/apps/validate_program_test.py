@@ -145,6 +145,76 @@ class Validate(ProgramCase):
         self.assertIn(report["steps"][1]["align_mode"], ["imitated", "slid"])
         self.assertEqual(self.frames(), ["000_hold.png", "001_align.png"])
 
+    # Planar objects.
+
+    def write_planar_plan(self):
+        """A switch of two fingers for two, one back, and an align, on the square."""
+        square = self.model("square.wkt")
+        with open(square, "rb") as file:
+            digest = hashlib.sha256(file.read()).hexdigest()
+
+        def contact(finger, x, y):
+            normal = [-x / 0.03, 0] if abs(x) == 0.03 else [0, -y / 0.03]
+            return {"finger": finger, "point": [x, y], "normal": normal}
+
+        left_right = [contact(0, 0.03, 0.001), contact(1, -0.03, 0)]
+        below_above = [contact(2, 0.002, -0.03), contact(3, 0, 0.03)]
+        triple = [contact(2, 0.002, -0.03), contact(3, -0.009, 0.03), contact(0, 0.012, 0.03)]
+        self.plan = {
+            "format": "regrasp-plan", "version": 1,
+            "object": {"file": "square.wkt", "sha256": digest, "scale": 1.0, "dimension": 2},
+            "friction": {"half_angle_deg": 15.0}, "fingers": 4, "planner": "polygon",
+            "initial": {"contacts": left_right},
+            "steps": [
+                {"kind": "switch", "place": below_above, "release": [0, 1]},
+                {"kind": "switch", "place": [triple[2]], "release": []},
+                {"kind": "align", "waypoints": [{"contacts": below_above + [triple[2]]},
+                                                {"contacts": triple}]}],
+            "goal": {"contacts": triple}}
+        self.write_plan()
+        return square
+
+    def test_passes_a_planar_plan_with_a_frame_for_each_step(self):
+        square = self.write_planar_plan()
+        done, report = self.assert_passes(size="320x240", object=square)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.frames(), ["000_hold.png", "001_switch.png", "002_switch.png",
+                                         "003_align.png"])
+        self.assertEqual(len(set(self.read("result/" + name) for name in self.frames())), 4)
+        self.assertEqual(report["object"]["dimension"], 2)
+        self.assertEqual(report["steps"][3]["align_mode"], "imitated")
+        settings = report["settings"]
+        self.assertAlmostEqual(settings["thickness_m"], 0.25 * 0.06 * 2 ** 0.5)
+        self.assertAlmostEqual(settings["mass_kg"], 1000 * 0.06 ** 2 * settings["thickness_m"])
+        self.assertEqual(settings["gravity_m_s2"], 0)
+
+    def test_fails_a_planar_plan_below_its_friction(self):
+        # The first pair is 1 mm of 60 off the normal: 0.955 degrees.
+        square = self.write_planar_plan()
+        self.assert_fails(0, "not-force-closure", object=square, friction_angle="0.9")
+
+    def test_a_planar_plan_has_the_thickness_that_is_asked_for(self):
+        square = self.write_planar_plan()
+        _, report = self.assert_passes("--no-frames", object=square, thickness="0.002",
+                                       trajectory="fingers.csv", export_mjcf="scene.xml")
+        self.assertEqual(report["settings"]["thickness_m"], 0.002)
+        self.assertAlmostEqual(report["settings"]["mass_kg"], 0.0072)
+        with open(self.path("fingers.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 100)
+        self.assertEqual({row["finger"] for row in rows}, {"0", "1", "2", "3"})
+        self.assertTrue(all(float(row["contact_z_m"]) == 0 for row in rows))
+        scene = ElementTree.fromstring(self.read("scene.xml"))
+        joints = [joint.get("type") for joint in scene.findall("worldbody/body/joint")]
+        self.assertEqual(joints[:3], ["slide", "slide", "hinge"])
+
+    def test_refuses_a_thickness_that_makes_no_sense(self):
+        self.refuse(["--thickness", "solid"], thickness="0.01")
+        square = self.write_planar_plan()
+        for value in ["0", "-1", "nan", "x"]:
+            self.refuse("--thickness", thickness=value, object=square)
+        self.refuse("thickness", thickness="1e9", object=square)
+
     # Further outputs.
 
     def test_junit_is_well_formed_and_has_a_case_for_each_step(self):
@@ -285,20 +355,6 @@ class Validate(ProgramCase):
     def test_refuses_a_dimension_that_is_not_the_objects(self):
         square = self.model("square.wkt")
         self.refuse(["plan.json", "dimension", "square.wkt"], object=square)
-
-    def test_refuses_a_planar_plan(self):
-        square = self.model("square.wkt")
-        with open(square, "rb") as file:
-            digest = hashlib.sha256(file.read()).hexdigest()
-        with open(self.model("square.start.json"), encoding="utf-8") as file:
-            contacts = json.load(file)["contacts"]
-        self.plan["object"] = {"file": "square.wkt", "sha256": digest, "scale": 1.0,
-                               "dimension": 2}
-        self.plan.update(planner="general", fingers=4, steps=[], goal={"contacts": contacts})
-        self.plan["initial"] = {"contacts": [dict(contact, finger=finger)
-                                             for finger, contact in enumerate(contacts)]}
-        self.write_plan()
-        self.refuse(["plan.json", "planar"], object=square)
 
     def test_refuses_bad_usage(self):
         self.refuse("--scale 2", scale="2")

@@ -115,14 +115,14 @@ TEST(CutAlignTest, CutsUntilTheMixturesAreForceClosureAndGivesUpWhereNoneIs) {
   const FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
                           cube.At(2, 0.02, 0.03, 0.018), cube.At(3, 0.02, -0.03, 0.018)};
   const WrenchFrame frame = cube.object.wrench_frame();
-  const auto rough = CutAlign(from, to, frame, Radians(20), GoOver::kByStandIn);
-  const auto fine = CutAlign(from, to, frame, Radians(5), GoOver::kByStandIn);
+  const auto rough = CutAlign(from, to, frame, Radians(20), 1);
+  const auto fine = CutAlign(from, to, frame, Radians(5), 1);
   ASSERT_TRUE(rough.has_value());
   ASSERT_TRUE(fine.has_value());
   EXPECT_LT(rough->size(), fine->size());
   EXPECT_EQ(fine->front().from.front().contact.p, from.front().contact.p);
   EXPECT_EQ(fine->back().to.front().contact.p, to.front().contact.p);
-  EXPECT_FALSE(CutAlign(from, to, frame, Radians(0.1), GoOver::kByStandIn).has_value());
+  EXPECT_FALSE(CutAlign(from, to, frame, Radians(0.1), 1).has_value());
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "planner/base/error.h"
-#include "planner/object/polygon.h"
 #include "replay_cases.h"
 
 namespace regrasp {
@@ -173,11 +172,6 @@ TEST(ReplayPlanTest, SnapshotsShowTheContactsInTheObjectsFrame) {
     }
   }
   EXPECT_EQ(checked, 20);
-}
-
-TEST(ReplayPlanTest, RefusesPlanarObjects) {
-  const ObjectFile file = ReadModel("square.wkt");
-  EXPECT_THROW((void)ReplayPlan(*file.object, MakePlan({}, 25), {}), InputError);
 }
 
 TEST(ReplayPlanTest, RefusesAContactOnNoFace) {

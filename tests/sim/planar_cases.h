@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/object/polygon.h"
+#include "replay_cases.h"
+
+namespace regrasp {
+
+/// The contact at `share` of the way along an edge.
+inline Contact OnEdge(const Polygon& polygon, int edge, double share) {
+  const auto [from, to] = polygon.edge(edge);
+  return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
+}
+
+inline FingerContact OnEdge(const Polygon& polygon, int finger, int edge, double share) {
+  return {finger, OnEdge(polygon, edge, share)};
+}
+
+/// Of a hand with four fingers.
+inline Plan MakePlanarPlan(FingerGrasp initial, double half_angle_deg, int fingers = 4) {
+  Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
+  plan.dimension = 2;
+  return plan;
+}
+
+/// A square of side 60 mm; edges 0 below, 1 right, 2 above, 3 left.
+inline Polygon MakeSquare() {
+  return Polygon::FromWkt("POLYGON((-.03 -.03, .03 -.03, .03 .03, -.03 .03, -.03 -.03))", "square");
+}
+
+/// An equilateral triangle of side 80 mm.
+inline Polygon MakeTriangle() {
+  const double height = 0.08 * std::sqrt(3.0) / 2;
+  return Polygon::FromRings({{{0, 0}, {0.08, 0}, {0.04, height}}}, "triangle");
+}
+
+/// An L with arms of 80 mm, 40 mm wide, whose inner corner is at (0.04, 0.04): edges 2 (below it,
+/// inward normal −y) and 3 (beside it, inward normal −x) meet there.
+inline Polygon MakeL() {
+  return Polygon::FromWkt("POLYGON((0 0, .08 0, .08 .04, .04 .04, .04 .08, 0 .08, 0 0))", "L");
+}
+
+/// A square of side 80 mm with a square hole of side 40 mm: edges 4 to 7 are the hole's.
+inline Polygon MakeFrame() {
+  return Polygon::FromWkt(
+      "POLYGON((-.04 -.04, .04 -.04, .04 .04, -.04 .04, -.04 -.04),"
+      "(-.02 -.02, -.02 .02, .02 .02, .02 -.02, -.02 -.02))",
+      "frame");
+}
+
+}  // namespace regrasp
