@@ -1,0 +1,173 @@
+#include "planner/polygon/candidates.h"
+
+#include <algorithm>
+
+#include "planner/polygon/common_cone.h"
+
+namespace regrasp {
+
+namespace {
+
+/// 0 for directions with angles in [0, π), 1 for the others.
+template <class NT>
+int HalfTurn(const Vector2<NT>& v) {
+  const int y = Sign(v.y);
+  return y > 0 || (y == 0 && Sign(v.x) > 0) ? 0 : 1;
+}
+
+template <class NT>
+Vector2<NT> Normal(const EdgeFrame<NT>& frame) {
+  return {-frame.along.y, frame.along.x};
+}
+
+/// Sorts edges by the angles of their normals in [0, 2π), equal ones by index.
+std::vector<int> SortByAngle(const EdgeTable& edges) {
+  std::vector<int> half(edges.size());
+  std::vector<int> order(edges.size());
+  for (int e = 0; e < edges.size(); ++e) {
+    order[e] = e;
+    half[e] =
+        DecideFiltered([&](auto zero) { return HalfTurn(Normal(edges.frame<decltype(zero)>(e))); });
+  }
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    if (half[a] != half[b]) return half[a] < half[b];
+    if (a == b) return false;
+    const int turn = DecideFiltered([&](auto zero) {
+      using NT = decltype(zero);
+      return Sign(Cross(edges.frame<NT>(a).along, edges.frame<NT>(b).along));
+    });
+    return turn != 0 ? turn > 0 : a < b;
+  });
+  return order;
+}
+
+/// True iff the turn from the normal of `a` counter-clockwise to that of `b` is positive and below
+/// π, or below π − 2θ.
+bool IsGap(const EdgeTable& edges, int a, int b, Spanning spanning) {
+  return DecideFiltered([&](auto zero) {
+    using NT = decltype(zero);
+    const EdgeFrame<NT> from = edges.frame<NT>(a);
+    const EdgeFrame<NT> to = edges.frame<NT>(b);
+    if (Sign(Cross(from.along, to.along)) <= 0) return false;
+    return spanning == Spanning::kAdaptive || Sign(Cross(from.right, to.left)) > 0;
+  });
+}
+
+/// tan((π − γ) / 2), γ in (0, π) being the turn from the normal of `a` to that of `b`.
+template <class Number>
+Interval HalfTangent(const Number& cross, const Number& dot, const Interval& lengths) {
+  // One of the two forms of the half-angle has no cancellation.
+  const Interval c(CGAL::to_interval(cross));
+  const Interval d(CGAL::to_interval(dot));
+  return d.inf() > 0 ? (lengths + d) / c : c / (lengths - d);
+}
+
+/// tan φ* of a gap, rounded down.
+double SpanningTangent(const EdgeTable& edges, int a, int b) {
+  /// Intervals wider than this are computed anew from exact products.
+  constexpr double kTightEnough = 1e-13;
+  const auto bound = [&](auto zero) {
+    using NT = decltype(zero);
+    const Vector2<NT> u = edges.frame<NT>(a).along;
+    const Vector2<NT> v = edges.frame<NT>(b).along;
+    const NT squares = Dot(u, u) * Dot(v, v);
+    return HalfTangent(Cross(u, v), Dot(u, v), CGAL::sqrt(Interval(CGAL::to_interval(squares))));
+  };
+  Interval tangent = bound(Interval());
+  if (!(tangent.inf() > 0) || tangent.sup() - tangent.inf() > kTightEnough * tangent.sup()) {
+    tangent = bound(Exact());
+  }
+  return tangent.inf();
+}
+
+/// True iff two cones of half-angle θ have a common interior.
+bool ConesMeet(const EdgeTable& edges, int a, int b, bool opposite) {
+  return DecideFiltered([&](auto zero) {
+    using NT = decltype(zero);
+    const DirectionCone<NT> from = ConeOf(edges.frame<NT>(a));
+    const DirectionCone<NT> to = ConeOf(edges.frame<NT>(b));
+    return Intersect(from, opposite ? -to : to).has_value();
+  });
+}
+
+}  // namespace
+
+std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges,
+                                                          Spanning spanning) {
+  const std::vector<int> order = SortByAngle(edges);
+  const int n = edges.size();
+  // By rank in `order`; a triple that spans has three gaps around the circle.
+  std::vector<std::vector<char>> gap(n, std::vector<char>(n, 0));
+  std::vector<std::vector<double>> limit(n, std::vector<double>(n, edges.tangent()));
+  for (int r = 0; r < n; ++r) {
+    for (int s = 0; s < n; ++s) {
+      if (r == s) continue;
+      gap[r][s] = IsGap(edges, order[r], order[s], spanning);
+      if (gap[r][s] && spanning == Spanning::kAdaptive) {
+        limit[r][s] = SpanningTangent(edges, order[r], order[s]);
+      }
+    }
+  }
+  std::vector<ConcurrentCandidate> candidates;
+  for (int r = 0; r < n; ++r) {
+    int third = r + 1;
+    while (third < n && !gap[third][r]) ++third;
+    for (int s = r + 1; s < n; ++s) {
+      if (!gap[r][s]) continue;
+      for (int t = std::max(third, s + 1); t < n && gap[t][r]; ++t) {
+        if (!gap[s][t]) continue;
+        ConcurrentCandidate candidate{{order[r], order[s], order[t]}, edges.tangent()};
+        for (const double tangent : {limit[r][s], limit[s][t], limit[t][r]}) {
+          candidate.tangent = std::min(candidate.tangent, tangent);
+        }
+        std::sort(candidate.edges.begin(), candidate.edges.end());
+        candidates.push_back(candidate);
+      }
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const auto& a, const auto& b) { return a.edges < b.edges; });
+  return candidates;
+}
+
+std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges) {
+  std::vector<TwoFingerCandidate> candidates;
+  for (int a = 0; a < edges.size(); ++a) {
+    for (int b = a + 1; b < edges.size(); ++b) {
+      if (ConesMeet(edges, a, b, true)) candidates.push_back({a, b});
+    }
+  }
+  return candidates;
+}
+
+std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges) {
+  const int n = edges.size();
+  std::vector<ParallelCandidate> candidates;
+  for (int centre = 0; centre < n; ++centre) {
+    std::vector<int> opposite;
+    for (int e = 0; e < n; ++e) {
+      if (e != centre && ConesMeet(edges, centre, e, true)) opposite.push_back(e);
+    }
+    for (std::size_t i = 0; i < opposite.size(); ++i) {
+      for (std::size_t j = i + 1; j < opposite.size(); ++j) {
+        const bool meet = DecideFiltered([&](auto zero) {
+          using NT = decltype(zero);
+          return CommonCone(edges.frame<NT>(centre), edges.frame<NT>(opposite[i]),
+                            edges.frame<NT>(opposite[j]))
+              .has_value();
+        });
+        if (!meet) continue;
+        ParallelCandidate candidate{{centre, opposite[i], opposite[j]}, 0};
+        std::sort(candidate.edges.begin(), candidate.edges.end());
+        while (candidate.edges[candidate.centre] != centre) ++candidate.centre;
+        candidates.push_back(candidate);
+      }
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.edges != b.edges ? a.edges < b.edges : a.centre < b.centre;
+  });
+  return candidates;
+}
+
+}  // namespace regrasp
