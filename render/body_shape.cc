@@ -25,6 +25,14 @@ using Eigen::Vector3d;
 /// Faces that meet at a smaller angle than this look like one: no edge is drawn.
 constexpr double kFeatureAngle = Radians(5);
 
+/// The top of a prism above the plane of the contacts, in diameters: rays in that plane meet the
+/// walls and not their rims.
+constexpr double kTop = 1e-3;
+
+/// Where a wedge lies above the plane of the contacts: on the prism's top, clear of it in the depth
+/// buffer, and below the middle of a force arrow's surface.
+constexpr double kWedgeBottom = 1.8e-3, kWedgeTop = 2.6e-3;
+
 /// Segments of the cone's rim: its outline is within 0.1 % of a circle.
 constexpr int kConeSegments = 72;
 
@@ -76,22 +84,23 @@ std::vector<Polygon2> Triangulate(const Polygon& polygon) {
 
 BodyShape MakePrismShape(const Polygon& polygon, double thickness, const Normaliser& place) {
   BodyShape shape;
-  const Vector3d up = Vector3d::UnitZ() * (thickness / 2);
+  const Vector3d top = kTop * Vector3d::UnitZ();
+  const Vector3d bottom = top - thickness * Vector3d::UnitZ();
   for (const Polygon2& triangle : Triangulate(polygon)) {
     std::array<Vector3d, 3> p;
     for (int i = 0; i < 3; ++i) p[i] = place(Vector3d(triangle[i].x(), triangle[i].y(), 0));
-    shape.surface.AddFlat(p[0] + up, p[1] + up, p[2] + up);
-    shape.surface.AddFlat(p[0] - up, p[2] - up, p[1] - up);
+    shape.surface.AddFlat(p[0] + top, p[1] + top, p[2] + top);
+    shape.surface.AddFlat(p[0] + bottom, p[2] + bottom, p[1] + bottom);
   }
   for (int face = 0; face < polygon.face_count(); ++face) {
     const auto [from, to] = polygon.edge(face);
     const Vector3d a = place(from);
     const Vector3d b = place(to);
-    shape.surface.AddFlat(a - up, b - up, b + up);
-    shape.surface.AddFlat(a - up, b + up, a + up);
-    shape.edges.push_back({a - up, b - up});
-    shape.edges.push_back({a + up, b + up});
-    shape.edges.push_back({a - up, a + up});
+    shape.surface.AddFlat(a + bottom, b + bottom, b + top);
+    shape.surface.AddFlat(a + bottom, b + top, a + top);
+    shape.edges.push_back({a + bottom, b + bottom});
+    shape.edges.push_back({a + top, b + top});
+    shape.edges.push_back({a + bottom, a + top});
   }
   return shape;
 }
@@ -139,6 +148,24 @@ FacetMesh MakeCone(double half_angle, double slant) {
     cone.AddFlat({0, 0, slant * cosine}, rim(i), rim(i + 1));
   }
   return cone;
+}
+
+FacetMesh MakeWedge(double half_angle, double slant) {
+  FacetMesh wedge;
+  const double x = slant * std::sin(half_angle);
+  const double z = slant * std::cos(half_angle);
+  const std::array<Vector3d, 3> corners = {Vector3d::Zero(), Vector3d(x, 0, z), Vector3d(-x, 0, z)};
+  const Vector3d low = kWedgeBottom * Vector3d::UnitY(), high = kWedgeTop * Vector3d::UnitY();
+  const auto& [a, b, c] = corners;
+  wedge.AddFlat(a + high, c + high, b + high);
+  wedge.AddFlat(a + low, b + low, c + low);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d& p = corners[i];
+    const Vector3d& q = corners[(i + 1) % 3];
+    wedge.AddFlat(p + low, p + high, q + high);
+    wedge.AddFlat(p + low, q + high, q + low);
+  }
+  return wedge;
 }
 
 double RayDistance(const FacetMesh& mesh, const Vector3d& origin, const Vector3d& direction,

@@ -29,7 +29,8 @@ struct BodyShape {
 inline constexpr double kUsualThickness = 0.25;
 
 /// The shape of an object about its centroid in units of its diameter. A polygon becomes a prism
-/// of `thickness` (diameters) about the plane z = 0.
+/// of `thickness` (diameters) whose top lies in the plane z = 0, a hair above it: contacts, fingers
+/// and cones, which are drawn at z = 0, are then seen on its outline and before it.
 ///
 /// Edges between faces that meet at less than 5° are left out: on finely meshed curved bodies they
 /// would cover everything else.
@@ -37,6 +38,10 @@ inline constexpr double kUsualThickness = 0.25;
 
 /// A closed cone with apex at the origin that opens along +z.
 [[nodiscard]] FacetMesh MakeCone(double half_angle, double slant);
+
+/// A flat friction cone: a triangle in the plane y = 0 with apex at the origin that opens along +z,
+/// as a thin closed plate on the positive side of y.
+[[nodiscard]] FacetMesh MakeWedge(double half_angle, double slant);
 
 /// The distance along the ray from `origin` in unit `direction` to the first triangle, infinite
 /// where there is none. Hits nearer than `skip` do not count.

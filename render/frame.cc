@@ -56,9 +56,20 @@ void CheckOptions(const FrameOptions& options) {
   }
 }
 
-std::vector<FacetMesh> MakeMeshes(const BodyShape& body, double half_angle) {
-  return {body.surface, TurnInsideOut(body.surface), MakeCone(half_angle, kConeLength),
+std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle) {
+  return {body.surface, TurnInsideOut(body.surface),
+          planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
           MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+}
+
+/// Turns the friction cones, which are flat in the plane, about their axes into the plane.
+void LayFlat(std::vector<Shape>& shapes) {
+  for (Shape& shape : shapes) {
+    auto* mesh = std::get_if<MeshInstance>(&shape.form);
+    if (mesh == nullptr || mesh->mesh != kConeMesh) continue;
+    const Vector3d axis = mesh->pose.linear().col(2);
+    mesh->pose.linear() << Vector3d::UnitZ().cross(axis), Vector3d::UnitZ(), axis;
+  }
 }
 
 bool IsNear(const Eigen::Isometry3d& pose) {
@@ -76,7 +87,8 @@ class FrameRenderer::Impl {
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         camera_(MakeCamera(object.dimension() == 2, snapshots)),
         largest_force_(LargestForce(snapshots)),
-        canvas_(MakeMeshes(body_, half_angle), options.width * options.supersampling,
+        planar_(object.dimension() == 2),
+        canvas_(MakeMeshes(body_, planar_, half_angle), options.width * options.supersampling,
                 options.height * options.supersampling) {}
 
   Image Render(const Snapshot& snapshot, const std::string& caption) {
@@ -86,6 +98,7 @@ class FrameRenderer::Impl {
     for (const FingerGlyph& glyph : fingers) {
       AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
     }
+    if (planar_) LayFlat(shapes);
     return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
   }
 
@@ -153,6 +166,7 @@ class FrameRenderer::Impl {
   PictureFrame frame_;
   Camera camera_;
   double largest_force_;
+  bool planar_;
   Canvas canvas_;
 };
 

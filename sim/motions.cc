@@ -73,7 +73,7 @@ void CreepUntilTouch(Stage& stage, const FingerGrasp& placed_B) {
 
 void TakeHold(Stage& stage, const FingerGrasp& grasp_B) {
   for (const FingerContact& held : grasp_B) {
-    Appear(stage, held, 0);
+    Appear(stage, held, -kFirstDepth * stage.settings().diameter_m);
     stage.fingers()[held.finger].role = FingerRole::kHolding;
     Touch(stage, held.finger);
   }

@@ -28,6 +28,7 @@ void Settle(Stage& stage);
 
 /// Lengths over D, forces over the squeeze, durations in time steps.
 inline constexpr double kStandOff = 0.05;     ///< where a free finger waits before and after
+inline constexpr double kFirstDepth = 1e-9;   ///< so that all fingers of the hold touch at once
 inline constexpr double kApproachGap = 2e-3;  ///< 0.2 mm on a body of 10 cm
 inline constexpr double kCreepGap = 2e-5;
 inline constexpr double kCreepStep = 1e-6;   ///< a touch at this speed jolts less than 1e-4 F

@@ -46,6 +46,57 @@ TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
   EXPECT_LT(flux.norm(), 1e-12);
 }
 
+TEST(BodyShapeTest, APrismHasTheThicknessAskedForAndItsTopAtThePlaneOfTheContacts) {
+  const Polygon square = Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0))", "rectangle");
+  for (const double thickness : {0.02, 0.25, 2.0}) {
+    double low = 0, high = -1;
+    for (const auto& corners : MakeBodyShape(square, thickness).surface.triangles) {
+      for (const Vector3d& p : corners) {
+        low = std::min(low, p.z());
+        high = std::max(high, p.z());
+      }
+    }
+    EXPECT_NEAR(high - low, thickness, 1e-12);
+    EXPECT_GT(high, 0);
+    EXPECT_LT(high, 0.01);
+  }
+}
+
+TEST(BodyShapeTest, RaysInThePlaneOfTheContactsMeetThePrismsWalls) {
+  const Polygon frame = Polygon::FromWkt(
+      "POLYGON((-2 -2, 2 -2, 2 2, -2 2, -2 -2), (-1 -1, -1 1, 1 1, 1 -1, -1 -1))", "frame");
+  const BodyShape shape = MakeBodyShape(frame);
+  const double half = 1 / frame.diameter();
+  int met = 0;
+  for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0)}) {
+    EXPECT_NEAR(RayDistance(shape.surface, -half * direction, direction, 1e-4), 2 * half, 1e-12);
+    ++met;
+  }
+  EXPECT_EQ(met, 3);
+}
+
+TEST(BodyShapeTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
+  const double half_angle = Radians(25), slant = 0.15;
+  const FacetMesh wedge = MakeWedge(half_angle, slant);
+  Vector3d flux = Vector3d::Zero();
+  double low = 1, high = 0;
+  for (const auto& corners : wedge.triangles) {
+    const auto& [a, b, c] = corners;
+    flux += (b - a).cross(c - a);
+    for (const Vector3d& p : corners) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+      if (p.z() == 0) continue;
+      EXPECT_NEAR(std::atan2(std::abs(p.x()), p.z()), half_angle, 1e-12);
+      EXPECT_NEAR(std::hypot(p.x(), p.z()), slant, 1e-12);
+    }
+  }
+  EXPECT_LT(flux.norm(), 1e-15);
+  const double area = slant * slant * std::sin(half_angle) * std::cos(half_angle);
+  EXPECT_GT(low, 0);
+  EXPECT_NEAR(Volume(wedge), area * (high - low), 1e-15);
+}
+
 TEST(BodyShapeTest, AConeHasItsHalfAngleAndOpensUpwards) {
   const double half_angle = Radians(25);
   const FacetMesh cone = MakeCone(half_angle, 2);

@@ -179,19 +179,48 @@ TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
   EXPECT_GT(CountHue(image, FingerColor(3)), 20);
 }
 
-TEST(FrameTest, DrawsPolygonsAsPrisms) {
-  const Polygon polygon = Polygon::FromWkt(
+Polygon MakePolygon() {
+  return Polygon::FromWkt(
       "POLYGON((0 0, 0.06 0, 0.06 0.04, 0 0.04, 0 0), "
       "(0.02 0.015, 0.03 0.015, 0.03 0.025, 0.02 0.015))",
       "polygon");
+}
+
+/// One finger from the left, one from below.
+Snapshot MakePlanarSnapshot() {
   Snapshot snapshot;
   snapshot.fingertip_radius_m = 0.002;
   snapshot.fingers = {
       MakeFinger(0, FingerRole::kHolding, {0.0, 0.02, 0}, Eigen::Vector3d::UnitX()),
-      MakeFinger(1, FingerRole::kHolding, {0.06, 0.02, 0}, -Eigen::Vector3d::UnitX())};
-  const Image image = Draw(polygon, {snapshot}, 0, Small());
-  EXPECT_GT(CountHue(image, FingerColor(0)), 40);
-  EXPECT_GT(CountHue(image, FingerColor(1)), 40);
+      MakeFinger(1, FingerRole::kHolding, {0.04, 0.0, 0}, Eigen::Vector3d::UnitY())};
+  return snapshot;
+}
+
+TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
+  const Polygon polygon = MakePolygon();
+  FrameOptions thin = Small(), thick = Small();
+  thin.thickness = 0.02;
+  thick.thickness = 0.25;
+  const Image a = Draw(polygon, {MakePlanarSnapshot()}, 0, thin);
+  const Image b = Draw(polygon, {MakePlanarSnapshot()}, 0, thick);
+  for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(finger)), 40);
+  EXPECT_GT(CountDifferent(a, b), 1000);
+  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, Small())), 0);
+}
+
+TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
+  // A flat cone seen from its edge would not show its angle: whichever way it points.
+  const Polygon polygon = MakePolygon();
+  for (const int finger : {0, 1}) {
+    Snapshot alone = MakePlanarSnapshot();
+    alone.fingers = {alone.fingers[finger]};
+    const auto draw = [&](double degrees) {
+      FrameRenderer renderer(polygon, 1, Radians(degrees), {alone}, Medium());
+      return renderer.Render(alone);
+    };
+    constexpr int kClearlyWider = 6000;  // bytes: 9400; seen from its edge 3000
+    EXPECT_GT(CountDifferent(draw(10), draw(40)), kClearlyWider) << "finger " << finger;
+  }
 }
 
 }  // namespace

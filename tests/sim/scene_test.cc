@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
-#include <array>
 #include <filesystem>
-#include <memory>
+#include <limits>
 
+#include "mujoco_file.h"
 #include "planner/base/error.h"
-#include "planner/base/file.h"
 #include "replay_cases.h"
 #include "sim/engine.h"
 #include "sim/scaling.h"
@@ -16,34 +15,13 @@
 namespace regrasp {
 namespace {
 
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-/// Writes the scene to a file and loads it as any user of MuJoCo does.
-std::unique_ptr<mjModel, DeleteModel> LoadFromFile(const std::string& mjcf) {
-  const auto path =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml");
-  WriteFile(path, mjcf);
-  std::array<char, 1000> error{};
-  std::unique_ptr<mjModel, DeleteModel> model(
-      mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
-  EXPECT_NE(model, nullptr) << error.data();
-  std::filesystem::remove(path);
-  return model;
-}
-
 TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   const CubeCase cube;
   const Plan plan = MakePlan(cube.Start(), 25);
   const auto model = LoadFromFile(SceneMjcf(cube.object, plan, {}));
   ASSERT_NE(model, nullptr);
   ASSERT_EQ(model->nkey, 1);
-  const std::unique_ptr<mjData, DeleteData> data(mj_makeData(model.get()));
+  const DataPtr data(mj_makeData(model.get()));
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   constexpr int kSteps = 2000;
   for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "planner/base/file.h"
+
+namespace regrasp {
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
+using DataPtr = std::unique_ptr<mjData, DeleteData>;
+
+/// Writes the scene to a file and loads it as any user of MuJoCo does.
+inline ModelPtr LoadFromFile(const std::string& mjcf) {
+  const auto path =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".xml");
+  WriteFile(path, mjcf);
+  std::array<char, 1000> error{};
+  ModelPtr model(mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+  EXPECT_NE(model, nullptr) << error.data();
+  std::filesystem::remove(path);
+  return model;
+}
+
+}  // namespace regrasp
