@@ -62,7 +62,7 @@ Interval HalfTangent(const Number& cross, const Number& dot, const Interval& len
   return d.inf() > 0 ? (lengths + d) / c : c / (lengths - d);
 }
 
-/// tan φ* of a gap, rounded down.
+/// tan φ* of a gap, rounded down by no more than 1e-13 of it.
 double SpanningTangent(const EdgeTable& edges, int a, int b) {
   /// Intervals wider than this are computed anew from exact products.
   constexpr double kTightEnough = 1e-13;
@@ -77,7 +77,10 @@ double SpanningTangent(const EdgeTable& edges, int a, int b) {
   if (!(tangent.inf() > 0) || tangent.sup() - tangent.inf() > kTightEnough * tangent.sup()) {
     tangent = bound(Exact());
   }
-  return tangent.inf();
+  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles
+  // can tell that they are not, and the exact type is hardly ever needed.
+  constexpr double kTold = 0x1p-46;
+  return tangent.inf() * (1 - kTold);
 }
 
 /// True iff two cones of half-angle θ have a common interior.

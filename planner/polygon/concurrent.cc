@@ -33,22 +33,35 @@ SightRegion<NT> MakeSightRegion(const EdgeFrame<NT>& e, const std::array<int, 2>
 }
 
 template <class NT>
-ConvexRegion<NT> MakeFocusPart(const EdgeTable& edges, const ConcurrentCandidate& candidate,
-                               int sides) {
-  const auto sight = [&](int k) {
-    const int edge = candidate.edges[k];
-    return MakeSightRegion(edges.frame<NT>(edge, candidate.tangent), edges.vertices(edge),
-                           IsOuter(sides, k), k);
-  };
-  const SightRegion<NT> first = sight(0);
+SightRegion<NT> MakeSightRegion(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                int sides, int k) {
+  const int edge = candidate.edges[k];
+  return MakeSightRegion(edges.frame<NT>(edge, candidate.tangent), edges.vertices(edge),
+                         IsOuter(sides, k), k);
+}
+
+template <class NT>
+void Clip(const SightRegion<NT>& sight, ConvexRegion<NT>& region) {
+  for (int i = 0; i < 3 && !region.empty(); ++i) region.Clip(sight.half_planes[i], sight.tags[i]);
+}
+
+template <class NT>
+ConvexRegion<NT> MakeSeeingFirstTwo(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                    int sides) {
+  const auto first = MakeSightRegion<NT>(edges, candidate, sides, 0);
   const HalfPlane<NT> infinity = {NT(0), NT(0), NT(1)};
-  ConvexRegion<NT> part(
+  ConvexRegion<NT> region(
       {first.half_planes[0], first.half_planes[1], infinity, first.half_planes[2]},
       {first.tags[0], first.tags[1], SideTag(), first.tags[2]});
-  for (int k = 1; k < 3 && !part.empty(); ++k) {
-    const SightRegion<NT> next = sight(k);
-    for (int i = 0; i < 3 && !part.empty(); ++i) part.Clip(next.half_planes[i], next.tags[i]);
-  }
+  Clip(MakeSightRegion<NT>(edges, candidate, sides, 1), region);
+  return region;
+}
+
+template <class NT>
+ConvexRegion<NT> MakeFocusPart(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                               int sides) {
+  auto part = MakeSeeingFirstTwo<NT>(edges, candidate, sides);
+  Clip(MakeSightRegion<NT>(edges, candidate, sides, 2), part);
   return part;
 }
 
@@ -160,12 +173,40 @@ ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>
 
 }  // namespace
 
-std::vector<FocusComponent> FindFocusCell(const EdgeTable& edges,
-                                          const ConcurrentCandidate& candidate) {
+void FocusCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
+  const std::array<int, 2> first_two = {candidate.edges[0], candidate.edges[1]};
+  if (first_two == first_two_ && candidate.tangent == tangent_) return;
+  first_two_ = first_two;
+  tangent_ = candidate.tangent;
+  for (int sides = 0; sides < kSidePatterns / 2; ++sides) {
+    try {
+      seeing_two_[sides] = MakeSeeingFirstTwo<Interval>(edges_, candidate, sides);
+    } catch (const CGAL::Uncertain_conversion_exception&) {
+      seeing_two_[sides].reset();
+    }
+  }
+}
+
+std::vector<FocusComponent> FocusCellFinder::Find(const ConcurrentCandidate& candidate) {
+  SeeFirstTwo(candidate);
+  std::array<std::optional<SightRegion<Interval>>, 2> seeing_third;
   std::array<std::optional<FilteredRegion>, kSidePatterns> parts;
   for (int sides = 0; sides < kSidePatterns; ++sides) {
-    parts[sides] = FilteredRegion::Make([&edges, candidate, sides](auto zero) {
+    const auto& seeing_two = seeing_two_[sides % (kSidePatterns / 2)];
+    if (seeing_two && seeing_two->empty()) continue;
+    const auto recipe = [&edges = edges_, candidate, sides](auto zero) {
       return MakeFocusPart<decltype(zero)>(edges, candidate, sides);
+    };
+    if (!seeing_two) {
+      parts[sides] = FilteredRegion::Make(recipe);
+      continue;
+    }
+    parts[sides] = FilteredRegion::Make(recipe, [&] {
+      auto& sight = seeing_third[IsOuter(sides, 2) ? 1 : 0];
+      if (!sight) sight = MakeSightRegion<Interval>(edges_, candidate, sides, 2);
+      ConvexRegion<Interval> part = *seeing_two;
+      Clip(*sight, part);
+      return part;
     });
   }
   std::array<int, kSidePatterns> component;

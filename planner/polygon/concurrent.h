@@ -22,16 +22,29 @@ struct FocusComponent {
   std::vector<FocusPart> parts;  ///< by `sides`
 };
 
-/// The components of the focus cell F(i,j,k) (Phoka 2010, Def. 3.7): points from which each of the
-/// three edges is seen inside its double-sided cone.
-///
-/// What sees an edge is a convex region on either side of its line, and the two are joined through
-/// the open edge. So the cell is a union of at most eight convex parts, and two parts that differ
-/// in one side are one component iff they share a stretch of that edge. Sets of one component are
-/// found by their borders: no point of the plane is computed. Inside an IntervalScope; `edges` must
-/// outlive the result.
-[[nodiscard]] std::vector<FocusComponent> FindFocusCell(const EdgeTable& edges,
-                                                        const ConcurrentCandidate& candidate);
+/// Finds focus cells. Inside an IntervalScope; the edges must outlive the finder and its cells.
+class FocusCellFinder {
+ public:
+  explicit FocusCellFinder(const EdgeTable& edges) : edges_(edges) {}
+
+  /// The components of the focus cell F(i,j,k) (Phoka 2010, Def. 3.7): points from which each of
+  /// the three edges is seen inside its double-sided cone.
+  ///
+  /// What sees an edge is a convex region on either side of its line, and the two are joined
+  /// through the open edge. So the cell is a union of at most eight convex parts, and two parts
+  /// that differ in one side are one component iff they share a stretch of that edge. Candidates
+  /// that come in lexicographic order share what sees their first two edges.
+  [[nodiscard]] std::vector<FocusComponent> Find(const ConcurrentCandidate& candidate);
+
+ private:
+  void SeeFirstTwo(const ConcurrentCandidate& candidate);
+
+  const EdgeTable& edges_;
+  std::array<int, 2> first_two_ = {-1, -1};
+  double tangent_ = 0;
+  /// What sees the first two edges, by the sides; nullopt where intervals cannot tell.
+  std::array<std::optional<ConvexRegion<Interval>>, 4> seeing_two_;
+};
 
 /// True iff two components have focus points in common.
 [[nodiscard]] bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
+#include <utility>
 #include <vector>
 
 #include "planner/polygon/plane.h"
@@ -84,36 +86,32 @@ class ConvexRegion {
   void Clip(const HalfPlane<NT>& half_plane, const SideTag& tag = {}) {
     const int n = static_cast<int>(sides_.size());
     if (n == 0) return;
-    signs_.resize(n);
+    boost::container::small_vector<signed char, kUsualSides> signs(n);
     bool inside = false;
     bool outside = false;
     for (int k = 0; k < n; ++k) {
       const bool meets = sides_[(k + n - 1) % n].tag.MeetsAtPointOf(sides_[k].tag, tag);
-      signs_[k] = meets ? 0 : static_cast<signed char>(Sign(Evaluate(half_plane, sides_[k].from)));
-      inside = inside || signs_[k] > 0;
-      outside = outside || signs_[k] < 0;
+      const int sign = meets ? 0 : Sign(Evaluate(half_plane, sides_[k].from));
+      signs[k] = static_cast<signed char>(sign);
+      inside = inside || sign > 0;
+      outside = outside || sign < 0;
     }
     if (!outside) return;
     if (!inside) {
       sides_.clear();
       return;
     }
-    // The corners strictly outside follow each other; a side stays iff one of its ends is strictly
-    // inside. The new side goes between the last side that stays and the first.
-    const auto stays = [&](int k) { return signs_[k] > 0 || signs_[(k + 1) % n] > 0; };
+    // A side stays iff one of its ends is strictly inside. Those that stay follow each other, and
+    // the new side closes the border between the last and the first.
+    const auto is_inside = [&](int k) { return signs[k % n] > 0; };
     int first = 0;
-    while (signs_[first] >= 0) ++first;
-    while (!stays(first)) first = (first + 1) % n;
-    std::vector<Side> cut;
-    cut.reserve(n + 1);
-    for (int k = first; stays(k); k = (k + 1) % n) {
-      cut.push_back(std::move(sides_[k]));
-      if ((k + 1) % n == first) break;
-    }
-    cut.front().from = Corner(half_plane, cut.front().half_plane);
-    const HomogeneousPoint<NT> end = Corner(cut.back().half_plane, half_plane);
-    cut.push_back({half_plane, tag, end});
-    sides_ = std::move(cut);
+    while (is_inside(first) || !is_inside(first + 1)) ++first;
+    int count = 1;
+    while (is_inside(first + count)) ++count;
+    std::rotate(sides_.begin(), sides_.begin() + first, sides_.end());
+    sides_.erase(sides_.begin() + count, sides_.end());
+    sides_.front().from = Corner(half_plane, sides_.front().half_plane);
+    sides_.push_back({half_plane, tag, Corner(sides_.back().half_plane, half_plane)});
   }
 
  private:
@@ -125,7 +123,6 @@ class ConvexRegion {
   static constexpr int kUsualSides = 8;
 
   std::vector<Side> sides_;
-  std::vector<signed char> signs_;
 };
 
 }  // namespace regrasp

@@ -126,8 +126,9 @@ class GraphBuilder {
   void FindConcurrent(GraspTypeCounts& counts) {
     const auto candidates = FindConcurrentCandidates(edges_, spanning_);
     counts.candidates = std::ssize(candidates);
+    FocusCellFinder finder(edges_);
     for (const ConcurrentCandidate& candidate : candidates) {
-      std::vector<FocusComponent> cell = FindFocusCell(edges_, candidate);
+      std::vector<FocusComponent> cell = finder.Find(candidate);
       if (!cell.empty()) ++counts.combinations;
       for (FocusComponent& component : cell) {
         concurrent_.push_back({candidate, std::move(component)});
