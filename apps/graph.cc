@@ -1,5 +1,7 @@
 // graph: builds the switching graph and prints what the dissertation's tables print.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <iomanip>
 #include <iostream>
@@ -13,6 +15,7 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
+#include "planner/polygon/polygon_graph.h"
 
 namespace {
 
@@ -20,12 +23,22 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
 
-/// What is known of a roadmap when it is built.
-struct GraphCounts {
-  std::int64_t faces = 0;  ///< contact points
+/// How many grasps of one type a graph has.
+struct TypeSummary {
+  std::string name;
   std::int64_t candidates = 0;
+  std::int64_t combinations = 0;
   std::int64_t vertices = 0;
-  std::int64_t edges = 0;
+  std::int64_t components = 0;  ///< of the graph, were there only this type
+};
+
+/// What is known of a graph when it is built.
+struct GraphSummary {
+  std::string planner;
+  std::int64_t faces = 0;  ///< edges of a polygon, contact points of a roadmap
+  std::vector<TypeSummary> types;
+  std::vector<std::pair<std::string, std::int64_t>> edges;  ///< by types, as "parallel-parallel"
+  std::int64_t vertices = 0;
   std::int64_t components = 0;
   double vertex_seconds = 0;
   double edge_seconds = 0;
@@ -45,49 +58,109 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-GraphCounts CountGraph(const Polyhedron& solid, const RoadmapOptions& options) {
+GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
   Stopwatch stopwatch;
   const Roadmap roadmap = BuildRoadmap(solid, options);
-  GraphCounts counts;
-  counts.vertex_seconds = stopwatch.Lap();
+  GraphSummary summary;
+  summary.planner = "roadmap";
+  summary.vertex_seconds = stopwatch.Lap();
   options.progress("joining " + std::to_string(roadmap.vertex_count()) + " grasps");
-  counts.faces = std::ssize(roadmap.points());
-  counts.candidates = roadmap.candidate_count();
-  counts.vertices = roadmap.vertex_count();
-  counts.edges = roadmap.edge_count();
-  counts.components = roadmap.components().count();
-  counts.edge_seconds = stopwatch.Lap();
-  return counts;
+  const std::int64_t vertices = roadmap.vertex_count();
+  summary.faces = std::ssize(roadmap.points());
+  summary.vertices = vertices;
+  summary.edges = {{"representative-representative", roadmap.edge_count()}};
+  summary.components = roadmap.components().count();
+  summary.types = {
+      {"representative", roadmap.candidate_count(), vertices, vertices, summary.components}};
+  summary.edge_seconds = stopwatch.Lap();
+  return summary;
 }
 
-Json GraphJson(const GraphCounts& counts, double half_angle) {
+GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spanning spanning) {
+  const PolygonGraph graph(polygon, half_angle, spanning);
+  const auto name = [](GraspType type) {
+    constexpr std::array kNames = {"concurrent", "two_finger", "parallel"};
+    return std::string(kNames[static_cast<int>(type)]);
+  };
+  GraphSummary summary;
+  summary.planner = "polygon";
+  summary.faces = polygon.face_count();
+  for (const auto type : {GraspType::kConcurrent, GraspType::kTwoFinger, GraspType::kParallel}) {
+    const GraspTypeCounts& counts = graph.counts(type);
+    summary.types.push_back(
+        {name(type), counts.candidates, counts.combinations, counts.vertices, counts.components});
+  }
+  const auto add_edges = [&](GraspType a, GraspType b) {
+    summary.edges.emplace_back(name(a) + "-" + name(b), graph.edge_count(a, b));
+  };
+  add_edges(GraspType::kConcurrent, GraspType::kConcurrent);
+  add_edges(GraspType::kTwoFinger, GraspType::kConcurrent);
+  add_edges(GraspType::kParallel, GraspType::kParallel);
+  add_edges(GraspType::kTwoFinger, GraspType::kParallel);
+  add_edges(GraspType::kTwoFinger, GraspType::kTwoFinger);
+  if (spanning == Spanning::kAdaptive) add_edges(GraspType::kConcurrent, GraspType::kParallel);
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  return summary;
+}
+
+Json GraphJson(const GraphSummary& summary, double half_angle) {
+  Json types = Json::object();
+  for (const TypeSummary& type : summary.types) {
+    types[type.name] = {{"candidates", type.candidates},
+                        {"combinations", type.combinations},
+                        {"vertices", type.vertices},
+                        {"components", type.components}};
+  }
+  Json edges = Json::object();
+  for (const auto& [name, count] : summary.edges) edges[name] = count;
   return {{"format", "regrasp-graph"},
           {"version", 1},
-          {"planner", "roadmap"},
+          {"planner", summary.planner},
           {"friction", {{"half_angle_deg", Degrees(half_angle)}}},
-          {"faces", counts.faces},
-          {"types",
-           {{"representative",
-             {{"candidates", counts.candidates},
-              {"combinations", counts.vertices},
-              {"vertices", counts.vertices}}}}},
-          {"edges", {{"representative-representative", counts.edges}}},
-          {"vertices", counts.vertices},
-          {"components", counts.components},
-          {"seconds", {{"vertices", counts.vertex_seconds}, {"edges", counts.edge_seconds}}}};
+          {"faces", summary.faces},
+          {"types", types},
+          {"edges", edges},
+          {"vertices", summary.vertices},
+          {"components", summary.components},
+          {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
 }
 
-std::string GraphTable(const GraphCounts& counts, const std::string& object) {
+/// Columns as wide as their widest cell, the first to the left, the others to the right.
+std::string FormatTable(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  }
   std::ostringstream table;
-  const auto row = [&](const auto&... cells) {
-    ((table << std::setw(12) << cells), ...);
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      table << (k == 0 ? std::left : std::right) << (k == 0 ? "" : "  ")
+            << std::setw(static_cast<int>(widths[k])) << row[k];
+    }
     table << '\n';
-  };
-  table << "roadmap of " << object << '\n';
-  row("#Points", "#Subsets", "#Vert", "#Edges", "#CC", "vert(s)", "edges(s)");
-  row(counts.faces, counts.candidates, counts.vertices, counts.edges, counts.components,
-      FormatShort(counts.vertex_seconds, 3), FormatShort(counts.edge_seconds, 3));
+  }
   return table.str();
+}
+
+std::string GraphTable(const GraphSummary& summary, const std::string& title) {
+  const auto cell = [](std::int64_t count) { return std::to_string(count); };
+  std::vector<std::vector<std::string>> types = {{"grasps", "#can", "#comb", "#vertex", "#CC"}};
+  for (const TypeSummary& type : summary.types) {
+    types.push_back({type.name, cell(type.candidates), cell(type.combinations), cell(type.vertices),
+                     cell(type.components)});
+  }
+  if (summary.types.size() > 1) {
+    types.push_back({"all", "", "", cell(summary.vertices), cell(summary.components)});
+  }
+  std::vector<std::vector<std::string>> edges = {{"switches", "#edge"}};
+  for (const auto& [name, count] : summary.edges) edges.push_back({name, cell(count)});
+  return title + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
+         FormatShort(summary.vertex_seconds, 3) + " s, edges " +
+         FormatShort(summary.edge_seconds, 3) + " s\n";
 }
 
 struct GraphProgram {
@@ -103,21 +176,38 @@ struct GraphProgram {
   }
 
   int Run() const {
-    RoadmapOptions options = common.roadmap();
     const ObjectFile object = ReadObject(common.object);
-    const Polyhedron& solid = SolidOf(object, common.object);
-    ProgressLine progress(common.quiet);
-    options.progress = [&](std::string_view text) { progress.Report(text); };
-    const GraphCounts counts = CountGraph(solid, options);
-    progress.Clear();
-    const std::string text = FormatJson(GraphJson(counts, options.half_angle));
+    const double half_angle = common.friction.required_half_angle();
+    const GraphSummary summary = Summarize(object);
+    const std::string text = FormatJson(GraphJson(summary, half_angle));
     if (json == "-") {
       std::cout << text;
       return kExitDone;
     }
     if (!json.empty()) WriteFile(json, text);
-    std::cout << GraphTable(counts, object.file);
+    std::string title = summary.planner + " of " + object.file + ", " +
+                        std::to_string(summary.faces) +
+                        (summary.planner == "polygon" ? " edges, " : " contact points, ") +
+                        FormatShort(Degrees(half_angle)) + "°";
+    if (summary.planner == "polygon") title += ", " + common.spanning;
+    std::cout << GraphTable(summary, title);
     return kExitDone;
+  }
+
+  GraphSummary Summarize(const ObjectFile& object) const {
+    ProgressLine progress(common.quiet);
+    GraphSummary summary;
+    if (common.PlannerFor(object) == "polygon") {
+      progress.Report("building the switching graph");
+      summary = SummarizePolygon(PolygonOf(object, common.object),
+                                 common.friction.required_half_angle(), common.spanning_value());
+    } else {
+      RoadmapOptions options = common.roadmap();
+      options.progress = [&](std::string_view text) { progress.Report(text); };
+      summary = SummarizeRoadmap(SolidOf(object, common.object), options);
+    }
+    progress.Clear();
+    return summary;
   }
 };
 

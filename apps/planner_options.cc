@@ -8,8 +8,9 @@ namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  if (name == "auto" || name == "roadmap") return {};
-  return "the planner \"" + name + "\" does not exist in this version; there are auto and roadmap";
+  if (name == "auto" || name == "polygon" || name == "roadmap") return {};
+  return "the planner \"" + name +
+         "\" does not exist in this version; there are auto, polygon and roadmap";
 }
 
 std::string CheckSpanning(const std::string& name) {
@@ -20,16 +21,19 @@ std::string CheckSpanning(const std::string& name) {
 }  // namespace
 
 void PlannerOptions::AddTo(CLI::App& app) {
-  app.add_option("--object", object, "The object: a closed surface mesh (OBJ, OFF, PLY, STL, …)")
+  app.add_option("--object", object,
+                 "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
   friction.AddTo(app);
-  app.add_option("--planner", planner, "auto or roadmap (default auto, which is roadmap)")
+  app.add_option("--planner", planner,
+                 "auto, polygon or roadmap (default auto: polygon in the plane, roadmap in space)")
       ->type_name("NAME")
       ->check(CheckPlanner);
-  app.add_option("--spanning", spanning,
-                 "adaptive or uniform: the cones of focus cells; the roadmap has none "
-                 "(default adaptive)")
+  app.add_option(
+         "--spanning", spanning,
+         "adaptive or uniform: cones of focus cells as wide as the normals allow, or all of "
+         "the friction's half-angle; the roadmap has none (default adaptive)")
       ->type_name("NAME")
       ->check(CheckSpanning);
   AddInteger(app, "--contacts", contacts, 4, kMaxRoadmapContacts,
@@ -46,6 +50,23 @@ RoadmapOptions PlannerOptions::roadmap() const {
   options.contacts = contacts;
   options.seed = seed;
   return options;
+}
+
+std::string PlannerOptions::PlannerFor(const ObjectFile& file) const {
+  if (planner != "auto") return planner;
+  return file.object->dimension() == 2 ? "polygon" : "roadmap";
+}
+
+Spanning PlannerOptions::spanning_value() const {
+  return spanning == "uniform" ? Spanning::kUniform : Spanning::kAdaptive;
+}
+
+const Polygon& PolygonOf(const ObjectFile& file, const std::string& path) {
+  const auto* polygon = dynamic_cast<const Polygon*>(file.object.get());
+  if (polygon == nullptr) {
+    throw InputError(path + ": a solid, and the planner polygon works on planar objects only");
+  }
+  return *polygon;
 }
 
 const Polyhedron& SolidOf(const ObjectFile& file, const std::string& path) {

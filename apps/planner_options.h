@@ -4,7 +4,9 @@
 #include <string>
 
 #include "apps/options.h"
+#include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/polygon/grasp_set.h"
 #include "planner/roadmap/plan_roadmap.h"
 
 namespace regrasp {
@@ -22,9 +24,18 @@ struct PlannerOptions {
 
   void AddTo(CLI::App& app);
 
+  /// The planner's name, "auto" decided by the object: polygon in the plane, roadmap in space.
+  [[nodiscard]] std::string PlannerFor(const ObjectFile& file) const;
+
+  [[nodiscard]] Spanning spanning_value() const;
+
   /// @throws InputError  friction is missing, doubled or out of range.
   [[nodiscard]] RoadmapOptions roadmap() const;
 };
+
+/// The object as a polygon, which the planner `polygon` needs.
+/// @throws InputError  it is a solid.
+[[nodiscard]] const Polygon& PolygonOf(const ObjectFile& file, const std::string& path);
 
 /// The object as a solid, which the planner `roadmap` needs.
 /// @throws InputError  it is planar.

@@ -12,20 +12,28 @@ class Graph(ProgramCase):
     def arguments(self, *more):
         return ["--object", self.model("cube.obj"), "--contacts", "20", *more]
 
-    def test_prints_a_table_with_the_sizes(self):
+    def tables(self, text):
+        """The rows of the tables by their first cell, cells after it as numbers."""
+        rows = [line.split() for line in text.splitlines()]
+        return {row[0]: [int(cell) for cell in row[1:]] for row in rows
+                if len(row) > 1 and all(cell.isdigit() for cell in row[1:])}
+
+    def test_prints_tables_with_the_sizes(self):
         done = self.assert_done(*self.arguments("--friction-angle", "20"))
-        title, head, row = done.stdout.splitlines()
-        self.assertIn("cube.obj", title)
-        values = dict(zip(head.split(), row.split()))
-        self.assertEqual(values["#Points"], "20")
-        self.assertEqual(values["#Subsets"], "4845")
-        self.assertGreater(int(values["#Vert"]), 0)
+        self.assertIn("roadmap of cube.obj, 20 contact points, 20°", done.stdout.splitlines()[0])
+        tables = self.tables(done.stdout)
+        candidates, combinations, vertices, components = tables["representative"]
+        self.assertEqual(candidates, 4845)
+        self.assertEqual(combinations, vertices)
+        self.assertGreater(vertices, 0)
+        self.assertGreater(components, 0)
+        self.assertGreater(tables["representative-representative"][0], 0)
         self.assertEqual(done.stderr, "")
 
     def test_writes_the_same_as_json(self):
         done = self.assert_done(*self.arguments("--friction-angle", "20", "--planner", "roadmap",
                                                 "--json", "graph.json"))
-        row = done.stdout.splitlines()[-1].split()
+        tables = self.tables(done.stdout)
         graph = json.loads(self.read("graph.json"))
         self.assertEqual(graph["format"], "regrasp-graph")
         self.assertEqual(graph["version"], 1)
@@ -33,14 +41,46 @@ class Graph(ProgramCase):
         self.assertAlmostEqual(graph["friction"]["half_angle_deg"], 20, places=12)
         self.assertEqual(graph["faces"], 20)
         kind = graph["types"]["representative"]
-        self.assertEqual(kind["candidates"], 4845)
-        self.assertEqual(kind["combinations"], kind["vertices"])
-        self.assertEqual(kind["vertices"], graph["vertices"])
-        self.assertEqual([str(n) for n in (graph["vertices"],
-                                           graph["edges"]["representative-representative"],
-                                           graph["components"])], row[2:5])
+        self.assertEqual([kind[name] for name in ("candidates", "combinations", "vertices",
+                                                  "components")], tables["representative"])
+        self.assertEqual((kind["vertices"], kind["components"]),
+                         (graph["vertices"], graph["components"]))
+        self.assertEqual([graph["edges"]["representative-representative"]],
+                         tables["representative-representative"])
         self.assertGreaterEqual(graph["seconds"]["vertices"], 0)
         self.assertGreaterEqual(graph["seconds"]["edges"], 0)
+
+    def polygon(self, *more):
+        return ["--object", self.model("square.wkt"), *more]
+
+    def test_a_polygon_is_counted_by_types(self):
+        done = self.assert_done(*self.polygon("--friction-angle", "10", "--json", "graph.json"))
+        self.assertIn("polygon of square.wkt, 4 edges, 10°, adaptive", done.stdout)
+        # Opposite sides squeeze; no three normals of a square span or are nearly parallel.
+        tables = self.tables(done.stdout)
+        self.assertEqual(tables["concurrent"], [0, 0, 0, 0])
+        self.assertEqual(tables["two_finger"], [2, 2, 2, 1])
+        self.assertEqual(tables["parallel"], [0, 0, 0, 0])
+        self.assertEqual(tables["all"], [2, 1])
+        graph = json.loads(self.read("graph.json"))
+        self.assertEqual((graph["planner"], graph["faces"]), ("polygon", 4))
+        self.assertEqual(graph["edges"],
+                         {"concurrent-concurrent": 0, "two_finger-concurrent": 0,
+                          "parallel-parallel": 0, "two_finger-parallel": 0,
+                          "two_finger-two_finger": 1, "concurrent-parallel": 0})
+        self.assertEqual((graph["vertices"], graph["components"]), (2, 1))
+
+    def test_spanning_decides_which_normals_span(self):
+        triangle = self.write("triangle.wkt", "POLYGON((0 0, 1 0, 0.5 0.866, 0 0))")
+        def counts(angle, spanning):
+            done = self.assert_done("--object", triangle, "--friction-angle", angle,
+                                    "--spanning", spanning, "--json", "-")
+            graph = json.loads(done.stdout)
+            self.assertEqual("concurrent-parallel" in graph["edges"], spanning == "adaptive")
+            return graph["types"]["concurrent"]["vertices"]
+        # Normals 120° apart span with cones of half-angle below 30°.
+        self.assertEqual([counts(angle, "uniform") for angle in ("29", "31")], [1, 0])
+        self.assertEqual([counts(angle, "adaptive") for angle in ("29", "31")], [1, 1])
 
     def test_dash_writes_nothing_but_json_to_standard_output(self):
         done = self.assert_done(*self.arguments("--mu", "0.4", "--json", "-"))
@@ -76,8 +116,9 @@ class Graph(ProgramCase):
         self.assert_refused(2, "exclude", *self.arguments("--mu", "1", "--friction-angle", "20"))
         self.assert_refused(2, "planner", *self.arguments("--mu", "1", "--planner", "polyhedron"))
         self.assert_refused(2, "no.obj", "--object", "no.obj", "--mu", "1")
-        self.assert_refused(2, "planar", "--object",
-                            self.write("a.wkt", "POLYGON((0 0, 1 0, 1 1, 0 0))"), "--mu", "1")
+        self.assert_refused(2, "planar", *self.polygon("--mu", "1", "--planner", "roadmap"))
+        self.assert_refused(2, "solid", *self.arguments("--mu", "1", "--planner", "polygon"))
+        self.assert_refused(2, "vague", *self.polygon("--mu", "1", "--spanning", "vague"))
 
     def test_an_output_that_cannot_be_written_is_the_environments_fault(self):
         self.assert_refused(3, "missing/graph.json",
