@@ -27,6 +27,9 @@ constexpr double kEdgeRadius = 0.0026;  // in diameters
 /// Opacity of the body's near surface, and of its far surface behind that.
 constexpr double kOutsideOpacity = 0.33;
 constexpr double kInsideOpacity = 0.30;
+/// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
+constexpr double kPrismOpacity = 0.9;
+constexpr Color kPrism = {205, 221, 241};
 
 /// Room for a finger's number beyond its end, in diameters.
 constexpr double kLabelRoom = 0.05;
@@ -111,8 +114,8 @@ class FrameRenderer::Impl {
     Image image = draw();
     shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
     BlendOver(image, draw(), kInsideOpacity);
-    shapes.back() = {MeshInstance{kOutsideMesh, pose}, kBodyOutside};
-    BlendOver(image, draw(), kOutsideOpacity);
+    shapes.back() = {MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside};
+    BlendOver(image, draw(), planar_ ? kPrismOpacity : kOutsideOpacity);
     return image;
   }
 

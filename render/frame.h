@@ -26,8 +26,8 @@ struct FrameOptions {
 /// stem along the normal, one colour and number a finger for the whole sequence, true friction
 /// cones, force arrows, and the finger that moves told apart: a placed one has a ring and an arrow
 /// that arrives, a released one is a ghost with an arrow that leaves, an aligned one has a dashed
-/// track. Planar objects are drawn as prisms, seen from above at a slight tilt, with contacts and
-/// flat friction cones on their top.
+/// track. Planar objects are nearly opaque prisms, seen from above at a slight tilt, with contacts
+/// and flat friction cones on their top.
 ///
 /// One renderer serves a whole plan, with one camera, so that frames can be laid side by side. The
 /// camera is chosen once so that the contacts of all `snapshots` are seen as well as possible.
