@@ -62,7 +62,7 @@ Interval HalfTangent(const Number& cross, const Number& dot, const Interval& len
   return d.inf() > 0 ? (lengths + d) / c : c / (lengths - d);
 }
 
-/// tan φ* of a gap, rounded down by no more than 1e-13 of it.
+/// tan φ* of a gap, rounded down by no more than 1e-13 of the larger of it and 1.
 double SpanningTangent(const EdgeTable& edges, int a, int b) {
   /// Intervals wider than this are computed anew from exact products.
   constexpr double kTightEnough = 1e-13;
@@ -77,10 +77,11 @@ double SpanningTangent(const EdgeTable& edges, int a, int b) {
   if (!(tangent.inf() > 0) || tangent.sup() - tangent.inf() > kTightEnough * tangent.sup()) {
     tangent = bound(Exact());
   }
-  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles
-  // can tell that they are not, and the exact type is hardly ever needed.
-  constexpr double kTold = 0x1p-46;
-  return tangent.inf() * (1 - kTold);
+  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles can
+  // tell that they are not, and the exact type is hardly ever needed.
+  constexpr double kTold = 0x1p-44;
+  const double lowered = tangent.inf() - kTold * std::max(1.0, tangent.inf());
+  return lowered > 0 ? lowered : tangent.inf();
 }
 
 /// True iff two cones of half-angle θ have a common interior.

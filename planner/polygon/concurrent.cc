@@ -233,10 +233,14 @@ std::vector<FocusComponent> FocusCellFinder::Find(const ConcurrentCandidate& can
   return components;
 }
 
-bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b) {
+bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b,
+                       std::span<const std::pair<int, int>> common) {
   for (const FocusPart& part : a.parts) {
     for (const FocusPart& other : b.parts) {
-      if (FilteredRegion::Overlap(part.region, other.region)) return true;
+      const bool same_sides = std::all_of(common.begin(), common.end(), [&](const auto& edge) {
+        return IsOuter(part.sides, edge.first) == IsOuter(other.sides, edge.second);
+      });
+      if (same_sides && FilteredRegion::Overlap(part.region, other.region)) return true;
     }
   }
   return false;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/polygon/candidates.h"
@@ -47,7 +49,9 @@ class FocusCellFinder {
 };
 
 /// True iff two components have focus points in common.
-[[nodiscard]] bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b);
+/// @param common  the positions of the edges that both have: in the first, in the second.
+[[nodiscard]] bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b,
+                                     std::span<const std::pair<int, int>> common);
 
 /// The contacts on the k-th edge that are seen from a component.
 [[nodiscard]] FilteredRange FocusContactRange(const EdgeTable& edges,

@@ -11,12 +11,17 @@ bool CertainlyNotPositive(const Exact& x) { return !CertainlyPositive(x); }
 
 enum class Answer { kNo, kUncertain, kYes };
 
-/// Whether no point of `region` is strictly inside the half-plane.
+/// Whether no point of `region` is strictly inside the half-plane of a side of another region.
 template <class NT>
-Answer LiesOutside(const ConvexRegion<NT>& region, const HalfPlane<NT>& half_plane) {
+Answer LiesOutside(const ConvexRegion<NT>& region,
+                   const typename ConvexRegion<NT>::Side& separating) {
   Answer answer = Answer::kYes;
+  const auto* previous = &region.sides().back();
   for (const auto& side : region.sides()) {
-    const NT value = Evaluate(half_plane, side.from);
+    const bool meets = previous->tag.MeetsAtPointOf(side.tag, separating.tag);
+    previous = &side;
+    if (meets) continue;
+    const NT value = Evaluate(separating.half_plane, side.from);
     if (CertainlyPositive(value)) return Answer::kNo;
     if (!CertainlyNotPositive(value)) answer = Answer::kUncertain;
   }
@@ -30,7 +35,7 @@ Answer Overlap(const ConvexRegion<NT>& a, const ConvexRegion<NT>& b) {
   Answer answer = Answer::kYes;
   const auto look = [&](const ConvexRegion<NT>& with_side, const ConvexRegion<NT>& other) {
     for (const auto& side : with_side.sides()) {
-      const Answer separates = LiesOutside(other, side.half_plane);
+      const Answer separates = LiesOutside(other, side);
       if (separates == Answer::kYes) return true;
       if (separates == Answer::kUncertain) answer = Answer::kUncertain;
     }

@@ -1,6 +1,7 @@
 #include "planner/polygon/polygon_graph.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -33,19 +34,15 @@ struct ParallelVertex {
   ParallelComponent component;
 };
 
-/// The edges of a polygon that two grasps have in common, by their positions in both.
-struct CommonEdges {
-  int count = 0;
-  std::array<int, 3> first;   ///< positions in the first grasp, ascending
-  std::array<int, 3> second;  ///< positions in the second
-};
+/// The edges of a polygon that two grasps have in common, by their positions in the first and in
+/// the second.
+using CommonEdges = boost::container::static_vector<std::pair<int, int>, 3>;
 
 CommonEdges FindCommonEdges(std::span<const int> a, std::span<const int> b) {
   CommonEdges common;
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (a[i] == b[j]) {
-      common.first[common.count] = static_cast<int>(i++);
-      common.second[common.count++] = static_cast<int>(j++);
+      common.emplace_back(static_cast<int>(i++), static_cast<int>(j++));
     } else {
       ++(a[i] < b[j] ? i : j);
     }
@@ -230,12 +227,13 @@ class GraphBuilder {
   bool CanSwitch(int v, int w) {
     if (IsConcurrent(v) != IsConcurrent(w) && spanning_ == Spanning::kUniform) return false;
     const CommonEdges common = FindCommonEdges(EdgesOf(v), EdgesOf(w));
-    if (common.count != 2) return false;
+    if (common.size() != 2) return false;
     if (IsConcurrent(v) && IsConcurrent(w)) {
-      return FocusCellsOverlap(concurrent_[v].component, concurrent_[w].component);
+      return FocusCellsOverlap(concurrent_[v].component, concurrent_[w].component,
+                               {common.data(), common.size()});
     }
-    return Overlap(PairsOf(v, common.first[0], common.first[1]),
-                   PairsOf(w, common.second[0], common.second[1]));
+    const auto [first, second] = std::pair(common[0], common[1]);
+    return Overlap(PairsOf(v, first.first, second.first), PairsOf(w, first.second, second.second));
   }
 
   void JoinTwoFinger() {
