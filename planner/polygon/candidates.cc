@@ -77,8 +77,8 @@ double SpanningTangent(const EdgeTable& edges, int a, int b) {
   if (!(tangent.inf() > 0) || tangent.sup() - tangent.inf() > kTightEnough * tangent.sup()) {
     tangent = bound(Exact());
   }
-  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles can
-  // tell that they are not, and the exact type is hardly ever needed.
+  // At φ* two borders of the cones are opposite. Rounded down by this much, intervals of doubles
+  // can tell that they are not, and the exact type is hardly ever needed.
   constexpr double kTold = 0x1p-44;
   const double lowered = tangent.inf() - kTold * std::max(1.0, tangent.inf());
   return lowered > 0 ? lowered : tangent.inf();

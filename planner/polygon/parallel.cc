@@ -200,23 +200,37 @@ Cuts<NT> CutsOfOuterPair(const CentredSet<NT>& set, int region) {
   }
 }
 
+template <class NT>
+ConvexRegion<NT> MakeContactPairs(const CentredSet<NT>& set, int centre, int k, int l, int region) {
+  const int outer = k == centre ? l : k;
+  const Cuts<NT> cuts =
+      k == centre || l == centre
+          ? CutsOfCentrePair(set, outer == set.outer[0] ? 0 : 1, k == centre ? 0 : 1, region)
+          : CutsOfOuterPair(set, region);
+  auto square = ConvexRegion<NT>::UnitSquare();
+  for (const HalfPlane<NT>& cut : cuts) square.Clip(cut);
+  return square;
+}
+
 void AddContactPairs(const EdgeTable& edges, const std::array<int, 3>& triple, int centre, int k,
                      int l, std::vector<FilteredRegion>& pairs) {
-  const bool has_centre = k == centre || l == centre;
-  const int count = has_centre ? kCentrePairRegions : kOuterPairRegions;
+  std::optional<CentredSet<Interval>> by_intervals;
+  try {
+    by_intervals = MakeCentredSet<Interval>(edges, triple, centre);
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+    // Each region is then made exactly.
+  }
+  const int count = k == centre || l == centre ? kCentrePairRegions : kOuterPairRegions;
   for (int region = 0; region < count; ++region) {
-    auto made = FilteredRegion::Make([&edges, triple, centre, k, l, region](auto zero) {
-      using NT = decltype(zero);
-      const CentredSet<NT> set = MakeCentredSet<NT>(edges, triple, centre);
-      const int outer = k == centre ? l : k;
-      const Cuts<NT> cuts =
-          k == centre || l == centre
-              ? CutsOfCentrePair(set, outer == set.outer[0] ? 0 : 1, k == centre ? 0 : 1, region)
-              : CutsOfOuterPair(set, region);
-      auto square = ConvexRegion<NT>::UnitSquare();
-      for (const HalfPlane<NT>& cut : cuts) square.Clip(cut);
-      return square;
-    });
+    const auto recipe = [&edges, triple, centre, k, l, region](auto zero) {
+      const auto set = MakeCentredSet<decltype(zero)>(edges, triple, centre);
+      return MakeContactPairs(set, centre, k, l, region);
+    };
+    auto made =
+        by_intervals
+            ? FilteredRegion::Make(
+                  recipe, [&] { return MakeContactPairs(*by_intervals, centre, k, l, region); })
+            : FilteredRegion::Make(recipe);
     if (made) pairs.push_back(std::move(*made));
   }
 }
