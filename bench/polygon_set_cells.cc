@@ -1,0 +1,167 @@
+#include "bench/polygon_set_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace regrasp {
+namespace {
+
+using Number = CellKernel::FT;
+using ExactPoint = CellKernel::Point_2;
+using ExactVector = CellKernel::Vector_2;
+using Region = CGAL::Polygon_2<CellKernel>;
+
+struct ExactEdge {
+  ExactPoint a;
+  ExactPoint b;
+  ExactVector along;
+  ExactVector normal;  ///< inward, as long as `along`
+};
+
+ExactEdge MakeExactEdge(const Polygon& polygon, int edge) {
+  const auto [a, b] = polygon.edge(edge);
+  const ExactPoint pa(a.x(), a.y());
+  const ExactPoint pb(b.x(), b.y());
+  const ExactVector along = pb - pa;
+  return {pa, pb, along, along.perpendicular(CGAL::COUNTERCLOCKWISE)};
+}
+
+CGAL::Sign CrossSign(const ExactVector& a, const ExactVector& b) {
+  return CGAL::sign(a.x() * b.y() - a.y() * b.x());
+}
+
+/// The gap from a to b, which is known to lie in (0, π), is less than π − 2φ; or equal.
+bool GapIsSmall(const ExactVector& a, const ExactVector& b, const Number& tangent, bool closed) {
+  const ExactVector lower = a + tangent * a.perpendicular(CGAL::CLOCKWISE);
+  const ExactVector upper = b + tangent * b.perpendicular(CGAL::COUNTERCLOCKWISE);
+  const CGAL::Sign sign = CrossSign(lower, upper);
+  return closed ? sign != CGAL::NEGATIVE : sign == CGAL::POSITIVE;
+}
+
+/// tan φ*, rounded down to a double, of normals that positively span.
+double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges) {
+  std::array<double, 3> angles;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d n = polygon.inward_normal(edges[k]);
+    angles[k] = std::atan2(n.y(), n.x());
+  }
+  std::sort(angles.begin(), angles.end());
+  const double gap = std::max(
+      {angles[1] - angles[0], angles[2] - angles[1], 2 * std::numbers::pi + angles[0] - angles[2]});
+  // The guess is some roundings off; the exact test settles the last bits.
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double tangent = std::max(0.0, std::tan((std::numbers::pi - gap) / 2));
+  while (!NormalsSpan(polygon, edges, tangent, true)) tangent = std::nextafter(tangent, 0);
+  for (double next = std::nextafter(tangent, kInfinity); NormalsSpan(polygon, edges, next, true);
+       next = std::nextafter(next, kInfinity)) {
+    tangent = next;
+  }
+  return tangent;
+}
+
+template <class Tangent>
+std::vector<SetCandidate> FindCandidates(const Polygon& polygon, const Tangent& tangent) {
+  std::vector<SetCandidate> candidates;
+  const int n = polygon.face_count();
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        const std::optional<double> t = tangent(std::array{i, j, k});
+        if (t) candidates.push_back({{i, j, k}, *t});
+      }
+    }
+  }
+  return candidates;
+}
+
+int CommonEdges(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+  int count = 0;
+  for (const int edge : a) count += static_cast<int>(std::count(b.begin(), b.end(), edge));
+  return count;
+}
+
+}  // namespace
+
+bool NormalsSpan(const Polygon& polygon, const std::array<int, 3>& edges, double tangent,
+                 bool closed) {
+  std::array<ExactVector, 3> n;
+  for (int k = 0; k < 3; ++k) n[k] = MakeExactEdge(polygon, edges[k]).normal;
+  if (CrossSign(n[0], n[1]) == CGAL::NEGATIVE) std::swap(n[1], n[2]);
+  for (int k = 0; k < 3; ++k) {
+    const ExactVector& next = n[(k + 1) % 3];
+    if (CrossSign(n[k], next) != CGAL::POSITIVE) return false;
+    if (!GapIsSmall(n[k], next, Number(tangent), closed)) return false;
+  }
+  return true;
+}
+
+std::vector<SetCandidate> FindUniformCandidates(const Polygon& polygon, double half_angle) {
+  const double tangent = std::tan(half_angle);
+  return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
+    if (!NormalsSpan(polygon, edges, tangent)) return std::nullopt;
+    return tangent;
+  });
+}
+
+std::vector<SetCandidate> FindAdaptiveCandidates(const Polygon& polygon, double half_angle) {
+  const double tangent = std::tan(half_angle);
+  return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
+    if (!NormalsSpan(polygon, edges, 0)) return std::nullopt;
+    if (NormalsSpan(polygon, edges, tangent)) return tangent;
+    return std::min(tangent, LimitTangent(polygon, edges));
+  });
+}
+
+CellSet SeeingEdge(const Polygon& polygon, int edge, double tangent, double reach) {
+  const ExactEdge e = MakeExactEdge(polygon, edge);
+  const Number t(tangent);
+  const Number h(reach);
+  const ExactVector right = h * (e.normal + t * e.along);
+  const ExactVector left = h * (e.normal - t * e.along);
+  Region hexagon;
+  for (const ExactPoint& corner : {e.a, e.a - right, e.b - left, e.b, e.b + right, e.a + left}) {
+    hexagon.push_back(corner);
+  }
+  return CellSet(hexagon);
+}
+
+std::vector<SetCell> FindSetCells(const Polygon& polygon,
+                                  const std::vector<SetCandidate>& candidates, double reach) {
+  std::map<std::pair<int, double>, CellSet> seeing;
+  const auto see = [&](int edge, double t) -> const CellSet& {
+    const auto found = seeing.find({edge, t});
+    if (found != seeing.end()) return found->second;
+    return seeing.emplace(std::pair(edge, t), SeeingEdge(polygon, edge, t, reach)).first->second;
+  };
+  std::vector<SetCell> cells;
+  for (const auto& [edges, t] : candidates) {
+    CellSet cell = see(edges[0], t);
+    cell.intersection(see(edges[1], t));
+    cell.intersection(see(edges[2], t));
+    std::vector<CGAL::Polygon_with_holes_2<CellKernel>> components;
+    cell.polygons_with_holes(std::back_inserter(components));
+    for (const auto& component : components) cells.push_back({edges, CellSet(component)});
+  }
+  return cells;
+}
+
+std::vector<std::array<int, 2>> FindSetCellSwitches(const std::vector<SetCell>& cells) {
+  std::vector<std::array<int, 2>> switches;
+  const int n = static_cast<int>(cells.size());
+  for (int a = 0; a < n; ++a) {
+    CellSet set = cells[a].set;  // do_intersect is not const
+    for (int b = a + 1; b < n; ++b) {
+      if (CommonEdges(cells[a].edges, cells[b].edges) != 2) continue;
+      if (set.do_intersect(cells[b].set)) switches.push_back({a, b});
+    }
+  }
+  return switches;
+}
+
+}  // namespace regrasp
