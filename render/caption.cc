@@ -47,12 +47,16 @@ std::string Describe(const Align& step) {
 
 }  // namespace
 
-std::string FrameCaption(const Plan& plan, int entry) {
+std::string EntryTitle(const Plan& plan, int entry) {
   if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial));
+  return std::visit([](const auto& kind) { return Describe(kind); }, plan.steps[entry - 1]);
+}
+
+std::string FrameCaption(const Plan& plan, int entry) {
+  if (entry == 0) return EntryTitle(plan, entry);
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
-  return step + " · " +
-         std::visit([](const auto& kind) { return Describe(kind); }, plan.steps[entry - 1]);
+  return step + " · " + EntryTitle(plan, entry);
 }
 
 }  // namespace regrasp

@@ -1,0 +1,136 @@
+// figure: draws every step of a planar plan as a figure for a paper.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "apps/options.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "render/plan_figure.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr char kProgram[] = "figure";
+
+/// Steps are numbered with this many digits, so that names sort.
+constexpr std::size_t kDigits = 3;
+
+struct FigureProgram {
+  std::string object_path;
+  std::string plan_path;
+  std::string out;
+  std::string format = "svg";
+  std::optional<double> scale;
+  bool allow_object_change = false;
+  bool quiet = false;
+
+  void AddTo(CLI::App& app);
+  int Run();
+
+ private:
+  void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
+  [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
+  void WriteFigures(const Polygon& polygon, const Plan& plan) const;
+};
+
+void FigureProgram::AddTo(CLI::App& app) {
+  app.add_option("--object", object_path, "Polygon file (WKT)")->required()->type_name("FILE");
+  app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
+  app.add_option("--out", out, "Folder for the figures")->required()->type_name("DIR");
+  app.add_option("--format", format, "svg, pdf or png (default svg)")
+      ->check(CLI::IsMember({"svg", "pdf", "png"}))
+      ->type_name("FORMAT");
+  app.add_flag("--allow-object-change", allow_object_change,
+               "Accept an object file with other bytes than the plan was made for");
+  AddScale(app, scale)
+      ->description("Metres per unit of length of the object file; must be the plan's");
+  AddQuiet(app, quiet);
+}
+
+void FigureProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) const {
+  if (object.object->dimension() != 2) {
+    throw InputError(object_path +
+                     ": a solid, but figure draws planar objects (validate draws solids)");
+  }
+  if (plan.dimension != 2) {
+    throw InputError(plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
+                     ", but " + object_path + " has dimension 2");
+  }
+  if (plan.object_sha256 != object.sha256 && !allow_object_change) {
+    throw InputError(plan_path + ": /object/sha256: the plan was made for an object with digest " +
+                     plan.object_sha256 + ", but " + object_path + " has " + object.sha256 +
+                     " (--allow-object-change accepts it)");
+  }
+  if (scale && *scale != plan.scale) {
+    throw InputError("--scale " + FormatDouble(*scale) + ": the plan's scale is " +
+                     FormatDouble(plan.scale));
+  }
+}
+
+Plan FigureProgram::Located(const Plan& plan, const Object& object) const {
+  ProgressLine progress(quiet);
+  progress.Report("checking the plan");
+  const PlanCheck check = CheckPlan(object, plan);
+  for (const StepCheck& step : check.steps) {
+    if (step.reason == Reason::kNone) continue;
+    throw InputError(plan_path + ": step " + std::to_string(step.index) + " (" + step.kind +
+                     "): " + std::string(ReasonName(step.reason)) + ": " + step.detail);
+  }
+  return check.located;
+}
+
+std::string FileName(int index, const std::string& kind, const std::string& format) {
+  const std::string number = std::to_string(index);
+  const std::size_t zeros = kDigits - std::min(kDigits, number.size());
+  return std::string(zeros, '0') + number + "_" + kind + "." + format;
+}
+
+void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const {
+  static const std::map<std::string, FigureFormat> kFormats = {
+      {"svg", FigureFormat::kSvg}, {"pdf", FigureFormat::kPdf}, {"png", FigureFormat::kPng}};
+  const FigureFormat file_format = kFormats.at(format);
+  const std::filesystem::path folder = out;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+  const std::vector<StepDiagram> diagrams = DescribePlan(polygon, plan);
+  const int count = static_cast<int>(diagrams.size());
+  ProgressLine progress(quiet);
+  for (int i = 0; i < count; ++i) {
+    progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
+    WriteFile(folder / FileName(i, diagrams[i].kind, format),
+              DrawStepFigure(polygon, diagrams, i, file_format));
+  }
+  WriteFile(folder / ("sheet." + format), DrawSheet(polygon, diagrams, file_format));
+}
+
+int FigureProgram::Run() {
+  const ObjectFile object = ReadObject(object_path);
+  const Plan plan = ReadPlan(plan_path);
+  CheckPlanFits(plan, object);
+  // Planar objects are polygons: ReadObject makes no other.
+  const auto& polygon = dynamic_cast<const Polygon&>(*object.object);
+  WriteFigures(polygon, Located(plan, polygon));
+  return kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Draws every step of a planar regrasp plan as a figure for a paper, and a sheet of all.",
+      kProgram);
+  FigureProgram program;
+  program.AddTo(app);
+  return RunProgram(app, argc, argv, [&] { return program.Run(); });
+}

@@ -1,0 +1,141 @@
+#include "render/panel_grasp.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "render/cairo_paint.h"
+#include "render/palette.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+// Points, unless said otherwise.
+constexpr double kConeBorder = 0.4;
+constexpr double kConeFill = 0.24;  ///< opacity
+constexpr double kConeBorderOpacity = 0.8;
+constexpr double kBeyondFocus = 1.12;  ///< of the distance from the contact to the focus point
+constexpr double kLongestOuter = kPanelMargin - 2;  ///< so that cones end on the panel
+constexpr double kHatchSpacing = 3.2;
+constexpr double kHatchWidth = 0.35;
+constexpr double kCellBorder = 0.5;
+constexpr double kForceLine = 0.55;
+constexpr double kForceLineInset = 4;  ///< from the panel's border
+constexpr double kDash = 3;
+constexpr double kFocusRadius = 1.7;
+constexpr double kFocusRim = 0.7;
+
+constexpr Color kHatch = {168, 174, 184};
+constexpr Color kCellInk = {96, 104, 118};
+
+/// One side of a cone as a sector with a round end.
+void DrawSector(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double half_angle,
+                double length, Color color) {
+  const double middle = std::atan2(axis.y(), axis.x());
+  cairo_new_path(cr);
+  cairo_move_to(cr, apex.x(), apex.y());
+  cairo_arc(cr, apex.x(), apex.y(), length, middle - half_angle, middle + half_angle);
+  cairo_close_path(cr);
+  SetColor(cr, color, kConeFill);
+  cairo_fill(cr);
+  for (const double side : {-half_angle, half_angle}) {
+    const Vector2d end = apex + length * Vector2d(std::cos(middle + side), std::sin(middle + side));
+    SetColor(cr, color, kConeBorderOpacity);
+    StrokeLine(cr, apex, end, kConeBorder);
+  }
+}
+
+/// The part of the line through `p` along `d` on the panel, a little inside its border.
+std::array<Vector2d, 2> LineOnPanel(const Vector2d& p, const Vector2d& d, const PanelView& view) {
+  const Vector2d corner(view.width, view.height);
+  double from = -corner.norm();
+  double to = corner.norm();
+  for (int k = 0; k < 2; ++k) {
+    if (d[k] == 0) continue;
+    const double a = (kForceLineInset - p[k]) / d[k];
+    const double b = (corner[k] - kForceLineInset - p[k]) / d[k];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return {p + from * d, p + to * d};
+}
+
+std::vector<Vector2d> OnPanel(const Outline& outline, const PanelView& view) {
+  std::vector<Vector2d> points;
+  for (const Vector2d& p : outline) points.push_back(view.ToPanel(p));
+  return points;
+}
+
+}  // namespace
+
+void DrawCones(cairo_t* cr, const StepDiagram& diagram, const PanelView& view, double length) {
+  const GraspDiagram& grasp = diagram.grasp;
+  for (std::size_t i = 0; i < grasp.cones.size(); ++i) {
+    const DoubleCone& cone = grasp.cones[i];
+    const Vector2d apex = view.ToPanel(cone.apex);
+    const Vector2d axis = PanelView::ToPanelDirection(cone.axis);
+    for (const double side : {1.0, -1.0}) {
+      double reach = side > 0 ? length : std::min(length, kLongestOuter);
+      if (grasp.focus && side * cone.axis.dot(*grasp.focus - cone.apex) > 0) {
+        reach = std::max(reach, kBeyondFocus * (view.ToPanel(*grasp.focus) - apex).norm());
+      }
+      DrawSector(cr, apex, side * axis, cone.half_angle, reach,
+                 FingerColor(diagram.fingers[i].finger));
+    }
+  }
+}
+
+void DrawFocusCell(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view) {
+  if (grasp.focus_cell.empty()) return;
+  cairo_save(cr);
+  cairo_new_path(cr);
+  for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
+  cairo_clip(cr);
+  SetColor(cr, kHatch);
+  const double step = kHatchSpacing * std::numbers::sqrt2;
+  for (double x = -view.height; x < view.width; x += step) {
+    StrokeLine(cr, {x, view.height}, {x + view.height, 0}, kHatchWidth);
+  }
+  cairo_restore(cr);
+  cairo_new_path(cr);
+  for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
+  SetColor(cr, kCellInk);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(cr, kCellBorder);
+  cairo_stroke(cr);
+}
+
+void DrawForceLines(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view) {
+  SetColor(cr, kInk);
+  for (const DoubleCone& cone : grasp.cones) {
+    const Vector2d p = view.ToPanel(cone.apex);
+    if (grasp.focus) StrokeLine(cr, p, view.ToPanel(*grasp.focus), kForceLine);
+    if (grasp.force_direction) {
+      const auto [a, b] = LineOnPanel(p, PanelView::ToPanelDirection(*grasp.force_direction), view);
+      StrokeLine(cr, a, b, kForceLine);
+    }
+  }
+  if (grasp.kind == DiagramKind::kTwoFinger) {
+    cairo_set_dash(cr, &kDash, 1, 0);
+    StrokeLine(cr, view.ToPanel(grasp.cones[0].apex), view.ToPanel(grasp.cones[1].apex),
+               kForceLine);
+    cairo_set_dash(cr, nullptr, 0, 0);
+  }
+}
+
+void DrawFocusPoint(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view) {
+  if (!grasp.focus) return;
+  const Vector2d p = view.ToPanel(*grasp.focus);
+  for (const bool rim : {true, false}) {
+    cairo_new_path(cr);
+    cairo_arc(cr, p.x(), p.y(), kFocusRadius + (rim ? kFocusRim : 0), 0, 2 * std::numbers::pi);
+    SetColor(cr, rim ? kWhite : kInk);
+    cairo_fill(cr);
+  }
+}
+
+}  // namespace regrasp

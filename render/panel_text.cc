@@ -1,0 +1,91 @@
+#include "render/panel_text.h"
+
+#include <memory>
+#include <sstream>
+
+#include "render/cairo_paint.h"
+#include "render/palette.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr double kHalo = 1.6;  ///< points
+constexpr char kClauseEnd = ';';
+
+/// The same font on every page: unhinted, so that an SVG, a PDF and a PNG have the same layout.
+void SetFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(cr, options);
+  cairo_font_options_destroy(options);
+}
+
+double TextWidth(cairo_t* cr, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+}  // namespace
+
+std::vector<std::string> WrapCaption(const std::string& caption, double width) {
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
+                                                                   cairo_destroy);
+  SetFont(context.get(), kCaptionFont, /*bold=*/false);
+  const auto fits = [&](const std::string& text) {
+    return TextWidth(context.get(), text) <= width;
+  };
+  if (fits(caption)) return {caption};
+  std::vector<std::string> lines;
+  bool new_line = true;
+  std::istringstream words(caption);
+  for (std::string word; words >> word;) {
+    if (!new_line && fits(lines.back() + " " + word)) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+    new_line = word.back() == kClauseEnd;
+  }
+  return lines;
+}
+
+void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top) {
+  SetFont(cr, kCaptionFont, /*bold=*/false);
+  SetColor(cr, kInk);
+  double base = top;
+  for (const std::string& line : lines) {
+    base += kLineHeight;
+    cairo_move_to(cr, x - TextWidth(cr, line) / 2, base);
+    cairo_show_text(cr, line.c_str());
+  }
+}
+
+void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
+  const std::string text = std::to_string(finger);
+  SetFont(cr, kNumberFont, /*bold=*/true);
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, text.c_str(), &e);
+  const double x = centre.x() - e.x_bearing - e.width / 2;
+  const double y = centre.y() - e.y_bearing - e.height / 2;
+  cairo_new_path(cr);
+  cairo_move_to(cr, x, y);
+  cairo_text_path(cr, text.c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  SetColor(cr, kWhite);
+  cairo_set_line_width(cr, kHalo);
+  cairo_stroke(cr);
+  cairo_move_to(cr, x, y);
+  SetColor(cr, kInk);
+  cairo_show_text(cr, text.c_str());
+}
+
+}  // namespace regrasp

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace regrasp {
+
+/// Size of captions and of finger numbers, points: readable at the size the page is printed.
+inline constexpr double kCaptionFont = 7.5;
+inline constexpr double kNumberFont = 7.5;
+inline constexpr double kLineHeight = 1.25 * kCaptionFont;
+
+/// The caption in lines no wider than `width` points, broken between words, and after each
+/// semicolon where it needs more than one line.
+[[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
+
+/// Writes lines centred about x, the first below `top`.
+void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top);
+
+/// Writes a finger's number, centred, with a white halo.
+void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre);
+
+}  // namespace regrasp
