@@ -76,6 +76,9 @@ class FilteredRange {
   explicit FilteredRange(Recipe recipe)
       : range_(ByIntervals(recipe)), exactly_([recipe] { return recipe(Exact(0)); }) {}
 
+  [[nodiscard]] const ContactRange<Interval>& by_intervals() const { return range_; }
+
+  /// True iff two ranges of one edge have a contact in common.
   [[nodiscard]] static bool Overlap(const FilteredRange& a, const FilteredRange& b) {
     try {
       return a.range_.Overlaps(b.range_);
