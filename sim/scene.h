@@ -38,7 +38,7 @@ struct Scene {
 [[nodiscard]] int FindSite(const Scene& scene, const Contact& contact_S);
 
 /// The scene as MJCF; every number reads back as the same double.
-/// @param hold  the control of every finger, newtons over stiffness that holds the
+/// @param hold  the control of every finger, newtons over stiffness, that holds the
 ///              initial grasp; stored as the keyframe "hold".
 /// @param surface  whether the object's true surface is written too, for the eye only.
 [[nodiscard]] std::string FormatScene(const Scene& scene, const Object& body,
