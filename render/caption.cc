@@ -42,7 +42,7 @@ std::string Describe(const Switch& step) {
 
 std::string Describe(const Align& step) {
   const std::vector<int> moved = MovedFingers(step);
-  return moved.empty() ? "align" : "align: move " + List(moved) + " along the surface";
+  return moved.empty() ? "align" : "align: move " + List(moved);
 }
 
 }  // namespace
@@ -56,7 +56,9 @@ std::string FrameCaption(const Plan& plan, int entry) {
   if (entry == 0) return EntryTitle(plan, entry);
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
-  return step + " · " + EntryTitle(plan, entry);
+  const auto* align = std::get_if<Align>(&plan.steps[entry - 1]);
+  const bool moves = align != nullptr && !MovedFingers(*align).empty();
+  return step + " · " + EntryTitle(plan, entry) + (moves ? " along the surface" : "");
 }
 
 }  // namespace regrasp

@@ -7,7 +7,7 @@
 namespace regrasp {
 
 /// What happens in an entry of a plan: "hold: fingers 0, 1, 2, 3", "switch: place 4, release 0",
-/// "align: move 1, 3 along the surface".
+/// "align: move 1, 3".
 /// @param entry  0 the hold, k the plan's k-th step.
 [[nodiscard]] std::string EntryTitle(const Plan& plan, int entry);
 

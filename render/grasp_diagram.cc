@@ -1,13 +1,14 @@
 #include "render/grasp_diagram.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "planner/polygon/common_cone.h"
 #include "planner/polygon/convex_region.h"
+#include "planner/polygon/focus_cell.h"
+#include "planner/polygon/grasp_set.h"
 #include "planner/polygon/plane.h"
 
 namespace regrasp {
@@ -20,13 +21,14 @@ using Frame = EdgeFrame<double>;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Regions are cut at this distance from the centroid, in diameters: at φ = φ* they may reach
-/// infinity. Nothing on a page is that far away.
-constexpr double kReach = 100;
-
-/// Parts of a cell with a smaller area, over D², are rounding errors of touching cones. It is 1e-6
-/// of the diameter, the tolerance for reading points, squared.
+/// What sees a grasp and has a smaller area, over D², is rounding errors of touching cones. It is
+/// 1e-6 of the diameter, the tolerance for reading points, squared.
 constexpr double kLeastArea = kPointTolerance * kPointTolerance;
+
+/// Cones are this much narrower where it is computed what sees a grasp, relative: at φ* borders of
+/// two cones can lie on one line, and where they meet would be a matter of rounding. Corners are
+/// then known to 1e-16 / 1e-9 of the diameter, far below what a page shows.
+constexpr double kNarrower = 1 - 1e-9;
 
 Vector2d Head(const Eigen::Vector3d& v) { return v.head<2>(); }
 Vector2d ToEigen(const Vector2<double>& v) { return {v.x, v.y}; }
@@ -55,44 +57,20 @@ Vector2d Centroid(const Outline& outline) {
   return origin + sum / Area(outline);
 }
 
-/// A direction of a cone's border at the end of an edge's visible region: points left of the line
-/// through `p`.
-struct Border {
-  Vector2<double> direction;
-  Vector2<double> p;
-};
-
-/// What sees a contact, or some contact between two of one edge, on one side of the edge's line.
-std::array<Border, 3> VisibleFrom(const Frame& frame, const Vector2<double>& first,
-                                  const Vector2<double>& last, bool outer) {
-  if (outer) return {{{-frame.along, first}, {frame.left, last}, {-frame.right, first}}};
-  return {{{frame.along, first}, {frame.right, last}, {-frame.left, first}}};
-}
-
-/// The contacts of a grasp, or the edges they are on, as sources of cones.
-struct ConeSource {
-  Frame frame;
-  Vector2<double> first;  ///< the contact itself, or the first end of the edge
-  Vector2<double> last;
-};
-
-class CellFinder {
+/// The points that see all contacts in their double-sided cones: a convex part for each choice of
+/// sides that has an interior.
+class CommonPoints {
  public:
-  explicit CellFinder(const Polygon& polygon)
+  explicit CommonPoints(const Polygon& polygon)
       : centre_(Head(polygon.mass_properties().centroid)), diameter_(polygon.diameter()) {}
 
-  /// Points that see all of them in their double-sided cones: a convex part for each choice of
-  /// sides that has an interior.
-  [[nodiscard]] std::vector<Outline> Find(const std::array<ConeSource, 3>& sources) const {
+  [[nodiscard]] std::vector<Outline> Find(const std::vector<DoubleCone>& cones) const {
     std::vector<Outline> parts;
-    for (int sides = 0; sides < 8; ++sides) {
+    for (unsigned sides = 0; sides < 1U << cones.size(); ++sides) {
       Region region = Page();
-      for (int k = 0; k < 3; ++k) {
-        const ConeSource& s = sources[k];
-        for (const Border& border :
-             VisibleFrom(s.frame, s.first, s.last, ((sides >> k) & 1) != 0)) {
-          region.Clip(LeftOf(border.direction, border.p));
-        }
+      for (std::size_t k = 0; k < cones.size(); ++k) {
+        const double side = ((sides >> k) & 1U) != 0 ? -1 : 1;
+        Clip(cones[k].apex, side * cones[k].axis, kNarrower * cones[k].half_angle, region);
       }
       Outline outline = ToOutline(region);
       if (outline.size() > 2 && Area(outline) > kLeastArea * diameter_ * diameter_) {
@@ -104,7 +82,7 @@ class CellFinder {
 
  private:
   [[nodiscard]] Region Page() const {
-    const double reach = kReach * diameter_;
+    const double reach = kFarthestFocus * diameter_;
     const double x = centre_.x();
     const double y = centre_.y();
     return Region({HalfPlane<double>{0, 1, reach - y},
@@ -112,6 +90,14 @@ class CellFinder {
                    {0, -1, reach + y},
                    {1, 0, reach - x}},
                   {});
+  }
+
+  /// Cuts a region to one side of a double-sided cone.
+  static void Clip(const Vector2d& apex, const Vector2d& axis, double half_angle, Region& region) {
+    const Vector2<double> p = FromEigen(apex);
+    const double middle = AngleOf(axis);
+    region.Clip(LeftOf(FromEigen(Direction(middle - half_angle)), p));
+    region.Clip(LeftOf(FromEigen(-Direction(middle + half_angle)), p));
   }
 
   static Outline ToOutline(const Region& region) {
@@ -125,6 +111,16 @@ class CellFinder {
   Vector2d centre_;
   double diameter_;
 };
+
+/// The focus cell of three edges, all its parts.
+std::vector<Outline> CellOf(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+  GraspSet set;
+  set.tangent = std::tan(half_angle);
+  for (const Contact& contact : grasp) set.edges.push_back(contact.face);
+  std::sort(set.edges.begin(), set.edges.end());
+  set.parts = {0, 1, 2, 3, 4, 5, 6, 7};
+  return FocusCell(polygon, set);
+}
 
 Frame FrameOf(const Polygon& polygon, int face, double half_angle) {
   const auto [a, b] = polygon.edge(face);
@@ -169,24 +165,15 @@ std::optional<GraspDiagram> TryConcurrent(const Polygon& polygon, const Grasp& g
                                           double friction) {
   const double half_angle = std::min(friction, LargestSpanningAngle(grasp));
   if (half_angle <= 0) return std::nullopt;
-  std::array<ConeSource, 3> contacts;
-  std::array<ConeSource, 3> edges;
-  for (int k = 0; k < 3; ++k) {
-    const Frame frame = FrameOf(polygon, grasp[k].face, half_angle);
-    const Vector2<double> p = FromEigen(Head(grasp[k].p));
-    contacts[k] = {frame, p, p};
-    edges[k] = {frame, frame.a, frame.b};
-  }
-  const CellFinder finder(polygon);
-  const std::vector<Outline> common = finder.Find(contacts);
-  if (common.empty()) return std::nullopt;
   GraspDiagram diagram;
   diagram.kind = DiagramKind::kConcurrent;
   diagram.cones = FrictionCones(grasp, half_angle);
+  const std::vector<Outline> common = CommonPoints(polygon).Find(diagram.cones);
+  if (common.empty()) return std::nullopt;
   diagram.focus = Centroid(
       *std::max_element(common.begin(), common.end(),
                         [](const Outline& a, const Outline& b) { return Area(a) < Area(b); }));
-  diagram.focus_cell = finder.Find(edges);
+  diagram.focus_cell = CellOf(polygon, grasp, half_angle);
   return diagram;
 }
 

@@ -10,6 +10,7 @@
 #include "render/finger_marker.h"
 #include "render/label_layout.h"
 #include "render/palette.h"
+#include "render/panel_grasp.h"
 #include "render/panel_text.h"
 
 namespace regrasp {
@@ -25,13 +26,17 @@ constexpr double kRingWidth = 0.8;
 constexpr double kArrowWidth = 1.0;
 constexpr double kArrowNear =
     6.2;  ///< from the contact to the arrow of a placed or released finger
-constexpr double kArrowFar = 17;
+constexpr double kArrowFar = 16;
 constexpr double kPathOffset = 4.4;  ///< from the border to the arrow of a moved finger
 constexpr double kTick = 1.6;        ///< half of its length
 constexpr double kNumberRadius = 4.8;
 
 /// An arrow into a hole or a notch takes this share of the room there.
 constexpr double kShareOfRoom = 0.8;
+
+/// Two fingers nearer than this have their arrows this far aside, so that they don't overlap.
+constexpr double kNearby = 7;
+constexpr double kAside = 3;
 
 /// A moved finger whose way is shorter, points, has no arrow: its marker covers it.
 constexpr double kShortestPath = 1;
@@ -40,10 +45,9 @@ constexpr double kShortestPath = 1;
 constexpr double kMarkerWeight = 2;
 constexpr double kArrowWeight = 1.5;
 constexpr double kFocusWeight = 1.5;
-constexpr double kLineWeight = 0.5;
-constexpr double kBorderWeight = 0.4;
-constexpr double kConeWeight = 0.25;
-constexpr double kConeStrip = 0.3;  ///< half the width of a cone over its length
+constexpr double kLineWeight = 0.4;
+constexpr double kBorderWeight = 0.25;
+constexpr double kConeWeight = 0.12;
 
 struct FingerShape {
   const DiagramFinger* finger;
@@ -83,6 +87,21 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
   return {};
 }
 
+/// Where one finger takes the place of another, one arrow arrives beside the one that leaves.
+void MoveArrowAside(FingerShape& shape, const std::vector<FingerShape>& shapes) {
+  const FingerRole role = shape.finger->role;
+  if (role != FingerRole::kPlaced && role != FingerRole::kReleased) return;
+  const Vector2d tangent(-shape.outward.y(), shape.outward.x());
+  for (const FingerShape& other : shapes) {
+    const Vector2d away = shape.contact - other.contact;
+    if (&other == &shape || other.arrow.empty() || away.norm() > kNearby) continue;
+    const double along = away.dot(tangent);
+    const bool forward = along != 0 ? along > 0 : role == FingerRole::kPlaced;
+    for (Vector2d& p : shape.arrow) p += (forward ? kAside : -kAside) * tangent;
+    return;
+  }
+}
+
 std::vector<FingerShape> ShapesOf(const Polygon& polygon, const StepDiagram& diagram,
                                   const PanelView& view) {
   std::vector<FingerShape> shapes;
@@ -91,6 +110,7 @@ std::vector<FingerShape> ShapesOf(const Polygon& polygon, const StepDiagram& dia
                       PanelView::ToPanelDirection(finger.contact.outward),
                       ArrowOf(polygon, finger, view)});
   }
+  for (FingerShape& shape : shapes) MoveArrowAside(shape, shapes);
   return shapes;
 }
 
@@ -123,8 +143,7 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
 }
 
 std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& diagram,
-                                  const std::vector<FingerShape>& shapes, const PanelView& view,
-                                  double cone_length) {
+                                  const std::vector<FingerShape>& shapes, const PanelView& view) {
   std::vector<Obstacle> obstacles;
   for (int face = 0; face < polygon.face_count(); ++face) {
     const auto [a, b] = polygon.edge(face);
@@ -144,8 +163,16 @@ std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& dia
   }
   for (const DoubleCone& cone : diagram.grasp.cones) {
     const Vector2d apex = view.ToPanel(cone.apex);
-    const Vector2d axis = cone_length * PanelView::ToPanelDirection(cone.axis);
-    obstacles.push_back({apex - axis, apex + axis, kConeStrip * cone_length, kConeWeight});
+    for (const int side : {1, -1}) {
+      const double length = ConeLength(polygon, diagram.grasp, cone, side, view);
+      const Vector2d axis = side * length * PanelView::ToPanelDirection(cone.axis);
+      obstacles.push_back({apex, apex + axis, length * std::sin(cone.half_angle) / 2, kConeWeight});
+    }
+    if (diagram.grasp.force_direction) {
+      const Vector2d way =
+          (view.width + view.height) * PanelView::ToPanelDirection(*diagram.grasp.force_direction);
+      obstacles.push_back({apex - way, apex + way, 0, kLineWeight});
+    }
     if (diagram.grasp.focus) {
       const Vector2d focus = view.ToPanel(*diagram.grasp.focus);
       obstacles.push_back({apex, focus, 0, kLineWeight});
@@ -177,14 +204,14 @@ double OutwardRoom(const Polygon& polygon, const BorderPoint& from) {
 }
 
 void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
-                 const PanelView& view, double cone_length) {
+                 const PanelView& view) {
   const std::vector<FingerShape> shapes = ShapesOf(polygon, diagram, view);
   std::vector<LabelAnchor> anchors;
   for (const FingerShape& shape : shapes) {
     DrawShape(cr, shape, view);
     anchors.push_back({shape.contact, shape.outward});
   }
-  const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, view, cone_length);
+  const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, view);
   const std::vector<Vector2d> centres =
       PlaceLabels(anchors, obstacles, kNumberRadius, static_cast<int>(view.width),
                   static_cast<int>(view.height));

@@ -12,9 +12,8 @@ namespace regrasp {
 /// arrow that arrives for a placed finger; a hollow marker and an arrow that leaves for a released
 /// one; a hollow marker at the start of a moved one, and an arrow beside the border from there to
 /// the contact with a tick at each waypoint.
-/// @param cone_length  of the cones that numbers should not cover, points.
 void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
-                 const PanelView& view, double cone_length);
+                 const PanelView& view);
 
 /// How far one can go out of the material from a place on the border until the polygon is met
 /// again; infinity where it never is.

@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 namespace {
 
 // Points, unless said otherwise.
+constexpr double kConeLength = 0.2;  ///< of the polygon's diameter
 constexpr double kConeBorder = 0.4;
 constexpr double kConeFill = 0.24;  ///< opacity
 constexpr double kConeBorderOpacity = 0.8;
@@ -72,18 +73,22 @@ std::vector<Vector2d> OnPanel(const Outline& outline, const PanelView& view) {
 
 }  // namespace
 
-void DrawCones(cairo_t* cr, const StepDiagram& diagram, const PanelView& view, double length) {
+double ConeLength(const Polygon& polygon, const GraspDiagram& grasp, const DoubleCone& cone,
+                  int side, const PanelView& view) {
+  const double usual = kConeLength * view.scale * polygon.diameter();
+  const double length = side > 0 ? usual : std::min(usual, kLongestOuter);
+  if (!grasp.focus || side * cone.axis.dot(*grasp.focus - cone.apex) <= 0) return length;
+  return std::max(length, kBeyondFocus * view.scale * (*grasp.focus - cone.apex).norm());
+}
+
+void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+               const PanelView& view) {
   const GraspDiagram& grasp = diagram.grasp;
   for (std::size_t i = 0; i < grasp.cones.size(); ++i) {
     const DoubleCone& cone = grasp.cones[i];
-    const Vector2d apex = view.ToPanel(cone.apex);
-    const Vector2d axis = PanelView::ToPanelDirection(cone.axis);
-    for (const double side : {1.0, -1.0}) {
-      double reach = side > 0 ? length : std::min(length, kLongestOuter);
-      if (grasp.focus && side * cone.axis.dot(*grasp.focus - cone.apex) > 0) {
-        reach = std::max(reach, kBeyondFocus * (view.ToPanel(*grasp.focus) - apex).norm());
-      }
-      DrawSector(cr, apex, side * axis, cone.half_angle, reach,
+    for (const int side : {1, -1}) {
+      DrawSector(cr, view.ToPanel(cone.apex), side * PanelView::ToPanelDirection(cone.axis),
+                 cone.half_angle, ConeLength(polygon, grasp, cone, side, view),
                  FingerColor(diagram.fingers[i].finger));
     }
   }
@@ -95,11 +100,15 @@ void DrawFocusCell(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
   cairo_clip(cr);
-  SetColor(cr, kHatch);
+  cairo_new_path(cr);
   const double step = kHatchSpacing * std::numbers::sqrt2;
   for (double x = -view.height; x < view.width; x += step) {
-    StrokeLine(cr, {x, view.height}, {x + view.height, 0}, kHatchWidth);
+    cairo_move_to(cr, x, view.height);
+    cairo_line_to(cr, x + view.height, 0);
   }
+  SetColor(cr, kHatch);
+  cairo_set_line_width(cr, kHatchWidth);
+  cairo_stroke(cr);
   cairo_restore(cr);
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));

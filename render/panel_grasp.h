@@ -10,10 +10,15 @@
 
 namespace regrasp {
 
-/// Draws the cones of a grasp, translucent, in their fingers' colours: both sides of each, as long
-/// as it takes to see them, and beyond the focus point on its side.
-/// @param length  of a side, points.
-void DrawCones(cairo_t* cr, const StepDiagram& diagram, const PanelView& view, double length);
+/// How long a side of a cone is drawn, points: on the inner side a share of the polygon's diameter,
+/// on the outer side no more than the panel's margin, and in both cases beyond a focus point there.
+/// @param side  1 the inner side, −1 the outer one.
+[[nodiscard]] double ConeLength(const Polygon& polygon, const GraspDiagram& grasp,
+                                const DoubleCone& cone, int side, const PanelView& view);
+
+/// Draws the cones of a grasp, translucent, in their fingers' colours, both sides of each.
+void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+               const PanelView& view);
 
 /// Hatches the focus cell.
 void DrawFocusCell(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view);

@@ -1,7 +1,8 @@
 #include "render/panel_text.h"
 
+#include <algorithm>
 #include <memory>
-#include <sstream>
+#include <string>
 
 #include "render/cairo_paint.h"
 #include "render/palette.h"
@@ -32,6 +33,20 @@ double TextWidth(cairo_t* cr, const std::string& text) {
   return extents.x_advance;
 }
 
+/// The parts of a text, each up to a separator and with it, without spaces around.
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size() - 1) + 1;
+    std::string part = text.substr(begin, end - begin);
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    if (!part.empty()) parts.push_back(part);
+    begin = end;
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<std::string> WrapCaption(const std::string& caption, double width) {
@@ -43,17 +58,20 @@ std::vector<std::string> WrapCaption(const std::string& caption, double width) {
   const auto fits = [&](const std::string& text) {
     return TextWidth(context.get(), text) <= width;
   };
-  if (fits(caption)) return {caption};
   std::vector<std::string> lines;
-  bool new_line = true;
-  std::istringstream words(caption);
-  for (std::string word; words >> word;) {
-    if (!new_line && fits(lines.back() + " " + word)) {
-      lines.back() += " " + word;
+  const auto add = [&](const std::string& text) {
+    if (!lines.empty() && fits(lines.back() + " " + text)) {
+      lines.back() += " " + text;
     } else {
-      lines.push_back(word);
+      lines.push_back(text);
     }
-    new_line = word.back() == kClauseEnd;
+  };
+  for (const std::string& clause : Split(caption, kClauseEnd)) {
+    if (fits(clause)) {
+      add(clause);
+    } else {
+      for (const std::string& word : Split(clause, ' ')) add(word);
+    }
   }
   return lines;
 }

@@ -13,8 +13,8 @@ inline constexpr double kCaptionFont = 7.5;
 inline constexpr double kNumberFont = 7.5;
 inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 
-/// The caption in lines no wider than `width` points, broken between words, and after each
-/// semicolon where it needs more than one line.
+/// The caption in lines no wider than `width` points, broken after semicolons, and
+/// between words where that does not do.
 [[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
 
 /// Writes lines centred about x, the first below `top`.

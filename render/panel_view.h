@@ -25,7 +25,7 @@ struct PanelView {
 };
 
 /// Room around the object for markers, arrows and numbers, points.
-inline constexpr double kPanelMargin = 22;
+inline constexpr double kPanelMargin = 18;
 
 /// Focus points farther than this from the polygon's bounding box, in diameters, are off the page:
 /// the object would become too small.

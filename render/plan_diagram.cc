@@ -33,10 +33,10 @@ const char* TypeName(DiagramKind kind) {
 std::string Describe(const GraspDiagram& grasp, double friction) {
   const std::string name = TypeName(grasp.kind);
   if (grasp.kind != DiagramKind::kConcurrent) return name;
-  const double half_angle = grasp.cones.front().half_angle;
-  if (!(half_angle < friction)) return name;
   const auto degrees = [](double radians) { return FormatShort(Degrees(radians), 3) + "°"; };
-  return name + ", φ = " + degrees(half_angle) + " < θ = " + degrees(friction);
+  const std::string drawn = degrees(grasp.cones.front().half_angle);
+  const std::string theta = degrees(friction);
+  return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
 }
 
 const FingerContact* Find(const FingerGrasp& grasp, int finger) {

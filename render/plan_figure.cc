@@ -26,8 +26,6 @@ constexpr int kUsualColumns = 4;
 
 constexpr double kBorderWidth = 0.9;  ///< of the polygon, points
 constexpr Color kMaterial = {234, 238, 243};
-/// Length of one side of a cone over the smaller side of the panel's object.
-constexpr double kConeLength = 0.2;
 
 using Lines = std::vector<std::string>;
 
@@ -43,7 +41,6 @@ void AddPolygon(cairo_t* cr, const Polygon& polygon, const PanelView& view) {
 
 void DrawPanel(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
                const PanelView& view, const Vector2d& corner) {
-  const double cone_length = kConeLength * view.scale * polygon.diameter();
   cairo_save(cr);
   cairo_translate(cr, corner.x(), corner.y());
   cairo_rectangle(cr, 0, 0, view.width, view.height);
@@ -52,14 +49,14 @@ void DrawPanel(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
   SetColor(cr, kMaterial);
   cairo_fill(cr);
   DrawFocusCell(cr, diagram.grasp, view);
-  DrawCones(cr, diagram, view, cone_length);
+  DrawCones(cr, polygon, diagram, view);
   AddPolygon(cr, polygon, view);
   SetColor(cr, kInk);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(cr, kBorderWidth);
   cairo_stroke(cr);
   DrawForceLines(cr, diagram.grasp, view);
-  DrawFingers(cr, polygon, diagram, view, cone_length);
+  DrawFingers(cr, polygon, diagram, view);
   DrawFocusPoint(cr, diagram.grasp, view);
   cairo_restore(cr);
 }
