@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "planner/base/error.h"
 
@@ -29,6 +31,16 @@ void Demand(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw EnvironmentError(std::string("the figure cannot be drawn: ") +
                          cairo_status_to_string(status));
+}
+
+/// Removes the page's name from an SVG: Cairo numbers its surfaces over the life of the process.
+void RemoveSurfaceName(std::string& svg) {
+  static constexpr std::string_view kBegin = "<g";
+  static constexpr std::string_view kName = " id=\"surface";
+  const std::size_t group = svg.find(std::string(kBegin) + std::string(kName));
+  if (group == std::string::npos) return;
+  const std::size_t name = group + kBegin.size();
+  svg.erase(name, svg.find('>', name) - name);
 }
 
 }  // namespace
@@ -80,6 +92,7 @@ std::string FigurePage::Finish() {
     cairo_surface_finish(surface_.get());
     Demand(cairo_surface_status(surface_.get()));
   }
+  if (format_ == FigureFormat::kSvg) RemoveSurfaceName(*bytes_);
   return std::move(*bytes_);
 }
 
