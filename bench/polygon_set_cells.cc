@@ -140,13 +140,20 @@ std::vector<SetCell> FindSetCells(const Polygon& polygon,
     return seeing.emplace(std::pair(edge, t), SeeingEdge(polygon, edge, t, reach)).first->second;
   };
   std::vector<SetCell> cells;
-  for (const auto& [edges, t] : candidates) {
-    CellSet cell = see(edges[0], t);
-    cell.intersection(see(edges[1], t));
+  CellSet seeing_two;
+  const SetCandidate* last = nullptr;
+  for (const SetCandidate& candidate : candidates) {
+    const auto& [edges, t] = candidate;
+    if (!last || last->edges[0] != edges[0] || last->edges[1] != edges[1] || last->tangent != t) {
+      seeing_two = see(edges[0], t);
+      seeing_two.intersection(see(edges[1], t));
+      last = &candidate;
+    }
+    CellSet cell = seeing_two;
     cell.intersection(see(edges[2], t));
     std::vector<CGAL::Polygon_with_holes_2<CellKernel>> components;
     cell.polygons_with_holes(std::back_inserter(components));
-    for (const auto& component : components) cells.push_back({edges, CellSet(component)});
+    for (auto& component : components) cells.push_back({edges, std::move(component)});
   }
   return cells;
 }
@@ -155,10 +162,10 @@ std::vector<std::array<int, 2>> FindSetCellSwitches(const std::vector<SetCell>& 
   std::vector<std::array<int, 2>> switches;
   const int n = static_cast<int>(cells.size());
   for (int a = 0; a < n; ++a) {
-    CellSet set = cells[a].set;  // do_intersect is not const
+    CellSet set(cells[a].component);
     for (int b = a + 1; b < n; ++b) {
       if (CommonEdges(cells[a].edges, cells[b].edges) != 2) continue;
-      if (set.do_intersect(cells[b].set)) switches.push_back({a, b});
+      if (set.do_intersect(cells[b].component)) switches.push_back({a, b});
     }
   }
   return switches;

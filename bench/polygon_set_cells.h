@@ -19,7 +19,7 @@ using CellSet = CGAL::Polygon_set_2<CellKernel>;
 /// A connected component of the interior of a focus cell.
 struct SetCell {
   std::array<int, 3> edges;  ///< ascending
-  CellSet set;
+  CGAL::Polygon_with_holes_2<CellKernel> component;
 };
 
 /// Three edges, ascending, whose normals pass the test on normals alone.
@@ -50,7 +50,8 @@ struct SetCandidate {
 inline constexpr double kCellReach = 0x1p40;
 
 /// The components of the candidates' focus cells, in their order. What sees an edge is built once
-/// for each tangent.
+/// for each tangent, and what sees the first two edges of a triple is kept for the triples that
+/// follow.
 [[nodiscard]] std::vector<SetCell> FindSetCells(const Polygon& polygon,
                                                 const std::vector<SetCandidate>& candidates,
                                                 double reach = kCellReach);

@@ -41,7 +41,7 @@ CellSet HalfPlaneSet(const Polygon& polygon, int edge, bool outer) {
 std::vector<int> PartsOf(const Polygon& polygon, const SetCell& cell) {
   std::vector<int> parts;
   for (int part = 0; part < 8; ++part) {
-    CellSet rest = cell.set;
+    CellSet rest(cell.component);
     for (int k = 0; k < 3; ++k) {
       rest.intersection(HalfPlaneSet(polygon, cell.edges[k], (part >> k & 1) != 0));
     }
@@ -53,7 +53,7 @@ std::vector<int> PartsOf(const Polygon& polygon, const SetCell& cell) {
 /// True iff the cell comes near the far end of what sees one of its edges.
 bool ReachesEnd(const Polygon& polygon, const SetCell& cell, double tangent) {
   return std::any_of(cell.edges.begin(), cell.edges.end(), [&](int edge) {
-    CellSet beyond = cell.set;
+    CellSet beyond(cell.component);
     beyond.difference(SeeingEdge(polygon, edge, tangent, kFarthestReach / 2));
     return !beyond.is_empty();
   });
