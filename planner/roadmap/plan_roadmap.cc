@@ -12,15 +12,14 @@
 #include "planner/graph/widest_path.h"
 #include "planner/grasp/quality.h"
 #include "planner/roadmap/contact_points.h"
+#include "planner/roadmap/surface_sample.h"
 #include "planner/roadmap/vertex_quality.h"
 
 namespace regrasp {
 
 namespace {
 
-/// Contacts this close, relative to the diameter, are at the same point: twice the tolerance for
-/// reading, so that no checker takes them for coincident after rounding.
-constexpr double kSamePoint = 2 * kPointTolerance;
+constexpr int kContacts = 4;
 
 /// Vertices that a random draw looks at before it gives up; a second of quality tests.
 constexpr int kMaxVertexDraws = 20'000;
@@ -100,12 +99,19 @@ class RoadmapPlanner {
   /// Settles every choice that does not depend on the roadmap.
   GraspChoice Fix(GraspChoice choice, RandomUse use) const {
     if (choice.kind == GraspChoice::Kind::kGiven) {
-      CheckGivenGrasp(choice, frame_, options_.half_angle, SamePoint(solid_));
+      CheckGivenGrasp(choice, {"roadmap", kContacts, kContacts}, frame_, options_.half_angle,
+                      SamePoint(solid_));
     }
     if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
     RandomStream random(options_.seed, use);
-    const auto grasp = DrawGraspOnSurface(solid_, options_.half_angle, options_.min_quality,
-                                          SamePoint(solid_), random);
+    const SurfaceSampler sampler(solid_);
+    const auto grasp = DrawGoodGrasp(
+        [&] {
+          Grasp drawn;
+          while (drawn.size() < kContacts) drawn.push_back(sampler.Draw(random));
+          return drawn;
+        },
+        frame_, options_.half_angle, options_.min_quality, SamePoint(solid_));
     if (!grasp) {
       throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                     " grasps drawn on the surface is force closure with a quality of at least " +

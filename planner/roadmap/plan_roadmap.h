@@ -9,7 +9,7 @@
 
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
-#include "planner/roadmap/grasp_choice.h"
+#include "planner/graph/grasp_choice.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp {

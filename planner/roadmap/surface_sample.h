@@ -4,7 +4,7 @@
 
 #include "planner/grasp/contact.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/random.h"
+#include "planner/base/random.h"
 
 namespace regrasp {
 

@@ -1,4 +1,4 @@
-#include "planner/roadmap/grasp_choice.h"
+#include "planner/graph/grasp_choice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
+#include "planner/roadmap/surface_sample.h"
 #include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {
@@ -17,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kSamePoint = 1e-7;
+constexpr double kApart = 1e-7;
 constexpr double kHalf = 0.03;
 
 /// Two fingers on each of two opposite faces of the cube, `lean` apart along z at the second pair,
@@ -31,7 +32,7 @@ GraspChoice OppositePairs(double lean) {
 }
 
 void Check(const GraspChoice& choice, double degrees) {
-  CheckGivenGrasp(choice, MakeCube().wrench_frame(), Radians(degrees), kSamePoint);
+  CheckGivenGrasp(choice, {"roadmap", 4, 4}, MakeCube().wrench_frame(), Radians(degrees), kApart);
 }
 
 TEST(CheckGivenGrasp, AcceptsAForceClosureGraspOfFour) {
@@ -66,6 +67,16 @@ TEST(CheckGivenGrasp, RefusesThreeAndFiveContacts) {
               ThrowsMessage<InputError>(HasSubstr("needs 4 contacts, found 5")));
 }
 
+TEST(CheckGivenGrasp, NamesTheRangeOfContactsThatAPlannerTakes) {
+  GraspChoice choice = OppositePairs(0);
+  choice.grasp.resize(1);
+  EXPECT_THAT(
+      [&] {
+        CheckGivenGrasp(choice, {"polygon", 2, 4}, MakeCube().wrench_frame(), Radians(20), kApart);
+      },
+      ThrowsMessage<InputError>(HasSubstr("the planner polygon needs 2 to 4 contacts, found 1")));
+}
+
 TEST(CheckGivenGrasp, RefusesTwoContactsAtOnePoint) {
   GraspChoice choice = OppositePairs(0);
   choice.grasp[3] = choice.grasp[2];
@@ -73,13 +84,23 @@ TEST(CheckGivenGrasp, RefusesTwoContactsAtOnePoint) {
               ThrowsMessage<InputError>(HasSubstr("contacts 2 and 3 are at the same point")));
 }
 
-TEST(DrawGraspOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
+std::optional<Grasp> DrawOnCube(const Polyhedron& cube, double degrees, double min_quality) {
+  static RandomStream random(1, RandomUse::kStart);
+  const SurfaceSampler sampler(cube);
+  const auto draw = [&] {
+    Grasp grasp;
+    while (grasp.size() < 4) grasp.push_back(sampler.Draw(random));
+    return grasp;
+  };
+  return DrawGoodGrasp(draw, cube.wrench_frame(), Radians(degrees), min_quality, kApart);
+}
+
+TEST(DrawGoodGrasp, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
   const Polyhedron cube = MakeCube();
-  RandomStream random(1, RandomUse::kStart);
   std::vector<int> on_face(cube.face_count(), 0);
   constexpr int kGrasps = 48;
   for (int i = 0; i < kGrasps; ++i) {
-    const auto grasp = DrawGraspOnSurface(cube, Radians(20), 0.02, kSamePoint, random);
+    const auto grasp = DrawOnCube(cube, 20, 0.02);
     ASSERT_TRUE(grasp.has_value());
     ASSERT_EQ(grasp->size(), 4u);
     EXPECT_TRUE(IsForceClosure(*grasp, cube.wrench_frame(), Radians(20)));
@@ -90,10 +111,9 @@ TEST(DrawGraspOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
   for (const int count : on_face) EXPECT_NEAR(count, 4 * kGrasps / 6, 4 * kGrasps / 12);
 }
 
-TEST(DrawGraspOnSurface, GivesUpWhereNoGraspIsThatGood) {
-  RandomStream random(1, RandomUse::kStart);
+TEST(DrawGoodGrasp, GivesUpWhereNoGraspIsThatGood) {
   // No grasp resists more than its whole squeeze.
-  EXPECT_FALSE(DrawGraspOnSurface(MakeCube(), Radians(5), 1.1, kSamePoint, random).has_value());
+  EXPECT_FALSE(DrawOnCube(MakeCube(), 5, 1.1).has_value());
 }
 
 }  // namespace

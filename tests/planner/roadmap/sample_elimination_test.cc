@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "planner/roadmap/random.h"
+#include "planner/base/random.h"
 
 namespace regrasp {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/roadmap/random.h"
+#include "planner/base/random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/roadmap/grasp_choice.h"
+#include "planner/graph/grasp_choice.h"
 
 #include <cmath>
 
@@ -8,13 +8,10 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/roadmap/surface_sample.h"
 
 namespace regrasp {
 
 namespace {
-
-constexpr std::size_t kContacts = 4;
 
 /// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
 std::string NeededDegrees(const RequiredHalfAngle& required) {
@@ -33,12 +30,14 @@ std::optional<std::pair<int, int>> ContactsAtSamePoint(const Grasp& grasp, doubl
 
 }  // namespace
 
-void CheckGivenGrasp(const GraspChoice& choice, const WrenchFrame& frame, double half_angle,
-                     double same_point) {
+void CheckGivenGrasp(const GraspChoice& choice, const ContactCount& count, const WrenchFrame& frame,
+                     double half_angle, double same_point) {
   const Grasp& grasp = choice.grasp;
-  if (grasp.size() != kContacts) {
-    throw InputError(choice.name + ": /contacts: the planner roadmap needs 4 contacts, found " +
-                     std::to_string(grasp.size()));
+  const int found = static_cast<int>(grasp.size());
+  if (found < count.least || found > count.most) {
+    const std::string range = count.least == count.most ? "" : std::to_string(count.least) + " to ";
+    throw InputError(choice.name + ": /contacts: the planner " + count.planner + " needs " + range +
+                     std::to_string(count.most) + " contacts, found " + std::to_string(found));
   }
   if (const auto pair = ContactsAtSamePoint(grasp, same_point)) {
     throw InputError(choice.name + ": /contacts: contacts " + std::to_string(pair->first) +
@@ -52,14 +51,10 @@ void CheckGivenGrasp(const GraspChoice& choice, const WrenchFrame& frame, double
                    ", given " + FormatShort(Degrees(half_angle)) + "°");
 }
 
-std::optional<Grasp> DrawGraspOnSurface(const Polyhedron& solid, double half_angle,
-                                        double min_quality, double same_point,
-                                        RandomStream& random) {
-  const SurfaceSampler sampler(solid);
-  const WrenchFrame frame = solid.wrench_frame();
-  for (int draw = 0; draw < kMaxSurfaceDraws; ++draw) {
-    Grasp grasp;
-    while (grasp.size() < kContacts) grasp.push_back(sampler.Draw(random));
+std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw, const WrenchFrame& frame,
+                                   double half_angle, double min_quality, double same_point) {
+  for (int i = 0; i < kMaxSurfaceDraws; ++i) {
+    Grasp grasp = draw();
     if (!ContactsAtSamePoint(grasp, same_point) && IsForceClosure(grasp, frame, half_angle) &&
         QualityAtLeast(grasp, frame, half_angle, min_quality)) {
       return grasp;
