@@ -17,7 +17,8 @@ namespace {
 // Points, unless said otherwise.
 constexpr double kConeLength = 0.2;  ///< of the polygon's diameter
 constexpr double kConeBorder = 0.4;
-constexpr double kConeFill = 0.24;  ///< opacity
+constexpr double kConeFill = 0.26;  ///< opacity
+constexpr double kLongConeFill = 0.12;
 constexpr double kConeBorderOpacity = 0.8;
 constexpr double kBeyondFocus = 1.12;  ///< of the distance from the contact to the focus point
 constexpr double kLongestOuter = kPanelMargin - 2;  ///< so that cones end on the panel
@@ -33,21 +34,47 @@ constexpr double kFocusRim = 0.7;
 constexpr Color kHatch = {168, 174, 184};
 constexpr Color kCellInk = {96, 104, 118};
 
-/// One side of a cone as a sector with a round end.
-void DrawSector(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double half_angle,
-                double length, Color color) {
-  const double middle = std::atan2(axis.y(), axis.x());
+/// What is between two distances from the apex of one side of a cone.
+struct Sector {
+  Vector2d apex;
+  double middle;      ///< angle of the axis, radians
+  double half_angle;  ///< radians
+  double from = 0;
+  double to = 0;
+};
+
+void FillSector(cairo_t* cr, const Sector& sector, Color color, double opacity) {
+  const auto& [apex, middle, half_angle, from, to] = sector;
   cairo_new_path(cr);
-  cairo_move_to(cr, apex.x(), apex.y());
-  cairo_arc(cr, apex.x(), apex.y(), length, middle - half_angle, middle + half_angle);
-  cairo_close_path(cr);
-  SetColor(cr, color, kConeFill);
-  cairo_fill(cr);
-  for (const double side : {-half_angle, half_angle}) {
-    const Vector2d end = apex + length * Vector2d(std::cos(middle + side), std::sin(middle + side));
-    SetColor(cr, color, kConeBorderOpacity);
-    StrokeLine(cr, apex, end, kConeBorder);
+  cairo_arc(cr, apex.x(), apex.y(), to, middle - half_angle, middle + half_angle);
+  if (from > 0) {
+    cairo_arc_negative(cr, apex.x(), apex.y(), from, middle + half_angle, middle - half_angle);
+  } else {
+    cairo_line_to(cr, apex.x(), apex.y());
   }
+  cairo_close_path(cr);
+  SetColor(cr, color, opacity);
+  cairo_fill(cr);
+}
+
+/// One side of a cone with a round end; paler where it is longer than `usual`.
+void DrawSide(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double half_angle,
+              double usual, double length, Color color) {
+  const double middle = std::atan2(axis.y(), axis.x());
+  FillSector(cr, {apex, middle, half_angle, 0, std::min(usual, length)}, color, kConeFill);
+  if (length > usual) {
+    FillSector(cr, {apex, middle, half_angle, usual, length}, color, kLongConeFill);
+  }
+  SetColor(cr, color, kConeBorderOpacity);
+  for (const double side : {-half_angle, half_angle}) {
+    const Vector2d direction(std::cos(middle + side), std::sin(middle + side));
+    StrokeLine(cr, apex, apex + length * direction, kConeBorder);
+  }
+}
+
+double UsualLength(const Polygon& polygon, int side, const PanelView& view) {
+  const double usual = kConeLength * view.scale * polygon.diameter();
+  return side > 0 ? usual : std::min(usual, kLongestOuter);
 }
 
 /// The part of the line through `p` along `d` on the panel, a little inside its border.
@@ -75,8 +102,7 @@ std::vector<Vector2d> OnPanel(const Outline& outline, const PanelView& view) {
 
 double ConeLength(const Polygon& polygon, const GraspDiagram& grasp, const DoubleCone& cone,
                   int side, const PanelView& view) {
-  const double usual = kConeLength * view.scale * polygon.diameter();
-  const double length = side > 0 ? usual : std::min(usual, kLongestOuter);
+  const double length = UsualLength(polygon, side, view);
   if (!grasp.focus || side * cone.axis.dot(*grasp.focus - cone.apex) <= 0) return length;
   return std::max(length, kBeyondFocus * view.scale * (*grasp.focus - cone.apex).norm());
 }
@@ -87,9 +113,10 @@ void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
   for (std::size_t i = 0; i < grasp.cones.size(); ++i) {
     const DoubleCone& cone = grasp.cones[i];
     for (const int side : {1, -1}) {
-      DrawSector(cr, view.ToPanel(cone.apex), side * PanelView::ToPanelDirection(cone.axis),
-                 cone.half_angle, ConeLength(polygon, grasp, cone, side, view),
-                 FingerColor(diagram.fingers[i].finger));
+      DrawSide(cr, view.ToPanel(cone.apex), side * PanelView::ToPanelDirection(cone.axis),
+               cone.half_angle, UsualLength(polygon, side, view),
+               ConeLength(polygon, grasp, cone, side, view),
+               FingerColor(diagram.fingers[i].finger));
     }
   }
 }
