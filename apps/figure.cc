@@ -1,7 +1,11 @@
 // figure: draws every step of a planar plan as a figure for a paper.
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -89,6 +93,30 @@ Plan FigureProgram::Located(const Plan& plan, const Object& object) const {
   return check.located;
 }
 
+/// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, … in this format.
+bool IsFigureName(const std::string& name, const std::string& format) {
+  const auto digits = std::find_if_not(name.begin(), name.end(),
+                                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string rest(digits, name.end());
+  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
+         (rest == "_hold." + format || rest == "_switch." + format || rest == "_align." + format);
+}
+
+/// Removes the figures of an earlier run that this one has not written again.
+void RemoveOthers(const std::filesystem::path& folder, const std::string& format,
+                  const std::set<std::string>& written) {
+  std::error_code error;
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (IsFigureName(name, format) && !written.contains(name)) others.push_back(entry.path());
+  }
+  for (const std::filesystem::path& other : others) {
+    if (!error) std::filesystem::remove(other, error);
+  }
+  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+}
+
 std::string FileName(int index, const std::string& kind, const std::string& format) {
   const std::string number = std::to_string(index);
   const std::size_t zeros = kDigits - std::min(kDigits, number.size());
@@ -105,13 +133,16 @@ void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
   const std::vector<StepDiagram> diagrams = DescribePlan(polygon, plan);
   const int count = static_cast<int>(diagrams.size());
+  std::set<std::string> written;
   ProgressLine progress(quiet);
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
-    WriteFile(folder / FileName(i, diagrams[i].kind, format),
-              DrawStepFigure(polygon, diagrams, i, file_format));
+    const std::string name = FileName(i, diagrams[i].kind, format);
+    WriteFile(folder / name, DrawStepFigure(polygon, diagrams, i, file_format));
+    written.insert(name);
   }
   WriteFile(folder / ("sheet." + format), DrawSheet(polygon, diagrams, file_format));
+  RemoveOthers(folder, format, written);
 }
 
 int FigureProgram::Run() {

@@ -1,0 +1,220 @@
+"""The program figure from the shell: pictures of planar plans, and bad input."""
+
+import copy
+import json
+import os
+import shutil
+import struct
+import xml.etree.ElementTree as ElementTree
+
+import program_case
+from program_case import ProgramCase
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+# Colours of fingers 0 to 3 (render/palette.h), as Cairo writes them in an SVG.
+COLOURS = ("rgb(0%,39.607843%,64.705882%)", "rgb(94.117647%,69.019608%,0%)",
+           "rgb(23.921569%,70.196078%,61.960784%)", "rgb(53.333333%,13.333333%,33.333333%)")
+
+
+def opaque_fills(svg, colour):
+    """Paths filled with this colour that cover what is behind them: markers, heads of arrows."""
+    styles = [path.get("style", "").replace(" ", "")
+              for path in ElementTree.fromstring(svg).iter(SVG + "path")]
+    return sum(";fill:" + colour + ";fill-opacity:1;" in ";" + style for style in styles)
+
+
+class Figure(ProgramCase):
+    program = "figure"
+
+    def setUp(self):
+        super().setUp()
+        self.plan = json.loads(self.data("plan_good", "square_parallel_and_two_finger.json"))
+        self.write_plan()
+
+    def data(self, *names):
+        path = os.path.join(program_case.ARGUMENTS.source, "tests", "data", "plans", *names)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def write_plan(self):
+        self.write_json("plan.json", self.plan)
+
+    def arguments(self, *more, **changes):
+        options = {"--object": self.model("square.wkt"), "--plan": "plan.json", "--out": "result"}
+        options.update({"--" + key: value for key, value in changes.items()})
+        return [word for key, value in options.items() if value is not None
+                for word in (key, value)] + list(more)
+
+    def draw(self, *more, **changes):
+        self.assert_done(*self.arguments(*more, **changes))
+        return sorted(os.listdir(self.path(changes.get("out", "result"))))
+
+    def refuse(self, words, *more, code=2, **changes):
+        return self.assert_refused(code, words, *self.arguments(*more, **changes))
+
+    def names(self, ending):
+        return [name + "." + ending for name in
+                ("000_hold", "001_align", "002_switch", "003_switch", "004_align", "sheet")]
+
+    # Good plans.
+
+    def test_draws_a_figure_of_each_step_and_a_sheet(self):
+        self.assertEqual(self.draw(), self.names("svg"))
+
+    def test_every_svg_is_xml_with_a_marker_for_each_finger(self):
+        self.draw()
+        holding = {"000_hold": (0, 1, 2), "001_align": (1, 2), "002_switch": (1, 2),
+                   "003_switch": (3,)}
+        for name, fingers in holding.items():
+            svg = self.read("result/" + name + ".svg")
+            for finger in fingers:
+                with self.subTest(figure=name, finger=finger):
+                    self.assertEqual(opaque_fills(svg, COLOURS[finger]), 1)
+        self.assertEqual(opaque_fills(self.read("result/000_hold.svg"), COLOURS[3]), 0)
+        sheet = self.read("result/sheet.svg")
+        for colour in COLOURS:
+            self.assertGreater(opaque_fills(sheet, colour), 1)
+
+    def test_svg_has_the_size_of_print(self):
+        self.draw()
+        column = ElementTree.fromstring(self.read("result/000_hold.svg")).get("width")
+        sheet = ElementTree.fromstring(self.read("result/sheet.svg")).get("width")
+        points_per_millimetre = 72 / 25.4
+        self.assertTrue(column.endswith("pt") and sheet.endswith("pt"), (column, sheet))
+        self.assertAlmostEqual(float(column[:-2]), 85 * points_per_millimetre, places=3)
+        self.assertAlmostEqual(float(sheet[:-2]), 174 * points_per_millimetre, places=3)
+
+    def test_draws_pdf(self):
+        self.assertEqual(self.draw(format="pdf"), self.names("pdf"))
+        for name in self.names("pdf"):
+            pdf = self.read("result/" + name)
+            self.assertTrue(pdf.startswith(b"%PDF-"), name)
+            self.assertTrue(pdf.rstrip().endswith(b"%%EOF"), name)
+
+    def test_draws_png(self):
+        self.assertEqual(self.draw(format="png"), self.names("png"))
+        for name in self.names("png"):
+            png = self.read("result/" + name)
+            self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n", name)
+            width = struct.unpack(">I", png[16:20])[0]
+            self.assertEqual(width, 2055 if name == "sheet.png" else 1004, name)
+
+    def test_draws_the_same_bytes_twice(self):
+        for ending in ("svg", "pdf", "png"):
+            names = self.draw(format=ending, out="first")
+            self.draw(format=ending, out="second")
+            self.assertEqual(names, self.names(ending))
+            for name in names:
+                self.assertEqual(self.read("first/" + name), self.read("second/" + name), name)
+            shutil.rmtree(self.path("first"))
+        self.assertNotEqual(self.read("second/000_hold.svg"), self.read("second/001_align.svg"))
+
+    def test_draws_concurrent_grasps(self):
+        self.write("plan.json", self.data("plan_good", "triangle_concurrent.json"))
+        names = self.draw(object=self.model("triangle.wkt"))
+        self.assertEqual(names, ["000_hold.svg", "001_align.svg", "002_switch.svg", "sheet.svg"])
+
+    def test_a_plan_without_steps_has_the_hold(self):
+        del self.plan["steps"][:]
+        self.plan["goal"] = self.plan["initial"]
+        self.write_plan()
+        self.assertEqual(self.draw(), ["000_hold.svg", "sheet.svg"])
+
+    def test_replaces_the_figures_of_an_earlier_run_and_nothing_else(self):
+        self.draw()
+        self.draw(format="pdf")
+        self.write("result/notes.txt", "mine")
+        del self.plan["steps"][2:]
+        self.plan["goal"]["contacts"] = [
+            self.plan["initial"]["contacts"][1], self.plan["initial"]["contacts"][2],
+            self.plan["steps"][1]["place"][0]]
+        self.write_plan()
+        names = self.names("svg")
+        self.assertEqual(self.draw(),
+                         sorted(names[:3] + names[-1:] + self.names("pdf") + ["notes.txt"]))
+
+    def test_says_nothing_when_all_is_well(self):
+        done = self.assert_done(*self.arguments())
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    # Bad usage.
+
+    def test_refuses_missing_options(self):
+        for name in ("object", "plan", "out"):
+            self.refuse("--" + name, **{name: None})
+
+    def test_refuses_other_formats(self):
+        self.refuse(["--format", "bmp"], format="bmp")
+
+    def test_help_names_the_formats(self):
+        done = self.assert_done("--help")
+        self.assertIn("svg, pdf or png", done.stdout)
+
+    # Bad input.
+
+    def test_refuses_files_that_are_not_there(self):
+        self.refuse("nowhere.wkt", object="nowhere.wkt")
+        self.refuse("nowhere.json", plan="nowhere.json")
+
+    def test_refuses_a_solid(self):
+        self.refuse(["cube.obj", "planar"], object=self.model("cube.obj"))
+
+    def test_refuses_the_plan_of_a_solid(self):
+        self.write("plan.json", self.data("plan_good", "cube_no_steps.json"))
+        self.refuse(["plan.json", "dimension"])
+
+    def test_refuses_the_plan_of_another_object_unless_told(self):
+        square = "POLYGON((-0.03 -0.03, 0.03 -0.03, 0.03 0.03, -0.03 0.03, -0.03 -0.03))"
+        self.write("other.wkt", square + " \n")
+        self.refuse(["plan.json", "sha256", "other.wkt"], object="other.wkt")
+        self.assertEqual(self.draw("--allow-object-change", object="other.wkt"), self.names("svg"))
+
+    def test_refuses_another_scale(self):
+        self.refuse("--scale", "--scale", "2")
+        self.assertEqual(self.draw("--scale", "1"), self.names("svg"))
+
+    def test_refuses_illegal_plans_and_names_the_step(self):
+        def off_surface(plan):
+            plan["initial"]["contacts"][0]["point"][1] -= 0.01
+
+        def busy_finger(plan):
+            plan["steps"][1]["place"][0]["finger"] = 1
+
+        def little_friction(plan):
+            plan["friction"]["half_angle_deg"] = 0.5
+
+        def other_goal(plan):
+            plan["goal"]["contacts"][0]["point"][0] += 0.001
+
+        cases = ((off_surface, "step 0", "off-surface"), (busy_finger, "step 2", "finger-not-free"),
+                 (little_friction, "step 4", "not-force-closure"),
+                 (other_goal, "step 4", "goal-not-reached"))
+        good = copy.deepcopy(self.plan)
+        for spoil, step, reason in cases:
+            with self.subTest(reason=reason):
+                self.plan = copy.deepcopy(good)
+                spoil(self.plan)
+                self.write_plan()
+                self.refuse(["plan.json", step, reason])
+
+    def test_refuses_every_bad_plan_file(self):
+        folder = os.path.join(program_case.ARGUMENTS.source, "tests", "data", "plans", "plan_bad")
+        checked = 0
+        for name in sorted(os.listdir(folder)):
+            with self.subTest(plan=name):
+                self.refuse(name, plan=os.path.join(folder, name))
+                checked += 1
+        self.assertGreater(checked, 20)
+
+    # The environment.
+
+    def test_a_folder_that_cannot_be_written_is_not_bad_input(self):
+        self.write("taken", "a file, not a folder")
+        self.refuse("taken", out="taken", code=3)
+        self.refuse("taken", out="taken/below", code=3)
+        self.assertEqual(self.read("taken"), b"a file, not a folder")
+
+
+if __name__ == "__main__":
+    program_case.main()
