@@ -1,6 +1,7 @@
 #include "render/panel_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <string>
 
@@ -47,6 +48,20 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
+/// The words of a clause; numbers stay with the word before them.
+std::vector<std::string> Words(const std::string& clause) {
+  std::vector<std::string> words;
+  for (const std::string& word : Split(clause, ' ')) {
+    const bool number = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    if (number && !words.empty()) {
+      words.back() += " " + word;
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 std::vector<std::string> WrapCaption(const std::string& caption, double width) {
@@ -70,7 +85,7 @@ std::vector<std::string> WrapCaption(const std::string& caption, double width) {
     if (fits(clause)) {
       add(clause);
     } else {
-      for (const std::string& word : Split(clause, ' ')) add(word);
+      for (const std::string& word : Words(clause)) add(word);
     }
   }
   return lines;

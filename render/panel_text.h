@@ -13,8 +13,8 @@ inline constexpr double kCaptionFont = 7.5;
 inline constexpr double kNumberFont = 7.5;
 inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 
-/// The caption in lines no wider than `width` points, broken after semicolons, and
-/// between words where that does not do.
+/// The caption in lines no wider than `width` points if words allow it, broken after semicolons,
+/// and between words where that does not do; numbers stay with the word before them.
 [[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
 
 /// Writes lines centred about x, the first below `top`.

@@ -160,7 +160,9 @@ TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {
   EXPECT_THAT(WrapCaption(caption, 500), ElementsAre(caption));
   EXPECT_THAT(WrapCaption(caption, 100),
               ElementsAre("(a) hold: fingers 0, 1;", "concurrent grasp"));
-  EXPECT_THAT(WrapCaption(caption, 1), SizeIs(7));
+  EXPECT_THAT(WrapCaption("(c) switch: place 3, release 0, 2; 2-finger grasp", 115),
+              ElementsAre("(c) switch: place 3,", "release 0, 2; 2-finger grasp"));
+  EXPECT_THAT(WrapCaption(caption, 1), SizeIs(5));
   EXPECT_THAT(WrapCaption("", 100), SizeIs(0));
 }
 
