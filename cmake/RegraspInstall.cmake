@@ -14,4 +14,5 @@ configure_package_config_file(cmake/regraspConfig.cmake.in regraspConfig.cmake
 write_basic_package_version_file(regraspConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/regraspConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/regraspConfigVersion.cmake
+              cmake/FindGlpk.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/regrasp)

@@ -23,6 +23,8 @@ int LowestFreeFinger(const FingerGrasp& holding, int fingers) {
   throw std::invalid_argument("the hand has too few fingers for the switch");
 }
 
+}  // namespace
+
 Switch MakeSwitch(const FingerGrasp& before, const Grasp& after, int fingers) {
   Switch step;
   FingerGrasp holding = before;
@@ -37,8 +39,6 @@ Switch MakeSwitch(const FingerGrasp& before, const Grasp& after, int fingers) {
   }
   return step;
 }
-
-}  // namespace
 
 Sequence MakeSwitchSequence(std::span<const Grasp> grasps, int fingers) {
   if (grasps.empty()) throw std::invalid_argument("a sequence needs a grasp");

@@ -12,6 +12,12 @@ struct Sequence {
   std::vector<Step> steps;
 };
 
+/// The finger switch from the fingers that hold to the contacts that are to hold after it: places
+/// the contacts that are new with the lowest free fingers and releases those that are gone. A
+/// contact is the same where its point and normal are, bit for bit.
+/// @throws std::invalid_argument  the hand has too few fingers.
+[[nodiscard]] Switch MakeSwitch(const FingerGrasp& before, const Grasp& after, int fingers);
+
 /// Turns grasps that follow each other into finger switches of a hand of `fingers` fingers.
 ///
 /// The first grasp's contacts get fingers 0, 1, … in their order. Each step places the contacts

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/graph/grasp_choice.h"
+#include "planner/graph/plan_result.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
-#include "planner/graph/grasp_choice.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp {
@@ -29,18 +30,7 @@ struct RoadmapOptions {
   std::function<void(std::string_view)> progress = [](std::string_view) {};
 };
 
-struct RoadmapPlanResult {
-  enum class Status {
-    kFound,
-    kNoSequence,  ///< no sequence over these contact points; nothing is said about others
-    kNoGrasp,     ///< a random start or goal could not be drawn
-  };
-  Status status = Status::kFound;
-  std::string message;                ///< for a negative answer: what was searched
-  std::vector<std::string> warnings;  ///< grasps below the quality that was asked for
-  /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
-  std::optional<Plan> plan;
-  double margin = 0;       ///< smallest of half_angle − required half-angle over all grasps
+struct RoadmapPlanResult : PlanResult {
   int contact_points = 0;  ///< those given and those spread
   int vertices = 0;        ///< force-closure grasps of four of them
   int quality_tests = 0;   ///< grasps that the search asked for their quality

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// What every planner answers.
+struct PlanResult {
+  enum class Status {
+    kFound,
+    kNoSequence,  ///< no sequence joins the two grasps in this planner's graph
+    kNoGrasp,     ///< a random start or goal could not be drawn, or a given one is in no set
+  };
+  Status status = Status::kFound;
+  std::string message;                ///< for a negative answer: what was searched
+  std::vector<std::string> warnings;  ///< grasps below the quality that was asked for
+  /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
+  std::optional<Plan> plan;
+  double margin = 0;  ///< smallest of half_angle − required half-angle over all grasps at rest
+};
+
+}  // namespace regrasp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/polygon.h"
+#include "planner/polygon/grasp_set.h"
+#include "planner/polygon/slack_program.h"
+
+namespace regrasp {
+
+/// A convex set of grasps, given by linear inequalities. The variables are the contacts' parameters
+/// (0 to 1 along their edges), one for each edge of the set in its order, and after them, of a
+/// concurrent set, the focus point about the centroid over D. Slacks are lengths over D: the focus
+/// point's or the contact's distance to the border of a cone, a contact's distance to the ends of
+/// its edge. Straight lines between points of a cell are aligns that stay inside it.
+struct SetCell {
+  Inequalities inequalities;
+  SlackSolution centre;  ///< of largest slack
+};
+
+/// Two cells of a set that an align can pass between, through any point of `inequalities`: what the
+/// cells have in common, or the focus points on the edge that parts them.
+struct CellPassage {
+  int from = 0;
+  int to = 0;
+  SlackSolution point;  ///< of largest slack; contacts first
+};
+
+/// A grasp set as cells, all with an interior, and the passages between them, both ways.
+struct SetCells {
+  std::vector<SetCell> cells;
+  std::vector<CellPassage> passages;
+};
+
+/// The cells of a set, in doubles: existence was decided when the set was found, and what is too
+/// thin for doubles is left out here.
+[[nodiscard]] SetCells MakeSetCells(const Polygon& polygon, const GraspSet& set);
+
+/// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
+inline constexpr double kNoSlack = 1e-12;
+
+/// The slack of a grasp in a cell, with the best focus point where there is one.
+/// @param parameters  of the contacts, in the order of the set's edges.
+[[nodiscard]] double SlackInCell(const SetCell& cell, const Eigen::VectorXd& parameters);
+
+/// The slack of a grasp in a set, the largest over its cells: positive iff it belongs to the set.
+[[nodiscard]] double SlackInSet(const SetCells& set, const Eigen::VectorXd& parameters);
+
+/// The contact at a parameter of an edge, and back.
+[[nodiscard]] Contact ContactAt(const Polygon& polygon, int edge, double parameter);
+[[nodiscard]] double ParameterOf(const Polygon& polygon, const Contact& contact);
+
+}  // namespace regrasp
