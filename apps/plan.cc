@@ -1,5 +1,6 @@
 // plan: finds a regrasp sequence from a start grasp to a goal grasp and writes a plan.
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <string>
@@ -11,6 +12,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/plan/plan_io.h"
+#include "planner/polygon/plan_polygon.h"
 
 namespace {
 
@@ -50,7 +52,8 @@ struct PlanProgram {
  private:
   GraspChoice Choose(const std::string& option, const std::string& value,
                      const Object& object) const;
-  void PrintSummary(const RoadmapPlanResult& result, double seconds) const;
+  PlanResult Find(const ObjectFile& object) const;
+  void PrintSummary(const PlanResult& result, double seconds) const;
 };
 
 GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
@@ -62,19 +65,33 @@ GraspChoice PlanProgram::Choose(const std::string& option, const std::string& va
   return {Kind::kGiven, ReadGrasp(value, object), value};
 }
 
+PlanResult PlanProgram::Find(const ObjectFile& object) const {
+  ProgressLine progress(common.quiet);
+  const auto report = [&](std::string_view text) { progress.Report(text); };
+  PlanResult result;
+  if (common.PlannerFor(object) == "polygon") {
+    const Polygon& polygon = PolygonOf(object, common.object);
+    const GraspChoice start_choice = Choose("--start", start, polygon);
+    const GraspChoice goal_choice = Choose("--goal", goal, polygon);
+    const PolygonPlanOptions options = {common.friction.required_half_angle(),
+                                        common.spanning_value(), common.seed, min_quality, report};
+    result = PlanOnPolygon(polygon, start_choice, goal_choice, options);
+  } else {
+    const Polyhedron& solid = SolidOf(object, common.object);
+    RoadmapOptions options = common.roadmap();
+    options.min_quality = min_quality;
+    options.progress = report;
+    result = PlanOnRoadmap(solid, Choose("--start", start, solid), Choose("--goal", goal, solid),
+                           options);
+  }
+  progress.Clear();
+  return result;
+}
+
 int PlanProgram::Run() const {
   const auto begin = std::chrono::steady_clock::now();
-  RoadmapOptions options = common.roadmap();
-  options.min_quality = min_quality;
   const ObjectFile object = ReadObject(common.object);
-  const Polyhedron& solid = SolidOf(object, common.object);
-  const GraspChoice start_choice = Choose("--start", start, solid);
-  const GraspChoice goal_choice = Choose("--goal", goal, solid);
-
-  ProgressLine progress(common.quiet);
-  options.progress = [&](std::string_view text) { progress.Report(text); };
-  RoadmapPlanResult result = PlanOnRoadmap(solid, start_choice, goal_choice, options);
-  progress.Clear();
+  PlanResult result = Find(object);
   if (!result.plan) {
     PrintMessage(kProgram, result.message);
     return kExitNegative;
@@ -94,10 +111,14 @@ int PlanProgram::Run() const {
   return kExitDone;
 }
 
-void PlanProgram::PrintSummary(const RoadmapPlanResult& result, double seconds) const {
-  const std::size_t steps = result.plan->steps.size();
+void PlanProgram::PrintSummary(const PlanResult& result, double seconds) const {
+  const auto count = [&](const std::string& kind, const std::string& several) {
+    const auto n = std::count_if(result.plan->steps.begin(), result.plan->steps.end(),
+                                 [&](const Step& step) { return StepKind(step) == kind; });
+    return std::to_string(n) + " " + (n == 1 ? kind : several);
+  };
   const double given = Degrees(result.plan->half_angle);
-  PrintMessage(kProgram, std::to_string(steps) + (steps == 1 ? " switch" : " switches") +
+  PrintMessage(kProgram, count("switch", "switches") + ", " + count("align", "aligns") +
                              "; the weakest grasp needs a friction half-angle of " +
                              FormatShort(given - Degrees(result.margin)) + "° of " +
                              FormatShort(given) + "°; " + FormatShort(seconds, 2) + " s");
