@@ -43,10 +43,10 @@ void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
   if (!(length > 0)) return;
   const double head = std::min(kArrowHead, length);
   // The shaft ends inside the head; what of the path is nearer to the tip is left out.
-  const Vector2d tip = path.back();
+  const Vector2d& tip = path.back();
   std::size_t last = path.size() - 1;
   while (last > 0 && (path[last - 1] - tip).norm() < head) --last;
-  const Vector2d from = path[last == 0 ? 0 : last - 1];
+  const Vector2d& from = path[last == 0 ? 0 : last - 1];
   const Vector2d direction = (tip - from).normalized();
   const Vector2d base = tip - head * direction;
   cairo_new_path(cr);

@@ -21,8 +21,8 @@ using Frame = EdgeFrame<double>;
 
 constexpr double kPi = std::numbers::pi;
 
-/// What sees a grasp and has a smaller area, over D², is rounding errors of touching cones. It is
-/// 1e-6 of the diameter, the tolerance for reading points, squared.
+/// Where the cones' intersection has a smaller area, over D², they only touch and rounding made the
+/// rest: the tolerance for reading points, squared.
 constexpr double kLeastArea = kPointTolerance * kPointTolerance;
 
 /// Cones are this much narrower where it is computed what sees a grasp, relative: at φ* borders of

@@ -31,7 +31,7 @@ const char* TypeName(DiagramKind kind) {
 
 /// The type of the grasp, with φ where its cones are narrower than those of the friction.
 std::string Describe(const GraspDiagram& grasp, double friction) {
-  const std::string name = TypeName(grasp.kind);
+  std::string name = TypeName(grasp.kind);
   if (grasp.kind != DiagramKind::kConcurrent) return name;
   const auto degrees = [](double radians) { return FormatShort(Degrees(radians), 3) + "°"; };
   const std::string drawn = degrees(grasp.cones.front().half_angle);

@@ -34,6 +34,7 @@ void AddPolygon(cairo_t* cr, const Polygon& polygon, const PanelView& view) {
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   for (const auto& ring : polygon.rings()) {
     std::vector<Vector2d> points;
+    points.reserve(ring.size());
     for (const Vector2d& p : ring) points.push_back(view.ToPanel(p));
     AddOutline(cr, points);
   }
