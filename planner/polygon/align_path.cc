@@ -10,9 +10,9 @@ using Eigen::VectorXd;
 namespace {
 
 std::vector<char> CellsWith(const SetCells& set, const VectorXd& parameters) {
-  std::vector<char> contain(set.cells.size(), 0);
-  for (std::size_t i = 0; i < set.cells.size(); ++i) {
-    contain[i] = SlackInCell(set.cells[i], parameters) > kNoSlack ? 1 : 0;
+  std::vector<char> contain;
+  for (const SetCell& cell : set.cells()) {
+    contain.push_back(SlackInCell(cell, parameters) > kNoSlack ? 1 : 0);
   }
   return contain;
 }
@@ -22,33 +22,38 @@ std::vector<char> CellsWith(const SetCells& set, const VectorXd& parameters) {
 std::vector<VectorXd> FindAlignPath(const SetCells& set, const VectorXd& from, const VectorXd& to) {
   const std::vector<char> starts = CellsWith(set, from);
   const std::vector<char> goals = CellsWith(set, to);
-  // Breadth first over cells; `by` is the passage through which a cell was reached first.
+  const int count = static_cast<int>(set.cells().size());
+  // Breadth first over cells: where each was reached from, and through which grasp.
   constexpr int kUnseen = -2;
   constexpr int kStart = -1;
-  std::vector<int> by(set.cells.size(), kUnseen);
+  std::vector<int> before(count, kUnseen);
+  std::vector<VectorXd> through(count);
   std::deque<int> queue;
-  for (std::size_t i = 0; i < set.cells.size(); ++i) {
-    if (!starts[i]) continue;
-    by[i] = kStart;
-    queue.push_back(static_cast<int>(i));
+  for (int cell = 0; cell < count; ++cell) {
+    if (starts[cell] == 0) continue;
+    before[cell] = kStart;
+    queue.push_back(cell);
+  }
+  // A cell that holds both ends needs no passage.
+  for (int cell = 0; cell < count; ++cell) {
+    if (starts[cell] != 0 && goals[cell] != 0) return {from, to};
   }
   while (!queue.empty()) {
     const int cell = queue.front();
     queue.pop_front();
-    if (goals[cell]) {
+    for (int next = 0; next < count; ++next) {
+      if (before[next] != kUnseen) continue;
+      std::optional<VectorXd> passage = set.Passage(cell, next);
+      if (!passage) continue;
+      before[next] = cell;
+      through[next] = std::move(*passage);
+      queue.push_back(next);
+      if (goals[next] == 0) continue;
       std::vector<VectorXd> path = {to};
-      for (int at = cell; by[at] != kStart; at = set.passages[by[at]].from) {
-        path.push_back(set.passages[by[at]].point.z.head(to.size()));
-      }
+      for (int at = next; before[at] != kStart; at = before[at]) path.push_back(through[at]);
       path.push_back(from);
       std::reverse(path.begin(), path.end());
       return path;
-    }
-    for (std::size_t p = 0; p < set.passages.size(); ++p) {
-      const CellPassage& passage = set.passages[p];
-      if (passage.from != cell || by[passage.to] != kUnseen) continue;
-      by[passage.to] = static_cast<int>(p);
-      queue.push_back(passage.to);
     }
   }
   return {};

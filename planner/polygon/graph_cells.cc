@@ -58,14 +58,8 @@ std::vector<std::vector<int>> SubsetsOf(int count) {
 
 const SetCells& GraphCells::of(int vertex) {
   std::optional<SetCells>& cells = cells_[vertex];
-  if (!cells) cells = MakeSetCells(polygon_, graph_.sets()[vertex]);
+  if (!cells) cells.emplace(polygon_, graph_.sets()[vertex]);
   return *cells;
-}
-
-double GraphCells::WidthOf(int vertex) {
-  double width = 0;
-  for (const SetCell& cell : of(vertex).cells) width = std::max(width, cell.centre.slack);
-  return width;
 }
 
 std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
@@ -89,7 +83,7 @@ std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
 }
 
 Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
-  const std::vector<SetCell>& cells = of(vertex).cells;
+  const std::vector<SetCell>& cells = of(vertex).cells();
   Grasp grasp;
   if (cells.empty()) return grasp;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);

@@ -24,9 +24,6 @@ class GraphCells {
 
   [[nodiscard]] const SetCells& of(int vertex);
 
-  /// The largest slack of a grasp in the set.
-  [[nodiscard]] double WidthOf(int vertex);
-
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
   [[nodiscard]] std::vector<Attachment> FindAttachments(const Grasp& grasp);

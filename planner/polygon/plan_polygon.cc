@@ -251,7 +251,7 @@ class PolygonPlanner {
     const auto switches = FewestSwitches(graph, graph.start(), graph.goal(), all);
     if (!switches) return {};
     std::vector<int> path = WidestPath(graph, graph.start(), graph.goal(), *switches, all,
-                                       [&](int vertex) { return cells_.WidthOf(vertex); });
+                                       [&](int vertex) { return cells_.of(vertex).width(); });
     path.erase(path.begin());
     path.pop_back();
     return path;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <functional>
 
 namespace regrasp {
 
@@ -11,6 +11,8 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace {
+
+bool IsOuter(int part, int k) { return (part >> k & 1) != 0; }
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -46,19 +48,40 @@ class CellMaker {
     }
   }
 
-  SetCells Make() {
-    switch (set_.type) {
-      case GraspType::kConcurrent:
-        MakeConcurrent();
-        break;
-      case GraspType::kTwoFinger:
-        MakeTwoFinger();
-        break;
-      case GraspType::kParallel:
-        MakeParallel();
-        break;
+  std::vector<SetCell> Make() {
+    for (const int part : set_.parts) {
+      switch (set_.type) {
+        case GraspType::kConcurrent:
+          MakeConcurrent(part);
+          break;
+        case GraspType::kTwoFinger:
+          MakeTwoFinger(part);
+          break;
+        case GraspType::kParallel:
+          MakeParallel(part);
+          break;
+      }
     }
     return std::move(cells_);
+  }
+
+  /// The grasp of largest slack where the focus point crosses the line of edge k, at the contact
+  /// there: the only point that the cones on both sides have in common.
+  [[nodiscard]] SlackSolution FocusAtContact(int part, int k) const {
+    std::vector<Affine> list = InsideEdges();
+    for (int j = 0; j < 3; ++j) {
+      if (j != k) AddCone(j, IsOuter(part, j), list);
+    }
+    Inequalities set = Stack(list);
+    // x = p_k takes the place of the focus point's variables.
+    Eigen::MatrixXd substitution = Eigen::MatrixXd::Zero(variables(), contacts());
+    substitution.topRows(contacts()).setIdentity();
+    substitution.col(k).tail(2) = edges_[k].along;
+    VectorXd constant = VectorXd::Zero(variables());
+    constant.tail(2) = edges_[k].a;
+    set.offsets += set.rows * constant;
+    set.rows = set.rows * substitution;
+    return MaximizeSlack(set);
   }
 
  private:
@@ -107,22 +130,13 @@ class CellMaker {
     return set;
   }
 
-  /// @returns the cell's number, −1 where it has no interior.
-  int AddCell(const std::vector<Affine>& list) {
-    const Inequalities inequalities = Stack(list);
+  void AddCell(int part, const std::vector<Affine>& list) {
+    Inequalities inequalities = Stack(list);
     SlackSolution centre = MaximizeSlack(inequalities);
-    if (centre.slack <= kNoSlack) return -1;
-    cells_.cells.push_back({inequalities, std::move(centre)});
-    return static_cast<int>(cells_.cells.size()) - 1;
+    if (centre.slack > kNoSlack) {
+      cells_.push_back({part, std::move(inequalities), std::move(centre)});
+    }
   }
-
-  void AddPassage(int from, int to, const SlackSolution& point) {
-    if (point.slack <= kNoSlack) return;
-    cells_.passages.push_back({from, to, point});
-    cells_.passages.push_back({to, from, point});
-  }
-
-  // Concurrent sets. Bit k of a part: the focus point is on the outer side of edge k.
 
   /// The focus point inside the cone at contact k.
   void AddCone(int k, bool outer, std::vector<Affine>& list) const {
@@ -135,46 +149,15 @@ class CellMaker {
     }
   }
 
-  void MakeConcurrent() {
-    std::vector<int> cell_of(1 << 3, -1);
-    for (const int part : set_.parts) {
-      std::vector<Affine> list = InsideEdges();
-      for (int k = 0; k < 3; ++k) AddCone(k, (part >> k & 1) != 0, list);
-      cell_of[part] = AddCell(list);
-    }
-    for (const int part : set_.parts) {
-      for (int k = 0; k < 3; ++k) {
-        const int other = part | 1 << k;
-        if (other == part || cell_of[part] < 0 || cell_of[other] < 0) continue;
-        AddPassage(cell_of[part], cell_of[other], FocusAtContact(part, k));
-      }
-    }
+  void MakeConcurrent(int part) {
+    std::vector<Affine> list = InsideEdges();
+    for (int k = 0; k < 3; ++k) AddCone(k, IsOuter(part, k), list);
+    AddCell(part, list);
   }
 
-  /// The focus point crosses the line of edge k at the contact there, the only point that the cones
-  /// on both sides have in common.
-  [[nodiscard]] SlackSolution FocusAtContact(int part, int k) const {
+  void MakeTwoFinger(int part) {
     std::vector<Affine> list = InsideEdges();
-    for (int j = 0; j < 3; ++j) {
-      if (j != k) AddCone(j, (part >> j & 1) != 0, list);
-    }
-    Inequalities set = Stack(list);
-    // x = p_k takes the place of the focus point's variables.
-    Eigen::MatrixXd substitution = Eigen::MatrixXd::Zero(variables(), contacts());
-    substitution.topRows(contacts()).setIdentity();
-    substitution.col(k).tail(2) = edges_[k].along;
-    VectorXd constant = VectorXd::Zero(variables());
-    constant.tail(2) = edges_[k].a;
-    set.offsets += set.rows * constant;
-    set.rows = set.rows * substitution;
-    SlackSolution solution = MaximizeSlack(set);
-    solution.z = substitution * solution.z + constant;
-    return solution;
-  }
-
-  void MakeTwoFinger() {
-    std::vector<Affine> list = InsideEdges();
-    const double sign = set_.parts.front() == 0 ? 1 : -1;
+    const double sign = part == 0 ? 1 : -1;
     // v = p_1 − p_0 inside the cone at 0 and −v inside the cone at 1, or both mirrored.
     const auto add = [&](const Vector2d& border, double side) {
       Affine f = Zero();
@@ -186,32 +169,13 @@ class CellMaker {
     add(edges_[0].left, -1);
     add(edges_[1].right, -1);
     add(edges_[1].left, 1);
-    AddCell(list);
+    AddCell(part, list);
   }
 
-  // Parallel sets: see planner/polygon/parallel.h for the f.
-
-  void MakeParallel() {
-    for (const int centre : set_.parts) AddCentre(centre);
-    const int count = static_cast<int>(cells_.cells.size());
-    for (int i = 0; i < count; ++i) {
-      for (int j = i + 1; j < count; ++j) {
-        const Inequalities& a = cells_.cells[i].inequalities;
-        const Inequalities& b = cells_.cells[j].inequalities;
-        Inequalities both;
-        both.rows.resize(a.rows.rows() + b.rows.rows(), a.rows.cols());
-        both.rows << a.rows, b.rows;
-        both.offsets.resize(both.rows.rows());
-        both.offsets << a.offsets, b.offsets;
-        AddPassage(i, j, MaximizeSlack(both));
-      }
-    }
-  }
-
-  /// Grasps of one centre a: f of b on one side and f of c on the other, for one border of the
-  /// common cone each. These eight cells overlap and leave out nothing but grasps with c = a or b =
-  /// a.
-  void AddCentre(int a) {
+  /// Grasps of the centre a: f of b on one side and f of c on the other, for one border of the
+  /// common cone each (the f are those of planner/polygon/parallel.h). These eight cells overlap
+  /// and leave out nothing but grasps with two contacts at one point.
+  void MakeParallel(int a) {
     const int b = a == 0 ? 1 : 0;
     const int c = a == 2 ? 1 : 2;
     const auto [right, left] = CommonConeOf(a, b, c);
@@ -228,7 +192,7 @@ class CellMaker {
           AddContact(of_c, c, -sign, g);
           AddContact(of_c, a, sign, g);
           list.push_back(g);
-          AddCell(list);
+          AddCell(a, list);
         }
       }
     }
@@ -255,13 +219,39 @@ class CellMaker {
 
   const GraspSet& set_;
   std::vector<Edge> edges_;
-  SetCells cells_;
+  std::vector<SetCell> cells_;
 };
 
 }  // namespace
 
-SetCells MakeSetCells(const Polygon& polygon, const GraspSet& set) {
-  return CellMaker(polygon, set).Make();
+SetCells::SetCells(const Polygon& polygon, const GraspSet& set)
+    : polygon_(polygon), set_(set), cells_(CellMaker(polygon, set).Make()) {}
+
+std::optional<VectorXd> SetCells::Passage(int from, int to) const {
+  const SetCell& a = cells_[from];
+  const SetCell& b = cells_[to];
+  const auto contacts = static_cast<Eigen::Index>(set_.edges.size());
+  SlackSolution point;
+  if (set_.type == GraspType::kConcurrent) {
+    const auto differ = static_cast<unsigned>(a.part ^ b.part);
+    if (!std::has_single_bit(differ)) return std::nullopt;
+    point = CellMaker(polygon_, set_).FocusAtContact(a.part, std::countr_zero(differ));
+  } else {
+    Inequalities both;
+    both.rows.resize(a.inequalities.rows.rows() + b.inequalities.rows.rows(), contacts);
+    both.rows << a.inequalities.rows, b.inequalities.rows;
+    both.offsets.resize(both.rows.rows());
+    both.offsets << a.inequalities.offsets, b.inequalities.offsets;
+    point = MaximizeSlack(both);
+  }
+  if (point.slack <= kNoSlack) return std::nullopt;
+  return point.z.head(contacts);
+}
+
+double SetCells::width() const {
+  double width = 0;
+  for (const SetCell& cell : cells_) width = std::max(width, cell.centre.slack);
+  return width;
 }
 
 double SlackInCell(const SetCell& cell, const VectorXd& parameters) {
@@ -275,7 +265,7 @@ double SlackInCell(const SetCell& cell, const VectorXd& parameters) {
 
 double SlackInSet(const SetCells& set, const VectorXd& parameters) {
   double best = -1;
-  for (const SetCell& cell : set.cells) best = std::max(best, SlackInCell(cell, parameters));
+  for (const SetCell& cell : set.cells()) best = std::max(best, SlackInCell(cell, parameters));
   return best;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "planner/grasp/contact.h"
@@ -16,27 +17,33 @@ namespace regrasp {
 /// point's or the contact's distance to the border of a cone, a contact's distance to the ends of
 /// its edge. Straight lines between points of a cell are aligns that stay inside it.
 struct SetCell {
+  int part = 0;  ///< of the set, see GraspSet::parts
   Inequalities inequalities;
   SlackSolution centre;  ///< of largest slack
 };
 
-/// Two cells of a set that an align can pass between, through any point of `inequalities`: what the
-/// cells have in common, or the focus points on the edge that parts them.
-struct CellPassage {
-  int from = 0;
-  int to = 0;
-  SlackSolution point;  ///< of largest slack; contacts first
-};
+/// A grasp set as cells, all with an interior.
+class SetCells {
+ public:
+  /// In doubles: existence was decided when the set was found, and what is too thin for doubles is
+  /// left out here. Polygon and set must outlive the cells.
+  SetCells(const Polygon& polygon, const GraspSet& set);
 
-/// A grasp set as cells, all with an interior, and the passages between them, both ways.
-struct SetCells {
-  std::vector<SetCell> cells;
-  std::vector<CellPassage> passages;
-};
+  [[nodiscard]] const std::vector<SetCell>& cells() const { return cells_; }
 
-/// The cells of a set, in doubles: existence was decided when the set was found, and what is too
-/// thin for doubles is left out here.
-[[nodiscard]] SetCells MakeSetCells(const Polygon& polygon, const GraspSet& set);
+  /// The grasp of largest slack where an align can pass from one cell to another: in what the cells
+  /// have in common, or with the focus point on the edge that parts them.
+  /// @returns its contacts' parameters; nullopt where the cells don't meet.
+  [[nodiscard]] std::optional<Eigen::VectorXd> Passage(int from, int to) const;
+
+  /// The largest slack of a grasp in the set.
+  [[nodiscard]] double width() const;
+
+ private:
+  const Polygon& polygon_;
+  const GraspSet& set_;
+  std::vector<SetCell> cells_;
+};
 
 /// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
 inline constexpr double kNoSlack = 1e-12;

@@ -143,8 +143,8 @@ std::optional<SwitchPoint> FindSwitchPoint(const SwitchSide& from, const SwitchS
       if ((subset >> i & 1U) != 0) kept.push_back(common[i]);
     }
     if (static_cast<int>(kept.size()) < least_kept) continue;
-    for (const SetCell& from_cell : from.cells->cells) {
-      for (const SetCell& to_cell : to.cells->cells) {
+    for (const SetCell& from_cell : from.cells->cells()) {
+      for (const SetCell& to_cell : to.cells->cells()) {
         // A switch has no more slack than either cell.
         if (std::min(from_cell.centre.slack, to_cell.centre.slack) < kGoodShare * best) continue;
         auto point = FindInCells(from, from_cell.inequalities, to, to_cell.inequalities, kept);
