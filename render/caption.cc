@@ -1,5 +1,6 @@
 #include "render/caption.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace regrasp {
@@ -18,7 +19,7 @@ std::vector<int> FingersOf(const FingerGrasp& grasp) {
   return fingers;
 }
 
-/// The fingers whose last waypoint is not their first.
+/// The fingers whose last waypoint is not their first, by number.
 std::vector<int> MovedFingers(const Align& align) {
   std::vector<int> moved;
   if (align.waypoints.empty()) return moved;
@@ -28,6 +29,7 @@ std::vector<int> MovedFingers(const Align& align) {
       if (same && first.contact.p != last.contact.p) moved.push_back(first.finger);
     }
   }
+  std::sort(moved.begin(), moved.end());
   return moved;
 }
 
