@@ -21,7 +21,7 @@ struct SlackSolution {
 };
 
 /// The point of a convex set with the largest smallest slack, by a linear program (GLPK's simplex).
-/// Slack beyond `enough` counts for nothing, which also bounds the program.
+/// Slack beyond `enough` counts for nothing, so that there is always an answer.
 /// @throws std::runtime_error  the solver fails.
 [[nodiscard]] SlackSolution MaximizeSlack(const Inequalities& set, double enough = 1);
 
