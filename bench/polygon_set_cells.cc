@@ -1,9 +1,10 @@
 #include "bench/polygon_set_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -44,8 +45,8 @@ bool GapIsSmall(const ExactVector& a, const ExactVector& b, const Number& tangen
   return closed ? sign != CGAL::NEGATIVE : sign == CGAL::POSITIVE;
 }
 
-/// tan φ*, rounded down to a double, of normals that positively span.
-double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges) {
+/// A little below and above tan φ*, if doubles can tell.
+std::array<double, 2> GuessesOfLimit(const Polygon& polygon, const std::array<int, 3>& edges) {
   std::array<double, 3> angles;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d n = polygon.inward_normal(edges[k]);
@@ -54,15 +55,27 @@ double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges) {
   std::sort(angles.begin(), angles.end());
   const double gap = std::max(
       {angles[1] - angles[0], angles[2] - angles[1], 2 * std::numbers::pi + angles[0] - angles[2]});
-  // The guess is some roundings off; the exact test settles the last bits.
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double tangent = std::max(0.0, std::tan((std::numbers::pi - gap) / 2));
-  while (!NormalsSpan(polygon, edges, tangent, true)) tangent = std::nextafter(tangent, 0);
-  for (double next = std::nextafter(tangent, kInfinity); NormalsSpan(polygon, edges, next, true);
-       next = std::nextafter(next, kInfinity)) {
-    tangent = next;
+  constexpr double kAngleRounding = 1e-14;
+  const double limit = (std::numbers::pi - gap) / 2;
+  return {std::tan(std::max(0.0, limit - kAngleRounding)), std::tan(limit + kAngleRounding)};
+}
+
+/// tan φ*, rounded down to a double, of normals that positively span but not
+/// `too_large`-positively.
+double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges, double too_large) {
+  // Positive doubles are ordered as their bits are.
+  auto low = std::bit_cast<std::uint64_t>(0.0);
+  auto high = std::bit_cast<std::uint64_t>(too_large);
+  for (const double guess : GuessesOfLimit(polygon, edges)) {
+    const auto bits = std::bit_cast<std::uint64_t>(guess);
+    if (bits <= low || bits >= high) continue;
+    (NormalsSpan(polygon, edges, guess, true) ? low : high) = bits;
   }
-  return tangent;
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (NormalsSpan(polygon, edges, std::bit_cast<double>(middle), true) ? low : high) = middle;
+  }
+  return std::bit_cast<double>(low);
 }
 
 template <class Tangent>
@@ -113,8 +126,8 @@ std::vector<SetCandidate> FindAdaptiveCandidates(const Polygon& polygon, double 
   const double tangent = std::tan(half_angle);
   return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
     if (!NormalsSpan(polygon, edges, 0)) return std::nullopt;
-    if (NormalsSpan(polygon, edges, tangent)) return tangent;
-    return std::min(tangent, LimitTangent(polygon, edges));
+    if (NormalsSpan(polygon, edges, tangent, true)) return tangent;
+    return LimitTangent(polygon, edges, tangent);
   });
 }
 

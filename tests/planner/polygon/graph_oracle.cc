@@ -38,24 +38,38 @@ CellSet HalfPlaneSet(const Polygon& polygon, int edge, bool outer) {
 }
 
 /// Bit k of a part is set iff it is on the outer side of the k-th edge (GraspSet::parts).
+void AddParts(const Polygon& polygon, const SetCell& cell, const CellSet& rest, int k, int part,
+              std::vector<int>& parts) {
+  if (rest.is_empty()) return;
+  if (k < 0) {
+    parts.push_back(part);
+    return;
+  }
+  for (const bool outer : {false, true}) {
+    CellSet side = HalfPlaneSet(polygon, cell.edges[k], outer);
+    side.intersection(rest);
+    AddParts(polygon, cell, side, k - 1, outer ? part | 1 << k : part, parts);
+  }
+}
+
 std::vector<int> PartsOf(const Polygon& polygon, const SetCell& cell) {
   std::vector<int> parts;
-  for (int part = 0; part < 8; ++part) {
-    CellSet rest(cell.component);
-    for (int k = 0; k < 3; ++k) {
-      rest.intersection(HalfPlaneSet(polygon, cell.edges[k], (part >> k & 1) != 0));
-    }
-    if (!rest.is_empty()) parts.push_back(part);
-  }
-  return parts;
+  AddParts(polygon, cell, CellSet(cell.component), 2, 0, parts);
+  return parts;  // the third edge first, so that they are in ascending order
 }
 
 /// True iff the cell comes near the far end of what sees one of its edges.
-bool ReachesEnd(const Polygon& polygon, const SetCell& cell, double tangent) {
+bool ReachesEnd(const Polygon& polygon, const SetCell& cell) {
+  const CellKernel::FT far(kFarthestReach / 2);
+  const auto& outline = cell.component.outer_boundary();
   return std::any_of(cell.edges.begin(), cell.edges.end(), [&](int edge) {
-    CellSet beyond(cell.component);
-    beyond.difference(SeeingEdge(polygon, edge, tangent, kFarthestReach / 2));
-    return !beyond.is_empty();
+    const auto [a, b] = polygon.edge(edge);
+    const CellKernel::Point_2 pa(a.x(), a.y());
+    const CellKernel::Vector_2 along = CellKernel::Point_2(b.x(), b.y()) - pa;
+    const CellKernel::Vector_2 normal = along.perpendicular(CGAL::COUNTERCLOCKWISE);
+    return std::any_of(outline.vertices_begin(), outline.vertices_end(), [&](const auto& x) {
+      return CGAL::abs(normal * (x - pa)) > far * along.squared_length();
+    });
   });
 }
 
@@ -116,7 +130,7 @@ OracleCount CompareWithSetOperations(const Polygon& polygon, const PolygonGraph&
     const std::vector<int> edges(cell.edges.begin(), cell.edges.end());
     cell_of[{edges, PartsOf(polygon, cell)}] = static_cast<int>(&cell - cells.data());
     if (++components[edges] == 2) ++count.several;
-    if (ReachesEnd(polygon, cell, tangents[edges])) {
+    if (ReachesEnd(polygon, cell)) {
       ++count.unbounded;
       if (spanning == Spanning::kUniform) out << "unbounded under uniform:" << Text(edges) << '\n';
     }
