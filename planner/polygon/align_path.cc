@@ -11,7 +11,7 @@ namespace {
 
 std::vector<char> CellsWith(const SetCells& set, const VectorXd& parameters) {
   std::vector<char> contain;
-  for (const SetCell& cell : set.cells()) {
+  for (const GraspCell& cell : set.cells()) {
     contain.push_back(SlackInCell(cell, parameters) > kNoSlack ? 1 : 0);
   }
   return contain;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kWalkSteps = 32;
 
 /// Hit and run (Smith 1984): a uniform point of a chord in a random direction, again and again.
-VectorXd WalkInside(const SetCell& cell, RandomStream& random) {
+VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
   const Inequalities& set = cell.inequalities;
   VectorXd z = cell.centre.z;
   for (int step = 0; step < kWalkSteps; ++step) {
@@ -75,7 +75,7 @@ std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
     }
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
     for (const int vertex : graph_.SetsOn(edges)) {
-      if (SlackInSet(of(vertex), parameters) <= kNoSlack) continue;
+      if (!IsInSet(of(vertex), parameters)) continue;
       attachments.push_back({vertex, contacts, parameters});
     }
   }
@@ -83,7 +83,7 @@ std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
 }
 
 Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
-  const std::vector<SetCell>& cells = of(vertex).cells();
+  const std::vector<GraspCell>& cells = of(vertex).cells();
   Grasp grasp;
   if (cells.empty()) return grasp;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);

@@ -36,9 +36,12 @@ constexpr int kMaxSetDraws = 2000;
 /// Paths tried for one whose grasps are all of the quality that is asked for.
 constexpr int kMaxPaths = 60;
 
-/// A switch from the grasp at hand, or to the goal's, is good enough with this share of the slack
-/// of the best one: it spares an align.
+/// A switch from the grasp at hand, or to the goal's, or one that keeps more contacts is good
+/// enough with this share of the best one's score: it spares an align or a move.
 constexpr double kGoodShare = 0.5;
+
+/// Of required half-angles that are only compared, radians.
+constexpr double kScoreAccuracy = 1e-5;
 
 /// Thrown inside this file for a negative answer.
 struct NoGrasp {
@@ -224,6 +227,14 @@ class PolygonPlanner {
                     " sets of concurrent, 2-finger and parallel grasps that the planner polygon "
                     "switches between"};
     }
+    // A start that must release fingers first, or a goal that places some last, should rest well
+    // without them too.
+    const auto rests_well = [&](const Attachment& a) {
+      return a.contacts.size() == choice.grasp.size() || IsGood(ContactsOf(choice.grasp, a));
+    };
+    if (std::any_of(attachments.begin(), attachments.end(), rests_well)) {
+      std::erase_if(attachments, [&](const Attachment& a) { return !rests_well(a); });
+    }
     return attachments;
   }
 
@@ -283,7 +294,7 @@ class PolygonPlanner {
         return std::nullopt;
       }
       if (!good) draft.bad_switches.push_back(Unordered(path[i], path[i + 1]));
-      SwitchTo(draft, GraspAt(path[i + 1], point->after));
+      SwitchTo(draft, GraspAt(graph_.sets()[path[i + 1]], point->after));
       at = point->after;
     }
     if (!AlignTo(draft, path.back(), at, goal.parameters)) {
@@ -301,30 +312,59 @@ class PolygonPlanner {
   };
 
   /// The switch between two sets: from the grasp at hand and to the goal's where that costs little,
-  /// otherwise with the most slack.
+  /// otherwise the best there is.
   ChosenSwitch ChooseSwitch(int from, int to, const VectorXd& at, const Attachment* goal) {
-    const auto find = [&](bool fix_from, bool fix_to) {
-      SwitchSide a = {&graph_.sets()[from], &cells_.of(from), std::nullopt};
-      SwitchSide b = {&graph_.sets()[to], &cells_.of(to), std::nullopt};
-      if (fix_from) a.fixed = at;
-      if (fix_to) b.fixed = goal->parameters;
-      return FindSwitchPoint(a, b, kPolygonFingers);
-    };
-    const auto is_good = [&](const SwitchPoint& point) {
-      return IsGood(GraspAt(from, point.before)) && IsGood(GraspAt(to, point.after));
+    SwitchSide a = {&graph_.sets()[from], &cells_.of(from), std::nullopt};
+    SwitchSide b = {&graph_.sets()[to], &cells_.of(to), std::nullopt};
+    const GraspScore score = [&](const GraspSet& set, const VectorXd& parameters) {
+      return Score(GraspAt(set, parameters));
     };
     auto [known, is_new] = best_switches_.try_emplace({from, to});
-    if (is_new) known->second = find(false, false);
+    if (is_new) {
+      known->second = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
+      if (known->second) known->second = ImproveSwitch(a, b, *known->second, score);
+    }
     const std::optional<SwitchPoint>& best = known->second;
     if (!best) return {};
+    const double best_score = ScoreOf(a, b, *best, score);
     for (const auto& [fix_from, fix_to] : {std::pair(true, true), {true, false}, {false, true}}) {
       if (fix_to && goal == nullptr) continue;
-      auto point = find(fix_from, fix_to);
-      if (point && point->slack >= kGoodShare * best->slack && is_good(*point)) {
+      a.fixed = fix_from ? std::optional(at) : std::nullopt;
+      b.fixed = fix_to ? std::optional(goal->parameters) : std::nullopt;
+      auto point = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
+      if (point && ScoreOf(a, b, *point, score) >= std::max(kGoodShare * best_score, 0.0)) {
         return {std::move(point), true};
       }
     }
-    return {best, is_good(*best)};
+    return {best, best_score >= 0};
+  }
+
+  /// Of the switches with at least half of the best score, the one that keeps the most contacts.
+  static std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchSide& from,
+                                           const SwitchSide& to, const GraspScore& score) {
+    std::vector<double> scores;
+    for (const SwitchPoint& point : points) scores.push_back(ScoreOf(from, to, point, score));
+    std::optional<std::size_t> best;
+    const double highest = scores.empty() ? 0 : *std::max_element(scores.begin(), scores.end());
+    const double least = highest > 0 ? kGoodShare * highest : highest;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (scores[i] < least) continue;
+      const auto rank = [&](std::size_t k) { return std::pair(points[k].kept.size(), scores[k]); };
+      if (!best || rank(i) > rank(*best)) best = i;
+    }
+    if (!best) return std::nullopt;
+    return std::move(points[*best]);
+  }
+
+  /// How good it is to rest in a grasp: its margin to the required half-angle where its quality is
+  /// what is asked for, otherwise a negative number, the worse the lower the quality.
+  [[nodiscard]] double Score(const Grasp& grasp) const {
+    if (!IsForceClosure(grasp, frame_, options_.half_angle)) return -1;
+    if (!QualityAtLeast(grasp, frame_, options_.half_angle, options_.min_quality)) {
+      return ComputeQuality(grasp, frame_, options_.half_angle).lower / options_.min_quality - 1;
+    }
+    const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
+    return required ? std::max(options_.half_angle - required->upper, 0.0) : 0;
   }
 
   [[nodiscard]] static Grasp ContactsOf(const Grasp& grasp, const Attachment& attachment) {
@@ -334,9 +374,9 @@ class PolygonPlanner {
   }
 
   /// The contacts of a set at given parameters; those of start and goal as they were given.
-  [[nodiscard]] Grasp GraspAt(int vertex, const VectorXd& parameters) const {
+  [[nodiscard]] Grasp GraspAt(const GraspSet& set, const VectorXd& parameters) const {
     Grasp grasp;
-    for (const int edge : graph_.sets()[vertex].edges) {
+    for (const int edge : set.edges) {
       const double u = parameters[static_cast<Eigen::Index>(grasp.size())];
       Contact contact = ContactAt(polygon_, edge, u);
       for (const Grasp* given : {&start_.grasp, &goal_.grasp}) {
@@ -377,7 +417,7 @@ class PolygonPlanner {
     if (path.empty()) return false;
     Align align;
     for (const VectorXd& parameters : path) {
-      const Grasp contacts = GraspAt(vertex, parameters);
+      const Grasp contacts = GraspAt(graph_.sets()[vertex], parameters);
       FingerGrasp waypoint = holding_;
       for (FingerContact& finger : waypoint) {
         finger.contact = *std::find_if(contacts.begin(), contacts.end(), [&](const Contact& c) {

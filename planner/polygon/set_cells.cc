@@ -48,7 +48,7 @@ class CellMaker {
     }
   }
 
-  std::vector<SetCell> Make() {
+  std::vector<GraspCell> Make() {
     for (const int part : set_.parts) {
       switch (set_.type) {
         case GraspType::kConcurrent:
@@ -219,7 +219,7 @@ class CellMaker {
 
   const GraspSet& set_;
   std::vector<Edge> edges_;
-  std::vector<SetCell> cells_;
+  std::vector<GraspCell> cells_;
 };
 
 }  // namespace
@@ -228,8 +228,8 @@ SetCells::SetCells(const Polygon& polygon, const GraspSet& set)
     : polygon_(polygon), set_(set), cells_(CellMaker(polygon, set).Make()) {}
 
 std::optional<VectorXd> SetCells::Passage(int from, int to) const {
-  const SetCell& a = cells_[from];
-  const SetCell& b = cells_[to];
+  const GraspCell& a = cells_[from];
+  const GraspCell& b = cells_[to];
   const auto contacts = static_cast<Eigen::Index>(set_.edges.size());
   SlackSolution point;
   if (set_.type == GraspType::kConcurrent) {
@@ -250,11 +250,11 @@ std::optional<VectorXd> SetCells::Passage(int from, int to) const {
 
 double SetCells::width() const {
   double width = 0;
-  for (const SetCell& cell : cells_) width = std::max(width, cell.centre.slack);
+  for (const GraspCell& cell : cells_) width = std::max(width, cell.centre.slack);
   return width;
 }
 
-double SlackInCell(const SetCell& cell, const VectorXd& parameters) {
+double SlackInCell(const GraspCell& cell, const VectorXd& parameters) {
   const Inequalities& all = cell.inequalities;
   const Eigen::Index contacts = parameters.size();
   const Eigen::Index rest = all.rows.cols() - contacts;
@@ -263,10 +263,10 @@ double SlackInCell(const SetCell& cell, const VectorXd& parameters) {
   return rest == 0 ? fixed.offsets.minCoeff() : MaximizeSlack(fixed).slack;
 }
 
-double SlackInSet(const SetCells& set, const VectorXd& parameters) {
-  double best = -1;
-  for (const SetCell& cell : set.cells()) best = std::max(best, SlackInCell(cell, parameters));
-  return best;
+bool IsInSet(const SetCells& set, const VectorXd& parameters) {
+  return std::any_of(set.cells().begin(), set.cells().end(), [&](const GraspCell& cell) {
+    return SlackInCell(cell, parameters) > kNoSlack;
+  });
 }
 
 Contact ContactAt(const Polygon& polygon, int edge, double parameter) {

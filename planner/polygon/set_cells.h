@@ -16,7 +16,7 @@ namespace regrasp {
 /// concurrent set, the focus point about the centroid over D. Slacks are lengths over D: the focus
 /// point's or the contact's distance to the border of a cone, a contact's distance to the ends of
 /// its edge. Straight lines between points of a cell are aligns that stay inside it.
-struct SetCell {
+struct GraspCell {
   int part = 0;  ///< of the set, see GraspSet::parts
   Inequalities inequalities;
   SlackSolution centre;  ///< of largest slack
@@ -29,7 +29,7 @@ class SetCells {
   /// left out here. Polygon and set must outlive the cells.
   SetCells(const Polygon& polygon, const GraspSet& set);
 
-  [[nodiscard]] const std::vector<SetCell>& cells() const { return cells_; }
+  [[nodiscard]] const std::vector<GraspCell>& cells() const { return cells_; }
 
   /// The grasp of largest slack where an align can pass from one cell to another: in what the cells
   /// have in common, or with the focus point on the edge that parts them.
@@ -39,10 +39,15 @@ class SetCells {
   /// The largest slack of a grasp in the set.
   [[nodiscard]] double width() const;
 
+  /// The length of the set's k-th edge over D.
+  [[nodiscard]] double edge_length(int k) const {
+    return polygon_.face_measure(set_.edges[k]) / polygon_.diameter();
+  }
+
  private:
   const Polygon& polygon_;
   const GraspSet& set_;
-  std::vector<SetCell> cells_;
+  std::vector<GraspCell> cells_;
 };
 
 /// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
@@ -50,10 +55,10 @@ inline constexpr double kNoSlack = 1e-12;
 
 /// The slack of a grasp in a cell, with the best focus point where there is one.
 /// @param parameters  of the contacts, in the order of the set's edges.
-[[nodiscard]] double SlackInCell(const SetCell& cell, const Eigen::VectorXd& parameters);
+[[nodiscard]] double SlackInCell(const GraspCell& cell, const Eigen::VectorXd& parameters);
 
-/// The slack of a grasp in a set, the largest over its cells: positive iff it belongs to the set.
-[[nodiscard]] double SlackInSet(const SetCells& set, const Eigen::VectorXd& parameters);
+/// True iff a grasp has slack in one of the cells.
+[[nodiscard]] bool IsInSet(const SetCells& set, const Eigen::VectorXd& parameters);
 
 /// The contact at a parameter of an edge, and back.
 [[nodiscard]] Contact ContactAt(const Polygon& polygon, int edge, double parameter);

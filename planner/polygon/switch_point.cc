@@ -1,6 +1,7 @@
 #include "planner/polygon/switch_point.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace regrasp {
 
@@ -10,8 +11,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A share of the best slack that a switch may lose for keeping more contacts in place.
-constexpr double kGoodShare = 0.5;
+/// Steps that raise the score by less, relative to it, are not worth their time.
+constexpr double kLeastGain = 1e-3;
 
 /// An edge that both sets have, by its positions in them.
 struct CommonEdge {
@@ -128,41 +129,88 @@ std::optional<SwitchPoint> FindInCells(const SwitchSide& from, const Inequalitie
   return point;
 }
 
+/// The parameters that a search may move: of a contact of the first grasp, of one of the second, or
+/// of one that both have (positions; −1 for none).
+struct FreeContact {
+  Index in_from = -1;
+  Index in_to = -1;
+  double length = 1;  ///< of its edge over D
+};
+
+std::vector<FreeContact> FindFreeContacts(const SwitchSide& from, const SwitchSide& to,
+                                          const SwitchPoint& point) {
+  std::vector<FreeContact> contacts;
+  for (std::size_t k = 0; k < from.set->edges.size(); ++k) {
+    contacts.push_back({static_cast<Index>(k), -1, from.cells->edge_length(static_cast<int>(k))});
+  }
+  for (std::size_t k = 0; k < to.set->edges.size(); ++k) {
+    const int edge = to.set->edges[k];
+    if (std::binary_search(point.kept.begin(), point.kept.end(), edge)) {
+      const auto in_from =
+          std::find(from.set->edges.begin(), from.set->edges.end(), edge) - from.set->edges.begin();
+      contacts[in_from].in_to = static_cast<Index>(k);
+    } else {
+      contacts.push_back({-1, static_cast<Index>(k), to.cells->edge_length(static_cast<int>(k))});
+    }
+  }
+  return contacts;
+}
+
 }  // namespace
 
-std::optional<SwitchPoint> FindSwitchPoint(const SwitchSide& from, const SwitchSide& to,
-                                           int fingers) {
+std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from, const SwitchSide& to,
+                                          int fingers) {
   const std::vector<CommonEdge> common = FindCommonEdges(*from.set, *to.set);
   const int contacts = static_cast<int>(from.set->edges.size() + to.set->edges.size());
   const int least_kept = std::max(0, contacts - fingers);
   std::vector<SwitchPoint> points;
-  double best = 0;
   for (unsigned subset = 0; subset < 1U << common.size(); ++subset) {
     std::vector<CommonEdge> kept;
     for (std::size_t i = 0; i < common.size(); ++i) {
       if ((subset >> i & 1U) != 0) kept.push_back(common[i]);
     }
     if (static_cast<int>(kept.size()) < least_kept) continue;
-    for (const SetCell& from_cell : from.cells->cells()) {
-      for (const SetCell& to_cell : to.cells->cells()) {
-        // A switch has no more slack than either cell.
-        if (std::min(from_cell.centre.slack, to_cell.centre.slack) < kGoodShare * best) continue;
+    for (const GraspCell& from_cell : from.cells->cells()) {
+      for (const GraspCell& to_cell : to.cells->cells()) {
         auto point = FindInCells(from, from_cell.inequalities, to, to_cell.inequalities, kept);
-        if (!point) continue;
-        best = std::max(best, point->slack);
-        points.push_back(std::move(*point));
+        if (point) points.push_back(std::move(*point));
       }
     }
   }
-  std::erase_if(points, [&](const SwitchPoint& p) { return p.slack < kGoodShare * best; });
-  if (points.empty()) return std::nullopt;
-  return *std::max_element(points.begin(), points.end(),
-                           [](const SwitchPoint& a, const SwitchPoint& b) {
-                             if (a.kept.size() != b.kept.size()) {
-                               return a.kept.size() < b.kept.size();
-                             }
-                             return a.slack < b.slack;
-                           });
+  return points;
+}
+
+double ScoreOf(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
+               const GraspScore& score) {
+  return std::min(score(*from.set, point.before), score(*to.set, point.after));
+}
+
+SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
+                          const GraspScore& score) {
+  constexpr double kFirstStep = 0.1;
+  constexpr double kLastStep = 0.003;
+  const std::vector<FreeContact> contacts = FindFreeContacts(from, to, point);
+  SwitchPoint best = point;
+  double best_score = ScoreOf(from, to, best, score);
+  for (double step = kFirstStep; step >= kLastStep; step /= 2) {
+    for (bool improved = true; improved;) {
+      improved = false;
+      for (const FreeContact& contact : contacts) {
+        for (const double move : {step / contact.length, -step / contact.length}) {
+          SwitchPoint next = best;
+          if (contact.in_from >= 0) next.before[contact.in_from] += move;
+          if (contact.in_to >= 0) next.after[contact.in_to] += move;
+          if (!IsInSet(*from.cells, next.before) || !IsInSet(*to.cells, next.after)) continue;
+          const double next_score = ScoreOf(from, to, next, score);
+          if (next_score <= best_score + kLeastGain * std::abs(best_score)) continue;
+          best = std::move(next);
+          best_score = next_score;
+          improved = true;
+        }
+      }
+    }
+  }
+  return best;
 }
 
 }  // namespace regrasp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,14 +21,25 @@ struct SwitchPoint {
   Eigen::VectorXd before;  ///< parameters of the first set's contacts
   Eigen::VectorXd after;   ///< of the second's
   std::vector<int> kept;   ///< edges of the polygon, ascending
-  double slack = 0;        ///< the smaller of both grasps', see SetCell
+  double slack = 0;        ///< the smaller of both grasps', see GraspCell
 };
 
-/// The switch between two sets whose smaller slack is largest, over all cells and all contacts that
-/// may stay: as many as a hand of `fingers` fingers needs to keep or more. Where it costs no more
-/// than half of the slack, more contacts stay.
-/// @returns nullopt where no switch has slack.
-[[nodiscard]] std::optional<SwitchPoint> FindSwitchPoint(const SwitchSide& from,
-                                                         const SwitchSide& to, int fingers);
+/// The switch of largest slack for every pair of cells and every choice of contacts that stay, as
+/// many as a hand of `fingers` fingers needs to keep or more. Empty where no switch has slack.
+[[nodiscard]] std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from,
+                                                        const SwitchSide& to, int fingers);
+
+/// How good a grasp of one of the two sides is, the more the better.
+using GraspScore = std::function<double(const GraspSet& set, const Eigen::VectorXd& parameters)>;
+
+/// The smaller score of a switch's two grasps.
+[[nodiscard]] double ScoreOf(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
+                             const GraspScore& score);
+
+/// Moves the contacts of a switch to raise its score, by compass search (Kolda, Lewis and Torczon
+/// 2003) with steps from a tenth of D down; both grasps stay in their sets, and contacts that are
+/// kept move together. Never lowers the score.
+[[nodiscard]] SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to,
+                                        const SwitchPoint& point, const GraspScore& score);
 
 }  // namespace regrasp
