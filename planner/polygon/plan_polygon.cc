@@ -34,7 +34,7 @@ constexpr int kDrawsPerSet = 30;
 constexpr int kMaxSetDraws = 2000;
 
 /// Paths tried for one whose grasps are all of the quality that is asked for.
-constexpr int kMaxPaths = 60;
+constexpr int kMaxPaths = 600;
 
 /// A switch from the grasp at hand, or to the goal's, or one that keeps more contacts is good
 /// enough with this share of the best one's score: it spares an align or a move.
@@ -185,27 +185,29 @@ class PolygonPlanner {
   }
 
   Grasp DrawFromGraph(const GraspChoice& choice, RandomUse use, RandomStream& random) {
-    std::vector<int> urn = Urn(use);
-    const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxSetDraws);
-    for (std::size_t i = 0; i < draws; ++i) {
-      std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
-      for (int draw = 0; draw < kDrawsPerSet; ++draw) {
-        Grasp grasp = cells_.DrawGrasp(urn[i], random);
-        if (!grasp.empty() && IsGood(grasp)) return grasp;
+    std::size_t sets = 0;
+    for (std::vector<int>& urn : Urns(use)) {
+      sets += urn.size();
+      const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxSetDraws);
+      for (std::size_t i = 0; i < draws; ++i) {
+        std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
+        for (int draw = 0; draw < kDrawsPerSet; ++draw) {
+          Grasp grasp = cells_.DrawGrasp(urn[i], random);
+          if (!grasp.empty() && IsGood(grasp)) return grasp;
+        }
       }
     }
     throw NoGrasp{choice.name + ": no grasp with a quality of at least " +
-                  FormatShort(options_.min_quality) + " was drawn from " +
-                  std::to_string(urn.size()) + " sets of grasps" +
-                  (use == RandomUse::kGoal ? " in the start's component" : "")};
+                  FormatShort(options_.min_quality) + " was drawn from " + std::to_string(sets) +
+                  " sets of grasps" + (use == RandomUse::kGoal ? " in the start's component" : "")};
   }
 
-  /// The sets that a random grasp is drawn from: a goal from the start's components, and not from
-  /// the start's own sets if there are others.
-  [[nodiscard]] std::vector<int> Urn(RandomUse use) const {
+  /// The sets that a random grasp is drawn from, those of the first list first: a goal from the
+  /// start's components, and from the start's own sets only where the others have none.
+  [[nodiscard]] std::vector<std::vector<int>> Urns(RandomUse use) const {
     std::vector<int> all(graph_.vertex_count());
     std::iota(all.begin(), all.end(), 0);
-    if (use == RandomUse::kStart) return all;
+    if (use == RandomUse::kStart) return {all};
     const Components components = graph_.components();
     std::set<int> reachable;
     std::set<int> own;
@@ -213,10 +215,10 @@ class PolygonPlanner {
       reachable.insert(components.of_vertex[a.vertex]);
       own.insert(a.vertex);
     }
-    std::erase_if(all, [&](int v) { return !reachable.contains(components.of_vertex[v]); });
-    std::vector<int> others = all;
-    std::erase_if(others, [&](int v) { return own.contains(v); });
-    return others.empty() ? all : others;
+    std::erase_if(all, [&](int v) {
+      return own.contains(v) || !reachable.contains(components.of_vertex[v]);
+    });
+    return {all, {own.begin(), own.end()}};
   }
 
   std::vector<Attachment> Attach(const GraspChoice& choice) {
