@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace regrasp {
 
@@ -11,8 +12,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Steps that raise the score by less, relative to it, are not worth their time.
-constexpr double kLeastGain = 1e-3;
+/// Moves that raise the score by less are not worth their time: 0.006° of margin.
+constexpr double kLeastGain = 1e-4;
+
+/// Of the most slack that a switch can have, so much stays when it is improved: contacts keep clear
+/// of corners, and aligns have room.
+constexpr double kKeptShare = 0.25;
 
 /// An edge that both sets have, by its positions in them.
 struct CommonEdge {
@@ -156,6 +161,73 @@ std::vector<FreeContact> FindFreeContacts(const SwitchSide& from, const SwitchSi
   return contacts;
 }
 
+/// A switch's two scores, the lower one first: where it stays the same, the other may rise, or the
+/// search would end wherever both are equal.
+class SwitchRank {
+ public:
+  SwitchRank(double before, double after)
+      : lower_(std::min(before, after)), higher_(std::max(before, after)) {}
+
+  [[nodiscard]] bool IsBetterThan(const SwitchRank& other) const {
+    if (lower_ > other.lower_ + kLeastGain) return true;
+    return lower_ >= other.lower_ && higher_ > other.higher_ + kLeastGain;
+  }
+
+ private:
+  double lower_;
+  double higher_;
+};
+
+/// See ImproveSwitch.
+class CompassSearch {
+ public:
+  CompassSearch(const SwitchSide& from, const SwitchSide& to, const GraspScore& score,
+                double least_slack)
+      : from_(from), to_(to), score_(score), least_slack_(least_slack) {}
+
+  [[nodiscard]] SwitchPoint Improve(const SwitchPoint& point) const {
+    const std::vector<FreeContact> contacts = FindFreeContacts(from_, to_, point);
+    SwitchPoint best = point;
+    double step = kFirstStep;
+    for (int round = 0; round < kMostRounds && step >= kLastStep; ++round) {
+      bool improved = false;
+      for (const FreeContact& contact : contacts) {
+        improved = Move(contact, step / contact.length, best) ||
+                   Move(contact, -step / contact.length, best) || improved;
+      }
+      if (!improved) step /= 2;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kFirstStep = 0.1;
+  static constexpr double kLastStep = 0.003;
+  static constexpr int kMostRounds = 20;
+
+  /// @returns true where `point` is better after the move.
+  bool Move(const FreeContact& contact, double by, SwitchPoint& point) const {
+    SwitchPoint next = point;
+    if (contact.in_from >= 0) next.before[contact.in_from] += by;
+    if (contact.in_to >= 0) next.after[contact.in_to] += by;
+    if (!RankOf(next).IsBetterThan(RankOf(point))) return false;
+    // The costlier question comes last.
+    if (contact.in_from >= 0 && !IsInSet(*from_.cells, next.before, least_slack_)) return false;
+    if (contact.in_to >= 0 && !IsInSet(*to_.cells, next.after, least_slack_)) return false;
+    point = std::move(next);
+    return true;
+  }
+
+  [[nodiscard]] SwitchRank RankOf(const SwitchPoint& point) const {
+    return {score_(*from_.set, point.before), score_(*to_.set, point.after)};
+  }
+
+  const SwitchSide& from_;
+  const SwitchSide& to_;
+  const GraspScore& score_;
+  double least_slack_;
+};
+
 }  // namespace
 
 std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from, const SwitchSide& to,
@@ -182,35 +254,16 @@ std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from, const SwitchSi
 
 double ScoreOf(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
                const GraspScore& score) {
-  return std::min(score(*from.set, point.before), score(*to.set, point.after));
+  double least = std::numeric_limits<double>::infinity();
+  if (!from.fixed) least = std::min(least, score(*from.set, point.before));
+  if (!to.fixed) least = std::min(least, score(*to.set, point.after));
+  return least;
 }
 
 SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
                           const GraspScore& score) {
-  constexpr double kFirstStep = 0.1;
-  constexpr double kLastStep = 0.003;
-  const std::vector<FreeContact> contacts = FindFreeContacts(from, to, point);
-  SwitchPoint best = point;
-  double best_score = ScoreOf(from, to, best, score);
-  for (double step = kFirstStep; step >= kLastStep; step /= 2) {
-    for (bool improved = true; improved;) {
-      improved = false;
-      for (const FreeContact& contact : contacts) {
-        for (const double move : {step / contact.length, -step / contact.length}) {
-          SwitchPoint next = best;
-          if (contact.in_from >= 0) next.before[contact.in_from] += move;
-          if (contact.in_to >= 0) next.after[contact.in_to] += move;
-          if (!IsInSet(*from.cells, next.before) || !IsInSet(*to.cells, next.after)) continue;
-          const double next_score = ScoreOf(from, to, next, score);
-          if (next_score <= best_score + kLeastGain * std::abs(best_score)) continue;
-          best = std::move(next);
-          best_score = next_score;
-          improved = true;
-        }
-      }
-    }
-  }
-  return best;
+  const CompassSearch search(from, to, score, kKeptShare * point.slack);
+  return search.Improve(point);
 }
 
 }  // namespace regrasp

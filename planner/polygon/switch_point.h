@@ -32,13 +32,14 @@ struct SwitchPoint {
 /// How good a grasp of one of the two sides is, the more the better.
 using GraspScore = std::function<double(const GraspSet& set, const Eigen::VectorXd& parameters)>;
 
-/// The smaller score of a switch's two grasps.
+/// The smaller score of a switch's two grasps, without those that are fixed: they are in the
+/// sequence whatever is chosen. Infinite where both are.
 [[nodiscard]] double ScoreOf(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point,
                              const GraspScore& score);
 
 /// Moves the contacts of a switch to raise its score, by compass search (Kolda, Lewis and Torczon
-/// 2003) with steps from a tenth of D down; both grasps stay in their sets, and contacts that are
-/// kept move together. Never lowers the score.
+/// 2003) with steps from a tenth of D down; both grasps stay in their sets with a quarter of the
+/// slack, and contacts that are kept move together. Never lowers the score.
 [[nodiscard]] SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to,
                                         const SwitchPoint& point, const GraspScore& score);
 
