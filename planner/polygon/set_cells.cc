@@ -263,10 +263,9 @@ double SlackInCell(const GraspCell& cell, const VectorXd& parameters) {
   return rest == 0 ? fixed.offsets.minCoeff() : MaximizeSlack(fixed).slack;
 }
 
-bool IsInSet(const SetCells& set, const VectorXd& parameters) {
-  return std::any_of(set.cells().begin(), set.cells().end(), [&](const GraspCell& cell) {
-    return SlackInCell(cell, parameters) > kNoSlack;
-  });
+bool IsInSet(const SetCells& set, const VectorXd& parameters, double slack) {
+  return std::any_of(set.cells().begin(), set.cells().end(),
+                     [&](const GraspCell& cell) { return SlackInCell(cell, parameters) > slack; });
 }
 
 Contact ContactAt(const Polygon& polygon, int edge, double parameter) {

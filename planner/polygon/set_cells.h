@@ -57,8 +57,9 @@ inline constexpr double kNoSlack = 1e-12;
 /// @param parameters  of the contacts, in the order of the set's edges.
 [[nodiscard]] double SlackInCell(const GraspCell& cell, const Eigen::VectorXd& parameters);
 
-/// True iff a grasp has slack in one of the cells.
-[[nodiscard]] bool IsInSet(const SetCells& set, const Eigen::VectorXd& parameters);
+/// True iff a grasp has more than `slack` in one of the cells.
+[[nodiscard]] bool IsInSet(const SetCells& set, const Eigen::VectorXd& parameters,
+                           double slack = kNoSlack);
 
 /// The contact at a parameter of an edge, and back.
 [[nodiscard]] Contact ContactAt(const Polygon& polygon, int edge, double parameter);
