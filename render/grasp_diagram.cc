@@ -248,8 +248,11 @@ GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp, double ha
   std::optional<GraspDiagram> diagram;
   if (grasp.size() == 2) diagram = TryTwoFinger(grasp, half_angle);
   if (grasp.size() == 3) {
+    // Where both serve, the wider cones show more of the grasp.
     diagram = TryConcurrent(polygon, grasp, half_angle);
-    if (!diagram) diagram = TryParallel(polygon, grasp, half_angle);
+    auto parallel = TryParallel(polygon, grasp, half_angle);
+    const auto width = [](const GraspDiagram& d) { return d.cones.front().half_angle; };
+    if (parallel && (!diagram || width(*parallel) > width(*diagram))) diagram = std::move(parallel);
   }
   if (diagram) return *diagram;
   GraspDiagram other;
