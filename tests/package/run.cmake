@@ -12,6 +12,6 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BU
     -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${MODEL})
-foreach(program plan validate graph)
+foreach(program plan validate graph figure)
   run(${WORK_DIR}/prefix/bin/${program} --version)
 endforeach()
