@@ -4,6 +4,8 @@ import json
 import os
 import re
 
+import jsonschema
+
 import program_case
 from program_case import ProgramCase
 
@@ -35,6 +37,22 @@ class Plan(ProgramCase):
     def grasp(self, contacts):
         return {"format": "regrasp-grasp", "version": 1, "contacts": contacts}
 
+    def polygon_arguments(self, **changes):
+        """The same for a polygon."""
+        options = {"object": self.model("polygon15.wkt"), "contacts": None,
+                   "start": self.model("polygon15.start.json"),
+                   "goal": self.model("polygon15.goal.json")}
+        return self.arguments(**dict(options, **changes))
+
+    def plan(self, arguments):
+        """The plan, which always follows its schema."""
+        self.assert_done(*arguments)
+        plan = json.loads(self.read("plan.json"))
+        schema = os.path.join(program_case.ARGUMENTS.source, "docs", "plan.schema.json")
+        with open(schema, encoding="utf-8") as file:
+            jsonschema.validate(plan, json.load(file))
+        return plan
+
     def start_contacts(self):
         with open(self.model("cube.start.json"), encoding="utf-8") as file:
             return json.load(file)["contacts"]
@@ -57,6 +75,81 @@ class Plan(ProgramCase):
                 self.assertEqual(plan["fingers"], 5)
                 self.assertGreater(len(plan["steps"]), 0)
 
+    def test_plans_on_every_polygon(self):
+        names = sorted(name[:-len(".wkt")] for name in os.listdir(self.model(""))
+                       if name.endswith(".wkt"))
+        self.assertGreaterEqual(len(names), 9, names)
+        for name in names:
+            with self.subTest(model=name):
+                plan = self.plan(self.polygon_arguments(
+                    object=self.model(name + ".wkt"), start=self.model(name + ".start.json"),
+                    goal=self.model(name + ".goal.json")))
+                self.assertEqual(plan["planner"], "polygon")
+                self.assertEqual(plan["fingers"], 4)
+                self.assertEqual(plan["object"]["dimension"], 2)
+                self.assertGreater(len(plan["steps"]), 0)
+
+    def test_fingers_of_a_polygon_hold_until_they_leave_and_never_are_more_than_four(self):
+        aligns = 0
+        for seed in range(5):
+            plan = self.plan(self.polygon_arguments(start="random", goal="random",
+                                                    planner="polygon", seed=str(seed)))
+            holding = {c["finger"]: contact_key(c) for c in plan["initial"]["contacts"]}
+            for step in plan["steps"]:
+                if step["kind"] == "align":
+                    first, *_, last = [{c["finger"]: contact_key(c) for c in waypoint["contacts"]}
+                                       for waypoint in step["waypoints"]]
+                    self.assertEqual(first, holding)
+                    holding = last
+                    aligns += 1
+                    continue
+                for contact in step["place"]:
+                    self.assertNotIn(contact["finger"], holding)
+                    holding[contact["finger"]] = contact_key(contact)
+                self.assertLessEqual(len(holding), 4)
+                self.assertLess(max(holding), 4)
+                for finger in step["release"]:
+                    del holding[finger]
+            self.assertEqual(sorted(holding.values()),
+                             sorted(contact_key(c) for c in plan["goal"]["contacts"]))
+        self.assertGreater(aligns, 0)
+
+    def test_the_same_seed_gives_the_same_bytes_on_a_polygon(self):
+        plans = []
+        for seed in ("1", "1", "2"):
+            self.assert_done(*self.polygon_arguments(start="random-any", goal="random",
+                                                     planner="polygon", seed=seed))
+            plans.append(self.read("plan.json"))
+        self.assertEqual(plans[0], plans[1])
+        self.assertNotEqual(plans[0], plans[2])
+
+    def test_summary_counts_switches_and_aligns(self):
+        done = self.assert_done(*self.polygon_arguments())
+        steps = [step["kind"] for step in json.loads(self.read("plan.json"))["steps"]]
+        counted = re.search(r"(\d+) switch(?:es)?, (\d+) aligns?; the weakest grasp needs",
+                            done.stderr)
+        self.assertEqual([int(count) for count in counted.groups()],
+                         [steps.count("switch"), steps.count("align")])
+
+    def test_uniform_spanning_leaves_grasps_out_that_adaptive_has(self):
+        # The normals of this triangle span with cones of half-angle below 30°. Two fingers of the
+        # turned grasps are no grasp at 35°.
+        def turned(share):
+            corners = [(-1, 0), (1, 0), (0, 3 ** 0.5)]
+            contacts = []
+            for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
+                contacts.append({"point": [ax + share * (bx - ax), ay + share * (by - ay)]})
+            return self.write_json(f"{share}.json", self.grasp(contacts))
+        triangle = self.write("triangle.wkt", "POLYGON((-1 0, 1 0, 0 1.7320508075688772, -1 0))")
+        options = {"object": triangle, "start": turned(0.4), "goal": turned(0.6),
+                   "friction_angle": "35"}
+        plan = self.plan(self.polygon_arguments(**options))
+        self.assertEqual([step["kind"] for step in plan["steps"]], ["align"])
+        os.remove(self.path("plan.json"))
+        said = self.assert_refused(1, "in none of the", *self.polygon_arguments(
+            spanning="uniform", **options)).stderr
+        self.assertIn("0.4.json", said)
+
     def test_steps_lead_from_the_start_to_the_goal(self):
         self.assert_done(*self.arguments())
         plan = json.loads(self.read("plan.json"))
@@ -76,7 +169,7 @@ class Plan(ProgramCase):
 
     def test_summary_goes_to_standard_error_and_quiet_is_silent(self):
         done = self.assert_done(*self.arguments())
-        self.assertIn("switches; the weakest grasp needs", done.stderr)
+        self.assertIn("switches, 0 aligns; the weakest grasp needs", done.stderr)
         self.assertEqual(done.stdout, "")
         quiet = self.assert_done(*self.arguments(), "--quiet")
         self.assertEqual(quiet.stderr + quiet.stdout, "")
@@ -180,6 +273,35 @@ class Plan(ProgramCase):
     def test_a_random_grasp_better_than_all_is_a_negative_answer(self):
         self.refuse("--start random-any: none of", code=1, start="random-any", min_quality="0.9")
 
+    def test_grasps_of_a_polygon_that_no_sequence_joins_are_a_negative_answer(self):
+        # At half a degree the graph of this polygon falls into several components.
+        shape = self.model("polygon25.wkt")
+        starts = []
+        for seed in range(20):
+            plan = self.plan(self.polygon_arguments(
+                object=shape, start="random", goal="random", planner="polygon",
+                friction_angle="0.5", min_quality="0", seed=str(seed)))
+            contacts = [{"point": c["point"], "normal": c["normal"]}
+                        for c in plan["initial"]["contacts"]]
+            starts.append(self.write_json(f"{seed}.json", self.grasp(contacts)))
+        os.remove(self.path("plan.json"))
+        refused = 0
+        for start, goal in zip(starts, starts[1:]):
+            command = self.polygon_arguments(object=shape, start=start, goal=goal,
+                                             friction_angle="0.5", output="-")
+            if self.run_program(*command).returncode == 0:
+                continue
+            said = self.assert_refused(1, "no sequence of switches and aligns", *command).stderr
+            sizes = re.search(r"of (\d+) sets .* the start's component has (\d+), "
+                              r"the goal's (\d+)$", said)
+            self.assertTrue(sizes, said)
+            total, start_size, goal_size = map(int, sizes.groups())
+            self.assertGreater(min(start_size, goal_size), 0)
+            self.assertLessEqual(start_size + goal_size, total)
+            refused += 1
+        self.assertGreater(refused, 0)
+        self.assertLess(refused, len(starts) - 1)
+
     # Bad usage.
 
     def test_refuses_missing_and_unknown_options(self):
@@ -212,7 +334,7 @@ class Plan(ProgramCase):
         self.assert_refused(2, "--seed", *self.arguments(seed="1"), "--seed", "2")
 
     def test_refuses_planners_that_do_not_exist(self):
-        for planner in ("polygon", "contour", "polyhedron", "general", "none", ""):
+        for planner in ("contour", "polyhedron", "general", "none", ""):
             self.refuse("planner", planner=planner)
         self.refuse("--spanning", spanning="neither")
 
@@ -253,9 +375,25 @@ class Plan(ProgramCase):
                 with self.subTest(option=option, name=name):
                     self.refuse(name, **{option: name})
 
-    def test_refuses_a_planar_object(self):
-        square = self.write("square.wkt", "POLYGON((0 0, 1 0, 1 1, 0 1, 0 0))")
-        self.refuse([square, "planar"], object=square)
+    def test_refuses_a_solid_for_the_polygon_and_a_polygon_for_the_roadmap(self):
+        self.refuse([self.model("cube.obj"), "a solid"], planner="polygon")
+        self.assert_refused(2, [self.model("polygon15.wkt"), "planar"],
+                            *self.polygon_arguments(planner="roadmap"))
+
+    def test_refuses_grasps_that_do_not_serve_on_a_polygon(self):
+        pair = [{"point": [-0.03, 0.01]}, {"point": [0.03, -0.01]}]
+        def refuse(words, contacts):
+            start = self.write_json("start.json", self.grasp(contacts))
+            self.assert_refused(2, [start, words], *self.polygon_arguments(
+                object=self.model("square.wkt"), start=start,
+                goal=self.model("square.goal.json"), friction_angle="10"))
+        # Leans by atan(2 / 6) = 18.43°.
+        refuse("needs a friction half-angle of 18.44°, given 10°", pair)
+        refuse("needs 2 to 4 contacts, found 1", pair[:1])
+        refuse("needs 2 to 4 contacts, found 5",
+               [{"point": [x, 0.03]} for x in (-0.02, -0.01, 0, 0.01, 0.02)])
+        refuse("contacts 0 and 2 are at the same point", pair + pair[:1])
+        refuse("/contacts/0/point", [{"point": [-0.03, 0.01, 0]}] + pair[1:])
 
     # The environment.
 
