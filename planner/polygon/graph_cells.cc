@@ -54,6 +54,52 @@ std::vector<std::vector<int>> SubsetsOf(int count) {
   return subsets;
 }
 
+/// The parameters of a set's contacts that are given, in the order of its edges.
+using FixedParameters = std::vector<std::optional<double>>;
+
+/// All ways to keep contacts of a grasp in a set on these edges, none among them.
+std::vector<FixedParameters> ChooseKept(const Polygon& polygon, const Grasp& grasp,
+                                        const std::vector<int>& edges) {
+  std::vector<FixedParameters> choices = {FixedParameters()};
+  for (const int edge : edges) {
+    std::vector<FixedParameters> longer;
+    for (const FixedParameters& choice : choices) {
+      longer.push_back(choice);
+      longer.back().push_back(std::nullopt);
+      for (const Contact& contact : grasp) {
+        if (contact.face != edge) continue;
+        longer.push_back(choice);
+        longer.back().push_back(ParameterOf(polygon, contact));
+      }
+    }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+/// The point of a cell of largest slack whose first variables are those that are given.
+SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters& fixed) {
+  std::vector<Eigen::Index> free;
+  Inequalities rest = {Eigen::MatrixXd(), cell.offsets};
+  for (Eigen::Index v = 0; v < cell.rows.cols(); ++v) {
+    if (v < std::ssize(fixed) && fixed[v]) {
+      rest.offsets += *fixed[v] * cell.rows.col(v);
+    } else {
+      free.push_back(v);
+    }
+  }
+  rest.rows = cell.rows(Eigen::all, free);
+  const SlackSolution solution = MaximizeSlack(rest);
+  SlackSolution whole = {VectorXd(cell.rows.cols()), solution.slack};
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    if (fixed[v]) whole.z[static_cast<Eigen::Index>(v)] = *fixed[v];
+  }
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    whole.z[free[i]] = solution.z[static_cast<Eigen::Index>(i)];
+  }
+  return whole;
+}
+
 }  // namespace
 
 const SetCells& GraphCells::of(int vertex) {
@@ -76,7 +122,27 @@ std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
     for (const int vertex : graph_.SetsOn(edges)) {
       if (!IsInSet(of(vertex), parameters)) continue;
-      attachments.push_back({vertex, contacts, parameters});
+      attachments.push_back({vertex, parameters, contacts.size() == grasp.size()});
+    }
+  }
+  return attachments;
+}
+
+std::vector<Attachment> GraphCells::FindSwitches(const Grasp& grasp, int fingers) {
+  std::vector<Attachment> attachments;
+  for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
+    const std::vector<int>& edges = graph_.sets()[vertex].edges;
+    const int least_kept = static_cast<int>(grasp.size() + edges.size()) - fingers;
+    for (const FixedParameters& fixed : ChooseKept(polygon_, grasp, edges)) {
+      const auto kept = std::count_if(fixed.begin(), fixed.end(),
+                                      [](const auto& parameter) { return parameter.has_value(); });
+      if (kept < least_kept || kept == std::ssize(edges)) continue;
+      SlackSolution best;
+      for (const GraspCell& cell : of(vertex).cells()) {
+        SlackSolution solution = MaximizeSlackWith(cell.inequalities, fixed);
+        if (solution.slack > std::max(best.slack, kNoSlack)) best = std::move(solution);
+      }
+      if (best.slack > 0) attachments.push_back({vertex, best.z.head(std::ssize(edges)), false});
     }
   }
   return attachments;

@@ -9,11 +9,11 @@
 
 namespace regrasp {
 
-/// How a grasp belongs to a vertex of the graph.
+/// A grasp of a vertex of the graph that another grasp is, or comes to by one switch.
 struct Attachment {
   int vertex = 0;
-  std::vector<int> contacts;   ///< of the grasp, in the order of the set's edges
-  Eigen::VectorXd parameters;  ///< of these contacts
+  Eigen::VectorXd parameters;  ///< of the set's contacts
+  bool whole = false;          ///< it is the grasp itself, no switch is needed
 };
 
 /// The cells of a graph's sets, made when first asked for.
@@ -27,6 +27,11 @@ class GraphCells {
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
   [[nodiscard]] std::vector<Attachment> FindAttachments(const Grasp& grasp);
+
+  /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
+  /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
+  /// to no set.
+  [[nodiscard]] std::vector<Attachment> FindSwitches(const Grasp& grasp, int fingers);
 
   /// A grasp of the set, anywhere in it.
   [[nodiscard]] Grasp DrawGrasp(int vertex, RandomStream& random);

@@ -2,30 +2,23 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 
 #include "planner/base/number.h"
-#include "planner/graph/fewest_switches.h"
-#include "planner/graph/sequence.h"
-#include "planner/graph/widest_path.h"
-#include "planner/grasp/force_closure.h"
-#include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/same_grasp.h"
-#include "planner/polygon/align_path.h"
+#include "planner/polygon/attached_graph.h"
+#include "planner/polygon/draft.h"
 #include "planner/polygon/graph_cells.h"
-#include "planner/polygon/switch_point.h"
+#include "planner/polygon/grasp_judge.h"
 
 namespace regrasp {
 
 namespace {
 
-using Eigen::VectorXd;
 using Status = PlanResult::Status;
-using VertexPair = std::pair<int, int>;
 
 constexpr int kLeastContacts = 2;
 
@@ -36,61 +29,9 @@ constexpr int kMaxSetDraws = 2000;
 /// Paths tried for one whose grasps are all of the quality that is asked for.
 constexpr int kMaxPaths = 600;
 
-/// A switch from the grasp at hand, or to the goal's, or one that keeps more contacts is good
-/// enough with this share of the best one's score: it spares an align or a move.
-constexpr double kGoodShare = 0.5;
-
-/// Of required half-angles that are only compared, radians.
-constexpr double kScoreAccuracy = 1e-5;
-
 /// Thrown inside this file for a negative answer.
 struct NoGrasp {
   std::string message;
-};
-
-VertexPair Unordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// The graph with two more vertices, the start and the goal, and without some switches.
-class AttachedGraph final : public SwitchingGraph {
- public:
-  AttachedGraph(const PolygonGraph& graph, const std::vector<Attachment>& start,
-                const std::vector<Attachment>& goal, const std::set<VertexPair>& banned)
-      : graph_(graph), banned_(banned) {
-    for (const Attachment& a : start) starts_.insert(a.vertex);
-    for (const Attachment& a : goal) goals_.insert(a.vertex);
-  }
-
-  [[nodiscard]] int start() const { return graph_.vertex_count(); }
-  [[nodiscard]] int goal() const { return graph_.vertex_count() + 1; }
-  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count() + 2; }
-  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
-    if (vertex == start() || vertex == goal()) {
-      const std::set<int>& attached = vertex == start() ? starts_ : goals_;
-      neighbours.assign(attached.begin(), attached.end());
-      return;
-    }
-    graph_.GetNeighbours(vertex, neighbours);
-    if (!banned_.empty()) {
-      std::erase_if(neighbours,
-                    [&](int other) { return banned_.contains(Unordered(vertex, other)); });
-    }
-    if (starts_.contains(vertex)) neighbours.push_back(start());
-    if (goals_.contains(vertex)) neighbours.push_back(goal());
-  }
-
- private:
-  const PolygonGraph& graph_;
-  const std::set<VertexPair>& banned_;
-  std::set<int> starts_;
-  std::set<int> goals_;
-};
-
-/// A sequence and what is known of it.
-struct Draft {
-  FingerGrasp initial;
-  std::vector<Step> steps;
-  std::vector<Grasp> rests;              ///< the grasp before all steps and after each
-  std::vector<VertexPair> bad_switches;  ///< whose grasps are below the quality that is asked for
 };
 
 /// The planning of one sequence: what its stages share.
@@ -100,7 +41,7 @@ class PolygonPlanner {
                  const PolygonPlanOptions& options)
       : polygon_(polygon),
         options_(options),
-        frame_(polygon.wrench_frame()),
+        judge_(polygon, options.half_angle, options.min_quality),
         start_(std::move(start)),
         goal_(std::move(goal)),
         graph_(MakeGraph()),
@@ -108,25 +49,19 @@ class PolygonPlanner {
 
   PlanResult Run() {
     Settle(start_, RandomUse::kStart);
+    if (goal_.kind != GraspChoice::Kind::kRandom) Settle(goal_, RandomUse::kGoal);
+    // Where there is nothing to do, the grasp need not be in a set.
+    if (IsGoalTheStart()) return Finish(MakeDraftMaker().MakeEmpty());
     start_at_ = Attach(start_);
-    Settle(goal_, RandomUse::kGoal);
+    if (goal_.kind == GraspChoice::Kind::kRandom) Settle(goal_, RandomUse::kGoal);
+    if (IsGoalTheStart()) return Finish(MakeDraftMaker().MakeEmpty());
     goal_at_ = Attach(goal_);
-    PlanResult result;
-    if (AreSameGrasp(start_.grasp, goal_.grasp, kPointTolerance * polygon_.diameter())) {
-      Draft nothing;
-      Begin(nothing);
-      Finish(nothing, result);
-      return result;
-    }
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
                       " sets of grasps");
-    const std::optional<Draft> draft = FindDraft();
-    if (draft) {
-      Finish(*draft, result);
-    } else {
-      result.status = Status::kNoSequence;
-      result.message = NoSequenceMessage();
-    }
+    if (const std::optional<Draft> draft = FindDraft()) return Finish(*draft);
+    PlanResult result;
+    result.status = Status::kNoSequence;
+    result.message = NoSequenceMessage();
     return result;
   }
 
@@ -136,9 +71,12 @@ class PolygonPlanner {
     return PolygonGraph(polygon_, options_.half_angle, options_.spanning);
   }
 
-  [[nodiscard]] bool IsGood(const Grasp& grasp) const {
-    return IsForceClosure(grasp, frame_, options_.half_angle) &&
-           QualityAtLeast(grasp, frame_, options_.half_angle, options_.min_quality);
+  [[nodiscard]] DraftMaker MakeDraftMaker() {
+    return {polygon_, graph_, cells_, judge_, start_.grasp, goal_.grasp};
+  }
+
+  [[nodiscard]] bool IsGoalTheStart() const {
+    return AreSameGrasp(start_.grasp, goal_.grasp, kPointTolerance * polygon_.diameter());
   }
 
   // Start and goal.
@@ -147,7 +85,7 @@ class PolygonPlanner {
   void Settle(GraspChoice& choice, RandomUse use) {
     const double same_point = kSamePoint * polygon_.diameter();
     if (choice.kind == GraspChoice::Kind::kGiven) {
-      CheckGivenGrasp(choice, {"polygon", kLeastContacts, kPolygonFingers}, frame_,
+      CheckGivenGrasp(choice, {"polygon", kLeastContacts, kPolygonFingers}, judge_.frame(),
                       options_.half_angle, same_point);
       return;
     }
@@ -157,8 +95,9 @@ class PolygonPlanner {
       return;
     }
     const int contacts = kLeastContacts + static_cast<int>(random.Index(2));
-    const auto grasp = DrawGoodGrasp([&] { return DrawOnBoundary(contacts, random); }, frame_,
-                                     options_.half_angle, options_.min_quality, same_point);
+    const auto grasp =
+        DrawGoodGrasp([&] { return DrawOnBoundary(contacts, random); }, judge_.frame(),
+                      options_.half_angle, options_.min_quality, same_point);
     if (!grasp) {
       throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) + " grasps of " +
                     std::to_string(contacts) +
@@ -193,7 +132,7 @@ class PolygonPlanner {
         std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
         for (int draw = 0; draw < kDrawsPerSet; ++draw) {
           Grasp grasp = cells_.DrawGrasp(urn[i], random);
-          if (!grasp.empty() && IsGood(grasp)) return grasp;
+          if (!grasp.empty() && judge_.IsGood(grasp)) return grasp;
         }
       }
     }
@@ -223,219 +162,90 @@ class PolygonPlanner {
 
   std::vector<Attachment> Attach(const GraspChoice& choice) {
     std::vector<Attachment> attachments = cells_.FindAttachments(choice.grasp);
+    if (attachments.empty()) attachments = cells_.FindSwitches(choice.grasp, kPolygonFingers);
     if (attachments.empty()) {
       throw NoGrasp{choice.name + ": force closure, but in none of the " +
                     std::to_string(graph_.vertex_count()) +
                     " sets of concurrent, 2-finger and parallel grasps that the planner polygon "
-                    "switches between"};
+                    "switches between, nor one switch away" +
+                    CornerNote(choice.grasp)};
     }
-    // A start that must release fingers first, or a goal that places some last, should rest well
-    // without them too.
-    const auto rests_well = [&](const Attachment& a) {
-      return a.contacts.size() == choice.grasp.size() || IsGood(ContactsOf(choice.grasp, a));
+    // Where a switch of its own leads to the sets, the hand should rest well after it, or, for a
+    // goal, before it.
+    const auto score = [&](const Attachment& a) {
+      return a.whole ? options_.half_angle : judge_.Score(GraspOf(a));
     };
-    if (std::any_of(attachments.begin(), attachments.end(), rests_well)) {
-      std::erase_if(attachments, [&](const Attachment& a) { return !rests_well(a); });
+    if (std::any_of(attachments.begin(), attachments.end(),
+                    [&](const Attachment& a) { return score(a) >= 0; })) {
+      std::erase_if(attachments, [&](const Attachment& a) { return score(a) < 0; });
     }
+    std::stable_sort(attachments.begin(), attachments.end(),
+                     [&](const Attachment& a, const Attachment& b) { return score(a) > score(b); });
     return attachments;
+  }
+
+  [[nodiscard]] Grasp GraspOf(const Attachment& attachment) const {
+    Grasp grasp;
+    for (const int edge : graph_.sets()[attachment.vertex].edges) {
+      const auto k = static_cast<Eigen::Index>(grasp.size());
+      grasp.push_back(ContactAt(polygon_, edge, attachment.parameters[k]));
+    }
+    return grasp;
+  }
+
+  /// Sets are open: no grasp in them has a contact at the end of an edge.
+  [[nodiscard]] std::string CornerNote(const Grasp& grasp) const {
+    for (std::size_t i = 0; i < grasp.size(); ++i) {
+      const double to_corner = polygon_.DistanceToBorder(grasp[i].face, grasp[i].p);
+      if (to_corner > kNoSlack * polygon_.diameter()) continue;
+      return "; contact " + std::to_string(i) + " is at a corner, which none of them reaches";
+    }
+    return "";
   }
 
   // Search.
 
+  /// The first sequence whose grasps are all of the quality that is asked for, otherwise the one
+  /// whose weakest grasp is best: paths are tried without the switches that were too weak before.
   std::optional<Draft> FindDraft() {
-    std::optional<Draft> first;
+    DraftMaker maker = MakeDraftMaker();
+    std::optional<Draft> best;
+    double best_score = -std::numeric_limits<double>::infinity();
     std::set<VertexPair> banned;
     for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
-      const std::vector<int> path = FindPath(banned);
+      const AttachedGraph graph(graph_, start_at_, goal_at_, banned);
+      const std::vector<int> path = FindSetPath(graph, cells_);
       if (path.empty()) break;
-      std::optional<Draft> draft = MakeDraft(path, banned);
+      std::optional<Draft> draft = maker.Make(path, AttachmentTo(start_at_, path.front()),
+                                              AttachmentTo(goal_at_, path.back()), banned);
+      if (!draft && path.size() < 2) {
+        throw NoGrasp{"the align from start to goal is too narrow for doubles"};
+      }
       if (!draft) continue;
-      if (draft->bad_switches.empty()) return draft;
-      banned.insert(draft->bad_switches.begin(), draft->bad_switches.end());
-      if (!first) first = std::move(draft);
+      double score = std::numeric_limits<double>::infinity();
+      for (const Rest& rest : draft->rests) {
+        if (!rest.chosen_for) continue;
+        const double of_rest = judge_.Score(rest.grasp);
+        if (of_rest < 0) banned.insert(*rest.chosen_for);
+        score = std::min(score, of_rest);
+      }
+      if (score >= 0) return draft;
+      if (best && score <= best_score) continue;
+      best = std::move(draft);
+      best_score = score;
     }
-    return first;
+    return best;
   }
 
-  /// The sets that a sequence passes; empty where there is none.
-  std::vector<int> FindPath(const std::set<VertexPair>& banned) {
-    const AttachedGraph graph(graph_, start_at_, goal_at_, banned);
-    const VertexFilter all = [](int) { return true; };
-    const auto switches = FewestSwitches(graph, graph.start(), graph.goal(), all);
-    if (!switches) return {};
-    std::vector<int> path = WidestPath(graph, graph.start(), graph.goal(), *switches, all,
-                                       [&](int vertex) { return cells_.of(vertex).width(); });
-    path.erase(path.begin());
-    path.pop_back();
-    return path;
-  }
-
-  /// Of the ways in which a grasp belongs to a set, the one with the most contacts.
+  /// Of the ways from a grasp to a set the best.
   static const Attachment& AttachmentTo(const std::vector<Attachment>& attachments, int vertex) {
     return *std::find_if(attachments.begin(), attachments.end(),
                          [&](const Attachment& a) { return a.vertex == vertex; });
   }
 
-  // From a path to a sequence.
-
-  /// @returns nullopt where doubles find no switch or align that the graph has; then the switch is
-  ///          banned.
-  std::optional<Draft> MakeDraft(const std::vector<int>& path, std::set<VertexPair>& banned) {
-    const Attachment& start = AttachmentTo(start_at_, path.front());
-    const Attachment& goal = AttachmentTo(goal_at_, path.back());
-    Draft draft;
-    Begin(draft);
-    SwitchTo(draft, ContactsOf(start_.grasp, start));
-    VectorXd at = start.parameters;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const bool last = i + 2 == path.size();
-      const auto [point, good] = ChooseSwitch(path[i], path[i + 1], at, last ? &goal : nullptr);
-      const bool reached = point && AlignTo(draft, path[i], at, point->before);
-      if (!reached) {
-        banned.insert(Unordered(path[i], path[i + 1]));
-        return std::nullopt;
-      }
-      if (!good) draft.bad_switches.push_back(Unordered(path[i], path[i + 1]));
-      SwitchTo(draft, GraspAt(graph_.sets()[path[i + 1]], point->after));
-      at = point->after;
-    }
-    if (!AlignTo(draft, path.back(), at, goal.parameters)) {
-      if (path.size() < 2) throw NoGrasp{"the align from start to goal is too narrow for doubles"};
-      banned.insert(Unordered(path[path.size() - 2], path.back()));
-      return std::nullopt;
-    }
-    SwitchTo(draft, goal_.grasp);
-    return draft;
-  }
-
-  struct ChosenSwitch {
-    std::optional<SwitchPoint> point;
-    bool good = false;  ///< both grasps are of the quality that is asked for
-  };
-
-  /// The switch between two sets: from the grasp at hand and to the goal's where that costs little,
-  /// otherwise the best there is.
-  ChosenSwitch ChooseSwitch(int from, int to, const VectorXd& at, const Attachment* goal) {
-    SwitchSide a = {&graph_.sets()[from], &cells_.of(from), std::nullopt};
-    SwitchSide b = {&graph_.sets()[to], &cells_.of(to), std::nullopt};
-    const GraspScore score = [&](const GraspSet& set, const VectorXd& parameters) {
-      return Score(GraspAt(set, parameters));
-    };
-    auto [known, is_new] = best_switches_.try_emplace({from, to});
-    if (is_new) {
-      known->second = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
-      if (known->second) known->second = ImproveSwitch(a, b, *known->second, score);
-    }
-    const std::optional<SwitchPoint>& best = known->second;
-    if (!best) return {};
-    const double best_score = ScoreOf(a, b, *best, score);
-    for (const auto& [fix_from, fix_to] : {std::pair(true, true), {true, false}, {false, true}}) {
-      if (fix_to && goal == nullptr) continue;
-      a.fixed = fix_from ? std::optional(at) : std::nullopt;
-      b.fixed = fix_to ? std::optional(goal->parameters) : std::nullopt;
-      auto point = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
-      if (point && ScoreOf(a, b, *point, score) >= std::max(kGoodShare * best_score, 0.0)) {
-        return {std::move(point), true};
-      }
-    }
-    return {best, best_score >= 0};
-  }
-
-  /// Of the switches with at least half of the best score, the one that keeps the most contacts.
-  static std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchSide& from,
-                                           const SwitchSide& to, const GraspScore& score) {
-    std::vector<double> scores;
-    for (const SwitchPoint& point : points) scores.push_back(ScoreOf(from, to, point, score));
-    std::optional<std::size_t> best;
-    const double highest = scores.empty() ? 0 : *std::max_element(scores.begin(), scores.end());
-    const double least = highest > 0 ? kGoodShare * highest : highest;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (scores[i] < least) continue;
-      const auto rank = [&](std::size_t k) { return std::pair(points[k].kept.size(), scores[k]); };
-      if (!best || rank(i) > rank(*best)) best = i;
-    }
-    if (!best) return std::nullopt;
-    return std::move(points[*best]);
-  }
-
-  /// How good it is to rest in a grasp: its margin to the required half-angle where its quality is
-  /// what is asked for, otherwise a negative number, the worse the lower the quality.
-  [[nodiscard]] double Score(const Grasp& grasp) const {
-    if (!IsForceClosure(grasp, frame_, options_.half_angle)) return -1;
-    if (!QualityAtLeast(grasp, frame_, options_.half_angle, options_.min_quality)) {
-      return ComputeQuality(grasp, frame_, options_.half_angle).lower / options_.min_quality - 1;
-    }
-    const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
-    return required ? std::max(options_.half_angle - required->upper, 0.0) : 0;
-  }
-
-  [[nodiscard]] static Grasp ContactsOf(const Grasp& grasp, const Attachment& attachment) {
-    Grasp contacts;
-    for (const int contact : attachment.contacts) contacts.push_back(grasp[contact]);
-    return contacts;
-  }
-
-  /// The contacts of a set at given parameters; those of start and goal as they were given.
-  [[nodiscard]] Grasp GraspAt(const GraspSet& set, const VectorXd& parameters) const {
-    Grasp grasp;
-    for (const int edge : set.edges) {
-      const double u = parameters[static_cast<Eigen::Index>(grasp.size())];
-      Contact contact = ContactAt(polygon_, edge, u);
-      for (const Grasp* given : {&start_.grasp, &goal_.grasp}) {
-        for (const Contact& other : *given) {
-          if (other.face == edge && ParameterOf(polygon_, other) == u) contact = other;
-        }
-      }
-      grasp.push_back(contact);
-    }
-    return grasp;
-  }
-
-  void Begin(Draft& draft) const {
-    for (const Contact& contact : start_.grasp) {
-      draft.initial.push_back({static_cast<int>(draft.initial.size()), contact});
-    }
-    draft.rests = {start_.grasp};
-    holding_ = draft.initial;
-  }
-
-  /// No step where the contacts are those that hold already.
-  void SwitchTo(Draft& draft, const Grasp& after) const {
-    Switch step = MakeSwitch(holding_, after, kPolygonFingers);
-    if (step.place.empty() && step.release.empty()) return;
-    AddStep(draft, std::move(step));
-  }
-
-  void AddStep(Draft& draft, Step step) const {
-    holding_ = GraspAfter(holding_, step);
-    draft.rests.push_back(regrasp::ContactsOf(holding_));
-    draft.steps.push_back(std::move(step));
-  }
-
-  /// @returns false where no way is found inside the set.
-  bool AlignTo(Draft& draft, int vertex, const VectorXd& from, const VectorXd& to) {
-    if (from == to) return true;
-    const std::vector<VectorXd> path = FindAlignPath(cells_.of(vertex), from, to);
-    if (path.empty()) return false;
-    Align align;
-    for (const VectorXd& parameters : path) {
-      const Grasp contacts = GraspAt(graph_.sets()[vertex], parameters);
-      FingerGrasp waypoint = holding_;
-      for (FingerContact& finger : waypoint) {
-        finger.contact = *std::find_if(contacts.begin(), contacts.end(), [&](const Contact& c) {
-          return c.face == finger.contact.face;
-        });
-      }
-      align.waypoints.push_back(std::move(waypoint));
-    }
-    align.waypoints.front() = holding_;
-    AddStep(draft, std::move(align));
-    return true;
-  }
-
   // The answer.
 
-  void Finish(const Draft& draft, PlanResult& result) const {
+  [[nodiscard]] PlanResult Finish(const Draft& draft) const {
     Plan plan;
     plan.dimension = polygon_.dimension();
     plan.half_angle = options_.half_angle;
@@ -444,29 +254,38 @@ class PolygonPlanner {
     plan.initial = draft.initial;
     plan.steps = draft.steps;
     plan.goal = goal_.grasp;
+    PlanResult result;
     result.plan = std::move(plan);
-    result.margin = options_.half_angle;
+    result.margin = SmallestMargin(draft);
+    result.warnings = Warnings(draft);
+    return result;
+  }
+
+  [[nodiscard]] double SmallestMargin(const Draft& draft) const {
+    double smallest = options_.half_angle;
+    for (const Rest& rest : draft.rests) {
+      const auto required = ComputeRequiredHalfAngle(rest.grasp, judge_.frame());
+      smallest = std::min(smallest, required ? options_.half_angle - required->upper : 0);
+    }
+    return smallest;
+  }
+
+  [[nodiscard]] std::vector<std::string> Warnings(const Draft& draft) const {
     double weakest = options_.min_quality;
-    std::size_t weakest_step = 0;
+    std::size_t step = 0;
     for (std::size_t i = 0; i < draft.rests.size(); ++i) {
-      const auto required = ComputeRequiredHalfAngle(draft.rests[i], frame_);
-      if (required) {
-        result.margin = std::min(result.margin, options_.half_angle - required->upper);
-      }
-      if (IsGood(draft.rests[i])) continue;
-      const double quality = ComputeQuality(draft.rests[i], frame_, options_.half_angle).lower;
+      if (judge_.IsGood(draft.rests[i].grasp)) continue;
+      const double quality = judge_.Quality(draft.rests[i].grasp);
       if (quality >= weakest) continue;
       weakest = quality;
-      weakest_step = i;
+      step = i;
     }
-    if (weakest >= options_.min_quality) return;
-    const std::string where = weakest_step == 0
-                                  ? "the start grasp (step 0)"
-                                  : "the grasp after step " + std::to_string(weakest_step) +
-                                        " of " + std::to_string(draft.steps.size());
-    result.warnings = {"the sequence passes grasps below the quality " +
-                       FormatShort(options_.min_quality) + " that was asked for; the weakest is " +
-                       where + " with " + FormatShort(weakest)};
+    if (weakest >= options_.min_quality) return {};
+    const std::string where = step == 0 ? "the start grasp (step 0)"
+                                        : "the grasp after step " + std::to_string(step) + " of " +
+                                              std::to_string(draft.steps.size());
+    return {"the sequence passes grasps below the quality " + FormatShort(options_.min_quality) +
+            " that was asked for; the weakest is " + where + " with " + FormatShort(weakest)};
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
@@ -486,15 +305,13 @@ class PolygonPlanner {
 
   const Polygon& polygon_;
   const PolygonPlanOptions& options_;
-  WrenchFrame frame_;
+  GraspJudge judge_;
   GraspChoice start_;
   GraspChoice goal_;
   PolygonGraph graph_;
   GraphCells cells_;
   std::vector<Attachment> start_at_;
   std::vector<Attachment> goal_at_;
-  std::map<VertexPair, std::optional<SwitchPoint>> best_switches_;
-  mutable FingerGrasp holding_;
 };
 
 }  // namespace

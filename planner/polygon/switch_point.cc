@@ -106,6 +106,15 @@ class JointVariables {
   int free_count_ = 0;
 };
 
+/// The cells of a side; those that contain its grasp, where it has one.
+std::vector<const GraspCell*> CellsOf(const SwitchSide& side) {
+  std::vector<const GraspCell*> cells;
+  for (const GraspCell& cell : side.cells->cells()) {
+    if (!side.fixed || SlackInCell(cell, *side.fixed) > kNoSlack) cells.push_back(&cell);
+  }
+  return cells;
+}
+
 std::optional<SwitchPoint> FindInCells(const SwitchSide& from, const Inequalities& from_cell,
                                        const SwitchSide& to, const Inequalities& to_cell,
                                        const std::vector<CommonEdge>& kept) {
@@ -235,6 +244,8 @@ std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from, const SwitchSi
   const std::vector<CommonEdge> common = FindCommonEdges(*from.set, *to.set);
   const int contacts = static_cast<int>(from.set->edges.size() + to.set->edges.size());
   const int least_kept = std::max(0, contacts - fingers);
+  const std::vector<const GraspCell*> from_cells = CellsOf(from);
+  const std::vector<const GraspCell*> to_cells = CellsOf(to);
   std::vector<SwitchPoint> points;
   for (unsigned subset = 0; subset < 1U << common.size(); ++subset) {
     std::vector<CommonEdge> kept;
@@ -242,9 +253,9 @@ std::vector<SwitchPoint> FindSwitchPoints(const SwitchSide& from, const SwitchSi
       if ((subset >> i & 1U) != 0) kept.push_back(common[i]);
     }
     if (static_cast<int>(kept.size()) < least_kept) continue;
-    for (const GraspCell& from_cell : from.cells->cells()) {
-      for (const GraspCell& to_cell : to.cells->cells()) {
-        auto point = FindInCells(from, from_cell.inequalities, to, to_cell.inequalities, kept);
+    for (const GraspCell* from_cell : from_cells) {
+      for (const GraspCell* to_cell : to_cells) {
+        auto point = FindInCells(from, from_cell->inequalities, to, to_cell->inequalities, kept);
         if (point) points.push_back(std::move(*point));
       }
     }

@@ -143,12 +143,20 @@ class Plan(ProgramCase):
         triangle = self.write("triangle.wkt", "POLYGON((-1 0, 1 0, 0 1.7320508075688772, -1 0))")
         options = {"object": triangle, "start": turned(0.4), "goal": turned(0.6),
                    "friction_angle": "35"}
-        plan = self.plan(self.polygon_arguments(**options))
-        self.assertEqual([step["kind"] for step in plan["steps"]], ["align"])
-        os.remove(self.path("plan.json"))
+        steps = [[step["kind"] for step in self.plan(self.polygon_arguments(
+            spanning=spanning, **options))["steps"]] for spanning in ("adaptive", "uniform")]
+        self.assertEqual(steps[0], ["align"])
+        self.assertEqual((steps[1][0], steps[1][-1]), ("switch", "switch"))
+
+    def test_a_grasp_in_no_set_of_the_polygon_is_a_negative_answer(self):
+        # Two pairs whose torques cancel; each pair alone leans by atan(2 / 6).
+        start = self.write_json("start.json", self.grasp(
+            [{"point": [-0.03, 0.01]}, {"point": [0.03, -0.01]},
+             {"point": [0.01, -0.03]}, {"point": [-0.01, 0.03]}]))
         said = self.assert_refused(1, "in none of the", *self.polygon_arguments(
-            spanning="uniform", **options)).stderr
-        self.assertIn("0.4.json", said)
+            object=self.model("square.wkt"), goal=self.model("square.goal.json"), start=start,
+            friction_angle="5")).stderr
+        self.assertIn(start, said)
 
     def test_steps_lead_from_the_start_to_the_goal(self):
         self.assert_done(*self.arguments())

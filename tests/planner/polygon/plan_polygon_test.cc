@@ -328,25 +328,57 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   EXPECT_GT(apart, 0);
 }
 
+/// Two pairs across the square whose torques cancel, so that hardly any friction holds, while each
+/// pair alone leans by atan 0.2 = 11.3°.
+Grasp MakePinwheel(const Polygon& square) {
+  return MakeGrasp(square, {{0, 0.6}, {2, 0.6}, {1, 0.4}, {3, 0.4}});
+}
+
 TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
+  const Polygon square = Square(1);
+  const Grasp pinwheel = MakePinwheel(square);
+  const Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const auto message = [&](const Grasp& from, const Grasp& to) {
+    const PlanResult result =
+        PlanOnPolygon(square, Given(from, "from.json"), Given(to, "to.json"), Options(5));
+    EXPECT_EQ(result.status, Status::kNoGrasp);
+    EXPECT_FALSE(result.plan.has_value());
+    return result.message;
+  };
+  EXPECT_THAT(message(pinwheel, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
+  EXPECT_THAT(message(pair, pinwheel), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
+  // With friction for a pair alone it can switch, and no finger has to where it is the goal itself.
+  ExpectGoodPlan(square, PlanOnPolygon(square, Given(pinwheel), Given(pair), Options(15)), pinwheel,
+                 pair);
+  const PlanResult same = PlanOnPolygon(square, Given(pinwheel), Given(pinwheel), Options(5));
+  ExpectGoodPlan(square, same, pinwheel, pinwheel);
+  EXPECT_THAT(same.plan->steps, IsEmpty());
+}
+
+TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
   // The normals of a regular triangle span the plane up to 30°: under uniform spanning more
   // friction leaves pairs of fingers alone, to which these turned grasps are too far off.
   const Polygon triangle = RegularPolygon(3);
   const Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
   const Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
-  const Grasp pair = MakeGrasp(triangle, {{0, 0.5}, {1, 0.5}});
   PolygonPlanOptions options = Options(35);
-  ExpectGoodPlan(triangle, PlanOnPolygon(triangle, Given(start), Given(goal), options), start,
-                 goal);
+  const PlanResult adaptive = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  ExpectGoodPlan(triangle, adaptive, start, goal);
+  ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
+  EXPECT_TRUE(std::holds_alternative<Align>(adaptive.plan->steps.front()));
   options.spanning = Spanning::kUniform;
-  const auto message = [&](const Grasp& from, const Grasp& to) {
-    const PlanResult result =
-        PlanOnPolygon(triangle, Given(from, "from.json"), Given(to, "to.json"), options);
-    EXPECT_EQ(result.status, Status::kNoGrasp);
-    return result.message;
-  };
-  EXPECT_THAT(message(start, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
-  EXPECT_THAT(message(pair, goal), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
+  const PlanResult uniform = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  ExpectGoodPlan(triangle, uniform, start, goal);
+  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.front()).place.empty());
+  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.back()).place.empty());
+}
+
+TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
+  const Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  ExpectGoodPlan(square, result, start, goal);
 }
 
 TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "planner/plan/plan.h"
+#include "planner/polygon/attached_graph.h"
+#include "planner/polygon/grasp_judge.h"
+#include "planner/polygon/switch_point.h"
+
+namespace regrasp {
+
+/// A grasp that a sequence rests in.
+struct Rest {
+  Grasp grasp;
+  /// The switch of the graph that it was chosen for; none for what start and goal give.
+  std::optional<VertexPair> chosen_for;
+};
+
+/// A sequence and what is known of it.
+struct Draft {
+  FingerGrasp initial;
+  std::vector<Step> steps;
+  std::vector<Rest> rests;  ///< before all steps and after each
+};
+
+/// Turns paths of the switching graph into sequences from one start to one goal (Phoka 2010,
+/// section 3.4).
+///
+/// A switch happens at the grasp at hand, or at the goal's, where that costs little, otherwise
+/// where its two grasps score best; between switches the fingers align along straight lines inside
+/// the set. Two switches in a row are one where the hand has the fingers.
+class DraftMaker {
+ public:
+  /// All arguments must outlive this object.
+  DraftMaker(const Polygon& polygon, const PolygonGraph& graph, GraphCells& cells,
+             const GraspJudge& judge, const Grasp& start, const Grasp& goal);
+  DraftMaker(const DraftMaker&) = delete;
+  DraftMaker& operator=(const DraftMaker&) = delete;
+
+  /// No steps: for a goal that is the start.
+  [[nodiscard]] Draft MakeEmpty() const;
+
+  /// @param path  of sets, from one that `from` belongs to, to one that `to` belongs to.
+  /// @param banned  gets a switch of the path where doubles find no way through it.
+  /// @returns nullopt then.
+  [[nodiscard]] std::optional<Draft> Make(const std::vector<int>& path, const Attachment& from,
+                                          const Attachment& to, std::set<VertexPair>& banned);
+
+ private:
+  [[nodiscard]] std::optional<SwitchPoint> ChooseSwitch(int from, int to, const Eigen::VectorXd& at,
+                                                        const Attachment* goal);
+  [[nodiscard]] Grasp GraspAt(const GraspSet& set, const Eigen::VectorXd& parameters) const;
+  [[nodiscard]] bool AlignTo(int vertex, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                             std::optional<VertexPair> chosen_for, Draft& draft);
+  void SwitchTo(const Grasp& after, std::optional<VertexPair> chosen_for, Draft& draft);
+  void AddStep(Step step, std::optional<VertexPair> chosen_for, Draft& draft);
+
+  const Polygon& polygon_;
+  const PolygonGraph& graph_;
+  GraphCells& cells_;
+  const GraspJudge& judge_;
+  const Grasp& start_;
+  const Grasp& goal_;
+  GraspScore score_;
+  std::map<VertexPair, std::optional<SwitchPoint>> best_switches_;  ///< by the path's order
+  FingerGrasp holding_;
+  FingerGrasp held_before_;  ///< before the last step
+};
+
+}  // namespace regrasp

@@ -1,0 +1,54 @@
+#include "planner/polygon/grasp_judge.h"
+
+#include <algorithm>
+
+#include "planner/graph/grasp_choice.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Of required half-angles that are only compared, radians.
+constexpr double kScoreAccuracy = 1e-5;
+
+bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      if ((grasp[i].p - grasp[j].p).norm() <= same_point) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+GraspJudge::GraspJudge(const Object& object, double half_angle, double min_quality)
+    : frame_(object.wrench_frame()),
+      half_angle_(half_angle),
+      min_quality_(min_quality),
+      same_point_(kSamePoint * object.diameter()) {}
+
+bool GraspJudge::IsGood(const Grasp& grasp) const {
+  return HaveDistinctPoints(grasp, same_point_) && IsForceClosure(grasp, frame_, half_angle_) &&
+         QualityAtLeast(grasp, frame_, half_angle_, min_quality_);
+}
+
+double GraspJudge::Score(const Grasp& grasp) const {
+  if (!HaveDistinctPoints(grasp, same_point_) || !IsForceClosure(grasp, frame_, half_angle_)) {
+    return -1;
+  }
+  if (!QualityAtLeast(grasp, frame_, half_angle_, min_quality_)) {
+    return Quality(grasp) / min_quality_ - 1;
+  }
+  const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
+  return required ? std::max(half_angle_ - required->upper, 0.0) : 0;
+}
+
+double GraspJudge::Quality(const Grasp& grasp) const {
+  return ComputeQuality(grasp, frame_, half_angle_).lower;
+}
+
+}  // namespace regrasp

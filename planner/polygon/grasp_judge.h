@@ -1,0 +1,34 @@
+#pragma once
+
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// What a planner asks of grasps that a hand is to rest in.
+class GraspJudge {
+ public:
+  /// @param half_angle  friction, radians. @param min_quality  see QualityAtLeast.
+  GraspJudge(const Object& object, double half_angle, double min_quality);
+
+  /// Force closure, of the quality that is asked for, no two contacts at one point.
+  [[nodiscard]] bool IsGood(const Grasp& grasp) const;
+
+  /// How good it is to rest in a grasp: its margin to the required half-angle, radians, where it is
+  /// good; otherwise a negative number, the worse the lower its quality.
+  [[nodiscard]] double Score(const Grasp& grasp) const;
+
+  [[nodiscard]] double Quality(const Grasp& grasp) const;
+
+  [[nodiscard]] const WrenchFrame& frame() const { return frame_; }
+  [[nodiscard]] double half_angle() const { return half_angle_; }
+  [[nodiscard]] double min_quality() const { return min_quality_; }
+
+ private:
+  WrenchFrame frame_;
+  double half_angle_;
+  double min_quality_;
+  double same_point_;
+};
+
+}  // namespace regrasp
