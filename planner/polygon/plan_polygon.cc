@@ -94,17 +94,20 @@ class PolygonPlanner {
       choice.grasp = DrawFromGraph(choice, use, random);
       return;
     }
-    const int contacts = kLeastContacts + static_cast<int>(random.Index(2));
-    const auto grasp =
-        DrawGoodGrasp([&] { return DrawOnBoundary(contacts, random); }, judge_.frame(),
-                      options_.half_angle, options_.min_quality, same_point);
-    if (!grasp) {
-      throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) + " grasps of " +
-                    std::to_string(contacts) +
-                    " contacts drawn on the boundary is force closure with a quality of at least " +
-                    FormatShort(options_.min_quality)};
+    // Two contacts or three by the seed; where the polygon has no such grasp, the other.
+    const int first = kLeastContacts + static_cast<int>(random.Index(2));
+    for (const int contacts : {first, 2 * kLeastContacts + 1 - first}) {
+      const auto grasp =
+          DrawGoodGrasp([&] { return DrawOnBoundary(contacts, random); }, judge_.frame(),
+                        options_.half_angle, options_.min_quality, same_point);
+      if (!grasp) continue;
+      choice.grasp = *grasp;
+      return;
     }
-    choice.grasp = *grasp;
+    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
+                  " grasps of 2 contacts and as many of 3 drawn on the boundary is force closure "
+                  "with a quality of at least " +
+                  FormatShort(options_.min_quality)};
   }
 
   [[nodiscard]] Grasp DrawOnBoundary(int contacts, RandomStream& random) const {

@@ -195,6 +195,17 @@ TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
   EXPECT_THAT(contacts, SizeIs(2));
 }
 
+TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
+  // At 20° the triangle has no grasp of two fingers.
+  const Polygon triangle = Model("triangle.wkt");
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const PlanResult result = PlanOnPolygon(triangle, RandomAny(), RandomAny(), Options(20, seed));
+    ASSERT_EQ(result.status, Status::kFound) << result.message;
+    EXPECT_THAT(result.plan->initial, SizeIs(3));
+    EXPECT_THAT(result.plan->goal, SizeIs(3));
+  }
+}
+
 TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
   const Polygon polygon = Model("polygon15.wkt");
   const auto plan = [&](std::uint64_t seed) {
