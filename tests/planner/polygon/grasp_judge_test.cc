@@ -1,0 +1,56 @@
+#include "planner/polygon/grasp_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/polygon/set_cells.h"
+#include "tests/planner/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+Grasp Across(const Polygon& square, double bottom, double top) {
+  return {ContactAt(square, 0, bottom), ContactAt(square, 2, 1 - top)};
+}
+
+TEST(GraspJudge, ScoresGoodGraspsByTheirMargin) {
+  const Polygon square = Square(1);
+  const GraspJudge judge(square, Radians(30), 0.01);
+  EXPECT_TRUE(judge.IsGood(Across(square, 0.5, 0.5)));
+  EXPECT_NEAR(judge.Score(Across(square, 0.5, 0.5)), Radians(30), 1e-4);
+  EXPECT_NEAR(judge.Score(Across(square, 0.4, 0.6)), Radians(30) - std::atan(0.2), 1e-4);
+}
+
+TEST(GraspJudge, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
+  const Polygon square = Square(1);
+  const GraspJudge judge(square, Radians(30), 0.01);
+  // tan 30° = 0.577.
+  const Grasp weak = Across(square, 0.22, 0.79);
+  const Grasp weaker = Across(square, 0.22, 0.796);
+  EXPECT_FALSE(judge.IsGood(weak));
+  EXPECT_GT(judge.Quality(weak), 0);
+  EXPECT_LT(judge.Score(weak), 0);
+  EXPECT_LT(judge.Score(weaker), judge.Score(weak));
+  EXPECT_GT(judge.Score(weaker), -1);
+  const Grasp open = Across(square, 0.2, 0.8);
+  EXPECT_FALSE(judge.IsGood(open));
+  EXPECT_EQ(judge.Score(open), -1);
+  // Asked for nothing, the weak grasp is good.
+  EXPECT_TRUE(GraspJudge(square, Radians(30), 0).IsGood(weak));
+  EXPECT_GT(GraspJudge(square, Radians(30), 0).Score(weak), 0);
+}
+
+TEST(GraspJudge, TwoContactsAtOnePointAreNoGrasp) {
+  const Polygon square = Square(1);
+  const GraspJudge judge(square, Radians(30), 0.01);
+  Grasp grasp = Across(square, 0.5, 0.5);
+  grasp.push_back(ContactAt(square, 0, 0.5 + 1e-7));
+  EXPECT_FALSE(judge.IsGood(grasp));
+  EXPECT_EQ(judge.Score(grasp), -1);
+  grasp.back() = ContactAt(square, 0, 0.5 + 1e-5);
+  EXPECT_TRUE(judge.IsGood(grasp));
+}
+
+}  // namespace
+}  // namespace regrasp
