@@ -55,7 +55,7 @@ std::vector<int> FindSetPath(const AttachedGraph& graph, GraphCells& cells) {
   if (!switches) return {};
   std::vector<int> path =
       WidestPath(graph, graph.start(), graph.goal(), *switches, all, [&](int vertex) {
-        return graph.IsSet(vertex) ? cells.of(vertex).width()
+        return graph.IsSet(vertex) ? cells.WidthOf(vertex)
                                    : std::numeric_limits<double>::infinity();
       });
   std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });

@@ -108,6 +108,16 @@ const SetCells& GraphCells::of(int vertex) {
   return *cells;
 }
 
+double GraphCells::WidthOf(int vertex) {
+  std::optional<double>& width = widths_[vertex];
+  if (!width) {
+    const GraspSet& set = graph_.sets()[vertex];
+    const bool parallel = set.type == GraspType::kParallel;
+    width = parallel ? ClearWidth(polygon_, set) : of(vertex).width();
+  }
+  return *width;
+}
+
 std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
   std::vector<Attachment> attachments;
   for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {

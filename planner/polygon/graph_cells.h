@@ -20,9 +20,15 @@ struct Attachment {
 class GraphCells {
  public:
   GraphCells(const Polygon& polygon, const PolygonGraph& graph)
-      : polygon_(polygon), graph_(graph), cells_(graph.sets().size()) {}
+      : polygon_(polygon),
+        graph_(graph),
+        cells_(graph.sets().size()),
+        widths_(graph.sets().size()) {}
 
   [[nodiscard]] const SetCells& of(int vertex);
+
+  /// The largest slack of a grasp in the set; of a parallel one ClearWidth, which is cheaper.
+  [[nodiscard]] double WidthOf(int vertex);
 
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
@@ -40,6 +46,7 @@ class GraphCells {
   const Polygon& polygon_;
   const PolygonGraph& graph_;
   std::vector<std::optional<SetCells>> cells_;
+  std::vector<std::optional<double>> widths_;
 };
 
 }  // namespace regrasp

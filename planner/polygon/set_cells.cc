@@ -65,6 +65,24 @@ class CellMaker {
     return std::move(cells_);
   }
 
+  [[nodiscard]] double ClearWidth() const {
+    double width = 0;
+    for (const int a : set_.parts) {
+      const int b = a == 0 ? 1 : 0;
+      const int c = a == 2 ? 1 : 2;
+      const auto [right, left] = CommonConeOf(a, b, c);
+      for (const double sign : {1.0, -1.0}) {
+        std::vector<Affine> list = InsideEdges();
+        for (const Vector2d& border : {right, left}) {
+          AddSide(border, b, a, sign, list);
+          AddSide(border, c, a, -sign, list);
+        }
+        width = std::max(width, MaximizeSlack(Stack(list)).slack);
+      }
+    }
+    return width;
+  }
+
   /// The grasp of largest slack where the focus point crosses the line of edge k, at the contact
   /// there: the only point that the cones on both sides have in common.
   [[nodiscard]] SlackSolution FocusAtContact(int part, int k) const {
@@ -184,18 +202,20 @@ class CellMaker {
       for (const Vector2d& of_b : borders) {
         for (const Vector2d& of_c : borders) {
           std::vector<Affine> list = InsideEdges();
-          Affine f = Zero();
-          AddContact(of_b, b, sign, f);
-          AddContact(of_b, a, -sign, f);
-          list.push_back(f);
-          Affine g = Zero();
-          AddContact(of_c, c, -sign, g);
-          AddContact(of_c, a, sign, g);
-          list.push_back(g);
+          AddSide(of_b, b, a, sign, list);
+          AddSide(of_c, c, a, -sign, list);
           AddCell(a, list);
         }
       }
     }
+  }
+
+  /// sign · cross(border, p_x − p_a) > 0.
+  void AddSide(const Vector2d& border, int x, int a, double sign, std::vector<Affine>& list) const {
+    Affine f = Zero();
+    AddContact(border, x, sign, f);
+    AddContact(border, a, -sign, f);
+    list.push_back(f);
   }
 
   /// The borders of the intersection of the cones of b and c and the mirrored one of a; they lie
@@ -252,6 +272,10 @@ double SetCells::width() const {
   double width = 0;
   for (const GraspCell& cell : cells_) width = std::max(width, cell.centre.slack);
   return width;
+}
+
+double ClearWidth(const Polygon& polygon, const GraspSet& parallel) {
+  return CellMaker(polygon, parallel).ClearWidth();
 }
 
 double SlackInCell(const GraspCell& cell, const VectorXd& parameters) {

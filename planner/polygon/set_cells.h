@@ -50,6 +50,10 @@ class SetCells {
   std::vector<GraspCell> cells_;
 };
 
+/// The largest slack of a parallel set's grasps whose outer contacts are on different sides of the
+/// whole common cone; 0 where there are none. Two linear programs a centre instead of eight.
+[[nodiscard]] double ClearWidth(const Polygon& polygon, const GraspSet& parallel);
+
 /// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
 inline constexpr double kNoSlack = 1e-12;
 

@@ -105,6 +105,25 @@ TEST(SetCells, EveryPartOfASetHasACellWithSlackAtItsCentre) {
   EXPECT_GT(cells, 500);
 }
 
+TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
+  int parallel = 0;
+  int clear = 0;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    const PolygonGraph graph = MakeGraph(polygon, 30, Spanning::kAdaptive);
+    for (const GraspSet& set : graph.sets()) {
+      if (set.type != GraspType::kParallel) continue;
+      const double width = ClearWidth(polygon, set);
+      // More inequalities than any cell has.
+      EXPECT_LE(width, SetCells(polygon, set).width() + kNoSlack) << name;
+      EXPECT_GE(width, 0);
+      ++parallel;
+      clear += width > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(parallel, 30);
+  EXPECT_GT(clear, 10);
+}
+
 TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
   // Two fingers across the unit square, on the bottom and the top: with room to the ends of the
   // edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
