@@ -163,28 +163,46 @@ class PolygonPlanner {
     return {all, {own.begin(), own.end()}};
   }
 
+  /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
+  /// which, the hand rests well; the best first.
   std::vector<Attachment> Attach(const GraspChoice& choice) {
-    std::vector<Attachment> attachments = cells_.FindAttachments(choice.grasp);
-    if (attachments.empty()) attachments = cells_.FindSwitches(choice.grasp, kPolygonFingers);
-    if (attachments.empty()) {
+    std::vector<ScoredAttachment> scored = ScoreAll(cells_.FindAttachments(choice.grasp));
+    const auto is_good = [](const ScoredAttachment& a) { return a.score >= 0; };
+    if (std::none_of(scored.begin(), scored.end(), is_good)) {
+      std::vector<ScoredAttachment> more =
+          ScoreAll(cells_.FindSwitches(choice.grasp, kPolygonFingers));
+      scored.insert(scored.end(), more.begin(), more.end());
+    }
+    if (scored.empty()) {
       throw NoGrasp{choice.name + ": force closure, but in none of the " +
                     std::to_string(graph_.vertex_count()) +
                     " sets of concurrent, 2-finger and parallel grasps that the planner polygon "
                     "switches between, nor one switch away" +
                     CornerNote(choice.grasp)};
     }
-    // Where a switch of its own leads to the sets, the hand should rest well after it, or, for a
-    // goal, before it.
-    const auto score = [&](const Attachment& a) {
-      return a.whole ? options_.half_angle : judge_.Score(GraspOf(a));
-    };
-    if (std::any_of(attachments.begin(), attachments.end(),
-                    [&](const Attachment& a) { return score(a) >= 0; })) {
-      std::erase_if(attachments, [&](const Attachment& a) { return score(a) < 0; });
+    if (std::any_of(scored.begin(), scored.end(), is_good)) {
+      std::erase_if(scored, [&](const ScoredAttachment& a) { return !is_good(a); });
     }
-    std::stable_sort(attachments.begin(), attachments.end(),
-                     [&](const Attachment& a, const Attachment& b) { return score(a) > score(b); });
+    std::stable_sort(scored.begin(), scored.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    std::vector<Attachment> attachments;
+    for (ScoredAttachment& a : scored) attachments.push_back(std::move(a.attachment));
     return attachments;
+  }
+
+  struct ScoredAttachment {
+    Attachment attachment;
+    double score;
+  };
+
+  /// The grasp itself is there anyway, good or not.
+  [[nodiscard]] std::vector<ScoredAttachment> ScoreAll(std::vector<Attachment> attachments) const {
+    std::vector<ScoredAttachment> scored;
+    for (Attachment& a : attachments) {
+      const double score = a.whole ? options_.half_angle : judge_.Score(GraspOf(a));
+      scored.push_back({std::move(a), score});
+    }
+    return scored;
   }
 
   [[nodiscard]] Grasp GraspOf(const Attachment& attachment) const {
