@@ -43,11 +43,10 @@ struct GraspDiagram {
 /// Three contacts are concurrent if their normals positively span the plane and their double-sided
 /// cones of half-angle φ = min(θ, φ*), φ* = (π − largest gap between neighbouring normals) / 2,
 /// have a common interior. They are parallel if a direction in the common cone −C_a ∩ C_b ∩ C_c
-/// exists whose line through p_a separates p_b from p_c (Phoka 2010, Prop. 3.8). Where they are both,
-/// the type with the wider cones is drawn.
-/// Two contacts are a 2-finger grasp if the line through them is inside both cones and they press
-/// towards or away from each other. All in doubles: a grasp on the very border of a type may be
-/// drawn as another.
+/// exists whose line through p_a separates p_b from p_c (Phoka 2010, Prop. 3.8). Where they are
+/// both, the type with the wider cones is drawn. Two contacts are a 2-finger grasp if the line
+/// through them is inside both cones and they press towards or away from each other. All in
+/// doubles: a grasp on the very border of a type may be drawn as another.
 ///
 /// The focus point is the centroid of the largest part of the cones' intersection: a point well
 /// inside, as any point there serves.
