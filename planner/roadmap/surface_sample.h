@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "planner/base/random.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/polyhedron.h"
-#include "planner/base/random.h"
 
 namespace regrasp {
 
