@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/options.h"
+#include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
@@ -66,19 +67,7 @@ void FigureProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) co
     throw InputError(object_path +
                      ": a solid, but figure draws planar objects (validate draws solids)");
   }
-  if (plan.dimension != 2) {
-    throw InputError(plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
-                     ", but " + object_path + " has dimension 2");
-  }
-  if (plan.object_sha256 != object.sha256 && !allow_object_change) {
-    throw InputError(plan_path + ": /object/sha256: the plan was made for an object with digest " +
-                     plan.object_sha256 + ", but " + object_path + " has " + object.sha256 +
-                     " (--allow-object-change accepts it)");
-  }
-  if (scale && *scale != plan.scale) {
-    throw InputError("--scale " + FormatDouble(*scale) + ": the plan's scale is " +
-                     FormatDouble(plan.scale));
-  }
+  regrasp::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
 }
 
 Plan FigureProgram::Located(const Plan& plan, const Object& object) const {

@@ -10,6 +10,7 @@
 
 #include "apps/frame_files.h"
 #include "apps/options.h"
+#include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
@@ -135,20 +136,7 @@ void ValidateProgram::SetSize(const std::string& text) {
 }
 
 void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) const {
-  if (plan.dimension != object.object->dimension()) {
-    throw InputError(plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
-                     ", but " + object_path + " has dimension " +
-                     std::to_string(object.object->dimension()));
-  }
-  if (plan.object_sha256 != object.sha256 && !allow_object_change) {
-    throw InputError(plan_path + ": /object/sha256: the plan was made for an object with digest " +
-                     plan.object_sha256 + ", but " + object_path + " has " + object.sha256 +
-                     " (--allow-object-change accepts it)");
-  }
-  if (scale && *scale != plan.scale) {
-    throw InputError("--scale " + FormatDouble(*scale) + ": the plan's scale is " +
-                     FormatDouble(plan.scale));
-  }
+  regrasp::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
   if (replay.thickness && plan.dimension == 3) {
     throw InputError("--thickness: " + object_path + " is a solid, not a planar object");
   }

@@ -1,9 +1,5 @@
 #include "render/body_shape.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_triangulation_decomposition_2.h>
-#include <CGAL/Polygon_with_holes_2.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +10,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/polygon.h"
+#include "planner/object/polygon_triangulation.h"
 #include "planner/object/polyhedron.h"
 
 namespace regrasp {
@@ -64,31 +61,16 @@ BodyShape MakeSolidShape(const Polyhedron& body, const Normaliser& place) {
   return shape;
 }
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Polygon2 = CGAL::Polygon_2<Kernel>;
-
-std::vector<Polygon2> Triangulate(const Polygon& polygon) {
-  std::vector<Polygon2> rings;
-  for (const auto& ring : polygon.rings()) {
-    Polygon2& out = rings.emplace_back();
-    for (const Eigen::Vector2d& p : ring) out.push_back({p.x(), p.y()});
-  }
-  const CGAL::Polygon_with_holes_2<Kernel> region(rings.front(), rings.begin() + 1, rings.end());
-  std::vector<Polygon2> triangles;
-  CGAL::Polygon_triangulation_decomposition_2<Kernel>()(region, std::back_inserter(triangles));
-  for (Polygon2& triangle : triangles) {
-    if (triangle.is_clockwise_oriented()) triangle.reverse_orientation();
-  }
-  return triangles;
-}
-
 BodyShape MakePrismShape(const Polygon& polygon, double thickness, const Normaliser& place) {
   BodyShape shape;
   const Vector3d top = kTop * Vector3d::UnitZ();
   const Vector3d bottom = top - thickness * Vector3d::UnitZ();
-  for (const Polygon2& triangle : Triangulate(polygon)) {
-    std::array<Vector3d, 3> p;
-    for (int i = 0; i < 3; ++i) p[i] = place(Vector3d(triangle[i].x(), triangle[i].y(), 0));
+  std::vector<Vector3d> vertices;
+  for (const auto& ring : polygon.rings()) {
+    for (const Eigen::Vector2d& p : ring) vertices.push_back(place(Vector3d(p.x(), p.y(), 0)));
+  }
+  for (const auto& [i, j, k] : TriangulatePolygon(polygon)) {
+    const std::array<Vector3d, 3> p = {vertices[i], vertices[j], vertices[k]};
     shape.surface.AddFlat(p[0] + top, p[1] + top, p[2] + top);
     shape.surface.AddFlat(p[0] + bottom, p[2] + bottom, p[1] + bottom);
   }
