@@ -392,6 +392,27 @@ TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
   ExpectGoodPlan(square, result, start, goal);
 }
 
+TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
+  int joined_under_adaptive = 0;
+  int plans = 0;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    const auto joined = [&](Spanning spanning) {
+      return MakeGraph(polygon, 20, spanning)
+          .edge_count(GraspType::kConcurrent, GraspType::kParallel);
+    };
+    EXPECT_EQ(joined(Spanning::kUniform), 0) << name;
+    joined_under_adaptive += joined(Spanning::kAdaptive) > 0 ? 1 : 0;
+    PolygonPlanOptions options = Options(20, 1);
+    options.spanning = Spanning::kUniform;
+    const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), options);
+    if (result.status != Status::kFound) continue;
+    ExpectGoodPlan(polygon, result, ContactsOf(result.plan->initial), result.plan->goal);
+    ++plans;
+  }
+  EXPECT_GT(joined_under_adaptive, 0);
+  EXPECT_GT(plans, 3);
+}
+
 TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
   const Polygon square = Square(1);
   const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
