@@ -1,6 +1,7 @@
 #include "planner/polygon/candidates.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "planner/polygon/common_cone.h"
 
@@ -94,6 +95,27 @@ bool ConesMeet(const EdgeTable& edges, int a, int b, bool opposite) {
   });
 }
 
+/// True iff the turn from the normal of `a` counter-clockwise to that of `b` is in (0, π), or 0 and
+/// `b` comes after `a` among equal ones.
+bool TurnsLeft(const EdgeTable& edges, int a, int b) {
+  return DecideFiltered([&](auto zero) {
+    using NT = decltype(zero);
+    const Vector2<NT> u = edges.frame<NT>(a).along;
+    const Vector2<NT> v = edges.frame<NT>(b).along;
+    const int turn = Sign(Cross(u, v));
+    return turn > 0 || (turn == 0 && a < b && Sign(Dot(u, v)) > 0);
+  });
+}
+
+/// The first number in [begin, end) of which a predicate holds that holds of all later ones too.
+template <class Predicate>
+int FirstStep(int begin, int end, const Predicate& holds) {
+  const auto steps = std::views::iota(begin, end);
+  return begin +
+         static_cast<int>(std::ranges::partition_point(steps, [&](int s) { return !holds(s); }) -
+                          steps.begin());
+}
+
 }  // namespace
 
 std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges,
@@ -135,11 +157,27 @@ std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges
 }
 
 std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges) {
-  std::vector<TwoFingerCandidate> candidates;
-  for (int a = 0; a < edges.size(); ++a) {
-    for (int b = a + 1; b < edges.size(); ++b) {
-      if (ConesMeet(edges, a, b, true)) candidates.push_back({a, b});
+  const std::vector<int> order = SortByAngle(edges);
+  const int n = edges.size();
+  std::vector<std::vector<int>> partners(n);
+  for (int rank = 0; rank < n; ++rank) {
+    const int edge = order[rank];
+    const auto at = [&](int steps) { return order[(rank + steps) % n]; };
+    // Steps counter-clockwise to the first normal that is opposite, or beyond it.
+    const int opposite =
+        FirstStep(1, n, [&](int steps) { return !TurnsLeft(edges, edge, at(steps)); });
+    // Towards both sides of there cones meet up to some normal, and not beyond it.
+    const auto meet = [&](int steps) { return ConesMeet(edges, edge, at(steps), true); };
+    const int first = FirstStep(1, opposite, meet);
+    const int end = FirstStep(opposite, n, [&](int steps) { return !meet(steps); });
+    for (int steps = first; steps < end; ++steps) {
+      if (at(steps) > edge) partners[edge].push_back(at(steps));
     }
+  }
+  std::vector<TwoFingerCandidate> candidates;
+  for (int edge = 0; edge < n; ++edge) {
+    std::sort(partners[edge].begin(), partners[edge].end());
+    for (const int partner : partners[edge]) candidates.push_back({edge, partner});
   }
   return candidates;
 }

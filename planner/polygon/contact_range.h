@@ -77,6 +77,8 @@ class FilteredRange {
       : range_(ByIntervals(recipe)), exactly_([recipe] { return recipe(Exact(0)); }) {}
 
   [[nodiscard]] const ContactRange<Interval>& by_intervals() const { return range_; }
+  /// Inside an ExactScope.
+  [[nodiscard]] ContactRange<Exact> exact() const { return exactly_(); }
 
   /// True iff two ranges of one edge have a contact in common.
   [[nodiscard]] static bool Overlap(const FilteredRange& a, const FilteredRange& b) {

@@ -16,6 +16,7 @@ class EdgeTable {
 
   [[nodiscard]] int size() const { return static_cast<int>(ends_.size()); }
   [[nodiscard]] double tangent() const { return tangent_; }
+  [[nodiscard]] const EdgeEnds& ends(int edge) const { return ends_[edge]; }
   /// The polygon's vertices, numbered over all rings, at which an edge begins and ends.
   [[nodiscard]] const std::array<int, 2>& vertices(int edge) const { return vertices_[edge]; }
 

@@ -8,6 +8,41 @@
 
 namespace regrasp {
 
+/// The grasps on two edges, in their contact parameters; it may be empty.
+template <class NT>
+ConvexRegion<NT> MakeTwoFingerRegion(const EdgeFrame<NT>& a, const EdgeFrame<NT>& b,
+                                     bool stretching) {
+  const NT sign(stretching ? -1 : 1);
+  // v = between + u_b · b.along − u_a · a.along must be on the left of both right borders and on
+  // the right of both left borders.
+  const Vector2<NT> between = b.a - a.a;
+  auto region = ConvexRegion<NT>::UnitSquare();
+  const auto clip_left_of = [&](const Vector2<NT>& direction) {
+    region.Clip({-sign * Cross(direction, a.along), sign * Cross(direction, b.along),
+                 sign * Cross(direction, between)});
+  };
+  clip_left_of(a.right);
+  clip_left_of(-a.left);
+  clip_left_of(-b.right);
+  clip_left_of(b.left);
+  return region;
+}
+
+/// The parameters of the k-th contact in such a region, which is not empty.
+template <class NT>
+ContactRange<NT> TwoFingerRange(const ConvexRegion<NT>& region, int k) {
+  const auto parameter = [&](const HomogeneousPoint<NT>& p) {
+    return Ratio<NT>::Make(k == 0 ? p.x : p.y, p.w);
+  };
+  Ratio<NT> low = parameter(region.sides().front().from);
+  Ratio<NT> high = low;
+  for (const auto& side : region.sides()) {
+    low = Smaller(low, parameter(side.from));
+    high = Larger(high, parameter(side.from));
+  }
+  return {low, high};
+}
+
 /// The 2-finger grasps of a pair of edges that squeeze or that stretch the object.
 struct TwoFingerPart {
   bool stretching;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/polygon.h"
+
+namespace regrasp {
+
+/// The boundary of a polygon by its length: a place on a ring is the length of the ring from its
+/// first vertex to there, along its edges (material on the left), periodic in the ring's perimeter.
+/// Lengths are the object's own units.
+class Boundary {
+ public:
+  explicit Boundary(const Polygon& polygon);
+
+  [[nodiscard]] int edge_count() const { return static_cast<int>(ring_of_.size()); }
+  [[nodiscard]] int ring_count() const { return static_cast<int>(perimeters_.size()); }
+  [[nodiscard]] int ring_of(int edge) const { return ring_of_[edge]; }
+  /// The edges of a ring are first_edge(ring) to first_edge(ring + 1) − 1.
+  [[nodiscard]] int first_edge(int ring) const { return first_edges_[ring]; }
+  [[nodiscard]] double perimeter(int ring) const { return perimeters_[ring]; }
+
+  /// The edge that begins where this one ends, and the one that ends where it begins.
+  [[nodiscard]] int next(int edge) const { return next_[edge]; }
+  [[nodiscard]] int previous(int edge) const { return previous_[edge]; }
+
+  /// Where an edge begins and ends on its ring; end > begin.
+  [[nodiscard]] double begin(int edge) const { return begins_[edge]; }
+  [[nodiscard]] double end(int edge) const { return ends_[edge]; }
+
+  /// The place of a contact that knows its edge.
+  [[nodiscard]] double PlaceOf(const Contact& contact) const;
+
+  /// The contact on an edge at a place within begin(edge) to end(edge); rounding is cut off.
+  [[nodiscard]] Contact ContactAt(int edge, double place) const;
+
+ private:
+  const Polygon& polygon_;
+  std::vector<int> ring_of_;
+  std::vector<int> first_edges_;
+  std::vector<double> perimeters_;
+  std::vector<int> next_;
+  std::vector<int> previous_;
+  std::vector<double> begins_;
+  std::vector<double> ends_;
+};
+
+}  // namespace regrasp
