@@ -12,7 +12,10 @@ namespace regrasp {
 /// Lengths are the object's own units.
 class Boundary {
  public:
+  /// `polygon` must outlive this object.
   explicit Boundary(const Polygon& polygon);
+
+  [[nodiscard]] const Polygon& polygon() const { return polygon_; }
 
   [[nodiscard]] int edge_count() const { return static_cast<int>(ring_of_.size()); }
   [[nodiscard]] int ring_count() const { return static_cast<int>(perimeters_.size()); }

@@ -51,6 +51,7 @@ struct PiecePassage {
 /// an edge in two changes no component and no switch.
 class ContourGraph final : public SwitchingGraph {
  public:
+  /// @param polygon     must outlive this object.
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   ContourGraph(const Polygon& polygon, double half_angle);

@@ -49,6 +49,7 @@ class RegionMetric {
   const ContourGraph& graph_;
   int set_;
   std::vector<Site> sites_;
+  double rounding_ = 0;  ///< lengths this close are equal
 };
 
 }  // namespace regrasp
