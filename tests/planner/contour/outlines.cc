@@ -1,0 +1,89 @@
+#include "tests/planner/contour/outlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace regrasp {
+namespace {
+
+Ring RegularRing(int n, double radius) {
+  Ring ring;
+  for (int k = 0; k < n; ++k) {
+    const double angle = (2 * k - 1) * std::numbers::pi / n - std::numbers::pi / 2;
+    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return ring;
+}
+
+}  // namespace
+
+Polygon Rectangle(double width, double height) {
+  return Polygon::FromRings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, "rectangle");
+}
+
+Polygon Fork() {
+  return Polygon::FromRings(
+      {{{0, 0}, {10, 0}, {10, 10}, {7, 10}, {7, 3}, {3, 3}, {3, 10}, {0, 10}}}, "fork");
+}
+
+Polygon Annulus(int n, double outer, double inner) {
+  return Polygon::FromRings({RegularRing(n, outer), RegularRing(n, inner)}, "annulus");
+}
+
+Polygon IrregularOutline(int edges, double least, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> shake(-0.4, 0.4);
+  std::uniform_real_distribution<double> radius(least, 1);
+  Ring ring;
+  for (int k = 0; k < edges; ++k) {
+    const double angle = 2 * std::numbers::pi * (k + shake(engine)) / edges;
+    const double r = radius(engine);
+    ring.emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  return Polygon::FromRings({ring}, "irregular outline");
+}
+
+const std::vector<NamedPolygon>& TwelveEdgePolygons() {
+  static const std::vector<NamedPolygon> polygons = [] {
+    std::vector<NamedPolygon> result = SmallPolygons();
+    const auto add = [&](const std::string& name, std::vector<Ring> rings) {
+      result.push_back({name, Polygon::FromRings(std::move(rings), name)});
+    };
+    result.push_back({"square", Square(4)});
+    result.push_back({"equilateral triangle", RegularPolygon(3)});
+    result.push_back({"regular hexagon", RegularPolygon(6)});
+    add("L", {{{0, 0}, {6, 0}, {6, 2}, {2, 2}, {2, 5}, {0, 5}}});
+    result.push_back({"fork", Fork()});
+    add("slanted fork",
+        {{{0, 0}, {9, -1}, {10, 8}, {7.5, 9}, {6, 3}, {3.5, 2.5}, {2.2, 9}, {0, 8}}});
+    add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
+    // Stretching between edges that share a vertex.
+    add("notch", {{{0, 0}, {8, 0}, {8, 5}, {4.6, 5}, {4, 1}, {3.2, 5}, {0, 5}}});
+    for (const std::uint64_t seed : {11, 12, 13}) {
+      result.push_back({"irregular " + std::to_string(seed), IrregularOutline(12, 0.35, seed)});
+    }
+    return result;
+  }();
+  return polygons;
+}
+
+Polygon Mapped(const Polygon& polygon,
+               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map) {
+  std::vector<Ring> rings = polygon.rings();
+  for (Ring& ring : rings) {
+    for (Eigen::Vector2d& p : ring) p = map(p);
+  }
+  return Polygon::FromRings(std::move(rings), "mapped");
+}
+
+Polygon Renumbered(const Polygon& polygon, int by) {
+  std::vector<Ring> rings = polygon.rings();
+  for (Ring& ring : rings) {
+    std::rotate(ring.begin(), ring.begin() + by % static_cast<int>(ring.size()), ring.end());
+  }
+  return Polygon::FromRings(std::move(rings), "renumbered");
+}
+
+}  // namespace regrasp

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/planner/polygon/shapes.h"
+
+namespace regrasp {
+
+/// x in [0, width], y in [0, height], first vertex at the origin; exact.
+[[nodiscard]] Polygon Rectangle(double width, double height);
+
+/// An upright fork of two prongs: 10 wide and 10 high, prongs 3 wide, a slot 4 wide and 7 deep.
+/// Edges: 0 bottom, 1 right side, 2 right tip, 3 right inner side, 4 floor of the slot, 5 left
+/// inner side, 6 left tip, 7 left side.
+[[nodiscard]] Polygon Fork();
+
+/// A regular polygon of circumradius `outer` with a concentric hole of as many edges, `inner`.
+[[nodiscard]] Polygon Annulus(int n, double outer, double inner);
+
+/// A simple polygon about the origin: shaken angles, radii anywhere between `least` and 1.
+[[nodiscard]] Polygon IrregularOutline(int edges, double least, std::uint64_t seed);
+
+/// Squares, triangles, letters, forks, rings, regular and irregular outlines, of 3 to 12 edges;
+/// those with symmetries have exact ties.
+[[nodiscard]] const std::vector<NamedPolygon>& TwelveEdgePolygons();
+
+/// The polygon with every vertex replaced; rings that turn around are put right.
+[[nodiscard]] Polygon Mapped(const Polygon& polygon,
+                             const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map);
+
+/// The polygon with its rings started from the `by`-th vertex (of each, modulo their number).
+[[nodiscard]] Polygon Renumbered(const Polygon& polygon, int by);
+
+}  // namespace regrasp
