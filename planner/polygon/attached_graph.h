@@ -1,19 +1,14 @@
 #pragma once
 
-#include <algorithm>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "planner/graph/switching_graph.h"
+#include "planner/graph/vertex_pair.h"
 #include "planner/polygon/graph_cells.h"
 #include "planner/polygon/polygon_graph.h"
 
 namespace regrasp {
-
-/// Two vertices, in either order.
-using VertexPair = std::pair<int, int>;
-[[nodiscard]] inline VertexPair Unordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// The switching graph of a polygon with a start and a goal grasp as vertices of their own, and
 /// without some switches. Sets that a grasp comes to by a switch of its own are one switch farther

@@ -6,26 +6,12 @@
 #include <set>
 #include <vector>
 
-#include "planner/plan/plan.h"
+#include "planner/graph/draft.h"
 #include "planner/polygon/attached_graph.h"
 #include "planner/polygon/grasp_judge.h"
 #include "planner/polygon/switch_point.h"
 
 namespace regrasp {
-
-/// A grasp that a sequence rests in.
-struct Rest {
-  Grasp grasp;
-  /// The switch of the graph that it was chosen for; none for what start and goal give.
-  std::optional<VertexPair> chosen_for;
-};
-
-/// A sequence and what is known of it.
-struct Draft {
-  FingerGrasp initial;
-  std::vector<Step> steps;
-  std::vector<Rest> rests;  ///< before all steps and after each
-};
 
 /// Turns paths of the switching graph into sequences from one start to one goal (Phoka 2010,
 /// section 3.4).

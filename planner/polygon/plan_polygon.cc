@@ -7,12 +7,13 @@
 #include <stdexcept>
 
 #include "planner/base/number.h"
-#include "planner/grasp/required_half_angle.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/attached_graph.h"
+#include "planner/polygon/boundary_draw.h"
 #include "planner/polygon/draft.h"
 #include "planner/polygon/graph_cells.h"
 #include "planner/polygon/grasp_judge.h"
+#include "planner/polygon/rest_summary.h"
 
 namespace regrasp {
 
@@ -21,6 +22,7 @@ namespace {
 using Status = PlanResult::Status;
 
 constexpr int kLeastContacts = 2;
+constexpr int kMostDrawn = 3;  // contacts of a random grasp
 
 /// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
 constexpr int kDrawsPerSet = 30;
@@ -94,36 +96,14 @@ class PolygonPlanner {
       choice.grasp = DrawFromGraph(choice, use, random);
       return;
     }
-    // Two contacts or three by the seed; where the polygon has no such grasp, the other.
-    const int first = kLeastContacts + static_cast<int>(random.Index(2));
-    for (const int contacts : {first, 2 * kLeastContacts + 1 - first}) {
-      const auto grasp =
-          DrawGoodGrasp([&] { return DrawOnBoundary(contacts, random); }, judge_.frame(),
-                        options_.half_angle, options_.min_quality, same_point);
-      if (!grasp) continue;
-      choice.grasp = *grasp;
+    if (auto grasp = DrawAnyGrasp(polygon_, kLeastContacts, kMostDrawn, judge_, random)) {
+      choice.grasp = std::move(*grasp);
       return;
     }
     throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                   " grasps of 2 contacts and as many of 3 drawn on the boundary is force closure "
                   "with a quality of at least " +
                   FormatShort(options_.min_quality)};
-  }
-
-  [[nodiscard]] Grasp DrawOnBoundary(int contacts, RandomStream& random) const {
-    double perimeter = 0;
-    for (int e = 0; e < polygon_.face_count(); ++e) perimeter += polygon_.face_measure(e);
-    Grasp grasp;
-    while (static_cast<int>(grasp.size()) < contacts) {
-      double along = random.Uniform() * perimeter;
-      int edge = 0;
-      while (edge + 1 < polygon_.face_count() && along >= polygon_.face_measure(edge)) {
-        along -= polygon_.face_measure(edge++);
-      }
-      grasp.push_back(
-          ContactAt(polygon_, edge, std::min(along / polygon_.face_measure(edge), 1.0)));
-    }
-    return grasp;
   }
 
   Grasp DrawFromGraph(const GraspChoice& choice, RandomUse use, RandomStream& random) {
@@ -277,36 +257,9 @@ class PolygonPlanner {
     plan.goal = goal_.grasp;
     PlanResult result;
     result.plan = std::move(plan);
-    result.margin = SmallestMargin(draft);
-    result.warnings = Warnings(draft);
+    result.margin = SmallestMargin(draft.rests, judge_);
+    result.warnings = QualityWarnings(draft.rests, judge_);
     return result;
-  }
-
-  [[nodiscard]] double SmallestMargin(const Draft& draft) const {
-    double smallest = options_.half_angle;
-    for (const Rest& rest : draft.rests) {
-      const auto required = ComputeRequiredHalfAngle(rest.grasp, judge_.frame());
-      smallest = std::min(smallest, required ? options_.half_angle - required->upper : 0);
-    }
-    return smallest;
-  }
-
-  [[nodiscard]] std::vector<std::string> Warnings(const Draft& draft) const {
-    double weakest = options_.min_quality;
-    std::size_t step = 0;
-    for (std::size_t i = 0; i < draft.rests.size(); ++i) {
-      if (judge_.IsGood(draft.rests[i].grasp)) continue;
-      const double quality = judge_.Quality(draft.rests[i].grasp);
-      if (quality >= weakest) continue;
-      weakest = quality;
-      step = i;
-    }
-    if (weakest >= options_.min_quality) return {};
-    const std::string where = step == 0 ? "the start grasp (step 0)"
-                                        : "the grasp after step " + std::to_string(step) + " of " +
-                                              std::to_string(draft.steps.size());
-    return {"the sequence passes grasps below the quality " + FormatShort(options_.min_quality) +
-            " that was asked for; the weakest is " + where + " with " + FormatShort(weakest)};
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "planner/base/random.h"
+#include "planner/graph/grasp_choice.h"
+#include "planner/grasp/contact.h"
+#include "planner/object/polygon.h"
+#include "planner/polygon/grasp_judge.h"
+
+namespace regrasp {
+
+/// Contacts spread evenly over the boundary of a polygon.
+[[nodiscard]] Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random);
+
+/// A random grasp of the boundary that is as good as `judge` asks, of two contacts or of three by
+/// the seed; where the polygon has none of that number, of the other.
+/// @param least, most  2 and 3, or the same twice.
+/// @returns nullopt where none of `kMaxSurfaceDraws` draws of each number serves.
+[[nodiscard]] std::optional<Grasp> DrawAnyGrasp(const Polygon& polygon, int least, int most,
+                                                const GraspJudge& judge, RandomStream& random);
+
+}  // namespace regrasp

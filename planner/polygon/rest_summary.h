@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/graph/draft.h"
+#include "planner/polygon/grasp_judge.h"
+
+namespace regrasp {
+
+/// The smallest margin of a sequence's grasps at rest to their required half-angles, radians.
+[[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests, const GraspJudge& judge);
+
+/// A warning that names the weakest grasp, where one is below the quality that is asked for.
+/// @param rests  before all steps and after each.
+[[nodiscard]] std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
+                                                       const GraspJudge& judge);
+
+}  // namespace regrasp
