@@ -15,6 +15,7 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
+#include "planner/contour/contour_graph.h"
 #include "planner/polygon/polygon_graph.h"
 
 namespace {
@@ -106,6 +107,21 @@ GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spannin
   return summary;
 }
 
+GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
+  const ContourGraph graph(polygon, half_angle);
+  GraphSummary summary;
+  summary.planner = "contour";
+  summary.faces = polygon.face_count();
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.edges = {{"two_finger-two_finger", graph.switch_count()}};
+  summary.types = {{"two_finger", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  return summary;
+}
+
 Json GraphJson(const GraphSummary& summary, double half_angle) {
   Json types = Json::object();
   for (const TypeSummary& type : summary.types) {
@@ -168,7 +184,7 @@ struct GraphProgram {
   std::string json;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app);
+    common.AddTo(app, "polygon");
     app.add_option("--json", json,
                    "Also writes the counts as JSON; - is standard output, instead "
                    "of the table")
@@ -187,7 +203,7 @@ struct GraphProgram {
     if (!json.empty()) WriteFile(json, text);
     std::string title = summary.planner + " of " + object.file + ", " +
                         std::to_string(summary.faces) +
-                        (summary.planner == "polygon" ? " edges, " : " contact points, ") +
+                        (summary.planner == "roadmap" ? " contact points, " : " edges, ") +
                         FormatShort(Degrees(half_angle)) + "°";
     if (summary.planner == "polygon") title += ", " + common.spanning;
     std::cout << GraphTable(summary, title);
@@ -197,10 +213,14 @@ struct GraphProgram {
   GraphSummary Summarize(const ObjectFile& object) const {
     ProgressLine progress(common.quiet);
     GraphSummary summary;
-    if (common.PlannerFor(object) == "polygon") {
+    const bool planar = object.object->dimension() == 2;
+    if (common.planner == "contour") {
       progress.Report("building the switching graph");
-      summary = SummarizePolygon(PolygonOf(object, common.object),
-                                 common.friction.required_half_angle(), common.spanning_value());
+      summary = SummarizeContour(PolygonOf(object, common), common.friction.required_half_angle());
+    } else if (common.planner == "polygon" || (common.planner == "auto" && planar)) {
+      progress.Report("building the switching graph");
+      summary = SummarizePolygon(PolygonOf(object, common), common.friction.required_half_angle(),
+                                 common.spanning_value());
     } else {
       RoadmapOptions options = common.roadmap();
       options.progress = [&](std::string_view text) { progress.Report(text); };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <string>
 
@@ -9,10 +10,11 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "planner/base/angle.h"
+#include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/contour/plan_planar.h"
 #include "planner/plan/plan_io.h"
-#include "planner/polygon/plan_polygon.h"
 
 namespace {
 
@@ -20,15 +22,20 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "plan";
 
+using ProgressReport = std::function<void(std::string_view)>;
+
 struct PlanProgram {
   PlannerOptions common;
   std::string start;
   std::string goal;
   std::string output;
   double min_quality = RoadmapOptions().min_quality;
+  std::string optimize;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app);
+    common.AddTo(app,
+                 "contour where start and goal are 2-finger grasps and it joins them, otherwise "
+                 "polygon");
     const std::string kinds =
         ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
         "or random-any (evenly over the surface)";
@@ -45,6 +52,12 @@ struct PlanProgram {
               "Quality that random grasps have at least, and the sequence's grasps where there is "
               "a way: the largest ball of wrenches resisted, normal forces summing to 1, torques "
               "over half the diameter (default 0.01)");
+    app.add_option("--optimize", optimize,
+                   "regions: the planner contour makes every switch where the smaller of its two "
+                   "grasps' contact regions is largest (default: well inside both sets, sparing "
+                   "aligns)")
+        ->check(CLI::IsMember({"regions"}))
+        ->type_name("regions");
   }
 
   int Run() const;
@@ -53,6 +66,8 @@ struct PlanProgram {
   GraspChoice Choose(const std::string& option, const std::string& value,
                      const Object& object) const;
   PlanResult Find(const ObjectFile& object) const;
+  PlanResult PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const;
+  PlanResult PlanInPlane(const Polygon& polygon, const ProgressReport& report) const;
   void PrintSummary(const PlanResult& result, double seconds) const;
 };
 
@@ -68,28 +83,44 @@ GraspChoice PlanProgram::Choose(const std::string& option, const std::string& va
 PlanResult PlanProgram::Find(const ObjectFile& object) const {
   ProgressLine progress(common.quiet);
   const auto report = [&](std::string_view text) { progress.Report(text); };
+  const bool planar = object.object->dimension() == 2;
   PlanResult result;
-  if (common.PlannerFor(object) == "polygon") {
-    const Polygon& polygon = PolygonOf(object, common.object);
-    const GraspChoice start_choice = Choose("--start", start, polygon);
-    const GraspChoice goal_choice = Choose("--goal", goal, polygon);
-    const PolygonPlanOptions options = {common.friction.required_half_angle(),
-                                        common.spanning_value(), common.seed, min_quality, report};
-    result = PlanOnPolygon(polygon, start_choice, goal_choice, options);
+  if (common.planner == "roadmap" || (common.planner == "auto" && !planar)) {
+    result = PlanOnSolid(SolidOf(object, common.object), report);
   } else {
-    const Polyhedron& solid = SolidOf(object, common.object);
-    RoadmapOptions options = common.roadmap();
-    options.min_quality = min_quality;
-    options.progress = report;
-    result = PlanOnRoadmap(solid, Choose("--start", start, solid), Choose("--goal", goal, solid),
-                           options);
+    result = PlanInPlane(PolygonOf(object, common), report);
   }
   progress.Clear();
   return result;
 }
 
+PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const {
+  RoadmapOptions options = common.roadmap();
+  options.min_quality = min_quality;
+  options.progress = report;
+  return PlanOnRoadmap(solid, Choose("--start", start, solid), Choose("--goal", goal, solid),
+                       options);
+}
+
+PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {
+  const GraspChoice from = Choose("--start", start, polygon);
+  const GraspChoice to = Choose("--goal", goal, polygon);
+  const double half_angle = common.friction.required_half_angle();
+  const PolygonPlanOptions options = {half_angle, common.spanning_value(), common.seed, min_quality,
+                                      report};
+  const SwitchAim aim = optimize.empty() ? SwitchAim::kRoom : SwitchAim::kRegion;
+  if (common.planner == "polygon") return PlanOnPolygon(polygon, from, to, options);
+  if (common.planner == "auto") return PlanPlanar(polygon, from, to, {options, aim});
+  return PlanOnContour(polygon, from, to, {half_angle, common.seed, min_quality, aim, report});
+}
+
 int PlanProgram::Run() const {
   const auto begin = std::chrono::steady_clock::now();
+  const bool can_optimize = common.planner == "contour" || common.planner == "auto";
+  if (!optimize.empty() && !can_optimize) {
+    throw InputError("--optimize regions: the planner " + common.planner +
+                     " has no such regions; contour has");
+  }
   const ObjectFile object = ReadObject(common.object);
   PlanResult result = Find(object);
   if (!result.plan) {
@@ -118,7 +149,8 @@ void PlanProgram::PrintSummary(const PlanResult& result, double seconds) const {
     return std::to_string(n) + " " + (n == 1 ? kind : several);
   };
   const double given = Degrees(result.plan->half_angle);
-  PrintMessage(kProgram, count("switch", "switches") + ", " + count("align", "aligns") +
+  PrintMessage(kProgram, result.plan->planner + ": " + count("switch", "switches") + ", " +
+                             count("align", "aligns") +
                              "; the weakest grasp needs a friction half-angle of " +
                              FormatShort(given - Degrees(result.margin)) + "° of " +
                              FormatShort(given) + "°; " + FormatShort(seconds, 2) + " s");

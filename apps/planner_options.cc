@@ -8,9 +8,11 @@ namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  if (name == "auto" || name == "polygon" || name == "roadmap") return {};
+  for (const char* known : {"auto", "polygon", "contour", "roadmap"}) {
+    if (name == known) return {};
+  }
   return "the planner \"" + name +
-         "\" does not exist in this version; there are auto, polygon and roadmap";
+         "\" does not exist in this version; there are auto, polygon, contour and roadmap";
 }
 
 std::string CheckSpanning(const std::string& name) {
@@ -20,14 +22,16 @@ std::string CheckSpanning(const std::string& name) {
 
 }  // namespace
 
-void PlannerOptions::AddTo(CLI::App& app) {
+void PlannerOptions::AddTo(CLI::App& app, const std::string& planar_auto) {
   app.add_option("--object", object,
                  "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
   friction.AddTo(app);
   app.add_option("--planner", planner,
-                 "auto, polygon or roadmap (default auto: polygon in the plane, roadmap in space)")
+                 "auto, polygon, contour (2-finger grasps of the whole boundary) or roadmap "
+                 "(default auto: roadmap in space; in the plane " +
+                     planar_auto + ")")
       ->type_name("NAME")
       ->check(CheckPlanner);
   app.add_option(
@@ -52,19 +56,15 @@ RoadmapOptions PlannerOptions::roadmap() const {
   return options;
 }
 
-std::string PlannerOptions::PlannerFor(const ObjectFile& file) const {
-  if (planner != "auto") return planner;
-  return file.object->dimension() == 2 ? "polygon" : "roadmap";
-}
-
 Spanning PlannerOptions::spanning_value() const {
   return spanning == "uniform" ? Spanning::kUniform : Spanning::kAdaptive;
 }
 
-const Polygon& PolygonOf(const ObjectFile& file, const std::string& path) {
+const Polygon& PolygonOf(const ObjectFile& file, const PlannerOptions& options) {
   const auto* polygon = dynamic_cast<const Polygon*>(file.object.get());
   if (polygon == nullptr) {
-    throw InputError(path + ": a solid, and the planner polygon works on planar objects only");
+    throw InputError(options.object + ": a solid, and the planner " + options.planner +
+                     " works on planar objects only");
   }
   return *polygon;
 }

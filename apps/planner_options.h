@@ -22,10 +22,8 @@ struct PlannerOptions {
   double scale = 1;
   bool quiet = false;
 
-  void AddTo(CLI::App& app);
-
-  /// The planner's name, "auto" decided by the object: polygon in the plane, roadmap in space.
-  [[nodiscard]] std::string PlannerFor(const ObjectFile& file) const;
+  /// @param planar_auto  what auto takes in the plane, for the help.
+  void AddTo(CLI::App& app, const std::string& planar_auto);
 
   [[nodiscard]] Spanning spanning_value() const;
 
@@ -33,9 +31,9 @@ struct PlannerOptions {
   [[nodiscard]] RoadmapOptions roadmap() const;
 };
 
-/// The object as a polygon, which the planner `polygon` needs.
+/// The object as a polygon, which the planners `polygon` and `contour` need.
 /// @throws InputError  it is a solid.
-[[nodiscard]] const Polygon& PolygonOf(const ObjectFile& file, const std::string& path);
+[[nodiscard]] const Polygon& PolygonOf(const ObjectFile& file, const PlannerOptions& options);
 
 /// The object as a solid, which the planner `roadmap` needs.
 /// @throws InputError  it is planar.

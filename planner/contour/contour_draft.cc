@@ -1,0 +1,165 @@
+#include "planner/contour/contour_draft.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "planner/contour/align_route.h"
+#include "planner/plan/tolerance.h"
+
+namespace regrasp {
+
+namespace {
+
+/// A switch from the grasp at hand, or to the goal, is good enough with this share of the best
+/// one's margin: it spares an align.
+constexpr double kGoodShare = 0.5;
+
+/// Half-widths of regions in plans are smaller than computed by this share: rounding.
+constexpr double kRegionRounding = 1e-9;
+
+}  // namespace
+
+ContourDraftMaker::ContourDraftMaker(SetGeometry& geometry, const GraspJudge& judge, SwitchAim aim,
+                                     const End& start, const End& goal)
+    : geometry_(geometry), judge_(judge), aim_(aim), start_(start), goal_(goal) {}
+
+Draft ContourDraftMaker::MakeEmpty() const {
+  Draft draft;
+  for (const Contact& contact : start_.grasp) {
+    draft.initial.push_back({static_cast<int>(draft.initial.size()), contact});
+  }
+  draft.rests = {{start_.grasp, std::nullopt}};
+  return draft;
+}
+
+std::optional<Draft> ContourDraftMaker::Make(const std::vector<int>& path,
+                                             std::set<VertexPair>& banned) {
+  Draft draft = MakeEmpty();
+  at_ = start_.at;
+  for (const FingerContact& held : draft.initial) {
+    const bool first = held.contact.face == geometry_.graph().pieces()[at_.piece].edges[0];
+    fingers_[first ? 0 : 1] = held.finger;
+  }
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const VertexPair edge = Unordered(path[i], path[i + 1]);
+    const auto found = ChooseSwitch(path[i], path[i + 1], i + 2 == path.size());
+    if (!found) {
+      banned.insert(edge);
+      return std::nullopt;
+    }
+    AlignTo(found->before, edge, draft);
+    SwitchTo(*found, edge, draft);
+  }
+  AlignTo(goal_.at, std::nullopt, draft);
+  return draft;
+}
+
+std::optional<ContourSwitch> ContourDraftMaker::ChooseSwitch(int from, int to, bool last) {
+  if (aim_ == SwitchAim::kRegion) return FindLargestSwitch(geometry_, from, to);
+  return ChooseRoomySwitch(from, to, last);
+}
+
+std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int to, bool last) {
+  const PlacedScore margin = [this](const PlacedGrasp& grasp) { return AngleMargin(grasp); };
+  auto best = FindRoomySwitch(geometry_, from, to, margin);
+  if (!best) return std::nullopt;
+  if (!IsGood(*best)) {
+    const PlacedScore score = [this](const PlacedGrasp& g) { return judge_.Score(GraspOf(g)); };
+    best = FindRoomySwitch(geometry_, from, to, score);
+  }
+  const double least = kGoodShare * std::min(AngleMargin(best->before), AngleMargin(best->after));
+  const auto serves = [&](const std::optional<ContourSwitch>& found, bool before, bool after) {
+    return found && (!before || AngleMargin(found->before) >= least) &&
+           (!after || AngleMargin(found->after) >= least) && IsGood(*found);
+  };
+  if (last) {
+    const auto between = FindSwitchBetween(geometry_.graph(), at_, goal_.at);
+    if (between) return between;
+  }
+  if (const auto found = FindSwitchFrom(geometry_, at_, to, margin); serves(found, false, true)) {
+    return found;
+  }
+  if (last) {
+    const auto found = FindSwitchTo(geometry_, from, goal_.at, margin);
+    if (serves(found, true, false)) return found;
+  }
+  return best;
+}
+
+/// Of the grasps that the switch is free to choose.
+bool ContourDraftMaker::IsGood(const ContourSwitch& found) const {
+  const auto is_good = [&](const PlacedGrasp& grasp) {
+    return grasp == at_ || grasp == goal_.at || judge_.IsGood(GraspOf(grasp));
+  };
+  return is_good(found.before) && is_good(found.after);
+}
+
+/// The contacts of a grasp; those of start and goal as they were given.
+Grasp ContourDraftMaker::GraspOf(const PlacedGrasp& grasp) const {
+  Grasp contacts = geometry_.GraspOf(grasp);
+  const Boundary& boundary = geometry_.graph().boundary();
+  for (int k = 0; k < 2; ++k) {
+    for (const End* end : {&start_, &goal_}) {
+      for (const Contact& given : end->grasp) {
+        const bool same =
+            given.face == contacts[k].face && boundary.PlaceOf(given) == grasp.places[k];
+        if (same) contacts[k] = given;
+      }
+    }
+  }
+  return contacts;
+}
+
+/// How far the line through the contacts is inside their cones, radians.
+double ContourDraftMaker::AngleMargin(const PlacedGrasp& grasp) const {
+  const Grasp contacts = geometry_.GraspOf(grasp);
+  const bool stretching = geometry_.graph().pieces()[grasp.piece].stretching;
+  const Eigen::Vector3d line = (stretching ? -1 : 1) * (contacts[1].p - contacts[0].p);
+  return judge_.half_angle() -
+         std::max(AngleBetween(contacts[0].n, line), AngleBetween(contacts[1].n, -line));
+}
+
+FingerGrasp ContourDraftMaker::Held(const PlacedGrasp& grasp) const {
+  const Grasp contacts = GraspOf(grasp);
+  FingerGrasp held = {{fingers_[0], contacts[0]}, {fingers_[1], contacts[1]}};
+  std::ranges::sort(held, {}, &FingerContact::finger);
+  return held;
+}
+
+void ContourDraftMaker::AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for,
+                                Draft& draft) {
+  if (at_ == to) return;
+  const ContourGraph& graph = geometry_.graph();
+  Align align;
+  for (const PlacedGrasp& next : FindAlignRoute(geometry_, at_, to)) {
+    // Around a vertex the finger on the edge that both pieces have stays with it.
+    const auto& before = graph.pieces()[at_.piece].edges;
+    const auto& after = graph.pieces()[next.piece].edges;
+    if (next.piece != at_.piece && (before[0] == after[1] || before[1] == after[0])) {
+      std::swap(fingers_[0], fingers_[1]);
+    }
+    at_ = next;
+    align.waypoints.push_back(Held(at_));
+  }
+  draft.steps.emplace_back(std::move(align));
+  draft.rests.push_back({GraspOf(at_), chosen_for});
+}
+
+void ContourDraftMaker::SwitchTo(const ContourSwitch& found, VertexPair chosen_for, Draft& draft) {
+  const ContourGraph& graph = geometry_.graph();
+  const int stays_before = graph.pieces()[found.before.piece].edges[0] == found.edge ? 0 : 1;
+  const int stays_after = graph.pieces()[found.after.piece].edges[0] == found.edge ? 0 : 1;
+  // Of the three fingers the one that is free; their numbers sum to 3.
+  const int free = kContourFingers - fingers_[0] - fingers_[1];
+  FingerContact placed = {free, GraspOf(found.after)[1 - stays_after]};
+  const double region = std::min(geometry_.SizeAt(found.before), geometry_.SizeAt(found.after));
+  (void)region;
+  draft.steps.emplace_back(Switch{{placed}, {fingers_[1 - stays_before]}});
+  const int stays = fingers_[stays_before];
+  fingers_[stays_after] = stays;
+  fingers_[1 - stays_after] = free;
+  at_ = found.after;
+  draft.rests.push_back({GraspOf(at_), chosen_for});
+}
+
+}  // namespace regrasp

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "planner/contour/contour_switch.h"
+#include "planner/graph/draft.h"
+#include "planner/polygon/grasp_judge.h"
+
+namespace regrasp {
+
+/// Which grasps a switch is made at.
+enum class SwitchAim {
+  kRoom,    ///< well inside both sets, from the grasp at hand and to the goal where that serves
+  kRegion,  ///< the largest contact regions
+};
+
+/// Turns paths of the switching graph of a contour into sequences from one start to one goal (Phoka
+/// 2010, section 4.6): at each switch one finger is placed and one released; between switches the
+/// fingers align inside the set, around corners where they must.
+class ContourDraftMaker {
+ public:
+  /// @param start, goal  grasps of two contacts; at is where contact space has them.
+  struct End {
+    Grasp grasp;
+    PlacedGrasp at;
+  };
+
+  /// All arguments must outlive this object.
+  ContourDraftMaker(SetGeometry& geometry, const GraspJudge& judge, SwitchAim aim, const End& start,
+                    const End& goal);
+  ContourDraftMaker(const ContourDraftMaker&) = delete;
+  ContourDraftMaker& operator=(const ContourDraftMaker&) = delete;
+
+  /// No steps: for a goal that is the start.
+  [[nodiscard]] Draft MakeEmpty() const;
+
+  /// @param path    of sets, from that of the start to that of the goal.
+  /// @param banned  gets a switch of the path where doubles find no common place.
+  /// @returns nullopt then.
+  [[nodiscard]] std::optional<Draft> Make(const std::vector<int>& path,
+                                          std::set<VertexPair>& banned);
+
+ private:
+  [[nodiscard]] std::optional<ContourSwitch> ChooseSwitch(int from, int to, bool last);
+  [[nodiscard]] std::optional<ContourSwitch> ChooseRoomySwitch(int from, int to, bool last);
+  [[nodiscard]] bool IsGood(const ContourSwitch& found) const;
+  [[nodiscard]] Grasp GraspOf(const PlacedGrasp& grasp) const;
+  [[nodiscard]] double AngleMargin(const PlacedGrasp& grasp) const;
+  [[nodiscard]] FingerGrasp Held(const PlacedGrasp& grasp) const;
+  void AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for, Draft& draft);
+  void SwitchTo(const ContourSwitch& found, VertexPair chosen_for, Draft& draft);
+
+  SetGeometry& geometry_;
+  const GraspJudge& judge_;
+  SwitchAim aim_;
+  const End& start_;
+  const End& goal_;
+  PlacedGrasp at_;              ///< the grasp at hand
+  std::array<int, 2> fingers_;  ///< that hold it, by the edges of its piece
+};
+
+}  // namespace regrasp

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "planner/contour/plan_contour.h"
+#include "planner/polygon/plan_polygon.h"
+
+namespace regrasp {
+
+struct PlanarPlanOptions {
+  PolygonPlanOptions polygon;        ///< friction, seed, quality and progress count for both
+  SwitchAim aim = SwitchAim::kRoom;  ///< of the planner contour
+};
+
+/// Plans in the plane with the planner that fits: PlanOnContour where start and goal are 2-finger
+/// grasps and it joins them, otherwise PlanOnPolygon. Random grasps are drawn evenly over the
+/// boundary, of two contacts or three by the seed. The plan names its planner.
+/// @throws as PlanOnPolygon.
+[[nodiscard]] PlanResult PlanPlanar(const Polygon& polygon, const GraspChoice& start,
+                                    const GraspChoice& goal, const PlanarPlanOptions& options);
+
+}  // namespace regrasp
