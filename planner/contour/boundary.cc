@@ -32,7 +32,8 @@ double Boundary::PlaceOf(const Contact& contact) const {
 
 Contact Boundary::ContactAt(int edge, double place) const {
   const auto [from, to] = polygon_.edge(edge);
-  const double share = std::clamp((place - begin(edge)) / polygon_.face_measure(edge), 0.0, 1.0);
+  // Divided by this difference, the end of an edge is its vertex to the last bit.
+  const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);
   return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
 }
 

@@ -153,7 +153,7 @@ void ContourDraftMaker::SwitchTo(const ContourSwitch& found, VertexPair chosen_f
   const int free = kContourFingers - fingers_[0] - fingers_[1];
   FingerContact placed = {free, GraspOf(found.after)[1 - stays_after]};
   const double region = std::min(geometry_.SizeAt(found.before), geometry_.SizeAt(found.after));
-  (void)region;
+  placed.region = (1 - kRegionRounding) * region;
   draft.steps.emplace_back(Switch{{placed}, {fingers_[1 - stays_before]}});
   const int stays = fingers_[stays_before];
   fingers_[stays_after] = stays;

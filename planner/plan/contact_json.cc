@@ -10,10 +10,23 @@ Contact ReadContact(const JsonReader& json, int dimension) {
 
 int ReadFinger(const JsonReader& json) { return json.Integer(0, std::numeric_limits<int>::max()); }
 
+namespace {
+
+std::optional<double> ReadRegion(const JsonReader& contact) {
+  if (!contact.Has("region")) return std::nullopt;
+  const JsonReader region = contact.Member("region");
+  const double half_width = region.Number();
+  if (half_width < 0) region.Fail("expected a number from 0, found " + region.Quoted());
+  return half_width;
+}
+
+}  // namespace
+
 FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension) {
   FingerGrasp grasp;
   for (const JsonReader& element : json.Elements()) {
-    grasp.push_back({ReadFinger(element.Member("finger")), ReadContact(element, dimension)});
+    grasp.push_back({ReadFinger(element.Member("finger")), ReadContact(element, dimension),
+                     ReadRegion(element)});
   }
   return grasp;
 }
@@ -37,6 +50,7 @@ Json FingerGraspJson(const FingerGrasp& grasp, int dimension) {
     Json contact = Json::object();
     contact["finger"] = held.finger;
     contact.update(ContactJson(held.contact, dimension));
+    if (held.region) contact["region"] = *held.region;
     json.push_back(std::move(contact));
   }
   return json;

@@ -9,7 +9,7 @@ namespace regrasp {
 /// Reads `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
 [[nodiscard]] Contact ReadContact(const JsonReader& json, int dimension);
 
-/// Reads an array of contacts, each with its `finger`.
+/// Reads an array of contacts, each with its `finger` and, if it has one, its `region`.
 [[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
 
 /// Reads a finger's number. Numbers outside the hand are left to the checker.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,10 @@ namespace regrasp {
 struct FingerContact {
   int finger = 0;
   Contact contact;
+  /// Of a contact that a switch between 2-finger grasps of a polygon places: how far both contacts
+  /// of the grasp before it, and of the grasp after it, may be off along the boundary, whichever
+  /// way each, and the grasp is still force closure. In the object's unit of length.
+  std::optional<double> region = std::nullopt;
 };
 
 /// The fingers that hold the object, in the order of the file.
