@@ -106,8 +106,9 @@ std::vector<StepDiagram> DescribePlan(const Polygon& polygon, const Plan& plan) 
     diagram.grasp = DescribeGrasp(polygon, ContactsOf(grasp), plan.half_angle);
     diagram.caption = PanelLabel(entry) + " " + EntryTitle(plan, entry) + "; " +
                       Describe(diagram.grasp, plan.half_angle);
-    for (const auto& [finger, contact] : grasp) {
-      diagram.fingers.push_back({finger, FingerRole::kHolding, BorderPointOf(contact), {}});
+    for (const FingerContact& held : grasp) {
+      diagram.fingers.push_back(
+          {held.finger, FingerRole::kHolding, BorderPointOf(held.contact), {}});
     }
     if (step != nullptr) {
       std::visit([&](const auto& s) { AddActions(before, s, diagram.fingers); }, *step);

@@ -70,6 +70,19 @@ class Graph(ProgramCase):
                           "two_finger-two_finger": 1, "concurrent-parallel": 0})
         self.assertEqual((graph["vertices"], graph["components"]), (2, 1))
 
+    def test_a_contour_is_counted(self):
+        done = self.assert_done(*self.polygon("--friction-angle", "46", "--planner", "contour",
+                                              "--json", "graph.json"))
+        self.assertIn("contour of square.wkt, 4 edges, 46°", done.stdout)
+        # Opposite sides and neighbouring ones, which join them all: one set, no switch.
+        self.assertEqual(self.tables(done.stdout)["two_finger"], [6, 6, 1, 1])
+        graph = json.loads(self.read("graph.json"))
+        self.assertEqual((graph["planner"], graph["faces"]), ("contour", 4))
+        self.assertEqual(graph["types"]["two_finger"],
+                         {"candidates": 6, "combinations": 6, "vertices": 1, "components": 1})
+        self.assertEqual(graph["edges"], {"two_finger-two_finger": 0})
+        self.assertEqual((graph["vertices"], graph["components"]), (1, 1))
+
     def test_spanning_decides_which_normals_span(self):
         triangle = self.write("triangle.wkt", "POLYGON((0 0, 1 0, 0.5 0.866, 0 0))")
         def counts(angle, spanning):

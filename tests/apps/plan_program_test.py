@@ -79,15 +79,63 @@ class Plan(ProgramCase):
         names = sorted(name[:-len(".wkt")] for name in os.listdir(self.model(""))
                        if name.endswith(".wkt"))
         self.assertGreaterEqual(len(names), 9, names)
+        planners = set()
         for name in names:
             with self.subTest(model=name):
                 plan = self.plan(self.polygon_arguments(
                     object=self.model(name + ".wkt"), start=self.model(name + ".start.json"),
                     goal=self.model(name + ".goal.json")))
-                self.assertEqual(plan["planner"], "polygon")
-                self.assertEqual(plan["fingers"], 4)
+                two_fingers = all(len(plan[end]["contacts"]) == 2 for end in ("initial", "goal"))
+                planners.add(plan["planner"])
+                self.assertEqual(plan["planner"], "contour" if two_fingers else "polygon")
+                self.assertEqual(plan["fingers"], 3 if two_fingers else 4)
                 self.assertEqual(plan["object"]["dimension"], 2)
                 self.assertGreater(len(plan["steps"]), 0)
+        self.assertEqual(planners, {"contour", "polygon"})
+
+    def test_a_contour_is_planned_with_three_fingers_one_of_them_spare(self):
+        aligns, switches = 0, 0
+        for optimize in ({}, {"optimize": "regions"}):
+            for seed in range(4):
+                plan = self.plan(self.polygon_arguments(
+                    object=self.model("polygon40.wkt"), start="random", goal="random",
+                    planner="contour", seed=str(seed), **optimize))
+                self.assertEqual((plan["planner"], plan["fingers"]), ("contour", 3))
+                for step in plan["steps"]:
+                    if step["kind"] == "align":
+                        aligns += 1
+                        continue
+                    switches += 1
+                    self.assertEqual((len(step["place"]), len(step["release"])), (1, 1))
+                    self.assertGreater(step["place"][0]["region"], 0)
+        self.assertGreater(min(aligns, switches), 4)
+
+    def test_optimized_regions_are_no_smaller(self):
+        compared = 0
+        for seed in range(6):
+            regions = []
+            for optimize in ({}, {"optimize": "regions"}):
+                plan = self.plan(self.polygon_arguments(
+                    object=self.model("polygon40.wkt"), start="random", goal="random",
+                    planner="contour", seed=str(seed), **optimize))
+                regions.append([step["place"][0]["region"] for step in plan["steps"]
+                                if step["kind"] == "switch"])
+            self.assertEqual(len(regions[0]), len(regions[1]))
+            for free, optimized in zip(*regions):
+                self.assertGreaterEqual(optimized, free * (1 - 1e-9))
+                compared += 1
+        self.assertGreater(compared, 5)
+
+    def test_auto_leaves_what_contour_cannot_join_to_the_polygon(self):
+        def pair(first, second):
+            return self.write_json(f"{first[0]}.json", self.grasp([{"point": first},
+                                                                   {"point": second}]))
+        square = self.model("square.wkt")
+        options = {"object": square, "start": pair([-0.03, 0], [0.03, 0]),
+                   "goal": pair([0, -0.03], [0, 0.03])}
+        self.assertEqual(self.plan(self.polygon_arguments(**options))["planner"], "polygon")
+        self.assert_refused(1, "no sequence of switches and aligns",
+                            *self.polygon_arguments(planner="contour", **options))
 
     def test_fingers_of_a_polygon_hold_until_they_leave_and_never_are_more_than_four(self):
         aligns = 0
@@ -385,8 +433,18 @@ class Plan(ProgramCase):
 
     def test_refuses_a_solid_for_the_polygon_and_a_polygon_for_the_roadmap(self):
         self.refuse([self.model("cube.obj"), "a solid"], planner="polygon")
+        self.refuse([self.model("cube.obj"), "a solid", "contour"], planner="contour")
         self.assert_refused(2, [self.model("polygon15.wkt"), "planar"],
                             *self.polygon_arguments(planner="roadmap"))
+
+    def test_refuses_to_optimize_regions_that_a_planner_does_not_have(self):
+        for planner in ("polygon", "roadmap"):
+            self.assert_refused(2, ["--optimize regions", planner],
+                                *self.polygon_arguments(planner=planner, optimize="regions"))
+        self.assert_refused(2, "--optimize", *self.polygon_arguments(optimize="colour"))
+
+    def test_refuses_grasps_of_three_contacts_on_a_contour(self):
+        self.assert_refused(2, ["contour", "found 3"], *self.polygon_arguments(planner="contour"))
 
     def test_refuses_grasps_that_do_not_serve_on_a_polygon(self):
         pair = [{"point": [-0.03, 0.01]}, {"point": [0.03, -0.01]}]
