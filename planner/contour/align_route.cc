@@ -1,6 +1,8 @@
 #include "planner/contour/align_route.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <functional>
 #include <limits>
 #include <map>
 #include <queue>
@@ -17,8 +19,11 @@ namespace {
 constexpr double kUsedShare = 0.5;
 constexpr int kPullRounds = 30;
 
-/// The least distance to the border that lengths are divided by, over that of the set's middle.
-constexpr double kLeastClearance = 1e-3;
+/// Passages at least this share as wide as the narrowest one of the widest way are admitted.
+constexpr double kWideShare = 0.5;
+
+/// The least margin that lengths are divided by, radians.
+constexpr double kLeastMargin = 1e-6;
 
 /// A step through a passage.
 struct Crossing {
@@ -73,15 +78,43 @@ class Router {
     return {passage, forward, range, (range.low + range.high) / 2};
   }
 
-  /// One over the distance to the border.
-  double Hurry(const PlacedGrasp& grasp) {
-    const double least = kLeastClearance * geometry_.WidthOf(graph_.set_of(from_.piece));
-    return 1 / std::max(geometry_.SizeAt(grasp), least);
+  /// How wide the middle of a passage is, by the normals of both of its sides, radians.
+  [[nodiscard]] double WidthOf(int passage) const {
+    const Crossing crossing = MakeCrossing(passage, true);
+    return std::min(geometry_.AngleMarginOf(Side(crossing, true)),
+                    geometry_.AngleMarginOf(Side(crossing, false)));
+  }
+
+  /// The width of the narrowest passage of the widest way: passages are opened from the widest on,
+  /// until the way is free.
+  [[nodiscard]] double WidestWay() const {
+    std::vector<std::pair<double, int>> passages;
+    for (const int piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
+      for (const int passage : graph_.passages_at(piece)) {
+        if (graph_.passages()[passage].pieces[0] != piece) continue;
+        passages.emplace_back(WidthOf(passage), passage);
+      }
+    }
+    std::ranges::sort(passages, std::greater<>());
+    boost::disjoint_sets_with_storage<> joined(graph_.pieces().size());
+    for (const auto& [width, passage] : passages) {
+      const auto& [a, b] = graph_.passages()[passage].pieces;
+      joined.union_set(a, b);
+      if (joined.find_set(from_.piece) == joined.find_set(to_.piece)) return width;
+    }
+    return 0;
+  }
+
+  /// One over the margin of a grasp.
+  [[nodiscard]] double Hurry(const PlacedGrasp& grasp) const {
+    return 1 / std::max(geometry_.AngleMarginOf(grasp), kLeastMargin);
   }
 
   /// The crossings of the shortest way, in their order.
   std::vector<Crossing> FindCrossings() {
     if (from_.piece == to_.piece) return {};
+    const double widest = WidestWay();
+    const double least = widest > 0 ? kWideShare * widest : widest;
     struct Reached {
       double cost = std::numeric_limits<double>::infinity();
       int previous = -1;  ///< passage
@@ -100,7 +133,12 @@ class Router {
         const PlacedGrasp there = Side(MakeCrossing(next, forward), true);
         Reached& entry = reached[next];
         if (entry.done) continue;
-        if (entry.hurry == 0) entry.hurry = Hurry(there);
+        if (entry.hurry == 0) {
+          const double width = WidthOf(next);
+          entry.done = width < least;
+          entry.hurry = 1 / std::max(width, kLeastMargin);
+          if (entry.done) continue;
+        }
         const double length = (there.places - at.places).norm();
         const double total = cost + length * (hurry + entry.hurry) / 2;
         if (total >= entry.cost) continue;

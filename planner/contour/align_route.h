@@ -10,9 +10,10 @@ namespace regrasp {
 /// piece, and where a contact goes around a vertex of the polygon two grasps that differ in the
 /// piece and have the same contact points, before the vertex and after it.
 ///
-/// Among the passages from piece to piece a shortest way is taken (Dijkstra 1959), lengths counted
-/// more where the border of the set is near: over the half-width of the largest centred square. It
-/// is then pulled straight inside the middle part of each passage.
+/// The way keeps away from the border of the set: of all ways those are admitted whose narrowest
+/// passage, by how far the line through the contacts is inside the friction cones, is at least half
+/// as wide as that of the widest way. Among these the shortest is taken (Dijkstra 1959), lengths
+/// counted over that margin, and then pulled straight inside the middle part of each passage.
 /// @param from, to  of the same set.
 [[nodiscard]] std::vector<PlacedGrasp> FindAlignRoute(SetGeometry& geometry,
                                                       const PlacedGrasp& from,

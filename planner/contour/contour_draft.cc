@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "planner/contour/align_route.h"
-#include "planner/plan/tolerance.h"
 
 namespace regrasp {
 
@@ -60,17 +59,20 @@ std::optional<ContourSwitch> ContourDraftMaker::ChooseSwitch(int from, int to, b
 }
 
 std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int to, bool last) {
-  const PlacedScore margin = [this](const PlacedGrasp& grasp) { return AngleMargin(grasp); };
+  const PlacedScore margin = [this](const PlacedGrasp& grasp) {
+    return geometry_.AngleMarginOf(grasp);
+  };
   auto best = FindRoomySwitch(geometry_, from, to, margin);
   if (!best) return std::nullopt;
   if (!IsGood(*best)) {
     const PlacedScore score = [this](const PlacedGrasp& g) { return judge_.Score(GraspOf(g)); };
     best = FindRoomySwitch(geometry_, from, to, score);
   }
-  const double least = kGoodShare * std::min(AngleMargin(best->before), AngleMargin(best->after));
+  const double least = kGoodShare * std::min(geometry_.AngleMarginOf(best->before),
+                                             geometry_.AngleMarginOf(best->after));
   const auto serves = [&](const std::optional<ContourSwitch>& found, bool before, bool after) {
-    return found && (!before || AngleMargin(found->before) >= least) &&
-           (!after || AngleMargin(found->after) >= least) && IsGood(*found);
+    return found && (!before || geometry_.AngleMarginOf(found->before) >= least) &&
+           (!after || geometry_.AngleMarginOf(found->after) >= least) && IsGood(*found);
   };
   if (last) {
     const auto between = FindSwitchBetween(geometry_.graph(), at_, goal_.at);
@@ -108,15 +110,6 @@ Grasp ContourDraftMaker::GraspOf(const PlacedGrasp& grasp) const {
     }
   }
   return contacts;
-}
-
-/// How far the line through the contacts is inside their cones, radians.
-double ContourDraftMaker::AngleMargin(const PlacedGrasp& grasp) const {
-  const Grasp contacts = geometry_.GraspOf(grasp);
-  const bool stretching = geometry_.graph().pieces()[grasp.piece].stretching;
-  const Eigen::Vector3d line = (stretching ? -1 : 1) * (contacts[1].p - contacts[0].p);
-  return judge_.half_angle() -
-         std::max(AngleBetween(contacts[0].n, line), AngleBetween(contacts[1].n, -line));
 }
 
 FingerGrasp ContourDraftMaker::Held(const PlacedGrasp& grasp) const {

@@ -48,7 +48,6 @@ class ContourDraftMaker {
   [[nodiscard]] std::optional<ContourSwitch> ChooseRoomySwitch(int from, int to, bool last);
   [[nodiscard]] bool IsGood(const ContourSwitch& found) const;
   [[nodiscard]] Grasp GraspOf(const PlacedGrasp& grasp) const;
-  [[nodiscard]] double AngleMargin(const PlacedGrasp& grasp) const;
   [[nodiscard]] FingerGrasp Held(const PlacedGrasp& grasp) const;
   void AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for, Draft& draft);
   void SwitchTo(const ContourSwitch& found, VertexPair chosen_for, Draft& draft);

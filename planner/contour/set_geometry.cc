@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/plan/tolerance.h"
+
 namespace regrasp {
 
 using Eigen::Vector2d;
@@ -57,6 +59,14 @@ double SetGeometry::WidthOf(int set) { return FindDiagram(set).width; }
 
 double SetGeometry::SizeAt(const PlacedGrasp& grasp) {
   return MetricOf(graph_.set_of(grasp.piece)).SizeAt(grasp.places);
+}
+
+double SetGeometry::AngleMarginOf(const PlacedGrasp& grasp) const {
+  const Grasp contacts = GraspOf(grasp);
+  const bool stretching = graph_.pieces()[grasp.piece].stretching;
+  const Eigen::Vector3d line = (stretching ? -1 : 1) * (contacts[1].p - contacts[0].p);
+  return std::atan(graph_.tangent()) -
+         std::max(AngleBetween(contacts[0].n, line), AngleBetween(contacts[1].n, -line));
 }
 
 std::optional<PlaceRange> SetGeometry::RangeOf(int piece, int k) {

@@ -35,6 +35,10 @@ class SetGeometry {
   /// Half-width of the largest square about a grasp that lies in its set.
   [[nodiscard]] double SizeAt(const PlacedGrasp& grasp);
 
+  /// How far the line through the contacts is inside both friction cones, radians; negative
+  /// outside.
+  [[nodiscard]] double AngleMarginOf(const PlacedGrasp& grasp) const;
+
   /// The places of the contact on the k-th edge that a piece's grasps have, and for one of them the
   /// places of the other contact; nullopt where doubles know none.
   [[nodiscard]] std::optional<PlaceRange> RangeOf(int piece, int k);
