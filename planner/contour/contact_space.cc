@@ -50,6 +50,13 @@ std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece
   return forms;
 }
 
+/// Lengths below this are rounding where the piece is.
+double Rounding(const ContourGraph& graph, const GraspPiece& piece) {
+  const Boundary& boundary = graph.boundary();
+  return kRounding * std::max(boundary.perimeter(boundary.ring_of(piece.edges[0])),
+                              boundary.perimeter(boundary.ring_of(piece.edges[1])));
+}
+
 /// A corner of an outline and whether the side that begins there is a line that cuts the piece.
 struct TaggedCorner {
   Vector2d p;
@@ -73,6 +80,16 @@ std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const L
   return clipped;
 }
 
+/// Drops the sides that have no length but rounding: their directions mean nothing.
+void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
+  std::vector<TaggedCorner> kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d side = outline[(i + 1) % outline.size()].p - outline[i].p;
+    if (side.lpNorm<Eigen::Infinity>() > rounding) kept.push_back(outline[i]);
+  }
+  outline = std::move(kept);
+}
+
 /// In places counted from where the edges begin.
 std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPiece& piece) {
   const Polygon& polygon = graph.boundary().polygon();
@@ -81,6 +98,7 @@ std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPie
   std::vector<TaggedCorner> outline = {{{0, 0}}, {{width, 0}}, {{width, height}}, {{0, height}}};
   if (piece.full) return outline;
   for (const LinearForm& form : PieceForms(graph, piece)) outline = Clip(outline, form);
+  DropShortSides(outline, Rounding(graph, piece));
   return outline;
 }
 
@@ -119,9 +137,7 @@ std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece&
 class BorderFinder {
  public:
   BorderFinder(const ContourGraph& graph, int set)
-      : graph_(graph),
-        rounding_(kRounding *
-                  graph.boundary().perimeter(graph.boundary().ring_of(EdgeOf(graph, set)))) {
+      : graph_(graph), rounding_(Rounding(graph, graph.pieces()[graph.pieces_of(set).front()])) {
     for (const int piece : graph.pieces_of(set)) {
       AddCuts(piece);
       for (int k = 0; k < 2; ++k) {
@@ -146,10 +162,6 @@ class BorderFinder {
     PlaceRange range;
     int piece;
   };
-
-  static int EdgeOf(const ContourGraph& graph, int set) {
-    return graph.pieces()[graph.pieces_of(set).front()].edges[0];
-  }
 
   void AddCuts(int piece) {
     const GraspPiece& p = graph_.pieces()[piece];
