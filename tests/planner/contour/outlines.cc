@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <random>
 
 namespace regrasp {
 namespace {
@@ -69,6 +69,30 @@ const std::vector<NamedPolygon>& TwelveEdgePolygons() {
   return polygons;
 }
 
+const std::vector<NamedPolygon>& DegeneratePolygons() {
+  static const std::vector<NamedPolygon> all = [] {
+    std::vector<NamedPolygon> polygons;
+    const auto add = [&](const std::string& name, std::vector<Ring> rings) {
+      polygons.push_back({name, Polygon::FromRings(std::move(rings), name)});
+    };
+    for (const int n : {3, 4, 5, 6, 8, 12}) {
+      polygons.push_back({"regular " + std::to_string(n), RegularPolygon(n)});
+    }
+    polygons.push_back({"fork", Fork()});
+    add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
+    add("comb", {{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {0, 1}}});
+    add("3-4-5", {{{0, 0}, {4, 0}, {8, 0}, {8, 3}, {4, 6}, {0, 3}}});
+    // A staircase under a straight top: cells touch at corners where four of them meet.
+    add("stairs",
+        {{{0, 0}, {2, 0}, {2, 1}, {4, 1}, {4, 2}, {6, 2}, {6, 3}, {8, 3}, {8, 8}, {4, 8}, {0, 8}}});
+    // Bottom and top cut into pieces of equal length: at tan θ = 1/4 the border of a cone goes
+    // through corners of rectangles.
+    add("bar", {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {4, 4}, {3, 4}, {2, 4}, {1, 4}, {0, 4}}});
+    return polygons;
+  }();
+  return all;
+}
+
 Polygon Mapped(const Polygon& polygon,
                const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map) {
   std::vector<Ring> rings = polygon.rings();
@@ -76,6 +100,24 @@ Polygon Mapped(const Polygon& polygon,
     for (Eigen::Vector2d& p : ring) p = map(p);
   }
   return Polygon::FromRings(std::move(rings), "mapped");
+}
+
+Polygon Shaken(const Polygon& polygon, const Shake& shake, std::mt19937_64& engine) {
+  std::bernoulli_distribution up(0.5);
+  return Mapped(polygon, [&](const Eigen::Vector2d& p) {
+    const double x = shake(p.x(), up(engine));
+    return Eigen::Vector2d(x, shake(p.y(), up(engine)));
+  });
+}
+
+double OneRounding(double x, bool up) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (x == 0) return x;  // the next double is no rounding of anything
+  return std::nextafter(x, up ? kInfinity : -kInfinity);
+}
+
+Shake By(double amount) {
+  return [amount](double x, bool up) { return x + (up ? amount : -amount); };
 }
 
 Polygon Renumbered(const Polygon& polygon, int by) {
