@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "planner/graph/spanning.h"  // IWYU pragma: export
+
 namespace regrasp {
 
 /// The kinds of force-closure grasps of a polygon (Phoka 2010, section 3.2).
@@ -9,12 +11,6 @@ enum class GraspType {
   kConcurrent,  ///< three contacts whose cones see one focus point, normals φ-positively spanning
   kTwoFinger,   ///< two contacts, the line through them inside both cones
   kParallel,    ///< three contacts with parallel forces, the middle one opposing the others
-};
-
-/// Half-angle φ of the cones of concurrent grasps, θ being the friction's.
-enum class Spanning {
-  kAdaptive,  ///< φ = min(θ, φ*), φ* the supremum of angles for which the three normals span
-  kUniform,   ///< φ = θ where the three normals θ-positively span, no set where they don't
 };
 
 /// A vertex of the switching graph: a connected component of the grasps of one type on distinct

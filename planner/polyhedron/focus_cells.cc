@@ -1,0 +1,193 @@
+#include "planner/polyhedron/focus_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/graph/components.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Focus points are looked for within so many diameters of the centroid. Cells of normals that
+/// φ-positively span with little to spare reach far; what is beyond has contacts on a vanishing
+/// part of its faces.
+constexpr double kReach = 100;
+
+std::vector<UnionVolume::Shape> ShapesOf(const std::vector<FacePart>& parts) {
+  return {parts.begin(), parts.end()};
+}
+
+/// The largest cut of some volumes and of a flat part's sides, on the part's plane: none of them
+/// depends on the height over it.
+Cut LargestOnPart(std::span<const UnionVolume> volumes, const UnionVolume::Shape& part,
+                  const Vector3d& x) {
+  const double height = part.normal.dot(x - part.origin);
+  const Vector3d foot = x - height * part.normal;
+  Cut largest;
+  largest.offset = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](Cut cut) {
+    // The same on the plane, and constant across it.
+    const double value = cut.At(foot);
+    cut.gradient -= cut.gradient.dot(part.normal) * part.normal;
+    cut.offset = value - cut.gradient.dot(foot);
+    if (value > largest.At(foot)) largest = cut;
+  };
+  for (const UnionVolume& volume : volumes) consider(volume.CutAt(foot));
+  for (const auto& side : part.sides) {
+    const Vector3d outward = side.outward.x() * part.u + side.outward.y() * part.v;
+    consider({outward, -outward.dot(part.origin) - side.outward.dot(side.from)});
+  }
+  return largest;
+}
+
+}  // namespace
+
+FocusCellFinder::FocusCellFinder(const Polyhedron& solid, double tangent)
+    : parts_(SplitFaces(solid)),
+      shapes_(ShapesOf(parts_.parts)),
+      tangent_(tangent),
+      min_max_(solid.mass_properties().centroid, kReach * solid.diameter()),
+      meet_(4 * shapes_.size() * shapes_.size(), Known::kNotYet) {}
+
+bool FocusCellFinder::Decide(const MinMaxResult& result) {
+  if (result.overlap == Overlap::kUnclear) ++unclear_;
+  return result.overlap == Overlap::kSome;
+}
+
+/// False only where two halves, with cones of half-angle θ, certainly do not meet: a piece needs
+/// all six pairs. Two inner halves nearly always meet, and are not asked.
+bool FocusCellFinder::MayMeet(int half, int other) {
+  if (half % 2 == 0 && other % 2 == 0) return true;
+  Known& known = meet_[half * 2 * shapes_.size() + other];
+  if (known == Known::kNotYet) {
+    const std::array volumes = {VolumeOf(half, tangent_), VolumeOf(other, tangent_)};
+    min_max_.Restart();
+    const bool no = min_max_.Solve(volumes, MinMax::Until::kSign).overlap == Overlap::kNone;
+    known = no ? Known::kNo : Known::kYes;
+    meet_[other * 2 * shapes_.size() + half] = known;
+  }
+  return known == Known::kYes;
+}
+
+std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate) {
+  std::vector<FocusPiece> pieces;
+  std::array<int, 4> halves;
+  FindPieces(candidate, 0, halves, pieces);
+  if (pieces.size() < 2) {
+    if (pieces.empty()) return {};
+    return {{candidate.faces, candidate.tangent, std::move(pieces)}};
+  }
+  const int count = static_cast<int>(pieces.size());
+  std::vector<std::array<int, 2>> joins;
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      if (AreJoined(candidate, pieces[i], pieces[j])) joins.push_back({i, j});
+    }
+  }
+  const Components components = FindComponents(
+      count, static_cast<int>(joins.size()), [&](int i) { return std::span<const int>(joins[i]); });
+  std::vector<FocusCell> cells(components.count(), {candidate.faces, candidate.tangent, {}});
+  for (int i = 0; i < count; ++i) {
+    cells[components.of_vertex[i]].pieces.push_back(std::move(pieces[i]));
+  }
+  return cells;
+}
+
+void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
+                                 std::array<int, 4>& halves, std::vector<FocusPiece>& pieces) {
+  if (depth < halves.size()) {
+    const int face = candidate.faces[depth];
+    for (int half = 2 * parts_.first[face]; half < 2 * parts_.first[face + 1]; ++half) {
+      const bool may = std::all_of(halves.begin(), halves.begin() + depth,
+                                   [&](int other) { return MayMeet(other, half); });
+      if (!may) continue;
+      halves[depth] = half;
+      FindPieces(candidate, depth + 1, halves, pieces);
+    }
+    return;
+  }
+  const std::array volumes = {
+      VolumeOf(halves[0], candidate.tangent), VolumeOf(halves[1], candidate.tangent),
+      VolumeOf(halves[2], candidate.tangent), VolumeOf(halves[3], candidate.tangent)};
+  min_max_.Restart();
+  const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kSign);
+  if (Decide(result)) pieces.push_back({halves, result.point, min_max_.basis()});
+}
+
+/// Whether one goes from one piece to the other while three contacts stay on their parts: through
+/// the face, or over a joint of its parts.
+bool FocusCellFinder::AreJoined(const QuadrupleCandidate& candidate, const FocusPiece& a,
+                                const FocusPiece& b) {
+  std::vector<UnionVolume> common;
+  std::array<int, 2> changed = {-1, -1};
+  for (std::size_t k = 0; k < a.halves.size(); ++k) {
+    if (a.halves[k] == b.halves[k]) {
+      common.push_back(VolumeOf(a.halves[k], candidate.tangent));
+    } else {
+      changed = {a.halves[k], b.halves[k]};
+    }
+  }
+  if (common.size() != 3) return false;
+  min_max_.Restart();
+  if (changed[0] / 2 == changed[1] / 2) {
+    const UnionVolume::Shape& part = shapes_[changed[0] / 2];
+    return Decide(min_max_.Solve([&](const Vector3d& x) { return LargestOnPart(common, part, x); },
+                                 MinMax::Until::kSign));
+  }
+  if (changed[0] % 2 != changed[1] % 2) return false;
+  const std::array<int, 2> parts = {std::min(changed[0], changed[1]) / 2,
+                                    std::max(changed[0], changed[1]) / 2};
+  for (const PartJoint& joint : parts_.joints) {
+    if (std::array{std::min(joint.parts[0], joint.parts[1]),
+                   std::max(joint.parts[0], joint.parts[1])} != parts) {
+      continue;
+    }
+    const UnionVolume::Shape segment(joint.segment);
+    std::vector<UnionVolume> all = common;
+    all.emplace_back(segment, changed[0] % 2 == 0, candidate.tangent);
+    min_max_.Restart();
+    if (Decide(min_max_.Solve(all, MinMax::Until::kSign))) return true;
+  }
+  return false;
+}
+
+bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
+  // The faces that only one of the two has.
+  std::size_t own_a = 0, own_b = 0;
+  while (own_a < 3 && std::ranges::find(b.faces, a.faces[own_a]) != b.faces.end()) ++own_a;
+  while (own_b < 3 && std::ranges::find(a.faces, b.faces[own_b]) != a.faces.end()) ++own_b;
+  const auto others = [](std::size_t own) {
+    std::array<std::size_t, 3> rest;
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k < own ? k : k + 1;
+    return rest;
+  };
+  const auto common_a = others(own_a);
+  const auto common_b = others(own_b);
+  const double narrower = std::min(a.tangent, b.tangent);
+  for (const FocusPiece& of_a : a.pieces) {
+    for (const FocusPiece& of_b : b.pieces) {
+      const bool same = std::equal(
+          common_a.begin(), common_a.end(), common_b.begin(),
+          [&](std::size_t i, std::size_t j) { return of_a.halves[i] == of_b.halves[j]; });
+      if (!same) continue;
+      const std::array volumes = {VolumeOf(of_b.halves[own_b], b.tangent),
+                                  VolumeOf(of_a.halves[own_a], a.tangent),
+                                  VolumeOf(of_a.halves[common_a[0]], narrower),
+                                  VolumeOf(of_a.halves[common_a[1]], narrower),
+                                  VolumeOf(of_a.halves[common_a[2]], narrower)};
+      if (a.tangent == b.tangent) {
+        if (volumes[0].At(of_a.point) < 0 || volumes[1].At(of_b.point) < 0) return true;
+        min_max_.Resume(of_a.basis);
+      } else {
+        min_max_.Restart();
+      }
+      if (Decide(min_max_.Solve(volumes, MinMax::Until::kSign))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planner/polyhedron/min_max.h"
+#include "planner/polyhedron/normal_quadruples.h"
+
+namespace regrasp {
+
+/// A convex piece of a focus cell: focus points on a fixed side of each face that see a contact of
+/// a fixed convex part of it.
+struct FocusPiece {
+  /// Half of a part's union volume, one of each face in the faces' order: 2 · part, or 2 · part + 1
+  /// for the outer side.
+  std::array<int, 4> halves;
+  Eigen::Vector3d point;  ///< a focus point inside
+  MinMax::Basis basis;    ///< to go on from
+};
+
+/// A vertex of the switching graph: a connected component of the focus points of four faces
+/// together with their contacts (Phoka 2010, definition 5.5).
+struct FocusCell {
+  std::array<int, 4> faces;  ///< ascending
+  double tangent = 0;        ///< tan φ
+  std::vector<FocusPiece> pieces;
+};
+
+/// Finds the focus cells of a solid, and which of them overlap.
+class FocusCellFinder {
+ public:
+  /// @param tangent  tan θ. `solid` must outlive this object.
+  FocusCellFinder(const Polyhedron& solid, double tangent);
+
+  /// The components of the focus cell of a candidate; empty where it has no interior.
+  [[nodiscard]] std::vector<FocusCell> Find(const QuadrupleCandidate& candidate);
+
+  /// Whether two cells with exactly three common faces have a focus point in common, with contacts
+  /// on the common faces in common.
+  [[nodiscard]] bool Overlap(const FocusCell& a, const FocusCell& b);
+
+  /// Decisions that doubles could not make; the sets then count as touching, which is not meeting.
+  [[nodiscard]] std::int64_t unclear_count() const { return unclear_; }
+
+  [[nodiscard]] const FaceParts& parts() const { return parts_; }
+  [[nodiscard]] UnionVolume VolumeOf(int half, double tangent) const {
+    return {shapes_[half / 2], half % 2 == 0, tangent};
+  }
+
+ private:
+  enum class Known : std::uint8_t { kNo, kYes, kNotYet };
+
+  [[nodiscard]] bool MayMeet(int half, int other);
+  void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
+                  std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
+  [[nodiscard]] bool AreJoined(const QuadrupleCandidate& candidate, const FocusPiece& a,
+                               const FocusPiece& b);
+  [[nodiscard]] bool Decide(const MinMaxResult& result);
+
+  FaceParts parts_;
+  std::vector<UnionVolume::Shape> shapes_;  ///< of the parts
+  double tangent_;
+  MinMax min_max_;
+  std::vector<Known> meet_;  ///< by pairs of halves
+  std::int64_t unclear_ = 0;
+};
+
+}  // namespace regrasp
