@@ -7,7 +7,7 @@
 
 #include "planner/contour/contour_switch.h"
 #include "planner/graph/draft.h"
-#include "planner/polygon/grasp_judge.h"
+#include "planner/graph/grasp_judge.h"
 
 namespace regrasp {
 

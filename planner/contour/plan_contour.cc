@@ -7,10 +7,10 @@
 
 #include "planner/base/number.h"
 #include "planner/graph/fewest_switches.h"
+#include "planner/graph/rest_summary.h"
 #include "planner/graph/widest_path.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/boundary_draw.h"
-#include "planner/polygon/rest_summary.h"
 
 namespace regrasp {
 

@@ -2,9 +2,9 @@
 
 #include "planner/base/random.h"
 #include "planner/graph/grasp_choice.h"
+#include "planner/graph/grasp_judge.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/polygon.h"
-#include "planner/polygon/grasp_judge.h"
 
 namespace regrasp {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "planner/graph/draft.h"
+#include "planner/graph/grasp_judge.h"
 #include "planner/polygon/attached_graph.h"
-#include "planner/polygon/grasp_judge.h"
 #include "planner/polygon/switch_point.h"
 
 namespace regrasp {

@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "planner/base/number.h"
+#include "planner/graph/grasp_judge.h"
+#include "planner/graph/rest_summary.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/attached_graph.h"
 #include "planner/polygon/boundary_draw.h"
 #include "planner/polygon/draft.h"
 #include "planner/polygon/graph_cells.h"
-#include "planner/polygon/grasp_judge.h"
-#include "planner/polygon/rest_summary.h"
 
 namespace regrasp {
 

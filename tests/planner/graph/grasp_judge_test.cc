@@ -1,17 +1,22 @@
-#include "planner/polygon/grasp_judge.h"
+#include "planner/graph/grasp_judge.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/polygon/set_cells.h"
-#include "tests/planner/polygon/shapes.h"
+#include "planner/base/angle.h"
+#include "planner/object/polygon.h"
 
 namespace regrasp {
 namespace {
 
+Polygon Square(double size) {
+  return Polygon::FromRings({{{0, 0}, {size, 0}, {size, size}, {0, size}}}, "square");
+}
+
+/// Contacts at shares of the unit square's width.
 Grasp Across(const Polygon& square, double bottom, double top) {
-  return {ContactAt(square, 0, bottom), ContactAt(square, 2, 1 - top)};
+  return {{{bottom, 0, 0}, square.inward_normal(0), 0}, {{top, 1, 0}, square.inward_normal(2), 2}};
 }
 
 TEST(GraspJudge, ScoresGoodGraspsByTheirMargin) {
@@ -45,10 +50,10 @@ TEST(GraspJudge, TwoContactsAtOnePointAreNoGrasp) {
   const Polygon square = Square(1);
   const GraspJudge judge(square, Radians(30), 0.01);
   Grasp grasp = Across(square, 0.5, 0.5);
-  grasp.push_back(ContactAt(square, 0, 0.5 + 1e-7));
+  grasp.push_back(Across(square, 0.5 + 1e-7, 0.5)[0]);
   EXPECT_FALSE(judge.IsGood(grasp));
   EXPECT_EQ(judge.Score(grasp), -1);
-  grasp.back() = ContactAt(square, 0, 0.5 + 1e-5);
+  grasp.back() = Across(square, 0.5 + 1e-5, 0.5)[0];
   EXPECT_TRUE(judge.IsGood(grasp));
 }
 

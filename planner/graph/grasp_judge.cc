@@ -1,4 +1,4 @@
-#include "planner/polygon/grasp_judge.h"
+#include "planner/graph/grasp_judge.h"
 
 #include <algorithm>
 

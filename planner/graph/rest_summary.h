@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/graph/draft.h"
-#include "planner/polygon/grasp_judge.h"
+#include "planner/graph/grasp_judge.h"
 
 namespace regrasp {
 

@@ -1,4 +1,4 @@
-#include "planner/polygon/rest_summary.h"
+#include "planner/graph/rest_summary.h"
 
 #include <algorithm>
 
