@@ -56,6 +56,7 @@ class FaceSplitter {
   [[nodiscard]] FacePart MakePart(const Ring& ring) const {
     FacePart part = frame_;
     for (const int vertex : ring) part.outline.push_back(Flat(vertex));
+    part.corners = ring;
     return part;
   }
 

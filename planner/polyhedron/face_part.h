@@ -16,6 +16,7 @@ struct FacePart {
   Eigen::Vector3d u;       ///< unit, with v and −normal a right-handed frame
   Eigen::Vector3d v;
   std::vector<Eigen::Vector2d> outline;  ///< counter-clockwise; two points for a segment
+  std::vector<int> corners;              ///< the solid's vertices of the outline
 };
 
 /// Where two parts of one face meet: a segment that borders both.

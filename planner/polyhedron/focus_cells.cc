@@ -16,6 +16,10 @@ namespace {
 /// part of its faces.
 constexpr double kReach = 100;
 
+/// A point this near to a vertex, over the diameter, is at it: minima that are zero are found to
+/// about the square root of roundings.
+constexpr double kAtVertex = 1e-6;
+
 std::vector<UnionVolume::Shape> ShapesOf(const std::vector<FacePart>& parts) {
   return {parts.begin(), parts.end()};
 }
@@ -46,15 +50,33 @@ Cut LargestOnPart(std::span<const UnionVolume> volumes, const UnionVolume::Shape
 }  // namespace
 
 FocusCellFinder::FocusCellFinder(const Polyhedron& solid, double tangent)
-    : parts_(SplitFaces(solid)),
+    : solid_(solid),
+      parts_(SplitFaces(solid)),
       shapes_(ShapesOf(parts_.parts)),
       tangent_(tangent),
       min_max_(solid.mass_properties().centroid, kReach * solid.diameter()),
       meet_(4 * shapes_.size() * shapes_.size(), Known::kNotYet) {}
 
-bool FocusCellFinder::Decide(const MinMaxResult& result) {
-  if (result.overlap == Overlap::kUnclear) ++unclear_;
+bool FocusCellFinder::Decide(const MinMaxResult& result, std::span<const int> halves) {
+  const bool unclear = result.overlap == Overlap::kUnclear;
+  if (unclear && !IsAtSharedVertex(result.point, halves)) ++unclear_;
   return result.overlap == Overlap::kSome;
+}
+
+bool FocusCellFinder::IsAtSharedVertex(const Vector3d& point, std::span<const int> halves) const {
+  const auto corners = [&](int half) -> const std::vector<int>& {
+    return parts_.parts[half / 2].corners;
+  };
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    for (const int vertex : corners(halves[i])) {
+      const double distance = (solid_.vertices()[vertex] - point).norm();
+      if (distance > kAtVertex * solid_.diameter()) continue;
+      for (std::size_t j = 0; j < halves.size(); ++j) {
+        if (j != i && std::ranges::count(corners(halves[j]), vertex) > 0) return true;
+      }
+    }
+  }
+  return false;
 }
 
 /// False only where two halves, with cones of half-angle θ, certainly do not meet: a piece needs
@@ -65,11 +87,18 @@ bool FocusCellFinder::MayMeet(int half, int other) {
   if (known == Known::kNotYet) {
     const std::array volumes = {VolumeOf(half, tangent_), VolumeOf(other, tangent_)};
     min_max_.Restart();
-    const bool no = min_max_.Solve(volumes, MinMax::Until::kSign).overlap == Overlap::kNone;
-    known = no ? Known::kNo : Known::kYes;
+    const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kSign);
+    known = result.overlap == Overlap::kSome ? Known::kYes : Known::kNo;
+    if (result.overlap == Overlap::kUnclear && !ShareVertex(half / 2, other / 2)) ++unclear_;
     meet_[other * 2 * shapes_.size() + half] = known;
   }
   return known == Known::kYes;
+}
+
+bool FocusCellFinder::ShareVertex(int part, int other) const {
+  const std::vector<int>& corners = parts_.parts[part].corners;
+  return std::ranges::any_of(parts_.parts[other].corners,
+                             [&](int vertex) { return std::ranges::count(corners, vertex) > 0; });
 }
 
 std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate) {
@@ -114,7 +143,7 @@ void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_
       VolumeOf(halves[2], candidate.tangent), VolumeOf(halves[3], candidate.tangent)};
   min_max_.Restart();
   const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kSign);
-  if (Decide(result)) pieces.push_back({halves, result.point, min_max_.basis()});
+  if (Decide(result, halves)) pieces.push_back({halves, result.point, min_max_.basis()});
 }
 
 /// Whether one goes from one piece to the other while three contacts stay on their parts: through
@@ -135,7 +164,8 @@ bool FocusCellFinder::AreJoined(const QuadrupleCandidate& candidate, const Focus
   if (changed[0] / 2 == changed[1] / 2) {
     const UnionVolume::Shape& part = shapes_[changed[0] / 2];
     return Decide(min_max_.Solve([&](const Vector3d& x) { return LargestOnPart(common, part, x); },
-                                 MinMax::Until::kSign));
+                                 MinMax::Until::kSign),
+                  a.halves);
   }
   if (changed[0] % 2 != changed[1] % 2) return false;
   const std::array<int, 2> parts = {std::min(changed[0], changed[1]) / 2,
@@ -149,7 +179,7 @@ bool FocusCellFinder::AreJoined(const QuadrupleCandidate& candidate, const Focus
     std::vector<UnionVolume> all = common;
     all.emplace_back(segment, changed[0] % 2 == 0, candidate.tangent);
     min_max_.Restart();
-    if (Decide(min_max_.Solve(all, MinMax::Until::kSign))) return true;
+    if (Decide(min_max_.Solve(all, MinMax::Until::kSign), a.halves)) return true;
   }
   return false;
 }
@@ -184,7 +214,7 @@ bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
       } else {
         min_max_.Restart();
       }
-      if (Decide(min_max_.Solve(volumes, MinMax::Until::kSign))) return true;
+      if (Decide(min_max_.Solve(volumes, MinMax::Until::kSign), of_a.halves)) return true;
     }
   }
   return false;

@@ -41,6 +41,8 @@ class FocusCellFinder {
   [[nodiscard]] bool Overlap(const FocusCell& a, const FocusCell& b);
 
   /// Decisions that doubles could not make; the sets then count as touching, which is not meeting.
+  /// Not those at a vertex of the solid that two of the faces share: there they touch by
+  /// construction.
   [[nodiscard]] std::int64_t unclear_count() const { return unclear_; }
 
   [[nodiscard]] const FaceParts& parts() const { return parts_; }
@@ -52,12 +54,16 @@ class FocusCellFinder {
   enum class Known : std::uint8_t { kNo, kYes, kNotYet };
 
   [[nodiscard]] bool MayMeet(int half, int other);
+  [[nodiscard]] bool ShareVertex(int part, int other) const;
   void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                   std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
   [[nodiscard]] bool AreJoined(const QuadrupleCandidate& candidate, const FocusPiece& a,
                                const FocusPiece& b);
-  [[nodiscard]] bool Decide(const MinMaxResult& result);
+  [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const int> halves);
+  [[nodiscard]] bool IsAtSharedVertex(const Eigen::Vector3d& point,
+                                      std::span<const int> halves) const;
 
+  const Polyhedron& solid_;
   FaceParts parts_;
   std::vector<UnionVolume::Shape> shapes_;  ///< of the parts
   double tangent_;
