@@ -19,6 +19,7 @@
 #include "bench/contour_union.h"
 #include "planner/base/angle.h"
 #include "planner/contour/contour_graph.h"
+#include "planner/contour/region_diagram.h"
 #include "planner/object/object.h"
 
 namespace {
@@ -27,6 +28,7 @@ using namespace regrasp;
 
 constexpr double kDegrees[] = {10, 15, 20};
 constexpr int kGraphRuns = 15;  // the fastest counts
+constexpr int kUnionRuns = 5;
 constexpr int kManyEdges = 100;
 constexpr int kOutlineEdges = 300;
 constexpr int kGrowthRuns = 5;
@@ -84,20 +86,33 @@ Timed TimeGraph(const Polygon& polygon, double degrees, int runs) {
   return timed;
 }
 
+/// The L-infinity Voronoi diagrams of all sets, one run.
+double TimeDiagrams(const Polygon& polygon, double degrees) {
+  const ContourGraph graph(polygon, Radians(degrees));
+  const auto start = std::chrono::steady_clock::now();
+  for (int set = 0; set < graph.vertex_count(); ++set) {
+    benchmark::DoNotOptimize(RegionMetric(graph, set).MakeDiagram());
+  }
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  return time.count();
+}
+
 void PrintModel(const std::string& name, const Polygon& polygon) {
   for (const double degrees : kDegrees) {
     const Timed t = TimeGraph(polygon, degrees, kGraphRuns);
-    std::printf("%-18s %5d %4g %10lld %10lld %7d %7lld %5d %10.2f %10.2f\n", name.c_str(),
+    std::printf("%-18s %5d %4g %10lld %10lld %7d %7lld %5d %10.2f %10.2f %12.0f\n", name.c_str(),
                 polygon.face_count(), degrees, static_cast<long long>(t.candidates),
                 static_cast<long long>(t.combinations), t.vertices,
-                static_cast<long long>(t.switches), t.components, t.vertex_ms, t.edge_ms);
+                static_cast<long long>(t.switches), t.components, t.vertex_ms, t.edge_ms,
+                TimeDiagrams(polygon, degrees));
   }
 }
 
 /// The seeded outline, and the models of many edges.
 void PrintModels() {
-  std::printf("%-18s %5s %4s %10s %10s %7s %7s %5s %10s %10s\n", "polygon", "edges", "deg",
-              "candidates", "graspable", "sets", "switch", "comp", "sets ms", "switch ms");
+  std::printf("%-18s %5s %4s %10s %10s %7s %7s %5s %10s %10s %12s\n", "polygon", "edges", "deg",
+              "candidates", "graspable", "sets", "switch", "comp", "sets ms", "switch ms",
+              "diagrams ms");
   PrintModel("lobed outline", LobedOutline(kOutlineEdges));
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(REGRASP_MODELS)) {
@@ -115,9 +130,13 @@ void CompareWithUnion(const Polygon& polygon, double degrees) {
   const Timed timed = TimeGraph(polygon, degrees, kGraphRuns);
   const ContourGraph graph(polygon, Radians(degrees));
   const PieceOutlines outlines = MakePieceOutlines(graph);
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<UnionComponent> components = Unite(outlines.outlines);
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  std::vector<UnionComponent> components;
+  std::chrono::duration<double, std::milli> time{std::numeric_limits<double>::infinity()};
+  for (int run = 0; run < kUnionRuns; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    components = Unite(outlines.outlines);
+    time = std::min<decltype(time)>(time, std::chrono::steady_clock::now() - start);
+  }
   std::printf(
       "%g degrees: %zu pieces; sets %.2f ms, candidates and pieces included (%d sets); "
       "Polygon_set_2, union alone %.0f ms (%zu polygons, %d when glued at the ring's start); "
