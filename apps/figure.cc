@@ -19,6 +19,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "render/contact_space_figure.h"
 #include "render/plan_figure.h"
 
 namespace {
@@ -30,6 +31,9 @@ constexpr char kProgram[] = "figure";
 /// Steps are numbered with this many digits, so that names sort.
 constexpr std::size_t kDigits = 3;
 
+/// The beginning of the names of figures of contact space.
+constexpr char kContactSpace[] = "contact_space";
+
 struct FigureProgram {
   std::string object_path;
   std::string plan_path;
@@ -37,6 +41,7 @@ struct FigureProgram {
   std::string format = "svg";
   std::optional<double> scale;
   bool allow_object_change = false;
+  bool contact_space = false;
   bool quiet = false;
 
   void AddTo(CLI::App& app);
@@ -45,7 +50,10 @@ struct FigureProgram {
  private:
   void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
   [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
+  void CheckHasContactSpace(const Plan& plan) const;
   void WriteFigures(const Polygon& polygon, const Plan& plan) const;
+  void WriteContactSpace(const Polygon& polygon, const Plan& plan, FigureFormat file_format,
+                         std::set<std::string>& written) const;
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
@@ -55,6 +63,9 @@ void FigureProgram::AddTo(CLI::App& app) {
   app.add_option("--format", format, "svg, pdf or png (default svg)")
       ->check(CLI::IsMember({"svg", "pdf", "png"}))
       ->type_name("FORMAT");
+  app.add_flag("--contact-space", contact_space,
+               "Also draw the contact space, and each switch in it: contact_space.FORMAT, "
+               "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   AddScale(app, scale)
@@ -82,8 +93,16 @@ Plan FigureProgram::Located(const Plan& plan, const Object& object) const {
   return check.located;
 }
 
-/// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, … in this format.
+/// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, …,
+/// contact_space.svg, contact_space_001.svg, … in this format.
 bool IsFigureName(const std::string& name, const std::string& format) {
+  if (name == std::string(kContactSpace) + "." + format) return true;
+  const std::string prefix = std::string(kContactSpace) + "_";
+  if (name.starts_with(prefix)) {
+    const std::string rest = name.substr(prefix.size());
+    const std::size_t digits = rest.find_first_not_of("0123456789");
+    return digits >= kDigits && digits != std::string::npos && rest.substr(digits) == "." + format;
+  }
   const auto digits = std::find_if_not(name.begin(), name.end(),
                                        [](unsigned char c) { return std::isdigit(c) != 0; });
   const std::string rest(digits, name.end());
@@ -106,10 +125,40 @@ void RemoveOthers(const std::filesystem::path& folder, const std::string& format
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
 }
 
-std::string FileName(int index, const std::string& kind, const std::string& format) {
+std::string Number(int index) {
   const std::string number = std::to_string(index);
-  const std::size_t zeros = kDigits - std::min(kDigits, number.size());
-  return std::string(zeros, '0') + number + "_" + kind + "." + format;
+  return std::string(kDigits - std::min(kDigits, number.size()), '0') + number;
+}
+
+std::string FileName(int index, const std::string& kind, const std::string& format) {
+  return Number(index) + "_" + kind + "." + format;
+}
+
+void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
+  const auto entry = FindOtherThanTwoFingers(plan);
+  if (!entry) return;
+  throw InputError(plan_path + ": step " + std::to_string(*entry) +
+                   ": its grasp has not two contacts, as --contact-space needs");
+}
+
+void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
+                                      FigureFormat file_format,
+                                      std::set<std::string>& written) const {
+  const std::filesystem::path folder = out;
+  const int count = static_cast<int>(plan.steps.size());
+  ProgressLine progress(quiet);
+  progress.Report("contact space");
+  ContactSpaceFigures figures(polygon, plan);
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    WriteFile(folder / name, bytes);
+    written.insert(name);
+  };
+  write(std::string(kContactSpace) + "." + format, figures.DrawOverview(file_format));
+  for (int step = 1; step <= count; ++step) {
+    progress.Report("contact space, step " + std::to_string(step) + " of " + std::to_string(count));
+    const auto bytes = figures.DrawSwitch(step, file_format);
+    if (bytes) write(std::string(kContactSpace) + "_" + Number(step) + "." + format, *bytes);
+  }
 }
 
 void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const {
@@ -131,6 +180,7 @@ void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const
     written.insert(name);
   }
   WriteFile(folder / ("sheet." + format), DrawSheet(polygon, diagrams, file_format));
+  if (contact_space) WriteContactSpace(polygon, plan, file_format, written);
   RemoveOthers(folder, format, written);
 }
 
@@ -140,7 +190,9 @@ int FigureProgram::Run() {
   CheckPlanFits(plan, object);
   // Planar objects are polygons: ReadObject makes no other.
   const auto& polygon = dynamic_cast<const Polygon&>(*object.object);
-  WriteFigures(polygon, Located(plan, polygon));
+  const Plan located = Located(plan, polygon);
+  if (contact_space) CheckHasContactSpace(located);
+  WriteFigures(polygon, located);
   return kExitDone;
 }
 

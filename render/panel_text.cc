@@ -102,8 +102,19 @@ void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, d
   }
 }
 
-void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
-  const std::string text = std::to_string(finger);
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
+  SetFont(cr, kLabelFont, /*bold=*/false);
+  SetColor(cr, kInk);
+  const double width = TextWidth(cr, text);
+  double left = base.x();
+  if (align == TextAlign::kCentre) left -= width / 2;
+  if (align == TextAlign::kRight) left -= width;
+  cairo_move_to(cr, left, base.y());
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
+}
+
+void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre) {
   SetFont(cr, kNumberFont, /*bold=*/true);
   cairo_text_extents_t e;
   cairo_text_extents(cr, text.c_str(), &e);
@@ -119,6 +130,11 @@ void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
   cairo_move_to(cr, x, y);
   SetColor(cr, kInk);
   cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
+}
+
+void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
+  DrawMark(cr, std::to_string(finger), centre);
 }
 
 }  // namespace regrasp

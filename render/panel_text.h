@@ -11,14 +11,30 @@ namespace regrasp {
 /// Size of captions and of finger numbers, points: readable at the size the page is printed.
 inline constexpr double kCaptionFont = 7.5;
 inline constexpr double kNumberFont = 7.5;
+inline constexpr double kLabelFont = 6.5;  ///< of axes
 inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 
 /// The caption in lines no wider than `width` points if words allow it, broken after semicolons,
 /// and between words where that does not do; numbers stay with the word before them.
 [[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
 
+/// The height of a caption of so many lines, with the room below it.
+[[nodiscard]] inline double CaptionHeight(std::size_t lines) {
+  return (static_cast<double>(lines) + 0.5) * kLineHeight;
+}
+
 /// Writes lines centred about x, the first below `top`.
 void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top);
+
+/// Where a line of text lies from the point that it is written at.
+enum class TextAlign { kLeft, kCentre, kRight };
+
+/// Writes a line of text of an axis.
+/// @param base  on the line's base.
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align);
+
+/// Writes a bold name or number, centred, with a white halo.
+void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
 
 /// Writes a finger's number, centred, with a white halo.
 void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre);

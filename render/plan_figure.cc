@@ -11,6 +11,7 @@
 #include "render/panel_grasp.h"
 #include "render/panel_text.h"
 #include "render/panel_view.h"
+#include "render/print_size.h"
 
 namespace regrasp {
 
@@ -18,9 +19,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kPointsPerMillimetre = 72 / 25.4;
-constexpr double kColumnWidth = 85 * kPointsPerMillimetre;
-constexpr double kSheetWidth = 174 * kPointsPerMillimetre;
 constexpr double kGap = 8;  ///< between panels of a sheet, points
 constexpr int kUsualColumns = 4;
 
@@ -62,8 +60,6 @@ void DrawPanel(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
   cairo_restore(cr);
 }
 
-double CaptionHeight(std::size_t lines) { return (static_cast<double>(lines) + 0.5) * kLineHeight; }
-
 /// The lines of every caption, and the most lines of any in each row.
 struct SheetLayout {
   int columns;
@@ -86,7 +82,7 @@ SheetLayout LayOut(const Polygon& polygon, std::span<const StepDiagram> diagrams
   SheetLayout layout;
   layout.columns = SheetColumns(static_cast<int>(diagrams.size()));
   const int on_page = std::min(layout.columns, kUsualColumns);
-  const double panel = (kSheetWidth - (on_page - 1) * kGap) / on_page;
+  const double panel = (kTwoColumnWidth - (on_page - 1) * kGap) / on_page;
   layout.view = FitView(polygon, diagrams, std::min(panel, kColumnWidth));
   for (std::size_t i = 0; i < diagrams.size(); ++i) {
     layout.captions.push_back(WrapCaption(diagrams[i].caption, layout.view.width));

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "planner/contour/boundary.h"
+#include "planner/contour/contact_space.h"
+
+namespace regrasp {
+
+/// A rectangle of contact space on a page: u to the right, u′ up.
+struct PlotWindow {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< the places that it shows
+  Eigen::Vector2d high = Eigen::Vector2d::Ones();
+  Eigen::Vector2d corner = Eigen::Vector2d::Zero();  ///< top left on the page, points
+  Eigen::Vector2d scale = Eigen::Vector2d::Ones();   ///< points per unit
+
+  [[nodiscard]] Eigen::Vector2d ToPage(const Eigen::Vector2d& p) const {
+    return corner + Eigen::Vector2d(scale.x() * (p.x() - low.x()), scale.y() * (high.y() - p.y()));
+  }
+  [[nodiscard]] Eigen::Vector2d size() const { return scale.cwiseProduct(high - low); }
+};
+
+/// A mark beside a plot: at a vertex of the polygon, or at a length with its label.
+struct AxisTick {
+  double place = 0;
+  std::string label;  ///< empty: none
+};
+
+/// The ticks of an axis, in ascending order: vertices of a ring, as many as print keeps apart, and
+/// labels: the lengths of the vertices where these are few, otherwise round ones. Places beyond the
+/// ring's end go around it and have the labels of the places they are; the end of an axis from zero
+/// to the end has the perimeter.
+/// @param points_per_unit  > 0.
+/// @param label_gap        least distance of labels, points.
+[[nodiscard]] std::vector<AxisTick> MakeTicks(const Boundary& boundary, int ring,
+                                              const PlaceRange& shown, double points_per_unit,
+                                              double label_gap);
+
+/// Ticks nearer than this are not drawn apart, points.
+inline constexpr double kTickGap = 1.6;
+
+/// Room for ticks, labels and a title beside a plot, points.
+inline constexpr double kLeftRoom = 44;
+inline constexpr double kBottomRoom = 27;
+
+/// Draw ticks, labels and a title below a plot, and to its left.
+void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
+                    const std::string& title);
+void DrawLeftAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
+                  const std::string& title);
+
+/// Draws the rectangle around a plot.
+void DrawFrame(cairo_t* cr, const PlotWindow& window);
+
+}  // namespace regrasp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "planner/contour/boundary.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// A grasp of two contacts on the axes of contact space: the horizontal one first. Which finger is
+/// on which axis lasts while it holds.
+using AxisGrasp = std::array<FingerContact, 2>;
+
+/// A point of contact space: the rings that its axes belong to and the places on them.
+struct SpacePoint {
+  std::array<int, 2> rings = {};
+  Eigen::Vector2d places = Eigen::Vector2d::Zero();
+};
+
+/// What one entry of a plan is in contact space.
+struct TrackEntry {
+  const char* kind = "";           ///< "hold", "switch" or "align"
+  AxisGrasp grasp;                 ///< after it
+  std::vector<AxisGrasp> way;      ///< the waypoints of an align
+  std::optional<int> shared_axis;  ///< of a switch: where the contact is that stays, 0 or 1
+};
+
+/// The first entry (0 the initial grasp, k the grasp after step k) that has not two contacts.
+[[nodiscard]] std::optional<int> FindOtherThanTwoFingers(const Plan& plan);
+
+/// Follows a plan through contact space. The initial grasp has its contact on the lower edge on the
+/// horizontal axis; a finger that is placed takes the axis of the one that is released, so that a
+/// switch that keeps a contact moves along one axis.
+/// @param plan  located; FindOtherThanTwoFingers knows no entry.
+[[nodiscard]] std::vector<TrackEntry> TrackPlan(const Plan& plan);
+
+[[nodiscard]] SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp);
+
+}  // namespace regrasp
