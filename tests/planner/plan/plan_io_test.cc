@@ -21,6 +21,7 @@ void ExpectSameGrasp(const FingerGrasp& a, const FingerGrasp& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].finger, b[i].finger);
+    EXPECT_EQ(a[i].region, b[i].region);
     ExpectSameContact(a[i].contact, b[i].contact);
   }
 }
@@ -88,6 +89,17 @@ TEST(PlanIo, KeepsEveryBitOfNumbers) {
   EXPECT_EQ(checked, 500);
 }
 
+TEST(PlanIo, KeepsRegionsOfContactsAndWritesNoneWhereThereIsNone) {
+  EXPECT_EQ(FormatPlan(SquarePlan()).find("region"), std::string::npos);
+  Plan plan = SquarePlan();
+  FingerGrasp& placed = std::get<Switch>(plan.steps.front()).place;
+  placed[0].region = 0.1 / 3;
+  placed[1].region = 0;
+  const Plan read = ParsePlan(FormatPlan(plan), "plan.json");
+  ExpectSamePlan(read, plan);
+  EXPECT_EQ(std::get<Switch>(read.steps.front()).place[0].region, 0.1 / 3);
+}
+
 TEST(PlanIo, WritesRoundHalfAnglesRound) {
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 20)).find("\"half_angle_deg\": 20.0"), std::string::npos);
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 33.3)).find("\"half_angle_deg\": 33.3"), std::string::npos);
@@ -139,6 +151,12 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/initial/contacts/2/finger", -1,
        "plan.json: /initial/contacts/2/finger: expected a whole number from 0 to 2147483647, "
        "found -1"},
+      {"/steps/0/place/0/region", -1e-9,
+       "plan.json: /steps/0/place/0/region: expected a number from 0, found -1e-09"},
+      {"/steps/0/place/0/region", "wide",
+       "plan.json: /steps/0/place/0/region: expected a number, found \"wide\""},
+      {"/steps/0/place/0/region", nullptr,
+       "plan.json: /steps/0/place/0/region: expected a number, found null"},
       {"/initial", Json::array(), "plan.json: /initial: expected an object, found an array"},
       {"/goal/contacts", nullptr, "plan.json: /goal/contacts: expected an array, found null"},
   };
