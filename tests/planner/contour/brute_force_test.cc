@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kLines = 400;
+constexpr int kLines = 300;
 constexpr std::uint64_t kSeed = 2;
 constexpr double kAngles[] = {10, 15, 20, 35, 50};
 

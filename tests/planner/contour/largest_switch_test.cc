@@ -32,8 +32,8 @@ double SampledSwitchSize(SetGeometry& geometry, int v, int w, int samples_of_edg
 }
 
 TEST(LargestSwitch, IsAsLargeAsAnyThatASearchFindsAndAsItSays) {
-  constexpr int kOfEdge = 20;
-  constexpr int kOfSection = 24;
+  constexpr int kOfEdge = 10;
+  constexpr int kOfSection = 16;
   int switches = 0;
   ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
     SetGeometry geometry(graph);

@@ -35,7 +35,7 @@ Vector2d DrawIn(const std::vector<Vector2d>& outline, std::mt19937_64& engine) {
 }
 
 TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
-  constexpr int kPoints = 3;  // of every piece
+  constexpr int kPoints = 2;  // of every piece
   std::mt19937_64 engine(kSeed);
   int points = 0;
   int beyond_a_piece = 0;
@@ -75,7 +75,7 @@ TEST(RegionMetric, TheOracleRefusesSquaresThatAreLarger) {
 }
 
 TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
-  constexpr int kByCorners = 8;  // one edge in so many
+  constexpr int kByCorners = 16;  // one edge in so many
   int edges = 0;
   ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
     const SquareOracle oracle(polygon, half_angle);
@@ -99,7 +99,7 @@ TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
 
 TEST(RegionDiagram, HoldsTheBestGraspWithOneContactHeld) {
   constexpr int kSamples = 40;
-  constexpr int kDraws = 3;  // of the held contact, for each contact of every piece
+  constexpr int kDraws = 1;  // of the held contact, for each contact of every piece
   std::mt19937_64 engine(kSeed);
   std::uniform_real_distribution<double> uniform(0, 1);
   int checked = 0;
@@ -121,7 +121,7 @@ TEST(RegionDiagram, HoldsTheBestGraspWithOneContactHeld) {
       }
     }
   });
-  EXPECT_GT(checked, 3000);
+  EXPECT_GT(checked, 2000);
 }
 
 double LargestSize(const std::vector<DiagramEdge>& diagram) {
@@ -133,7 +133,7 @@ double LargestSize(const std::vector<DiagramEdge>& diagram) {
 }
 
 TEST(RegionDiagram, ItsLargestSquareIsThatOfAGridOfTheSet) {
-  constexpr int kSteps = 24;  // on either axis of every piece
+  constexpr int kSteps = 16;  // on either axis of every piece
   int sets = 0;
   ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
     for (int set = 0; set < graph.vertex_count(); ++set, ++sets) {
