@@ -17,6 +17,7 @@
 #include "planner/base/number.h"
 #include "planner/contour/contour_graph.h"
 #include "planner/polygon/polygon_graph.h"
+#include "planner/polyhedron/polyhedron_graph.h"
 
 namespace {
 
@@ -43,6 +44,7 @@ struct GraphSummary {
   std::int64_t components = 0;
   double vertex_seconds = 0;
   double edge_seconds = 0;
+  std::int64_t unclear = 0;  ///< decisions too close to call
 };
 
 class Stopwatch {
@@ -122,6 +124,22 @@ GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
   return summary;
 }
 
+GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning) {
+  const PolyhedronGraph graph(solid, half_angle, spanning);
+  GraphSummary summary;
+  summary.planner = "polyhedron";
+  summary.faces = solid.face_count();
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.edges = {{"concurrent-concurrent", std::ssize(graph.links())}};
+  summary.types = {{"concurrent", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  summary.unclear = graph.unclear_count();
+  return summary;
+}
+
 Json GraphJson(const GraphSummary& summary, double half_angle) {
   Json types = Json::object();
   for (const TypeSummary& type : summary.types) {
@@ -132,16 +150,19 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
   }
   Json edges = Json::object();
   for (const auto& [name, count] : summary.edges) edges[name] = count;
-  return {{"format", "regrasp-graph"},
-          {"version", 1},
-          {"planner", summary.planner},
-          {"friction", {{"half_angle_deg", Degrees(half_angle)}}},
-          {"faces", summary.faces},
-          {"types", types},
-          {"edges", edges},
-          {"vertices", summary.vertices},
-          {"components", summary.components},
-          {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
+  Json json = {
+      {"format", "regrasp-graph"},
+      {"version", 1},
+      {"planner", summary.planner},
+      {"friction", {{"half_angle_deg", Degrees(half_angle)}}},
+      {"faces", summary.faces},
+      {"types", types},
+      {"edges", edges},
+      {"vertices", summary.vertices},
+      {"components", summary.components},
+      {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
+  if (summary.planner == "polyhedron") json["unclear"] = summary.unclear;
+  return json;
 }
 
 /// Columns as wide as their widest cell, the first to the left, the others to the right.
@@ -174,9 +195,17 @@ std::string GraphTable(const GraphSummary& summary, const std::string& title) {
   }
   std::vector<std::vector<std::string>> edges = {{"switches", "#edge"}};
   for (const auto& [name, count] : summary.edges) edges.push_back({name, cell(count)});
+  const std::string unclear =
+      summary.unclear > 0 ? cell(summary.unclear) + " decisions were too close to call\n" : "";
   return title + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
          FormatShort(summary.vertex_seconds, 3) + " s, edges " +
-         FormatShort(summary.edge_seconds, 3) + " s\n";
+         FormatShort(summary.edge_seconds, 3) + " s\n" + unclear;
+}
+
+/// What `faces` counts.
+std::string FacesName(const std::string& planner) {
+  if (planner == "roadmap") return " contact points, ";
+  return planner == "polyhedron" ? " faces, " : " edges, ";
 }
 
 struct GraphProgram {
@@ -184,7 +213,7 @@ struct GraphProgram {
   std::string json;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app, "polygon");
+    common.AddTo(app, {.in_plane = "polygon", .in_space = "roadmap"});
     app.add_option("--json", json,
                    "Also writes the counts as JSON; - is standard output, instead "
                    "of the table")
@@ -202,10 +231,11 @@ struct GraphProgram {
     }
     if (!json.empty()) WriteFile(json, text);
     std::string title = summary.planner + " of " + object.file + ", " +
-                        std::to_string(summary.faces) +
-                        (summary.planner == "roadmap" ? " contact points, " : " edges, ") +
+                        std::to_string(summary.faces) + FacesName(summary.planner) +
                         FormatShort(Degrees(half_angle)) + "°";
-    if (summary.planner == "polygon") title += ", " + common.spanning;
+    if (summary.planner == "polygon" || summary.planner == "polyhedron") {
+      title += ", " + common.spanning;
+    }
     std::cout << GraphTable(summary, title);
     return kExitDone;
   }
@@ -214,7 +244,11 @@ struct GraphProgram {
     ProgressLine progress(common.quiet);
     GraphSummary summary;
     const bool planar = object.object->dimension() == 2;
-    if (common.planner == "contour") {
+    if (common.planner == "polyhedron") {
+      progress.Report("building the switching graph");
+      summary = SummarizePolyhedron(SolidOf(object, common), common.friction.required_half_angle(),
+                                    common.spanning_value());
+    } else if (common.planner == "contour") {
       progress.Report("building the switching graph");
       summary = SummarizeContour(PolygonOf(object, common), common.friction.required_half_angle());
     } else if (common.planner == "polygon" || (common.planner == "auto" && planar)) {
@@ -224,7 +258,7 @@ struct GraphProgram {
     } else {
       RoadmapOptions options = common.roadmap();
       options.progress = [&](std::string_view text) { progress.Report(text); };
-      summary = SummarizeRoadmap(SolidOf(object, common.object), options);
+      summary = SummarizeRoadmap(SolidOf(object, common), options);
     }
     progress.Clear();
     return summary;

@@ -15,6 +15,7 @@
 #include "planner/base/number.h"
 #include "planner/contour/plan_planar.h"
 #include "planner/plan/plan_io.h"
+#include "planner/polyhedron/plan_spatial.h"
 
 namespace {
 
@@ -33,9 +34,10 @@ struct PlanProgram {
   std::string optimize;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app,
-                 "contour where start and goal are 2-finger grasps and it joins them, otherwise "
-                 "polygon");
+    common.AddTo(app, {.in_plane = "contour where start and goal are 2-finger grasps and it joins "
+                                   "them, otherwise polygon",
+                       .in_space = "polyhedron where start and goal are in its graph and joined, "
+                                   "otherwise roadmap"});
     const std::string kinds =
         ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
         "or random-any (evenly over the surface)";
@@ -85,8 +87,9 @@ PlanResult PlanProgram::Find(const ObjectFile& object) const {
   const auto report = [&](std::string_view text) { progress.Report(text); };
   const bool planar = object.object->dimension() == 2;
   PlanResult result;
-  if (common.planner == "roadmap" || (common.planner == "auto" && !planar)) {
-    result = PlanOnSolid(SolidOf(object, common.object), report);
+  const bool spatial = common.planner == "roadmap" || common.planner == "polyhedron";
+  if (spatial || (common.planner == "auto" && !planar)) {
+    result = PlanOnSolid(SolidOf(object, common), report);
   } else {
     result = PlanInPlane(PolygonOf(object, common), report);
   }
@@ -98,8 +101,15 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   RoadmapOptions options = common.roadmap();
   options.min_quality = min_quality;
   options.progress = report;
-  return PlanOnRoadmap(solid, Choose("--start", start, solid), Choose("--goal", goal, solid),
-                       options);
+  const GraspChoice from = Choose("--start", start, solid);
+  const GraspChoice to = Choose("--goal", goal, solid);
+  if (common.planner == "roadmap") return PlanOnRoadmap(solid, from, to, options);
+  if (common.planner == "auto") {
+    return PlanSpatial(solid, from, to, common.spanning_value(), options);
+  }
+  return PlanOnPolyhedron(
+      solid, from, to,
+      {options.half_angle, common.spanning_value(), options.seed, min_quality, report});
 }
 
 PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {

@@ -8,11 +8,12 @@ namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  for (const char* known : {"auto", "polygon", "contour", "roadmap"}) {
+  for (const char* known : {"auto", "polygon", "contour", "polyhedron", "roadmap"}) {
     if (name == known) return {};
   }
   return "the planner \"" + name +
-         "\" does not exist in this version; there are auto, polygon, contour and roadmap";
+         "\" does not exist in this version; there are auto, polygon, contour, polyhedron and "
+         "roadmap";
 }
 
 std::string CheckSpanning(const std::string& name) {
@@ -22,16 +23,16 @@ std::string CheckSpanning(const std::string& name) {
 
 }  // namespace
 
-void PlannerOptions::AddTo(CLI::App& app, const std::string& planar_auto) {
+void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
   app.add_option("--object", object,
                  "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
   friction.AddTo(app);
   app.add_option("--planner", planner,
-                 "auto, polygon, contour (2-finger grasps of the whole boundary) or roadmap "
-                 "(default auto: roadmap in space; in the plane " +
-                     planar_auto + ")")
+                 "auto, polygon, contour (2-finger grasps of the whole boundary), polyhedron "
+                 "(concurrent grasps) or roadmap (default auto: in space " +
+                     automatic.in_space + "; in the plane " + automatic.in_plane + ")")
       ->type_name("NAME")
       ->check(CheckPlanner);
   app.add_option(
@@ -69,10 +70,11 @@ const Polygon& PolygonOf(const ObjectFile& file, const PlannerOptions& options) 
   return *polygon;
 }
 
-const Polyhedron& SolidOf(const ObjectFile& file, const std::string& path) {
+const Polyhedron& SolidOf(const ObjectFile& file, const PlannerOptions& options) {
   const auto* solid = dynamic_cast<const Polyhedron*>(file.object.get());
   if (solid == nullptr) {
-    throw InputError(path + ": a planar object, and the planner roadmap works on solids only");
+    throw InputError(options.object + ": a planar object, and the planner " + options.planner +
+                     " works on solids only");
   }
   return *solid;
 }

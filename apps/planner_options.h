@@ -11,6 +11,12 @@
 
 namespace regrasp {
 
+/// What `--planner auto` takes, for the help.
+struct AutomaticPlanner {
+  std::string in_plane;
+  std::string in_space;
+};
+
 /// The options that `plan` and `graph` have in common.
 struct PlannerOptions {
   std::string object;
@@ -22,8 +28,7 @@ struct PlannerOptions {
   double scale = 1;
   bool quiet = false;
 
-  /// @param planar_auto  what auto takes in the plane, for the help.
-  void AddTo(CLI::App& app, const std::string& planar_auto);
+  void AddTo(CLI::App& app, const AutomaticPlanner& automatic);
 
   [[nodiscard]] Spanning spanning_value() const;
 
@@ -35,8 +40,8 @@ struct PlannerOptions {
 /// @throws InputError  it is a solid.
 [[nodiscard]] const Polygon& PolygonOf(const ObjectFile& file, const PlannerOptions& options);
 
-/// The object as a solid, which the planner `roadmap` needs.
+/// The object as a solid, which the planners `polyhedron` and `roadmap` need.
 /// @throws InputError  it is planar.
-[[nodiscard]] const Polyhedron& SolidOf(const ObjectFile& file, const std::string& path);
+[[nodiscard]] const Polyhedron& SolidOf(const ObjectFile& file, const PlannerOptions& options);
 
 }  // namespace regrasp

@@ -1,14 +1,9 @@
 #include "planner/contour/plan_contour.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "planner/base/number.h"
-#include "planner/graph/fewest_switches.h"
-#include "planner/graph/rest_summary.h"
-#include "planner/graph/widest_path.h"
+#include "planner/graph/plan_search.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/boundary_draw.h"
 
@@ -19,35 +14,6 @@ namespace {
 using Status = PlanResult::Status;
 
 constexpr int kContacts = 2;
-
-/// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
-constexpr int kDrawsPerSet = 30;
-constexpr std::size_t kMaxSetDraws = 2000;
-
-/// Paths tried for one whose grasps are all of the quality that is asked for.
-constexpr int kMaxPaths = 600;
-
-/// Thrown inside this file for a negative answer.
-struct NoGrasp {
-  std::string message;
-};
-
-/// A graph without some of its edges.
-class GraphWithout final : public SwitchingGraph {
- public:
-  GraphWithout(const SwitchingGraph& graph, const std::set<VertexPair>& banned)
-      : graph_(graph), banned_(banned) {}
-
-  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count(); }
-  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
-    graph_.GetNeighbours(vertex, neighbours);
-    std::erase_if(neighbours, [&](int w) { return banned_.contains(Unordered(vertex, w)); });
-  }
-
- private:
-  const SwitchingGraph& graph_;
-  const std::set<VertexPair>& banned_;
-};
 
 /// The planning of one sequence: what its stages share.
 class ContourPlanner {
@@ -73,7 +39,11 @@ class ContourPlanner {
     goal_ = Locate(goal_choice_);
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
                       " sets of grasps");
-    if (const std::optional<Draft> draft = FindDraft()) return Finish(*draft);
+    ContourDraftMaker maker(geometry_, judge_, options_.aim, *start_, *goal_);
+    const auto draft = FindDraft(
+        judge_, [&](const auto& banned) { return FindPath(banned); },
+        [&](const auto& path, auto& banned) { return maker.Make(path, banned); });
+    if (draft) return Finish(*draft);
     PlanResult result;
     result.status = Status::kNoSequence;
     result.message = NoSequenceMessage();
@@ -102,7 +72,15 @@ class ContourPlanner {
     }
     RandomStream random(options_.seed, use);
     if (choice.kind == GraspChoice::Kind::kRandom) {
-      choice.grasp = DrawFromGraph(choice, use, random);
+      const auto draw = [&](int set) {
+        const auto placed = geometry_.Draw(set, random);
+        return placed ? geometry_.GraspOf(*placed) : Grasp();
+      };
+      Urns urns = StartUrns(graph_.vertex_count());
+      if (use == RandomUse::kGoal) {
+        urns = GoalUrns(graph_.components(), {graph_.set_of(start_->at.piece)});
+      }
+      choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
       return;
     }
     auto grasp = DrawAnyGrasp(polygon_, kContacts, kContacts, judge_, random);
@@ -115,40 +93,6 @@ class ContourPlanner {
     choice.grasp = std::move(*grasp);
   }
 
-  Grasp DrawFromGraph(const GraspChoice& choice, RandomUse use, RandomStream& random) {
-    std::size_t sets = 0;
-    for (std::vector<int>& urn : Urns(use)) {
-      sets += urn.size();
-      const std::size_t draws = std::min(urn.size(), kMaxSetDraws);
-      for (std::size_t i = 0; i < draws; ++i) {
-        std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
-        for (int draw = 0; draw < kDrawsPerSet; ++draw) {
-          const auto placed = geometry_.Draw(urn[i], random);
-          if (!placed) break;
-          Grasp grasp = geometry_.GraspOf(*placed);
-          if (judge_.IsGood(grasp)) return grasp;
-        }
-      }
-    }
-    throw NoGrasp{choice.name + ": no grasp with a quality of at least " +
-                  FormatShort(options_.min_quality) + " was drawn from " + std::to_string(sets) +
-                  " sets of grasps" + (use == RandomUse::kGoal ? " in the start's component" : "")};
-  }
-
-  /// The sets that a random grasp is drawn from, those of the first list first: a goal from the
-  /// start's component, and from the start's own set only where the others have none.
-  [[nodiscard]] std::vector<std::vector<int>> Urns(RandomUse use) const {
-    std::vector<int> all(graph_.vertex_count());
-    std::iota(all.begin(), all.end(), 0);
-    if (use == RandomUse::kStart) return {all};
-    const Components components = graph_.components();
-    const int own = graph_.set_of(start_->at.piece);
-    std::erase_if(all, [&](int v) {
-      return v == own || components.of_vertex[v] != components.of_vertex[own];
-    });
-    return {all, {own}};
-  }
-
   [[nodiscard]] ContourDraftMaker::End Locate(const GraspChoice& choice) const {
     const auto placed = geometry_.Locate(choice.grasp);
     if (!placed) {
@@ -158,69 +102,22 @@ class ContourPlanner {
     return {choice.grasp, *placed};
   }
 
-  // Search.
-
-  /// The first sequence whose grasps are all of the quality that is asked for, otherwise the one
-  /// whose weakest grasp is best: paths are tried without the switches that were too weak before.
-  std::optional<Draft> FindDraft() {
-    ContourDraftMaker maker(geometry_, judge_, options_.aim, *start_, *goal_);
-    std::optional<Draft> best;
-    double best_score = -std::numeric_limits<double>::infinity();
-    std::set<VertexPair> banned;
-    for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
-      const std::vector<int> path = FindPath(banned);
-      if (path.empty()) break;
-      std::optional<Draft> draft = maker.Make(path, banned);
-      if (!draft) continue;
-      double score = std::numeric_limits<double>::infinity();
-      for (const Rest& rest : draft->rests) {
-        if (!rest.chosen_for) continue;
-        const double of_rest = judge_.Score(rest.grasp);
-        if (of_rest < 0) banned.insert(*rest.chosen_for);
-        score = std::min(score, of_rest);
-      }
-      if (score >= 0) return draft;
-      if (best && score <= best_score) continue;
-      best = std::move(draft);
-      best_score = score;
-    }
-    return best;
-  }
-
   /// The sets of a sequence with the fewest switches, of these the widest.
   [[nodiscard]] std::vector<int> FindPath(const std::set<VertexPair>& banned) {
-    const GraphWithout graph(graph_, banned);
-    const int from = graph_.set_of(start_->at.piece);
-    const int to = graph_.set_of(goal_->at.piece);
-    const VertexFilter all = [](int) { return true; };
-    const auto switches = FewestSwitches(graph, from, to, all);
-    if (!switches) return {};
-    return WidestPath(graph, from, to, *switches, all,
-                      [&](int set) { return geometry_.WidthOf(set); });
+    return FindWidePath(GraphWithout(graph_, banned), graph_.set_of(start_->at.piece),
+                        graph_.set_of(goal_->at.piece),
+                        [&](int set) { return geometry_.WidthOf(set); });
   }
 
   // The answer.
 
-  [[nodiscard]] PlanResult FinishEmpty() const {
+  [[nodiscard]] PlanResult FinishEmpty() {
     const ContourDraftMaker::End none = {start_choice_.grasp, {}};
-    SetGeometry geometry(graph_);
-    return Finish(ContourDraftMaker(geometry, judge_, options_.aim, none, none).MakeEmpty());
+    return Finish(ContourDraftMaker(geometry_, judge_, options_.aim, none, none).MakeEmpty());
   }
 
   [[nodiscard]] PlanResult Finish(const Draft& draft) const {
-    Plan plan;
-    plan.dimension = polygon_.dimension();
-    plan.half_angle = options_.half_angle;
-    plan.fingers = kContourFingers;
-    plan.planner = "contour";
-    plan.initial = draft.initial;
-    plan.steps = draft.steps;
-    plan.goal = goal_choice_.grasp;
-    PlanResult result;
-    result.plan = std::move(plan);
-    result.margin = SmallestMargin(draft.rests, judge_);
-    result.warnings = QualityWarnings(draft.rests, judge_);
-    return result;
+    return ResultOf(draft, judge_, "contour", kContourFingers, goal_choice_.grasp);
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
@@ -253,10 +150,7 @@ PlanResult PlanOnContour(const Polygon& polygon, const GraspChoice& start, const
   try {
     return ContourPlanner(polygon, start, goal, options).Run();
   } catch (const NoGrasp& none) {
-    PlanResult result;
-    result.status = Status::kNoGrasp;
-    result.message = none.message;
-    return result;
+    return ResultOf(none);
   }
 }
 

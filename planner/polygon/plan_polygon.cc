@@ -8,7 +8,7 @@
 
 #include "planner/base/number.h"
 #include "planner/graph/grasp_judge.h"
-#include "planner/graph/rest_summary.h"
+#include "planner/graph/plan_search.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/attached_graph.h"
 #include "planner/polygon/boundary_draw.h"
@@ -23,18 +23,6 @@ using Status = PlanResult::Status;
 
 constexpr int kLeastContacts = 2;
 constexpr int kMostDrawn = 3;  // contacts of a random grasp
-
-/// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
-constexpr int kDrawsPerSet = 30;
-constexpr int kMaxSetDraws = 2000;
-
-/// Paths tried for one whose grasps are all of the quality that is asked for.
-constexpr int kMaxPaths = 600;
-
-/// Thrown inside this file for a negative answer.
-struct NoGrasp {
-  std::string message;
-};
 
 /// The planning of one sequence: what its stages share.
 class PolygonPlanner {
@@ -60,7 +48,7 @@ class PolygonPlanner {
     goal_at_ = Attach(goal_);
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
                       " sets of grasps");
-    if (const std::optional<Draft> draft = FindDraft()) return Finish(*draft);
+    if (const std::optional<Draft> draft = FindSequence()) return Finish(*draft);
     PlanResult result;
     result.status = Status::kNoSequence;
     result.message = NoSequenceMessage();
@@ -93,7 +81,10 @@ class PolygonPlanner {
     }
     RandomStream random(options_.seed, use);
     if (choice.kind == GraspChoice::Kind::kRandom) {
-      choice.grasp = DrawFromGraph(choice, use, random);
+      const auto draw = [&](int vertex) { return cells_.DrawGrasp(vertex, random); };
+      Urns urns = StartUrns(graph_.vertex_count());
+      if (use == RandomUse::kGoal) urns = GoalUrns(graph_.components(), SetsOf(start_at_));
+      choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
       return;
     }
     if (auto grasp = DrawAnyGrasp(polygon_, kLeastContacts, kMostDrawn, judge_, random)) {
@@ -106,41 +97,10 @@ class PolygonPlanner {
                   FormatShort(options_.min_quality)};
   }
 
-  Grasp DrawFromGraph(const GraspChoice& choice, RandomUse use, RandomStream& random) {
-    std::size_t sets = 0;
-    for (std::vector<int>& urn : Urns(use)) {
-      sets += urn.size();
-      const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxSetDraws);
-      for (std::size_t i = 0; i < draws; ++i) {
-        std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
-        for (int draw = 0; draw < kDrawsPerSet; ++draw) {
-          Grasp grasp = cells_.DrawGrasp(urn[i], random);
-          if (!grasp.empty() && judge_.IsGood(grasp)) return grasp;
-        }
-      }
-    }
-    throw NoGrasp{choice.name + ": no grasp with a quality of at least " +
-                  FormatShort(options_.min_quality) + " was drawn from " + std::to_string(sets) +
-                  " sets of grasps" + (use == RandomUse::kGoal ? " in the start's component" : "")};
-  }
-
-  /// The sets that a random grasp is drawn from, those of the first list first: a goal from the
-  /// start's components, and from the start's own sets only where the others have none.
-  [[nodiscard]] std::vector<std::vector<int>> Urns(RandomUse use) const {
-    std::vector<int> all(graph_.vertex_count());
-    std::iota(all.begin(), all.end(), 0);
-    if (use == RandomUse::kStart) return {all};
-    const Components components = graph_.components();
-    std::set<int> reachable;
-    std::set<int> own;
-    for (const Attachment& a : start_at_) {
-      reachable.insert(components.of_vertex[a.vertex]);
-      own.insert(a.vertex);
-    }
-    std::erase_if(all, [&](int v) {
-      return own.contains(v) || !reachable.contains(components.of_vertex[v]);
-    });
-    return {all, {own.begin(), own.end()}};
+  static std::set<int> SetsOf(const std::vector<Attachment>& attachments) {
+    std::set<int> sets;
+    for (const Attachment& a : attachments) sets.insert(a.vertex);
+    return sets;
   }
 
   /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
@@ -206,36 +166,20 @@ class PolygonPlanner {
 
   // Search.
 
-  /// The first sequence whose grasps are all of the quality that is asked for, otherwise the one
-  /// whose weakest grasp is best: paths are tried without the switches that were too weak before.
-  std::optional<Draft> FindDraft() {
+  [[nodiscard]] std::optional<Draft> FindSequence() {
     DraftMaker maker = MakeDraftMaker();
-    std::optional<Draft> best;
-    double best_score = -std::numeric_limits<double>::infinity();
-    std::set<VertexPair> banned;
-    for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
-      const AttachedGraph graph(graph_, start_at_, goal_at_, banned);
-      const std::vector<int> path = FindSetPath(graph, cells_);
-      if (path.empty()) break;
-      std::optional<Draft> draft = maker.Make(path, AttachmentTo(start_at_, path.front()),
-                                              AttachmentTo(goal_at_, path.back()), banned);
+    const auto find_path = [&](const std::set<VertexPair>& banned) {
+      return FindSetPath(AttachedGraph(graph_, start_at_, goal_at_, banned), cells_);
+    };
+    const auto make = [&](const std::vector<int>& path, std::set<VertexPair>& banned) {
+      auto draft = maker.Make(path, AttachmentTo(start_at_, path.front()),
+                              AttachmentTo(goal_at_, path.back()), banned);
       if (!draft && path.size() < 2) {
         throw NoGrasp{"the align from start to goal is too narrow for doubles"};
       }
-      if (!draft) continue;
-      double score = std::numeric_limits<double>::infinity();
-      for (const Rest& rest : draft->rests) {
-        if (!rest.chosen_for) continue;
-        const double of_rest = judge_.Score(rest.grasp);
-        if (of_rest < 0) banned.insert(*rest.chosen_for);
-        score = std::min(score, of_rest);
-      }
-      if (score >= 0) return draft;
-      if (best && score <= best_score) continue;
-      best = std::move(draft);
-      best_score = score;
-    }
-    return best;
+      return draft;
+    };
+    return FindDraft(judge_, find_path, make);
   }
 
   /// Of the ways from a grasp to a set the best.
@@ -247,19 +191,7 @@ class PolygonPlanner {
   // The answer.
 
   [[nodiscard]] PlanResult Finish(const Draft& draft) const {
-    Plan plan;
-    plan.dimension = polygon_.dimension();
-    plan.half_angle = options_.half_angle;
-    plan.fingers = kPolygonFingers;
-    plan.planner = "polygon";
-    plan.initial = draft.initial;
-    plan.steps = draft.steps;
-    plan.goal = goal_.grasp;
-    PlanResult result;
-    result.plan = std::move(plan);
-    result.margin = SmallestMargin(draft.rests, judge_);
-    result.warnings = QualityWarnings(draft.rests, judge_);
-    return result;
+    return ResultOf(draft, judge_, "polygon", kPolygonFingers, goal_.grasp);
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
@@ -296,10 +228,7 @@ PlanResult PlanOnPolygon(const Polygon& polygon, const GraspChoice& start, const
   try {
     return PolygonPlanner(polygon, start, goal, options).Run();
   } catch (const NoGrasp& none) {
-    PlanResult result;
-    result.status = Status::kNoGrasp;
-    result.message = none.message;
-    return result;
+    return ResultOf(none);
   }
 }
 

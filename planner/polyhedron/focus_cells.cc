@@ -113,7 +113,7 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
   std::vector<std::array<int, 2>> joins;
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
-      if (AreJoined(candidate, pieces[i], pieces[j])) joins.push_back({i, j});
+      if (FindJunction(candidate.tangent, pieces[i], pieces[j])) joins.push_back({i, j});
     }
   }
   const Components components = FindComponents(
@@ -146,42 +146,57 @@ void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_
   if (Decide(result, halves)) pieces.push_back({halves, result.point, min_max_.basis()});
 }
 
-/// Whether one goes from one piece to the other while three contacts stay on their parts: through
-/// the face, or over a joint of its parts.
-bool FocusCellFinder::AreJoined(const QuadrupleCandidate& candidate, const FocusPiece& a,
-                                const FocusPiece& b) {
+/// One goes from one piece to the other while three contacts stay on their parts: through the face,
+/// or over a joint of its parts.
+std::optional<FocusCellFinder::Junction> FocusCellFinder::FindJunction(double tangent,
+                                                                       const FocusPiece& a,
+                                                                       const FocusPiece& b) {
   std::vector<UnionVolume> common;
-  std::array<int, 2> changed = {-1, -1};
+  std::size_t changed = 0;
   for (std::size_t k = 0; k < a.halves.size(); ++k) {
     if (a.halves[k] == b.halves[k]) {
-      common.push_back(VolumeOf(a.halves[k], candidate.tangent));
+      common.push_back(VolumeOf(a.halves[k], tangent));
     } else {
-      changed = {a.halves[k], b.halves[k]};
+      changed = k;
     }
   }
-  if (common.size() != 3) return false;
-  min_max_.Restart();
-  if (changed[0] / 2 == changed[1] / 2) {
-    const UnionVolume::Shape& part = shapes_[changed[0] / 2];
-    return Decide(min_max_.Solve([&](const Vector3d& x) { return LargestOnPart(common, part, x); },
-                                 MinMax::Until::kSign),
-                  a.halves);
+  if (common.size() != 3) return std::nullopt;
+  const int half = a.halves[changed];
+  const int other = b.halves[changed];
+  if (half / 2 == other / 2) {
+    const UnionVolume::Shape& part = ShapeOf(half);
+    min_max_.Restart();
+    const MinMaxResult result = min_max_.Solve(
+        [&](const Vector3d& x) { return LargestOnPart(common, part, x); }, MinMax::Until::kMinimum);
+    if (!Decide(result, a.halves)) return std::nullopt;
+    const double height = part.normal.dot(result.point - part.origin);
+    const Vector3d on_face = result.point - height * part.normal;
+    return Junction{on_face, changed, on_face};
   }
-  if (changed[0] % 2 != changed[1] % 2) return false;
-  const std::array<int, 2> parts = {std::min(changed[0], changed[1]) / 2,
-                                    std::max(changed[0], changed[1]) / 2};
+  if (half % 2 != other % 2) return std::nullopt;
   for (const PartJoint& joint : parts_.joints) {
-    if (std::array{std::min(joint.parts[0], joint.parts[1]),
-                   std::max(joint.parts[0], joint.parts[1])} != parts) {
-      continue;
-    }
+    const auto& [p, q] = joint.parts;
+    if (std::minmax(p, q) != std::minmax(half / 2, other / 2)) continue;
     const UnionVolume::Shape segment(joint.segment);
     std::vector<UnionVolume> all = common;
-    all.emplace_back(segment, changed[0] % 2 == 0, candidate.tangent);
+    all.emplace_back(segment, half % 2 == 0, tangent);
     min_max_.Restart();
-    if (Decide(min_max_.Solve(all, MinMax::Until::kSign), a.halves)) return true;
+    const MinMaxResult result = min_max_.Solve(all, MinMax::Until::kMinimum);
+    if (!Decide(result, a.halves)) continue;
+    const UnionVolume::Shape::Side& side = segment.sides.front();
+    const Vector3d from = segment.origin + side.from.x() * segment.u + side.from.y() * segment.v;
+    const Vector3d along = side.along.x() * segment.u + side.along.y() * segment.v;
+    const double at = std::clamp(along.dot(result.point - from), 0.0, side.length);
+    return Junction{result.point, changed, from + at * along};
   }
-  return false;
+  return std::nullopt;
+}
+
+std::optional<MinMaxResult> FocusCellFinder::FindDeepest(std::span<const UnionVolume> volumes) {
+  min_max_.Restart();
+  const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kMinimum);
+  if (result.overlap != Overlap::kSome) return std::nullopt;
+  return result;
 }
 
 bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "planner/polyhedron/min_max.h"
@@ -45,7 +47,21 @@ class FocusCellFinder {
   /// construction.
   [[nodiscard]] std::int64_t unclear_count() const { return unclear_; }
 
+  /// Where two pieces of a cell that differ in one half meet: a grasp whose focus point lies on the
+  /// face that it passes, or whose contact lies on the joint between two parts.
+  struct Junction {
+    Eigen::Vector3d focus;
+    std::size_t changed;      ///< the position of the face whose half differs
+    Eigen::Vector3d contact;  ///< on it
+  };
+  [[nodiscard]] std::optional<Junction> FindJunction(double tangent, const FocusPiece& a,
+                                                     const FocusPiece& b);
+
+  /// The focus point deepest inside some volumes; nullopt where they have none in common.
+  [[nodiscard]] std::optional<MinMaxResult> FindDeepest(std::span<const UnionVolume> volumes);
+
   [[nodiscard]] const FaceParts& parts() const { return parts_; }
+  [[nodiscard]] const UnionVolume::Shape& ShapeOf(int half) const { return shapes_[half / 2]; }
   [[nodiscard]] UnionVolume VolumeOf(int half, double tangent) const {
     return {shapes_[half / 2], half % 2 == 0, tangent};
   }
@@ -57,8 +73,6 @@ class FocusCellFinder {
   [[nodiscard]] bool ShareVertex(int part, int other) const;
   void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                   std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
-  [[nodiscard]] bool AreJoined(const QuadrupleCandidate& candidate, const FocusPiece& a,
-                               const FocusPiece& b);
   [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const int> halves);
   [[nodiscard]] bool IsAtSharedVertex(const Eigen::Vector3d& point,
                                       std::span<const int> halves) const;

@@ -34,6 +34,7 @@ class PolyhedronGraph final : public SwitchingGraph {
   [[nodiscard]] const std::vector<FocusCell>& cells() const { return cells_; }
   [[nodiscard]] const std::vector<std::array<int, 2>>& links() const { return links_; }
   [[nodiscard]] const FocusCellFinder& finder() const { return finder_; }
+  [[nodiscard]] FocusCellFinder& finder() { return finder_; }
 
   /// Quadruples of faces that pass the test on normals alone, and those with a cell.
   [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }

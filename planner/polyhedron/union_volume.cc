@@ -19,6 +19,9 @@ UnionVolume::Shape::Shape(const FacePart& part)
   }
 }
 
+UnionVolume::Shape::Shape(const FacePart& part, const Vector3d& contact)
+    : origin(contact), u(part.u), v(part.v), normal(part.normal) {}
+
 Cut UnionVolume::CutAt(const Vector3d& x) const {
   const Vector3d from_origin = x - shape_->origin;
   const Vector2d foot(shape_->u.dot(from_origin), shape_->v.dot(from_origin));
@@ -29,7 +32,8 @@ Cut UnionVolume::CutAt(const Vector3d& x) const {
   Vector2d away = Vector2d::Zero();
   Vector2d nearest = Vector2d::Zero();
   double nearest_square = 0;
-  bool outside = false;
+  bool outside = shape_->sides.empty() && !foot.isZero(0);
+  if (outside) away = foot;
   for (const Shape::Side& side : shape_->sides) {
     const Vector2d from_side = foot - side.from;
     const double beyond = side.outward.dot(from_side);

@@ -32,6 +32,8 @@ class UnionVolume {
   /// What does not depend on the cones: the sides of a part, ready to measure distances.
   struct Shape {
     explicit Shape(const FacePart& part);
+    /// A single contact on the part's plane: its double-sided cone.
+    Shape(const FacePart& part, const Eigen::Vector3d& contact);
 
     struct Side {
       Eigen::Vector2d from;
@@ -43,7 +45,7 @@ class UnionVolume {
     Eigen::Vector3d u;
     Eigen::Vector3d v;
     Eigen::Vector3d normal;
-    std::vector<Side> sides;
+    std::vector<Side> sides;  ///< none of a contact, which is at the origin
   };
 
   /// @param shape    must outlive this object.

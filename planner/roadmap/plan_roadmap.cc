@@ -8,11 +8,12 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/graph/fewest_switches.h"
+#include "planner/graph/plan_search.h"
 #include "planner/graph/sequence.h"
 #include "planner/graph/widest_path.h"
 #include "planner/grasp/quality.h"
 #include "planner/roadmap/contact_points.h"
-#include "planner/roadmap/surface_sample.h"
+#include "planner/roadmap/surface_draw.h"
 #include "planner/roadmap/vertex_quality.h"
 
 namespace regrasp {
@@ -28,11 +29,6 @@ constexpr int kMaxVertexDraws = 20'000;
 constexpr int kProgressEvery = 100;
 
 using Status = RoadmapPlanResult::Status;
-
-/// Thrown inside this file where a random grasp cannot be drawn, a negative answer for the caller.
-struct NoGrasp {
-  std::string message;
-};
 
 double SamePoint(const Polyhedron& solid) { return kSamePoint * solid.diameter(); }
 
@@ -104,21 +100,9 @@ class RoadmapPlanner {
     }
     if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
     RandomStream random(options_.seed, use);
-    const SurfaceSampler sampler(solid_);
-    const auto grasp = DrawGoodGrasp(
-        [&] {
-          Grasp drawn;
-          while (drawn.size() < kContacts) drawn.push_back(sampler.Draw(random));
-          return drawn;
-        },
-        frame_, options_.half_angle, options_.min_quality, SamePoint(solid_));
-    if (!grasp) {
-      throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                    " grasps drawn on the surface is force closure with a quality of at least " +
-                    FormatShort(options_.min_quality)};
-    }
+    const GraspJudge judge(solid_, options_.half_angle, options_.min_quality);
+    choice.grasp = DrawOnSurface(solid_, kContacts, judge, random, choice.name);
     choice.kind = GraspChoice::Kind::kGiven;
-    choice.grasp = *grasp;
     return choice;
   }
 
@@ -281,10 +265,7 @@ RoadmapPlanResult PlanOnRoadmap(const Polyhedron& solid, const GraspChoice& star
   try {
     return RoadmapPlanner(solid, start, goal, options).Run();
   } catch (const NoGrasp& none) {
-    RoadmapPlanResult result;
-    result.status = Status::kNoGrasp;
-    result.message = none.message;
-    return result;
+    return {ResultOf(none)};
   }
 }
 

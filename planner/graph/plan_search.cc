@@ -1,0 +1,127 @@
+#include "planner/graph/plan_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "planner/base/number.h"
+#include "planner/graph/fewest_switches.h"
+#include "planner/graph/rest_summary.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
+constexpr int kDrawsPerSet = 30;
+constexpr std::size_t kMaxSetDraws = 2000;
+
+/// Paths tried for one whose grasps are all of the quality that is asked for.
+constexpr int kMaxPaths = 600;
+
+}  // namespace
+
+PlanResult ResultOf(const NoGrasp& none) {
+  PlanResult result;
+  result.status = PlanResult::Status::kNoGrasp;
+  result.message = none.message;
+  return result;
+}
+
+Urns StartUrns(int set_count) {
+  std::vector<int> all(set_count);
+  std::iota(all.begin(), all.end(), 0);
+  return {all};
+}
+
+Urns GoalUrns(const Components& components, const std::set<int>& start_sets) {
+  std::set<int> reachable;
+  for (const int set : start_sets) reachable.insert(components.of_vertex[set]);
+  std::vector<int> others;
+  for (int set = 0; set < static_cast<int>(components.of_vertex.size()); ++set) {
+    if (reachable.contains(components.of_vertex[set]) && !start_sets.contains(set)) {
+      others.push_back(set);
+    }
+  }
+  return {others, {start_sets.begin(), start_sets.end()}};
+}
+
+Grasp DrawFromSets(const GraspChoice& choice, Urns urns, const std::function<Grasp(int set)>& draw,
+                   const GraspJudge& judge, RandomStream& random) {
+  std::size_t sets = 0;
+  for (std::vector<int>& urn : urns) {
+    sets += urn.size();
+    const std::size_t draws = std::min(urn.size(), kMaxSetDraws);
+    for (std::size_t i = 0; i < draws; ++i) {
+      std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
+      for (int k = 0; k < kDrawsPerSet; ++k) {
+        Grasp grasp = draw(urn[i]);
+        if (!grasp.empty() && judge.IsGood(grasp)) return grasp;
+      }
+    }
+  }
+  throw NoGrasp{choice.name + ": no grasp with a quality of at least " +
+                FormatShort(judge.min_quality()) + " was drawn from " + std::to_string(sets) +
+                " sets of grasps" + (urns.size() > 1 ? " in the start's component" : "")};
+}
+
+void GraphWithout::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
+  graph_.GetNeighbours(vertex, neighbours);
+  if (banned_.empty()) return;
+  std::erase_if(neighbours, [&](int other) { return banned_.contains(Unordered(vertex, other)); });
+}
+
+std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
+                              const VertexWidth& width) {
+  const VertexFilter all = [](int) { return true; };
+  const auto switches = FewestSwitches(graph, start, goal, all);
+  if (!switches) return {};
+  return WidestPath(graph, start, goal, *switches, all, width);
+}
+
+std::optional<Draft> FindDraft(
+    const GraspJudge& judge,
+    const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
+    const std::function<std::optional<Draft>(const std::vector<int>& path,
+                                             std::set<VertexPair>& banned)>& make) {
+  std::optional<Draft> best;
+  double best_score = -std::numeric_limits<double>::infinity();
+  std::set<VertexPair> banned;
+  for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
+    const std::vector<int> path = find_path(banned);
+    if (path.empty()) break;
+    std::optional<Draft> draft = make(path, banned);
+    if (!draft) continue;
+    double score = std::numeric_limits<double>::infinity();
+    for (const Rest& rest : draft->rests) {
+      if (!rest.chosen_for) continue;
+      const double of_rest = judge.Score(rest.grasp);
+      if (of_rest < 0) banned.insert(*rest.chosen_for);
+      score = std::min(score, of_rest);
+    }
+    if (score >= 0) return draft;
+    if (best && score <= best_score) continue;
+    best = std::move(draft);
+    best_score = score;
+  }
+  return best;
+}
+
+PlanResult ResultOf(const Draft& draft, const GraspJudge& judge, const std::string& planner,
+                    int fingers, const Grasp& goal) {
+  Plan plan;
+  plan.dimension = judge.frame().dimension;
+  plan.half_angle = judge.half_angle();
+  plan.fingers = fingers;
+  plan.planner = planner;
+  plan.initial = draft.initial;
+  plan.steps = draft.steps;
+  plan.goal = goal;
+  PlanResult result;
+  result.plan = std::move(plan);
+  result.margin = SmallestMargin(draft.rests, judge);
+  result.warnings = QualityWarnings(draft.rests, judge);
+  return result;
+}
+
+}  // namespace regrasp

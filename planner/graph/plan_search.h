@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/graph/components.h"
+#include "planner/graph/draft.h"
+#include "planner/graph/grasp_choice.h"
+#include "planner/graph/grasp_judge.h"
+#include "planner/graph/plan_result.h"
+#include "planner/graph/switching_graph.h"
+#include "planner/graph/widest_path.h"
+
+namespace regrasp {
+
+/// What planners over graphs of grasp sets have in common.
+
+/// Thrown inside a planner for a negative answer: PlanResult::Status::kNoGrasp.
+struct NoGrasp {
+  std::string message;
+};
+[[nodiscard]] PlanResult ResultOf(const NoGrasp& none);
+
+/// The sets that a random grasp is drawn from, those of the first list first.
+using Urns = std::vector<std::vector<int>>;
+
+/// All sets, for a start.
+[[nodiscard]] Urns StartUrns(int set_count);
+/// For a goal: those in the components of the start's sets; the start's own where the others have
+/// no grasp.
+[[nodiscard]] Urns GoalUrns(const Components& components, const std::set<int>& start_sets);
+
+/// Draws sets from urns and grasps from sets until one is good.
+/// @param draw  gives a grasp of a set; an empty one where none was found.
+/// @throws NoGrasp  none of many draws served.
+[[nodiscard]] Grasp DrawFromSets(const GraspChoice& choice, Urns urns,
+                                 const std::function<Grasp(int set)>& draw, const GraspJudge& judge,
+                                 RandomStream& random);
+
+/// A graph without some of its edges.
+class GraphWithout final : public SwitchingGraph {
+ public:
+  /// Both must outlive this object.
+  GraphWithout(const SwitchingGraph& graph, const std::set<VertexPair>& banned)
+      : graph_(graph), banned_(banned) {}
+
+  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count(); }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
+
+ private:
+  const SwitchingGraph& graph_;
+  const std::set<VertexPair>& banned_;
+};
+
+/// The vertices of a path with the fewest switches, of these the widest; empty where there is none.
+[[nodiscard]] std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
+                                            const VertexWidth& width);
+
+/// The first sequence whose chosen grasps are all of the quality that is asked for, otherwise the
+/// one whose weakest is best: paths are tried without the switches that were too weak before.
+/// @param find_path  a path without banned edges; empty where there is none.
+/// @param make       its sequence, or nullopt and at least one more edge banned.
+[[nodiscard]] std::optional<Draft> FindDraft(
+    const GraspJudge& judge,
+    const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
+    const std::function<std::optional<Draft>(const std::vector<int>& path,
+                                             std::set<VertexPair>& banned)>& make);
+
+/// The answer that a sequence is.
+[[nodiscard]] PlanResult ResultOf(const Draft& draft, const GraspJudge& judge,
+                                  const std::string& planner, int fingers, const Grasp& goal);
+
+}  // namespace regrasp

@@ -1,0 +1,193 @@
+#include "planner/polyhedron/plan_polyhedron.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planner/base/number.h"
+#include "planner/graph/plan_search.h"
+#include "planner/plan/same_grasp.h"
+#include "planner/polyhedron/polyhedron_draft.h"
+#include "planner/roadmap/surface_draw.h"
+
+namespace regrasp {
+
+namespace {
+
+using Kind = GraspChoice::Kind;
+
+constexpr int kContacts = 4;
+
+/// A graph with a start and a goal grasp as vertices of their own, each joined to its cells.
+class WithEnds final : public SwitchingGraph {
+ public:
+  WithEnds(const SwitchingGraph& graph, const PolyhedronDraftMaker::End& start,
+           const PolyhedronDraftMaker::End& goal)
+      : graph_(graph), start_(start), goal_(goal) {}
+
+  [[nodiscard]] int start() const { return graph_.vertex_count(); }
+  [[nodiscard]] int goal() const { return graph_.vertex_count() + 1; }
+  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count() + 2; }
+
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
+    if (vertex >= start()) {
+      neighbours.clear();
+      for (const FocusGrasp& at : (vertex == start() ? start_ : goal_).at) {
+        neighbours.push_back(at.cell);
+      }
+      return;
+    }
+    graph_.GetNeighbours(vertex, neighbours);
+    if (IsOf(start_, vertex)) neighbours.push_back(start());
+    if (IsOf(goal_, vertex)) neighbours.push_back(goal());
+  }
+
+ private:
+  static bool IsOf(const PolyhedronDraftMaker::End& end, int cell) {
+    return std::ranges::find(end.at, cell, &FocusGrasp::cell) != end.at.end();
+  }
+
+  const SwitchingGraph& graph_;
+  const PolyhedronDraftMaker::End& start_;
+  const PolyhedronDraftMaker::End& goal_;
+};
+
+/// The planning of one sequence: what its stages share.
+class PolyhedronPlanner {
+ public:
+  PolyhedronPlanner(const Polyhedron& solid, GraspChoice start, GraspChoice goal,
+                    const PolyhedronPlanOptions& options)
+      : solid_(solid),
+        options_(options),
+        judge_(solid, options.half_angle, options.min_quality),
+        start_choice_(std::move(start)),
+        goal_choice_(std::move(goal)),
+        graph_(MakeGraph()),
+        geometry_(solid, graph_) {}
+
+  PlanResult Run() {
+    Settle(start_choice_, RandomUse::kStart);
+    start_.grasp = start_choice_.grasp;
+    if (goal_choice_.kind != Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
+    // Where there is nothing to do, the grasp need not be in a cell.
+    if (IsGoalTheStart()) return FinishEmpty();
+    start_.at = Locate(start_choice_);
+    if (goal_choice_.kind == Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
+    if (IsGoalTheStart()) return FinishEmpty();
+    goal_ = {goal_choice_.grasp, Locate(goal_choice_)};
+    options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
+                      " focus cells");
+    PolyhedronDraftMaker maker(geometry_, judge_, start_, goal_);
+    const auto draft = FindDraft(
+        judge_, [&](const auto& banned) { return FindPath(banned); },
+        [&](const auto& path, auto& banned) { return maker.Make(path, banned); });
+    if (draft) {
+      return ResultOf(*draft, judge_, "polyhedron", kPolyhedronFingers, goal_choice_.grasp);
+    }
+    PlanResult result;
+    result.status = PlanResult::Status::kNoSequence;
+    result.message = NoSequenceMessage();
+    return result;
+  }
+
+ private:
+  PolyhedronGraph MakeGraph() const {
+    options_.progress("building the switching graph");
+    return {solid_, options_.half_angle, options_.spanning};
+  }
+
+  [[nodiscard]] double same_point() const { return kSamePoint * solid_.diameter(); }
+
+  [[nodiscard]] bool IsGoalTheStart() const {
+    return AreSameGrasp(start_choice_.grasp, goal_choice_.grasp,
+                        kPointTolerance * solid_.diameter());
+  }
+
+  /// Checks a given grasp, draws a random one.
+  void Settle(GraspChoice& choice, RandomUse use) {
+    if (choice.kind == Kind::kGiven) {
+      CheckGivenGrasp(choice, {"polyhedron", kContacts, kContacts}, judge_.frame(),
+                      options_.half_angle, same_point());
+      return;
+    }
+    RandomStream random(options_.seed, use);
+    if (choice.kind == Kind::kRandom) {
+      const auto draw = [&](int cell) {
+        const auto grasp = geometry_.Draw(cell, random);
+        return grasp ? geometry_.GraspOf(*grasp) : Grasp();
+      };
+      Urns urns = StartUrns(graph_.vertex_count());
+      if (use == RandomUse::kGoal) urns = GoalUrns(graph_.components(), CellsOf(start_.at));
+      choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
+      return;
+    }
+    choice.grasp = DrawOnSurface(solid_, kContacts, judge_, random, choice.name);
+  }
+
+  static std::set<int> CellsOf(const std::vector<FocusGrasp>& grasps) {
+    std::set<int> cells;
+    for (const FocusGrasp& grasp : grasps) cells.insert(grasp.cell);
+    return cells;
+  }
+
+  std::vector<FocusGrasp> Locate(const GraspChoice& choice) {
+    std::vector<FocusGrasp> at = geometry_.Locate(choice.grasp);
+    if (!at.empty()) return at;
+    throw NoGrasp{choice.name + ": force closure, but in none of the " +
+                  std::to_string(graph_.vertex_count()) +
+                  " focus cells: its four contacts are not concurrent, as the planner polyhedron "
+                  "needs them"};
+  }
+
+  [[nodiscard]] std::vector<int> FindPath(const std::set<VertexPair>& banned) {
+    const GraphWithout without(graph_, banned);
+    const WithEnds graph(without, start_, goal_);
+    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(),
+                                         [&](int vertex) { return geometry_.WidthOf(vertex); });
+    if (path.empty()) return {};
+    return {path.begin() + 1, path.end() - 1};
+  }
+
+  [[nodiscard]] PlanResult FinishEmpty() {
+    const PolyhedronDraftMaker maker(geometry_, judge_, start_, goal_);
+    return ResultOf(maker.MakeEmpty(), judge_, "polyhedron", kPolyhedronFingers,
+                    goal_choice_.grasp);
+  }
+
+  [[nodiscard]] std::string NoSequenceMessage() const {
+    const Components components = graph_.components();
+    const auto size = [&](const PolyhedronDraftMaker::End& end) {
+      std::set<int> reached;
+      for (const FocusGrasp& at : end.at) reached.insert(components.of_vertex[at.cell]);
+      int sum = 0;
+      for (const int component : reached) sum += components.sizes[component];
+      return std::to_string(sum);
+    };
+    return "no sequence of switches and aligns leads from start to goal: of " +
+           std::to_string(graph_.vertex_count()) + " focus cells the start's component has " +
+           size(start_) + ", the goal's " + size(goal_);
+  }
+
+  const Polyhedron& solid_;
+  const PolyhedronPlanOptions& options_;
+  GraspJudge judge_;
+  GraspChoice start_choice_;
+  GraspChoice goal_choice_;
+  PolyhedronGraph graph_;
+  FocusGeometry geometry_;
+  PolyhedronDraftMaker::End start_;
+  PolyhedronDraftMaker::End goal_;
+};
+
+}  // namespace
+
+PlanResult PlanOnPolyhedron(const Polyhedron& solid, const GraspChoice& start,
+                            const GraspChoice& goal, const PolyhedronPlanOptions& options) {
+  if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
+  try {
+    return PolyhedronPlanner(solid, start, goal, options).Run();
+  } catch (const NoGrasp& none) {
+    return ResultOf(none);
+  }
+}
+
+}  // namespace regrasp

@@ -1,0 +1,46 @@
+#include "planner/polyhedron/plan_spatial.h"
+
+#include "planner/graph/plan_search.h"
+#include "planner/roadmap/surface_draw.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr int kContacts = 4;
+
+/// Bodies with more faces have focus cells for minutes of work and gigabytes of memory.
+constexpr int kMostFaces = 100;
+
+GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
+                 const RoadmapOptions& options) {
+  if (choice.kind == GraspChoice::Kind::kGiven) return choice;
+  const GraspJudge judge(solid, options.half_angle, options.min_quality);
+  RandomStream random(options.seed, use);
+  choice.grasp = DrawOnSurface(solid, kContacts, judge, random, choice.name);
+  choice.kind = GraspChoice::Kind::kGiven;
+  return choice;
+}
+
+}  // namespace
+
+PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start, const GraspChoice& goal,
+                       Spanning spanning, const RoadmapOptions& options) {
+  GraspChoice from, to;
+  try {
+    from = Draw(solid, start, RandomUse::kStart, options);
+    to = Draw(solid, goal, RandomUse::kGoal, options);
+  } catch (const NoGrasp& none) {
+    return ResultOf(none);
+  }
+  if (solid.face_count() <= kMostFaces) {
+    const PlanResult result = PlanOnPolyhedron(
+        solid, from, to,
+        {options.half_angle, spanning, options.seed, options.min_quality, options.progress});
+    if (result.plan && result.warnings.empty()) return result;
+    if (!result.plan) options.progress("roadmap, since polyhedron says: " + result.message);
+  }
+  return PlanOnRoadmap(solid, from, to, options);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "planner/polyhedron/plan_polyhedron.h"
+#include "planner/roadmap/plan_roadmap.h"
+
+namespace regrasp {
+
+/// Plans in space with the planner that fits: PlanOnPolyhedron where start and goal are concurrent
+/// grasps of its graph and it joins them, otherwise PlanOnRoadmap. Random grasps are drawn evenly
+/// over the surface. The plan names its planner; `progress` is told why it is not polyhedron.
+/// @throws as PlanOnRoadmap.
+[[nodiscard]] PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start,
+                                     const GraspChoice& goal, Spanning spanning,
+                                     const RoadmapOptions& options);
+
+}  // namespace regrasp
