@@ -24,7 +24,7 @@ constexpr double kTickWidth = 0.35;
 constexpr double kFrameWidth = 0.5;
 constexpr double kLabelDistance = 2;  ///< from the tick to the label
 constexpr double kBelowGap = 28;      ///< least distance of labels below a plot
-constexpr double kBesideGap = 13;     ///< and beside it
+constexpr double kBesideGap = 16;     ///< and beside it
 constexpr double kTitleBelow = 23;    ///< from a plot to the base of the title below it
 constexpr double kTitleBeside = 36;   ///< and to the title beside it
 

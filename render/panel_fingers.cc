@@ -12,6 +12,7 @@
 #include "render/palette.h"
 #include "render/panel_grasp.h"
 #include "render/panel_text.h"
+#include "render/panel_way.h"
 
 namespace regrasp {
 
@@ -70,15 +71,10 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
     case FingerRole::kReleased:
       return {near_end, far_end};
     case FingerRole::kMoved: {
-      std::vector<Vector2d> path;
+      const std::vector<Vector2d> way = WayBeside(finger.path, view, kPathOffset).points;
       double length = 0;
-      for (const BorderPoint& point : finger.path) {
-        const Vector2d p = view.ToPanel(point.p);
-        const Vector2d beside = p + kPathOffset * PanelView::ToPanelDirection(point.outward);
-        if (!path.empty()) length += (beside - path.back()).norm();
-        path.push_back(beside);
-      }
-      return length < kShortestPath ? std::vector<Vector2d>() : path;
+      for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+      return length < kShortestPath ? std::vector<Vector2d>() : way;
     }
     case FingerRole::kFree:
     case FingerRole::kHolding:
@@ -128,11 +124,9 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
   SetColor(cr, color);
   StrokeArrow(cr, shape.arrow, kArrowWidth);
   if (finger.role == FingerRole::kMoved) {
-    for (std::size_t i = 1; i + 1 < finger.path.size(); ++i) {
-      const Vector2d p = view.ToPanel(finger.path[i].p);
-      const Vector2d out = PanelView::ToPanelDirection(finger.path[i].outward);
+    for (const auto& [at, across] : WayBeside(finger.path, view, kPathOffset).ticks) {
       SetColor(cr, color);
-      StrokeLine(cr, p + (kPathOffset - kTick) * out, p + (kPathOffset + kTick) * out, kArrowWidth);
+      StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
     }
     DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
                      /*outline=*/true);
