@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -12,18 +13,23 @@
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "planner/base/angle.h"
+#include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/contour/contour_graph.h"
 #include "planner/polygon/polygon_graph.h"
 #include "planner/polyhedron/polyhedron_graph.h"
+#include "planner/polyhedron/sampled_graph.h"
 
 namespace {
 
 using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
+
+/// More focus points take minutes.
+constexpr int kMostSamples = 10'000'000;
 
 /// How many grasps of one type a graph has.
 struct TypeSummary {
@@ -45,6 +51,7 @@ struct GraphSummary {
   double vertex_seconds = 0;
   double edge_seconds = 0;
   std::int64_t unclear = 0;  ///< decisions too close to call
+  std::optional<SamplingShare> sampling_share;
 };
 
 class Stopwatch {
@@ -124,11 +131,26 @@ GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
   return summary;
 }
 
-GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning) {
-  const PolyhedronGraph graph(solid, half_angle, spanning);
+GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning,
+                                 int sampling, std::uint64_t seed) {
+  PolyhedronGraph graph(solid, half_angle, spanning);
   GraphSummary summary;
   summary.planner = "polyhedron";
   summary.faces = solid.face_count();
+  if (sampling > 0) {
+    const auto region = FindSamplingRegion(solid, graph);
+    Stopwatch stopwatch;
+    const SampledGraph sampled =
+        SamplePolyhedron(solid, half_angle, spanning, region, sampling, seed);
+    const auto found = std::ssize(sampled.quadruples);
+    summary.vertex_seconds = stopwatch.Lap();
+    summary.vertices = found;
+    summary.components = sampled.components;
+    summary.edges = {{"concurrent-concurrent", std::ssize(sampled.links)}};
+    summary.types = {{"concurrent", graph.candidate_count(), found, found, summary.components}};
+    summary.sampling_share = CompareSampling(sampled, graph);
+    return summary;
+  }
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
   summary.edges = {{"concurrent-concurrent", std::ssize(graph.links())}};
@@ -162,6 +184,13 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
       {"components", summary.components},
       {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
   if (summary.planner == "polyhedron") json["unclear"] = summary.unclear;
+  if (summary.sampling_share) {
+    const SamplingShare& share = *summary.sampling_share;
+    json["compare"] = {{"combinations", share.quadruples},
+                       {"found_combinations", share.found_quadruples},
+                       {"links", share.links},
+                       {"found_links", share.found_links}};
+  }
   return json;
 }
 
@@ -208,9 +237,23 @@ std::string FacesName(const std::string& planner) {
   return planner == "polyhedron" ? " faces, " : " edges, ";
 }
 
+/// How many of the direct graph's sets sampling found, and of its links.
+std::string ShareText(const SamplingShare& share) {
+  const auto part = [](std::int64_t found, std::int64_t all) {
+    const double percent =
+        all == 0 ? 100 : 100.0 * static_cast<double>(found) / static_cast<double>(all);
+    return std::to_string(found) + " of " + std::to_string(all) + " (" + FormatShort(percent, 3) +
+           " %)";
+  };
+  return "of the direct graph sampling found " + part(share.found_quadruples, share.quadruples) +
+         " combinations and " + part(share.found_links, share.links) + " links between them\n";
+}
+
 struct GraphProgram {
   PlannerOptions common;
   std::string json;
+  int sampling = 0;
+  bool compare = false;
 
   void AddTo(CLI::App& app) {
     common.AddTo(app, {.in_plane = "polygon", .in_space = "roadmap"});
@@ -218,9 +261,19 @@ struct GraphProgram {
                    "Also writes the counts as JSON; - is standard output, instead "
                    "of the table")
         ->type_name("FILE");
+    AddInteger(app, "--sampling", sampling, 1, kMostSamples,
+               "The planner polyhedron looks for cells by so many random focus points instead of "
+               "directly, in a box that contains all cells");
+    app.add_flag("--compare", compare,
+                 "With --sampling: also says how much of the direct graph the points found");
   }
 
   int Run() const {
+    if (sampling > 0 && common.planner != "polyhedron") {
+      throw InputError("--sampling: the planner " + common.planner +
+                       " draws no focus points; polyhedron does");
+    }
+    if (compare && sampling == 0) throw InputError("--compare: needs --sampling");
     const ObjectFile object = ReadObject(common.object);
     const double half_angle = common.friction.required_half_angle();
     const GraphSummary summary = Summarize(object);
@@ -236,7 +289,9 @@ struct GraphProgram {
     if (summary.planner == "polygon" || summary.planner == "polyhedron") {
       title += ", " + common.spanning;
     }
+    if (sampling > 0) title += ", " + std::to_string(sampling) + " focus points";
     std::cout << GraphTable(summary, title);
+    if (compare) std::cout << ShareText(*summary.sampling_share);
     return kExitDone;
   }
 
@@ -247,7 +302,7 @@ struct GraphProgram {
     if (common.planner == "polyhedron") {
       progress.Report("building the switching graph");
       summary = SummarizePolyhedron(SolidOf(object, common), common.friction.required_half_angle(),
-                                    common.spanning_value());
+                                    common.spanning_value(), sampling, common.seed);
     } else if (common.planner == "contour") {
       progress.Report("building the switching graph");
       summary = SummarizeContour(PolygonOf(object, common), common.friction.required_half_angle());

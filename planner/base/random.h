@@ -7,7 +7,12 @@ namespace regrasp {
 
 /// What a stream of random numbers is for: streams of one seed are independent of each other, so
 /// that drawing more contact points does not change the random start.
-enum class RandomUse : std::uint32_t { kContactPoints = 1, kStart = 2, kGoal = 3 };
+enum class RandomUse : std::uint32_t {
+  kContactPoints = 1,
+  kStart = 2,
+  kGoal = 3,
+  kFocusPoints = 4,
+};
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the
 /// C++ standard, the maps onto intervals, which are not, stand here.

@@ -63,8 +63,10 @@ struct TaggedCorner {
   bool cut_after = false;
 };
 
-/// The part of a convex outline where a form is positive.
-std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const LinearForm& form) {
+/// The part of a convex outline where a form is positive. Corners that are outside by rounding
+/// stay: between parallel edges two lines are one, and the second must not cut anew.
+std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const LinearForm& form,
+                               double rounding) {
   std::vector<TaggedCorner> clipped;
   const std::size_t n = outline.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -72,10 +74,11 @@ std::vector<TaggedCorner> Clip(const std::vector<TaggedCorner>& outline, const L
     const TaggedCorner& b = outline[(i + 1) % n];
     const double at_a = form(a.p);
     const double at_b = form(b.p);
-    if (at_a > 0) clipped.push_back(a);
-    if ((at_a > 0) == (at_b > 0)) continue;
-    const Vector2d crossing = a.p + at_a / (at_a - at_b) * (b.p - a.p);
-    clipped.push_back({crossing, at_a > 0 ? true : a.cut_after});
+    const bool has_a = at_a > -rounding;
+    if (has_a) clipped.push_back(a);
+    if (has_a == (at_b > -rounding)) continue;
+    const double share = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
+    clipped.push_back({a.p + share * (b.p - a.p), has_a ? true : a.cut_after});
   }
   return clipped;
 }
@@ -97,8 +100,9 @@ std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPie
   const double height = polygon.face_measure(piece.edges[1]);
   std::vector<TaggedCorner> outline = {{{0, 0}}, {{width, 0}}, {{width, height}}, {{0, height}}};
   if (piece.full) return outline;
-  for (const LinearForm& form : PieceForms(graph, piece)) outline = Clip(outline, form);
-  DropShortSides(outline, Rounding(graph, piece));
+  const double rounding = Rounding(graph, piece);
+  for (const LinearForm& form : PieceForms(graph, piece)) outline = Clip(outline, form, rounding);
+  DropShortSides(outline, rounding);
   return outline;
 }
 

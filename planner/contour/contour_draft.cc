@@ -13,8 +13,10 @@ namespace {
 /// one's margin: it spares an align.
 constexpr double kGoodShare = 0.5;
 
-/// Half-widths of regions in plans are smaller than computed by this share: rounding.
+/// Half-widths of regions in plans are smaller than computed by this share of them, and by this one
+/// of the boundary's length: rounding.
 constexpr double kRegionRounding = 1e-9;
+constexpr double kBoundaryRounding = 1e-11;
 
 }  // namespace
 
@@ -146,7 +148,8 @@ void ContourDraftMaker::SwitchTo(const ContourSwitch& found, VertexPair chosen_f
   const int free = kContourFingers - fingers_[0] - fingers_[1];
   FingerContact placed = {free, GraspOf(found.after)[1 - stays_after]};
   const double region = std::min(geometry_.SizeAt(found.before), geometry_.SizeAt(found.after));
-  placed.region = (1 - kRegionRounding) * region;
+  const double rounding = kBoundaryRounding * graph.boundary().perimeter(0);
+  placed.region = std::max((1 - kRegionRounding) * region - rounding, 0.0);
   draft.steps.emplace_back(Switch{{placed}, {fingers_[1 - stays_before]}});
   const int stays = fingers_[stays_before];
   fingers_[stays_after] = stays;

@@ -199,6 +199,11 @@ std::optional<MinMaxResult> FocusCellFinder::FindDeepest(std::span<const UnionVo
   return result;
 }
 
+bool FocusCellFinder::HasPoint(const MinMax::LargestCut& largest_cut) {
+  min_max_.Restart();
+  return min_max_.Solve(largest_cut, MinMax::Until::kSign).overlap == Overlap::kSome;
+}
+
 bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
   // The faces that only one of the two has.
   std::size_t own_a = 0, own_b = 0;

@@ -60,6 +60,9 @@ class FocusCellFinder {
   /// The focus point deepest inside some volumes; nullopt where they have none in common.
   [[nodiscard]] std::optional<MinMaxResult> FindDeepest(std::span<const UnionVolume> volumes);
 
+  /// Whether the largest of some convex functions is negative somewhere.
+  [[nodiscard]] bool HasPoint(const MinMax::LargestCut& largest_cut);
+
   [[nodiscard]] const FaceParts& parts() const { return parts_; }
   [[nodiscard]] const UnionVolume::Shape& ShapeOf(int half) const { return shapes_[half / 2]; }
   [[nodiscard]] UnionVolume VolumeOf(int half, double tangent) const {

@@ -1,0 +1,144 @@
+#include "planner/plan/contact_region.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/grasp/force_closure.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A closed part of an edge, by its ends.
+struct Piece {
+  std::array<Contact, 2> ends;
+};
+
+/// The ring that a contact lies on, by lengths from its first vertex.
+class RingPlace {
+ public:
+  RingPlace(const Polygon& polygon, const Contact& contact) : polygon_(polygon) {
+    int count = 0;
+    for (const auto& ring : polygon.rings()) {
+      first_ += count;
+      count = static_cast<int>(ring.size());
+      if (contact.face < first_ + count) break;
+    }
+    for (int edge = first_; edge < first_ + count; ++edge) {
+      if (edge == contact.face) {
+        place_ = begins_.back() + (contact.p - polygon.edge(edge).first).norm();
+      }
+      begins_.push_back(begins_.back() + polygon.face_measure(edge));
+    }
+  }
+
+  /// The pieces within `reach` of the contact, both ends included; those at the ends first, as they
+  /// are the first to leave a set.
+  [[nodiscard]] std::vector<Piece> Cut(double reach) const {
+    const double perimeter = begins_.back();
+    const double half = std::min(reach, perimeter / 2);
+    struct Part {
+      double middle;
+      Piece piece;
+    };
+    std::vector<Part> parts;
+    for (std::size_t k = 0; k + 1 < begins_.size(); ++k) {
+      // The contact's interval reaches into the turns of the ring before and after.
+      for (const double turn : {-perimeter, 0.0, perimeter}) {
+        const double low = std::max(begins_[k] + turn, place_ - half);
+        const double high = std::min(begins_[k + 1] + turn, place_ + half);
+        if (low > high) continue;
+        const int edge = first_ + static_cast<int>(k);
+        parts.push_back(
+            {(low + high) / 2,
+             {{At(edge, low - turn - begins_[k]), At(edge, high - turn - begins_[k])}}});
+      }
+    }
+    std::ranges::sort(parts, std::greater{},
+                      [&](const Part& part) { return std::abs(part.middle - place_); });
+    std::vector<Piece> pieces;
+    for (const Part& part : parts) pieces.push_back(part.piece);
+    return pieces;
+  }
+
+ private:
+  [[nodiscard]] Contact At(int edge, double length) const {
+    const auto [from, to] = polygon_.edge(edge);
+    const double share = std::clamp(length / polygon_.face_measure(edge), 0.0, 1.0);
+    return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
+  }
+
+  const Polygon& polygon_;
+  int first_ = 0;                     ///< edge of the ring
+  std::vector<double> begins_ = {0};  ///< of its edges, then the perimeter
+  double place_ = 0;
+};
+
+/// Squeezing grasps push towards each other, stretching ones away from each other.
+bool IsSqueezing(const Contact& a, const Contact& b) { return (b.p - a.p).dot(a.n) > 0; }
+
+class Region {
+ public:
+  Region(const Polygon& polygon, const Contact& a, const Contact& b, double half_angle)
+      : frame_(polygon.wrench_frame()),
+        half_angle_(half_angle),
+        squeezing_(IsSqueezing(a, b)),
+        first_(polygon, a),
+        second_(polygon, b) {}
+
+  [[nodiscard]] bool Holds(double reach) const {
+    const std::vector<Piece> second = second_.Cut(reach);
+    return std::ranges::all_of(first_.Cut(reach), [&](const Piece& a) {
+      return std::ranges::all_of(second, [&](const Piece& b) { return Holds(a, b); });
+    });
+  }
+
+ private:
+  [[nodiscard]] bool Holds(const Piece& a, const Piece& b) const {
+    return std::ranges::all_of(a.ends, [&](const Contact& p) {
+      return std::ranges::all_of(b.ends, [&](const Contact& q) {
+        return IsSqueezing(p, q) == squeezing_ && IsForceClosure({{p, q}}, frame_, half_angle_);
+      });
+    });
+  }
+
+  WrenchFrame frame_;
+  double half_angle_;
+  bool squeezing_;
+  RingPlace first_, second_;
+};
+
+void CheckArguments(const Polygon& polygon, const Grasp& grasp, double limit) {
+  if (grasp.size() != 2) throw std::invalid_argument("a contact region is one of two contacts");
+  for (const Contact& contact : grasp) {
+    if (contact.face < 0 || contact.face >= polygon.face_count()) {
+      throw std::invalid_argument("a contact of a contact region is on no edge");
+    }
+  }
+  if (!(limit >= 0) || !std::isfinite(limit)) {
+    throw std::invalid_argument("the limit of a contact region is not a length");
+  }
+}
+
+}  // namespace
+
+double MeasureContactRegion(const Polygon& polygon, const Grasp& two_contacts, double half_angle,
+                            double limit) {
+  CheckArguments(polygon, two_contacts, limit);
+  if (!IsForceClosure(two_contacts, polygon.wrench_frame(), half_angle)) return 0;
+  const Region region(polygon, two_contacts[0], two_contacts[1], half_angle);
+  if (region.Holds(limit)) return limit;
+  double low = 0, high = limit;
+  while (high - low > kRegionAccuracy * polygon.diameter()) {
+    const double middle = (low + high) / 2;
+    (region.Holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace regrasp
