@@ -206,6 +206,9 @@ int ValidateProgram::Run() {
   WriteResults(plan, object, samples, report);
   if (!mjcf.empty())
     WriteFile(mjcf, SceneMjcf(*object.object, LocatePlan(*object.object, plan), replay));
+  for (const std::string& warning : report.warnings()) {
+    PrintMessage(kProgram, "warning: " + warning);
+  }
   if (!quiet) std::cout << FormatReportTable(report);
   return report.passed() ? kExitDone : kExitNegative;
 }

@@ -4,6 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "planner/base/number.h"
+#include "planner/object/polygon.h"
+
 namespace regrasp {
 
 namespace {
@@ -22,6 +25,21 @@ void Replay(const Object& object, const Plan& located, const ReplayOptions& opti
   report.settings = result.settings;
   for (StepReplay& step : result.steps) {
     report.steps[step.index].replay = std::move(step);
+  }
+}
+
+/// Contact regions are measured for switches that are known to be right.
+void MeasureRegions(const Object& object, const Plan& located, int count, Report& report) {
+  const auto* polygon = dynamic_cast<const Polygon*>(&object);
+  if (polygon == nullptr) return;
+  FingerGrasp before = located.initial;
+  for (int index = 1; index < count; ++index) {
+    const Step& step = located.steps[index - 1];
+    if (const auto* change = std::get_if<Switch>(&step)) {
+      report.steps[index].region =
+          MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
+    }
+    before = GraspAfter(before, step);
   }
 }
 
@@ -83,6 +101,17 @@ int Report::weakest_step() const {
   return weakest;
 }
 
+std::vector<std::string> Report::warnings() const {
+  std::vector<std::string> warnings;
+  for (const ReportStep& step : steps) {
+    if (!step.region || step.region->holds) continue;
+    warnings.push_back(
+        "step " + std::to_string(step.check.index) + ": the plan claims a contact region of " +
+        FormatShort(*step.region->claimed) + ", but it is " + FormatShort(step.region->half_width));
+  }
+  return warnings;
+}
+
 Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
                 const ReplayOptions& replay, const ReplayObserver& observer) {
   const PlanCheck checked = CheckPlan(object, plan, check);
@@ -93,6 +122,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   report.half_angle = check.half_angle.value_or(plan.half_angle);
   for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
   const int passing = CountPassing(checked.steps);
+  MeasureRegions(object, checked.located, passing, report);
   if (passing > 0) {
     ReplayOptions options = replay;
     options.half_angle = report.half_angle;

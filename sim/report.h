@@ -7,6 +7,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
+#include "planner/plan/switch_region.h"
 #include "sim/replay.h"
 
 namespace regrasp {
@@ -19,6 +20,8 @@ enum class Verdict { kPass, kFail, kSkipped };
 /// One entry of a report: the hold or a step, what the analysis and the replay say of it.
 struct ReportStep {
   StepCheck check;
+  /// Of a switch between 2-finger grasps of a polygon that passes the analytic check.
+  std::optional<SwitchRegion> region;
   std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
   bool skipped = false;              ///< a step before it failed, in the analysis or the replay
   std::string frame;                 ///< file name of the picture, empty where there is none
@@ -44,6 +47,8 @@ struct Report {
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
   /// where no step has one.
   [[nodiscard]] int weakest_step() const;
+  /// For people, without a verdict: each switch whose contact region is smaller than claimed.
+  [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
 /// Checks a plan analytically and replays the steps that pass, up to the first that fails: a step
@@ -63,8 +68,9 @@ struct Report {
 /// JUnit XML for CI servers: a suite for the plan, a case for each entry.
 [[nodiscard]] std::string FormatReportJunit(const Report& report);
 
-/// A readable table: a line per step with required half-angle, displacement, slip and verdict, then
-/// why a step failed, the weakest step, and the verdict.
+/// A readable table: a line per step with required half-angle, displacement, slip and verdict, and
+/// the contact region in plans where a step has one; then why a step failed, the weakest step, and
+/// the verdict.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
 }  // namespace regrasp

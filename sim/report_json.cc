@@ -48,22 +48,33 @@ Json MakeAlignMode(const std::optional<StepReplay>& replay) {
   return mode == AlignMode::kImitated ? "imitated" : "slid";
 }
 
+/// `step` gets its contact region, if it has one.
+void AddRegion(const std::optional<SwitchRegion>& region, Json& step) {
+  if (!region) return;
+  Json claimed = nullptr;
+  if (region->claimed) claimed = *region->claimed;
+  step["region"] = {
+      {"half_width", region->half_width}, {"claimed", claimed}, {"holds", region->holds}};
+}
+
 /// An empty text is null.
 Json MakeText(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
 Json MakeStep(const ReportStep& step) {
-  return {{"index", step.check.index},
-          {"kind", step.check.kind},
-          {"verdict", std::string(VerdictName(step.verdict()))},
-          {"reason", MakeText(ReasonName(step.reason()))},
-          {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
-          {"force_closure", MakeForceClosure(step)},
-          {"undecided", step.check.undecided},
-          {"align_mode", MakeAlignMode(step.replay)},
-          {"simulation", MakeSimulation(step.replay)},
-          {"frame", MakeText(step.frame)}};
+  Json json = {{"index", step.check.index},
+               {"kind", step.check.kind},
+               {"verdict", std::string(VerdictName(step.verdict()))},
+               {"reason", MakeText(ReasonName(step.reason()))},
+               {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
+               {"force_closure", MakeForceClosure(step)},
+               {"undecided", step.check.undecided},
+               {"align_mode", MakeAlignMode(step.replay)},
+               {"simulation", MakeSimulation(step.replay)},
+               {"frame", MakeText(step.frame)}};
+  AddRegion(step.region, json);
+  return json;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <array>
+#include <string>
+#include <vector>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -9,8 +10,7 @@ namespace regrasp {
 
 namespace {
 
-constexpr int kColumns = 6;
-using Row = std::array<std::string, kColumns>;
+using Row = std::vector<std::string>;
 
 /// Angles to a hundredth of a degree, lengths to two significant digits.
 constexpr int kAngleDecimals = 2;
@@ -24,29 +24,30 @@ std::string RequiredAngle(const ReportStep& step) {
   return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
 }
 
-Row MakeRow(const ReportStep& step) {
+Row MakeRow(const ReportStep& step, bool regions) {
   const auto length = [&](double StepReplay::*member) -> std::string {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
   std::string verdict(VerdictName(step.verdict()));
   if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
-  return {std::to_string(step.check.index),
-          step.check.kind,
-          RequiredAngle(step),
-          length(&StepReplay::displacement_m),
-          length(&StepReplay::slip_m),
-          verdict};
+  Row row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
+             length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
+  if (regions) {
+    row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
+  }
+  row.push_back(verdict);
+  return row;
 }
 
 /// All columns but the last are filled up to their widest entry.
 std::string FormatRows(const std::vector<Row>& rows) {
-  std::array<std::size_t, kColumns> width = {};
+  std::vector<std::size_t> width(rows.front().size());
   for (const Row& row : rows) {
-    for (int i = 0; i < kColumns; ++i) width[i] = std::max(width[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
   }
   std::string text;
   for (const Row& row : rows) {
-    for (int i = 0; i < kColumns - 1; ++i) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
       text += row[i] + std::string(width[i] - row[i].size() + 2, ' ');
     }
     text += row.back() + "\n";
@@ -83,8 +84,12 @@ std::string FormatUndecided(const Report& report) {
 }  // namespace
 
 std::string FormatReportTable(const Report& report) {
-  std::vector<Row> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m", "verdict"}};
-  for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step));
+  const bool regions = std::ranges::any_of(
+      report.steps, [](const ReportStep& step) { return step.region.has_value(); });
+  std::vector<Row> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
+  if (regions) rows.front().push_back("region");
+  rows.front().push_back("verdict");
+  for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, regions));
   return FormatRows(rows) + FormatFailure(report) + FormatUndecided(report) +
          FormatWeakest(report) + "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
 }

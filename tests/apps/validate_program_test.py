@@ -4,6 +4,7 @@ import copy
 import csv
 import hashlib
 import json
+import math
 import os
 import shutil
 import struct
@@ -187,6 +188,40 @@ class Validate(ProgramCase):
         self.assertAlmostEqual(settings["thickness_m"], 0.25 * 0.06 * 2 ** 0.5)
         self.assertAlmostEqual(settings["mass_kg"], 1000 * 0.06 ** 2 * settings["thickness_m"])
         self.assertEqual(settings["gravity_m_s2"], 0)
+
+    def test_measures_the_contact_region_of_a_switch_between_two_finger_grasps(self):
+        square = self.write_planar_plan()
+        done, report = self.assert_passes("--no-frames", object=square)
+        # The worse grasp is 2 mm of 60 off the normal; contacts off by h each tilt it by 2 h more.
+        expected = (0.06 * math.tan(math.radians(15)) - 0.002) / 2
+        region = report["steps"][1]["region"]
+        self.assertAlmostEqual(region["half_width"], expected, delta=1e-7)
+        self.assertEqual((region["claimed"], region["holds"]), (None, True))
+        self.assertEqual(["region" in step for step in report["steps"]],
+                         [False, True, False, False])
+        self.assertIn("region", done.stdout.splitlines()[0])
+        self.assertEqual(done.stderr, "")
+
+    def test_warns_of_a_contact_region_that_is_smaller_than_claimed_and_still_passes(self):
+        square = self.write_planar_plan()
+        for claimed, holds in ((0.007, True), (0.008, False)):
+            with self.subTest(claimed=claimed):
+                self.plan["steps"][0]["place"][0]["region"] = 0.02
+                self.plan["steps"][0]["place"][1]["region"] = claimed
+                self.write_plan()
+                done, report = self.assert_passes("--no-frames", object=square)
+                region = report["steps"][1]["region"]
+                self.assertEqual((region["claimed"], region["holds"]), (claimed, holds))
+                self.assertEqual(len(done.stderr.splitlines()), 0 if holds else 1)
+                if not holds:
+                    self.assertIn("warning: step 1: the plan claims a contact region of 0.008",
+                                  done.stderr)
+
+    def test_refuses_a_contact_region_that_is_no_length(self):
+        square = self.write_planar_plan()
+        self.plan["steps"][0]["place"][1]["region"] = -0.001
+        self.write_plan()
+        self.refuse(["plan.json", "/steps/0/place/1/region", "-0.001"], object=square)
 
     def test_fails_a_planar_plan_below_its_friction(self):
         # The first pair is 1 mm of 60 off the normal: 0.955 degrees.

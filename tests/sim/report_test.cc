@@ -114,6 +114,28 @@ TEST(ReportTest, JsonOfAFailureNamesTheReasonAndSkipsTheRest) {
   EXPECT_TRUE(json["steps"][2]["frame"].is_null());
 }
 
+TEST(ReportTest, ContactRegionsAreInTheJsonTheTableAndTheWarningsWhereThereAreAny) {
+  Report report = MakeReport();
+  EXPECT_THAT(FormatReportJson(report), Not(HasSubstr("region")));
+  EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("region")));
+  report.steps[1].region = SwitchRegion{0.125, std::nullopt, true};
+  Json json = ParseJson(FormatReportJson(report), "report");
+  EXPECT_EQ(json["steps"][1]["region"]["half_width"], 0.125);
+  EXPECT_TRUE(json["steps"][1]["region"]["claimed"].is_null());
+  EXPECT_EQ(json["steps"][1]["region"]["holds"], true);
+  EXPECT_FALSE(json["steps"][2].contains("region"));
+  EXPECT_THAT(FormatReportTable(report), HasSubstr("0.12"));
+  EXPECT_TRUE(report.warnings().empty());
+  report.steps[1].region = SwitchRegion{0.125, 0.25, false};
+  json = ParseJson(FormatReportJson(report), "report");
+  EXPECT_EQ(json["steps"][1]["region"]["claimed"], 0.25);
+  EXPECT_EQ(json["steps"][1]["region"]["holds"], false);
+  EXPECT_EQ(json["verdict"], "pass");
+  ASSERT_EQ(report.warnings().size(), 1u);
+  EXPECT_EQ(report.warnings()[0],
+            "step 1: the plan claims a contact region of 0.25, but it is 0.125");
+}
+
 TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {
   Report report = MakeReport();
   report.plan_file = "caf\xe9.json";
