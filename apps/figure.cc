@@ -135,10 +135,13 @@ std::string FileName(int index, const std::string& kind, const std::string& form
 }
 
 void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
-  const auto entry = FindOtherThanTwoFingers(plan);
-  if (!entry) return;
-  throw InputError(plan_path + ": step " + std::to_string(*entry) +
-                   ": its grasp has not two contacts, as --contact-space needs");
+  const auto rest = FindOtherThanTwoFingers(plan);
+  if (!rest) return;
+  const std::string entry = rest->entry == 0
+                                ? "its initial grasp"
+                                : "the grasp after step " + std::to_string(rest->entry);
+  throw InputError(plan_path + ": " + entry + " has " + std::to_string(rest->contacts) +
+                   " contacts, but --contact-space draws plans of 2-finger grasps");
 }
 
 void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,

@@ -35,9 +35,6 @@ constexpr int kFewVertices = 8;
 /// Places this close, over the perimeter, are one: rounding.
 constexpr double kRounding = 1e-9;
 
-/// Round lengths double at least every second step of 1, 2, 5, 10.
-constexpr double kWidestRoundStep = 2.5;
-
 struct Vertex {
   double place;   ///< as the axis has it
   double length;  ///< on the ring
@@ -95,9 +92,16 @@ bool CanBeLabelled(const std::vector<Vertex>& vertices, double gap) {
   return true;
 }
 
+/// The shortest of 1, 2 or 5 times a power of ten that is no shorter than `least`.
+double RoundLengthAbove(double least) {
+  // From one round length to the next the factor is 2 or 2.5.
+  const double step = RoundLength(2 * least);
+  return step >= least ? step : RoundLength(2.5 * least);
+}
+
 /// Round lengths on an axis, but near where the ring begins.
 std::vector<AxisTick> RoundTicks(double perimeter, const PlaceRange& shown, double gap) {
-  const double step = RoundLength(kWidestRoundStep * gap);
+  const double step = RoundLengthAbove(gap);
   // As many digits as tell the largest length from the one a step below.
   const int digits =
       1 + static_cast<int>(std::floor(std::log10(perimeter)) - std::floor(std::log10(step)));

@@ -42,10 +42,10 @@ void Follow(const Switch& step, const AxisGrasp& before, TrackEntry& entry) {
 
 }  // namespace
 
-std::optional<int> FindOtherThanTwoFingers(const Plan& plan) {
+std::optional<RestSize> FindOtherThanTwoFingers(const Plan& plan) {
   FingerGrasp grasp = plan.initial;
   for (std::size_t entry = 0;; ++entry) {
-    if (grasp.size() != 2) return static_cast<int>(entry);
+    if (grasp.size() != 2) return RestSize{static_cast<int>(entry), static_cast<int>(grasp.size())};
     if (entry == plan.steps.size()) return std::nullopt;
     grasp = GraspAfter(grasp, plan.steps[entry]);
   }

@@ -28,13 +28,20 @@ struct TrackEntry {
   std::optional<int> shared_axis;  ///< of a switch: where the contact is that stays, 0 or 1
 };
 
-/// The first entry (0 the initial grasp, k the grasp after step k) that has not two contacts.
-[[nodiscard]] std::optional<int> FindOtherThanTwoFingers(const Plan& plan);
+/// A grasp at rest of a plan: 0 the initial one, k that after step k.
+struct RestSize {
+  int entry = 0;
+  int contacts = 0;
+  friend bool operator==(const RestSize&, const RestSize&) = default;
+};
+
+/// The first grasp at rest that has not two contacts.
+[[nodiscard]] std::optional<RestSize> FindOtherThanTwoFingers(const Plan& plan);
 
 /// Follows a plan through contact space. The initial grasp has its contact on the lower edge on the
 /// horizontal axis; a finger that is placed takes the axis of the one that is released, so that a
 /// switch that keeps a contact moves along one axis.
-/// @param plan  located; FindOtherThanTwoFingers knows no entry.
+/// @param plan  located; FindOtherThanTwoFingers finds none.
 [[nodiscard]] std::vector<TrackEntry> TrackPlan(const Plan& plan);
 
 [[nodiscard]] SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp);

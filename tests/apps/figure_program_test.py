@@ -1,6 +1,7 @@
 """The program figure from the shell: pictures of planar plans, and bad input."""
 
 import copy
+import hashlib
 import json
 import os
 import shutil
@@ -137,6 +138,81 @@ class Figure(ProgramCase):
     def test_says_nothing_when_all_is_well(self):
         done = self.assert_done(*self.arguments())
         self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    # Contact space.
+
+    def use_two_finger_plan(self):
+        """A fork: both sides are squeezed, then its right prong; a contact moves on in between."""
+        fork = "POLYGON((0 0, 10 0, 10 10, 7 10, 7 3, 3 3, 3 10, 0 10, 0 0))\n"
+        self.write("fork.wkt", fork)
+
+        def at(finger, x, y):
+            return {"finger": finger, "point": [x, y], "normal": [-1 if x == 10 else 1, 0]}
+
+        goal = [at(0, 10, 7), at(2, 7, 8)]
+        self.plan = {
+            "format": "regrasp-plan", "version": 1,
+            "object": {"file": "fork.wkt", "scale": 1.0, "dimension": 2,
+                       "sha256": hashlib.sha256(fork.encode()).hexdigest()},
+            "friction": {"half_angle_deg": 20.0}, "fingers": 3, "planner": "contour",
+            "initial": {"contacts": [at(0, 10, 8), at(1, 0, 8)]},
+            "steps": [
+                {"kind": "switch", "place": [at(2, 7, 8)], "release": [1]},
+                {"kind": "align", "waypoints": [{"contacts": [at(0, 10, 8), at(2, 7, 8)]},
+                                                {"contacts": goal}]}],
+            "goal": {"contacts": [{"point": c["point"], "normal": c["normal"]} for c in goal]}}
+        self.write_plan()
+        return self.path("fork.wkt")
+
+    def test_draws_the_contact_space_and_every_switch_on_request(self):
+        fork = self.use_two_finger_plan()
+        steps = ["000_hold", "001_switch", "002_align"]
+        for ending in ("svg", "pdf", "png"):
+            names = self.draw("--contact-space", object=fork, format=ending, out=ending)
+            self.assertEqual(names, [name + "." + ending for name in
+                                     steps + ["contact_space", "contact_space_001", "sheet"]])
+        svg = ElementTree.fromstring(self.read("svg/contact_space_001.svg"))
+        self.assertAlmostEqual(float(svg.get("width")[:-2]), 174 * 72 / 25.4, places=3)
+        self.assertTrue(self.read("pdf/contact_space.pdf").startswith(b"%PDF-"))
+        self.assertEqual(struct.unpack(">I", self.read("png/contact_space.png")[16:20])[0], 1004)
+
+    def test_draws_no_contact_space_unless_told_and_removes_that_of_an_earlier_run(self):
+        fork = self.use_two_finger_plan()
+        self.draw("--contact-space", object=fork)
+        self.write("result/contact_space_12.svg", "mine")
+        self.write("result/contact_space_001.txt", "mine")
+        names = ["000_hold.svg", "001_switch.svg", "002_align.svg", "contact_space_001.txt",
+                 "contact_space_12.svg", "sheet.svg"]
+        self.assertEqual(self.draw(object=fork), names)
+
+    def test_draws_the_same_contact_space_twice(self):
+        fork = self.use_two_finger_plan()
+        for out in ("first", "second"):
+            self.draw("--contact-space", object=fork, out=out)
+        for name in ("contact_space.svg", "contact_space_001.svg"):
+            self.assertEqual(self.read("first/" + name), self.read("second/" + name), name)
+        self.assertNotEqual(self.read("first/contact_space.svg"),
+                            self.read("first/contact_space_001.svg"))
+
+    def test_a_switch_of_both_contacts_is_in_the_overview_only(self):
+        self.write("plan.json", self.data("plan_good", "square_two_for_two.json"))
+        square = self.write("square.wkt", "POLYGON((-1 -1, 1 -1, 1 1, -1 1, -1 -1))")
+        names = self.draw("--contact-space", "--allow-object-change", object=square)
+        self.assertIn("contact_space.svg", names)
+        self.assertEqual([name for name in names if name.startswith("contact_space_")], [])
+
+    def test_refuses_the_contact_space_of_other_than_two_contacts(self):
+        self.refuse(["plan.json", "initial grasp", "3 contacts", "--contact-space"],
+                    "--contact-space")
+        fork = self.use_two_finger_plan()
+        self.plan["steps"][0]["release"] = []
+        self.plan["steps"][1]["waypoints"] = [
+            {"contacts": self.plan["initial"]["contacts"] + self.plan["steps"][0]["place"]}] * 2
+        goal = self.plan["steps"][1]["waypoints"][1]["contacts"]
+        self.plan["goal"]["contacts"] = goal
+        self.write_plan()
+        self.refuse(["plan.json", "step 1", "3 contacts", "--contact-space"], "--contact-space",
+                    object=fork)
 
     # Bad usage.
 

@@ -56,10 +56,10 @@ TEST(ContactSpaceTrackTest, WhereBothContactsAreExchangedNoneStays) {
 TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
   EXPECT_EQ(FindOtherThanTwoFingers(MakeForkPlan()), std::nullopt);
   EXPECT_EQ(FindOtherThanTwoFingers(MakeExchangePlan()), std::nullopt);
-  EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), 0);
+  EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), (RestSize{0, 3}));
   Plan plan = MakeForkPlan();
   std::get<Switch>(plan.steps[1]).release.clear();
-  EXPECT_EQ(FindOtherThanTwoFingers(plan), 2);
+  EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{2, 3}));
 }
 
 }  // namespace
