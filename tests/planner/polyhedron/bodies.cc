@@ -85,6 +85,15 @@ std::vector<Ring> FrameOutline() {
   return {{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}};
 }
 
+std::vector<Ring> BoomerangOutline() {
+  return {{{-1.5, -1.3}, {2.6, -1.5}, {2.2, 0.1}, {0.2, 0.4}, {1, 2.3}, {-0.7, 2.6}}};
+}
+
+std::vector<Ring> RingOutline() {
+  return {{{-2.1, -1.4}, {0.3, -2.3}, {2.4, -0.5}, {1.2, 2}, {-1.5, 1.6}},
+          {{-0.9, -0.6}, {-0.4, 0.9}, {1, -0.3}}};
+}
+
 namespace {
 
 /// A linear map that leaves no two lengths and no right angle alike.
@@ -106,8 +115,8 @@ const std::vector<NamedBody>& SmallBodies() {
       {"round stone", MakeStone(10, Vector3d::Ones(), 1)},
       {"stretched stone", MakeStone(12, {2, 1, 0.7}, 2)},
       {"larger stone", MakeStone(18, {1.3, 1, 0.9}, 3)},
-      {"frustum of an L", SkewedBody(Frustum(LOutline(), 2, 0.5))},
-      {"frustum of a frame", SkewedBody(Frustum(FrameOutline(), 2, 0.5))},
+      {"frustum of a boomerang", SkewedBody(Frustum(BoomerangOutline(), 2, 0.4))},
+      {"frustum of a ring", SkewedBody(Frustum(RingOutline(), 2, 0.4))},
   };
   return bodies;
 }

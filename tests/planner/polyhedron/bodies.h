@@ -40,8 +40,13 @@ using Ring = std::vector<Eigen::Vector2d>;
 [[nodiscard]] std::vector<Ring> LOutline();
 [[nodiscard]] std::vector<Ring> FrameOutline();
 
-/// A tetrahedron, round and stretched stones, frusta of an L and of a frame: few faces, none of
-/// them with a symmetry, convex and not.
+/// The like without parallel edges, so that the sides of frusta hold grasps with the ends: a
+/// boomerang, and a pentagon with a triangular hole.
+[[nodiscard]] std::vector<Ring> BoomerangOutline();
+[[nodiscard]] std::vector<Ring> RingOutline();
+
+/// A tetrahedron, round and stretched stones, frusta of a boomerang and of a ring: few faces, none
+/// of them with a symmetry, convex and not.
 [[nodiscard]] const std::vector<NamedBody>& SmallBodies();
 
 /// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.

@@ -30,7 +30,8 @@ struct Count {
   int apart = 0;
   int touch = 0;  ///< at vertices and edges that faces share
   int between = 0;
-  int several = 0;  ///< cells or combinations of more than one piece
+  int several = 0;  ///< combinations of more than one piece
+  int fallen = 0;   ///< combinations of more than one cell
 
   [[nodiscard]] int all() const { return meet + apart + touch + between; }
 };
@@ -73,6 +74,9 @@ class GraphOracle {
         if (has && verdict == Verdict::kMeet) certain.push_back(halves);
       });
       if (possible.size() > 1) ++count.several;
+      std::set<int> cells;
+      for (const auto& halves : possible) cells.insert(FindCell(candidate.faces, halves));
+      if (cells.size() > 1) ++count.fallen;
       CheckComponents(candidate, certain, possible);
     }
   }
@@ -271,7 +275,10 @@ TEST(GraphProgram, PiecesAndTheirComponentsAreThoseOfLinearPrograms) {
   const Count count = CheckAll([](GraphOracle& o, Count& c) { o.CheckPieces(c); });
   RecordProperty("meet", count.meet);
   RecordProperty("apart", count.apart);
+  RecordProperty("touch", count.touch);
   RecordProperty("between", count.between);
+  RecordProperty("several", count.several);
+  RecordProperty("fallen", count.fallen);
   EXPECT_GT(count.meet, 100);
   EXPECT_GT(count.apart, 1000);
   EXPECT_GT(count.several, 10);
@@ -282,7 +289,10 @@ TEST(GraphProgram, LinksAreThoseOfLinearPrograms) {
   const Count count = CheckAll([](GraphOracle& o, Count& c) { o.CheckLinks(c); });
   RecordProperty("meet", count.meet);
   RecordProperty("apart", count.apart);
+  RecordProperty("touch", count.touch);
   RecordProperty("between", count.between);
+  RecordProperty("several", count.several);
+  RecordProperty("fallen", count.fallen);
   EXPECT_GT(count.meet, 100);
   EXPECT_GT(count.apart, 20);
   EXPECT_LT(count.between * kFewBetween, count.all());
