@@ -135,11 +135,15 @@ def gear():
 
 
 def bottle():
-    """A lip, a neck that widens into the shoulder, a waist, and a base with a dimple."""
+    """A lip, a neck, a shoulder, a waist, six grooves down the side, and a base with a dimple."""
+    grooves = ((2.32, -4.7), (2.2, -3.55), (2.13, -2.4), (2.17, -1.25), (2.3, -0.1), (2.5, 3.0))
+    side = [(x - inwards, y + upwards) for x, y in grooves
+            for inwards, upwards in ((0, -0.34), (0.28, 0), (0, 0.34))]
+    side[-3:-3] = [(2.55, 1.0), (2.58, 1.8)]
     half = [spline([(0, -6.7), (0.9, -6.85), (1.55, -7.2)]),
             arc((1.8, -6.65), 0.6, -114, 0),
-            spline([(2.4, -6.65), (2.42, -5.2), (2.1, -3.2), (1.95, -1.7), (2.2, -0.2), (2.5, 1.2),
-                    (2.3, 2.5), (1.5, 4.0), (0.95, 5.2), (0.84, 6.2)]),
+            spline([(2.4, -6.65), (2.45, -5.7), *side, (2.3, 3.75), (1.75, 4.2), (1.15, 4.6),
+                    (0.9, 5.15), (0.84, 6.2)]),
             *rounded([(0.84, 6.2, 0), (1.27, 6.15, 0.2), (1.27, 6.75, 0.2), (0.98, 6.8, 0),
                       (0.98, 7.3, 0.2), (0, 7.3, 0)], closed=False)]
     # One edge across the mouth, rather than two that meet in the middle.
