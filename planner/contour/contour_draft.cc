@@ -56,8 +56,9 @@ std::optional<Draft> ContourDraftMaker::Make(const std::vector<int>& path,
 }
 
 std::optional<ContourSwitch> ContourDraftMaker::ChooseSwitch(int from, int to, bool last) {
-  if (aim_ == SwitchAim::kRegion) return FindLargestSwitch(geometry_, from, to);
-  return ChooseRoomySwitch(from, to, last);
+  if (aim_ == SwitchAim::kRoom) return ChooseRoomySwitch(from, to, last);
+  return FindLargestSwitch(geometry_, from, to,
+                           [this](const ContourSwitch& found) { return IsGood(found); });
 }
 
 std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int to, bool last) {

@@ -130,40 +130,65 @@ std::map<int, std::vector<Profile>> Profiles(SetGeometry& geometry, int set) {
 /// The smaller and the larger half-width of a switch's two regions.
 using Sizes = std::pair<double, double>;
 
+/// Switches that are asked whether they are accepted before the largest one is taken as it is.
+constexpr std::size_t kMostAsked = 2000;
+
 class LargestSwitch {
  public:
   explicit LargestSwitch(const ContourGraph& graph) : graph_(graph) {}
 
   void Consider(const Profile& a, const Profile& b) {
-    if (std::min(a.largest(), b.largest()) < sizes_.first) return;
     const double low = std::max(a.low_place, b.low_place);
     const double high = std::min(a.high_place, b.high_place);
     if (low > high) return;
-    Try(a, b, low);
-    Try(a, b, high);
-    Try(a, b, (low + high) / 2);
+    Found best;
+    Try(a, b, low, best);
+    Try(a, b, high, best);
+    Try(a, b, (low + high) / 2, best);
     // Where the two lines cross.
     const double at_low = a.SizeAt(low) - b.SizeAt(low);
     const double at_high = a.SizeAt(high) - b.SizeAt(high);
-    if (at_low * at_high < 0) Try(a, b, low + at_low / (at_low - at_high) * (high - low));
+    if (at_low * at_high < 0) {
+      Try(a, b, low + at_low / (at_low - at_high) * (high - low), best);
+    }
+    if (best.sizes > Sizes()) found_.push_back(best);
   }
 
   /// nullopt where no place is common to two edges.
-  [[nodiscard]] std::optional<ContourSwitch> best() const {
-    return sizes_ > Sizes() ? std::optional(best_) : std::nullopt;
+  [[nodiscard]] std::optional<ContourSwitch> Best(
+      const std::function<bool(const ContourSwitch&)>& accepts) {
+    if (found_.empty()) return std::nullopt;
+    const std::size_t asked = std::min(found_.size(), kMostAsked);
+    std::ranges::partial_sort(found_, found_.begin() + static_cast<std::ptrdiff_t>(asked),
+                              std::greater<>(), &Found::sizes);
+    for (std::size_t i = 0; i < asked; ++i) {
+      const ContourSwitch candidate = Make(found_[i]);
+      if (accepts(candidate)) return candidate;
+    }
+    return Make(found_.front());
   }
 
  private:
-  void Try(const Profile& a, const Profile& b, double place) {
+  struct Found {
+    Sizes sizes;
+    const Profile* a = nullptr;
+    const Profile* b = nullptr;
+    double place = 0;
+  };
+
+  static void Try(const Profile& a, const Profile& b, double place, Found& best) {
     const Sizes sizes = std::minmax({a.SizeAt(place), b.SizeAt(place)});
-    if (sizes <= sizes_) return;
-    sizes_ = sizes;
-    best_ = {a.GraspAt(place), b.GraspAt(place), graph_.pieces()[a.edge->piece].edges[a.k]};
+    if (sizes > best.sizes) best = {sizes, &a, &b, place};
+  }
+
+  [[nodiscard]] ContourSwitch Make(const Found& found) const {
+    const Profile& a = *found.a;
+    return {a.GraspAt(found.place), found.b->GraspAt(found.place),
+            graph_.pieces()[a.edge->piece].edges[a.k]};
   }
 
   const ContourGraph& graph_;
-  Sizes sizes_;
-  ContourSwitch best_;
+  std::vector<Found> found_;
 };
 
 }  // namespace
@@ -223,7 +248,9 @@ std::optional<ContourSwitch> FindSwitchBetween(const ContourGraph& graph, const 
   return std::nullopt;
 }
 
-std::optional<ContourSwitch> FindLargestSwitch(SetGeometry& geometry, int from, int to) {
+std::optional<ContourSwitch> FindLargestSwitch(
+    SetGeometry& geometry, int from, int to,
+    const std::function<bool(const ContourSwitch&)>& accepts) {
   const auto of_from = Profiles(geometry, from);
   const auto of_to = Profiles(geometry, to);
   LargestSwitch largest(geometry.graph());
@@ -234,7 +261,7 @@ std::optional<ContourSwitch> FindLargestSwitch(SetGeometry& geometry, int from, 
       for (const Profile& b : others->second) largest.Consider(a, b);
     }
   }
-  return largest.best();
+  return largest.Best(accepts);
 }
 
 }  // namespace regrasp

@@ -42,7 +42,12 @@ using PlacedScore = std::function<double(const PlacedGrasp&)>;
 /// shared contact is held, each square is centred on an edge of its set's diagram; over each pair
 /// of such edges the smaller half-width is the lower one of two lines. Among equals the larger of
 /// the two half-widths decides.
-[[nodiscard]] std::optional<ContourSwitch> FindLargestSwitch(SetGeometry& geometry, int from,
-                                                             int to);
+/// @param accepts  the best switch that it accepts is taken, of the best of every pair of edges;
+///                 the best of all where it accepts none of many.
+[[nodiscard]] std::optional<ContourSwitch> FindLargestSwitch(
+    SetGeometry& geometry, int from, int to,
+    const std::function<bool(const ContourSwitch&)>& accepts = [](const ContourSwitch&) {
+      return true;
+    });
 
 }  // namespace regrasp

@@ -29,13 +29,37 @@ class ContourPlanner {
         geometry_(graph_) {}
 
   PlanResult Run() {
-    Settle(start_choice_, RandomUse::kStart);
-    if (goal_choice_.kind != GraspChoice::Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
-    // Where there is nothing to do, the grasp need not be in a set.
-    if (IsGoalTheStart()) return FinishEmpty();
+    RandomStream of_start(options_.seed, RandomUse::kStart);
+    RandomStream of_goal(options_.seed, RandomUse::kGoal);
+    Settle(start_choice_, of_start);
+    if (goal_choice_.kind != GraspChoice::Kind::kRandom) {
+      Settle(goal_choice_, of_goal);
+      // Where there is nothing to do, the grasp need not be in a set.
+      if (IsGoalTheStart()) return FinishEmpty();
+      start_ = Locate(start_choice_);
+      return PlanToGoal();
+    }
     start_ = Locate(start_choice_);
-    if (goal_choice_.kind == GraspChoice::Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
-    if (IsGoalTheStart()) return FinishEmpty();
+    return PlanToRandomGoal([&](bool last) {
+      goal_urns_ = GoalUrns(graph_.components(), {graph_.set_of(start_->at.piece)});
+      if (last) goal_urns_.erase(goal_urns_.begin());
+      Settle(goal_choice_, of_goal);
+      return IsGoalTheStart() ? FinishEmpty() : PlanToGoal();
+    });
+  }
+
+ private:
+  ContourGraph MakeGraph() const {
+    options_.progress("building the switching graph");
+    return {polygon_, options_.half_angle};
+  }
+
+  [[nodiscard]] bool IsGoalTheStart() const {
+    return AreSameGrasp(start_choice_.grasp, goal_choice_.grasp,
+                        kPointTolerance * polygon_.diameter());
+  }
+
+  PlanResult PlanToGoal() {
     goal_ = Locate(goal_choice_);
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
                       " sets of grasps");
@@ -50,37 +74,23 @@ class ContourPlanner {
     return result;
   }
 
- private:
-  ContourGraph MakeGraph() const {
-    options_.progress("building the switching graph");
-    return {polygon_, options_.half_angle};
-  }
-
-  [[nodiscard]] bool IsGoalTheStart() const {
-    return AreSameGrasp(start_choice_.grasp, goal_choice_.grasp,
-                        kPointTolerance * polygon_.diameter());
-  }
-
   // Start and goal.
 
   /// Checks a given grasp, draws a random one.
-  void Settle(GraspChoice& choice, RandomUse use) {
+  void Settle(GraspChoice& choice, RandomStream& random) {
     if (choice.kind == GraspChoice::Kind::kGiven) {
       CheckGivenGrasp(choice, {"contour", kContacts, kContacts}, judge_.frame(),
                       options_.half_angle, kSamePoint * polygon_.diameter());
       return;
     }
-    RandomStream random(options_.seed, use);
     if (choice.kind == GraspChoice::Kind::kRandom) {
       const auto draw = [&](int set) {
         const auto placed = geometry_.Draw(set, random);
         return placed ? geometry_.GraspOf(*placed) : Grasp();
       };
-      Urns urns = StartUrns(graph_.vertex_count());
-      if (use == RandomUse::kGoal) {
-        urns = GoalUrns(graph_.components(), {graph_.set_of(start_->at.piece)});
-      }
-      choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
+      const bool is_goal = !goal_urns_.empty();
+      choice.grasp = DrawFromSets(choice, is_goal ? goal_urns_ : StartUrns(graph_.vertex_count()),
+                                  draw, judge_, random);
       return;
     }
     auto grasp = DrawAnyGrasp(polygon_, kContacts, kContacts, judge_, random);
@@ -136,6 +146,7 @@ class ContourPlanner {
   GraspJudge judge_;
   GraspChoice start_choice_;
   GraspChoice goal_choice_;
+  Urns goal_urns_;  ///< that a random goal is drawn from
   ContourGraph graph_;
   SetGeometry geometry_;
   std::optional<ContourDraftMaker::End> start_;

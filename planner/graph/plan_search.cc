@@ -65,6 +65,16 @@ Grasp DrawFromSets(const GraspChoice& choice, Urns urns, const std::function<Gra
                 " sets of grasps" + (urns.size() > 1 ? " in the start's component" : "")};
 }
 
+PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan) {
+  std::optional<PlanResult> first;
+  for (int draw = 1; draw <= kGoalDraws; ++draw) {
+    PlanResult result = plan(draw == kGoalDraws);
+    if (result.plan && result.warnings.empty()) return result;
+    if (!first) first = std::move(result);
+  }
+  return *first;
+}
+
 void GraphWithout::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
   graph_.GetNeighbours(vertex, neighbours);
   if (banned_.empty()) return;

@@ -41,6 +41,14 @@ using Urns = std::vector<std::vector<int>>;
                                  const std::function<Grasp(int set)>& draw, const GraspJudge& judge,
                                  RandomStream& random);
 
+/// A random goal is drawn anew up to so many times while the sequence to it passes grasps that are
+/// not as good as asked.
+inline constexpr int kGoalDraws = 12;
+
+/// The first plan without a warning of kGoalDraws, or else the first one.
+/// @param plan  draws a goal and plans to it; the last time one that the start is in a set with.
+[[nodiscard]] PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan);
+
 /// A graph without some of its edges.
 class GraphWithout final : public SwitchingGraph {
  public:

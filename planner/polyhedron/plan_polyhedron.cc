@@ -65,14 +65,33 @@ class PolyhedronPlanner {
         geometry_(solid, graph_) {}
 
   PlanResult Run() {
-    Settle(start_choice_, RandomUse::kStart);
+    RandomStream of_start(options_.seed, RandomUse::kStart);
+    RandomStream of_goal(options_.seed, RandomUse::kGoal);
+    Settle(start_choice_, of_start);
     start_.grasp = start_choice_.grasp;
-    if (goal_choice_.kind != Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
-    // Where there is nothing to do, the grasp need not be in a cell.
-    if (IsGoalTheStart()) return FinishEmpty();
+    if (goal_choice_.kind != Kind::kRandom) {
+      Settle(goal_choice_, of_goal);
+      // Where there is nothing to do, the grasp need not be in a cell.
+      if (IsGoalTheStart()) return FinishEmpty();
+      start_.at = Locate(start_choice_);
+      return PlanToGoal();
+    }
     start_.at = Locate(start_choice_);
-    if (goal_choice_.kind == Kind::kRandom) Settle(goal_choice_, RandomUse::kGoal);
-    if (IsGoalTheStart()) return FinishEmpty();
+    return PlanToRandomGoal([&](bool last) {
+      goal_urns_ = GoalUrns(graph_.components(), CellsOf(start_.at));
+      if (last) goal_urns_.erase(goal_urns_.begin());
+      Settle(goal_choice_, of_goal);
+      return IsGoalTheStart() ? FinishEmpty() : PlanToGoal();
+    });
+  }
+
+ private:
+  PolyhedronGraph MakeGraph() const {
+    options_.progress("building the switching graph");
+    return {solid_, options_.half_angle, options_.spanning};
+  }
+
+  PlanResult PlanToGoal() {
     goal_ = {goal_choice_.grasp, Locate(goal_choice_)};
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
                       " focus cells");
@@ -89,12 +108,6 @@ class PolyhedronPlanner {
     return result;
   }
 
- private:
-  PolyhedronGraph MakeGraph() const {
-    options_.progress("building the switching graph");
-    return {solid_, options_.half_angle, options_.spanning};
-  }
-
   [[nodiscard]] double same_point() const { return kSamePoint * solid_.diameter(); }
 
   [[nodiscard]] bool IsGoalTheStart() const {
@@ -103,21 +116,20 @@ class PolyhedronPlanner {
   }
 
   /// Checks a given grasp, draws a random one.
-  void Settle(GraspChoice& choice, RandomUse use) {
+  void Settle(GraspChoice& choice, RandomStream& random) {
     if (choice.kind == Kind::kGiven) {
       CheckGivenGrasp(choice, {"polyhedron", kContacts, kContacts}, judge_.frame(),
                       options_.half_angle, same_point());
       return;
     }
-    RandomStream random(options_.seed, use);
     if (choice.kind == Kind::kRandom) {
       const auto draw = [&](int cell) {
         const auto grasp = geometry_.Draw(cell, random);
         return grasp ? geometry_.GraspOf(*grasp) : Grasp();
       };
-      Urns urns = StartUrns(graph_.vertex_count());
-      if (use == RandomUse::kGoal) urns = GoalUrns(graph_.components(), CellsOf(start_.at));
-      choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
+      const bool is_goal = !goal_urns_.empty();
+      choice.grasp = DrawFromSets(choice, is_goal ? goal_urns_ : StartUrns(graph_.vertex_count()),
+                                  draw, judge_, random);
       return;
     }
     choice.grasp = DrawOnSurface(solid_, kContacts, judge_, random, choice.name);
@@ -172,6 +184,7 @@ class PolyhedronPlanner {
   GraspJudge judge_;
   GraspChoice start_choice_;
   GraspChoice goal_choice_;
+  Urns goal_urns_;  ///< that a random goal is drawn from
   PolyhedronGraph graph_;
   FocusGeometry geometry_;
   PolyhedronDraftMaker::End start_;

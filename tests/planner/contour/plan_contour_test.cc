@@ -164,12 +164,13 @@ TEST_P(PlanOnContourAt, OptimisedSwitchesHaveRegionsAtLeastAsLarge) {
   int larger = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      const auto plan = [&](SwitchAim aim) {
-        return PlanOnContour(polygon, Random(), Random(), Options(GetParam(), seed, aim));
-      };
-      const PlanResult room = plan(SwitchAim::kRoom);
-      const PlanResult region = plan(SwitchAim::kRegion);
-      ASSERT_TRUE(room.plan && region.plan);
+      const PlanResult room =
+          PlanOnContour(polygon, Random(), Random(), Options(GetParam(), seed, SwitchAim::kRoom));
+      ASSERT_TRUE(room.plan);
+      const PlanResult region =
+          PlanOnContour(polygon, Given(ContactsOf(room.plan->initial)), Given(room.plan->goal),
+                        Options(GetParam(), seed, SwitchAim::kRegion));
+      ASSERT_TRUE(region.plan);
       // Otherwise a switch was too weak for one of the two, and they went different ways.
       if (SetsOf(polygon, *room.plan) != SetsOf(polygon, *region.plan)) continue;
       const std::vector<double> of_room = RegionsOf(*room.plan);
