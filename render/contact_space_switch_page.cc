@@ -31,7 +31,9 @@ constexpr double kDiagramLine = 0.3;
 constexpr double kSquareLine = 0.8;
 constexpr double kSharedLine = 0.5;
 constexpr double kDotRadius = 1.3;
-constexpr double kMarkAside = 7;  ///< from a grasp to its number
+constexpr double kMarkAside = 6.5;   ///< from a grasp to its number inside the square
+constexpr double kMarkBeyond = 4.5;  ///< from the square to a number outside
+constexpr double kLargeSquare = 11;  ///< half-width that has room for the number
 
 constexpr Color kDiagramInk = {80, 92, 120};
 /// Pale: the diagram is drawn over it.
@@ -85,8 +87,10 @@ void DrawGrasp(cairo_t* cr, const SwitchSide& side, const PlotWindow& window) {
   cairo_set_line_width(cr, kSquareLine);
   cairo_stroke(cr);
   DrawDot(cr, at, kDotRadius);
-  const double aside = (at.x() < window.corner.x() + window.size().x() / 2 ? 1 : -1) * kMarkAside;
-  DrawMark(cr, std::to_string(side.grasp_entry), at + Vector2d(aside, -kMarkAside));
+  // In a corner of a large square, beyond the corner of a small one; towards the window's middle.
+  const double aside = half > kLargeSquare ? kMarkAside : half + kMarkBeyond;
+  const bool left = at.x() < window.corner.x() + window.size().x() / 2;
+  DrawMark(cr, std::to_string(side.grasp_entry), at + Vector2d(left ? aside : -aside, -aside));
 }
 
 /// A stretch of the shared length, as a bar about `x`.

@@ -1,5 +1,6 @@
 #include "render/panel_grasp.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +23,8 @@ constexpr double kLongConeFill = 0.12;
 constexpr double kConeBorderOpacity = 0.8;
 constexpr double kBeyondFocus = 1.12;  ///< of the distance from the contact to the focus point
 constexpr double kLongestOuter = kPanelMargin - 2;  ///< so that cones end on the panel
+constexpr double kConeInset = 1;                    ///< from the panel's border
+constexpr double kShortestInner = 12;               ///< whatever room there is
 constexpr double kHatchSpacing = 3.2;
 constexpr double kHatchWidth = 0.35;
 constexpr double kCellBorder = 0.5;
@@ -72,9 +75,28 @@ void DrawSide(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double ha
   }
 }
 
-double UsualLength(const Polygon& polygon, int side, const PanelView& view) {
+/// How far a side of a cone can be drawn on the panel, its borders included.
+double RoomOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
+  const Vector2d apex = view.ToPanel(cone.apex);
+  const Vector2d axis = side * PanelView::ToPanelDirection(cone.axis);
+  const Vector2d corner(view.width, view.height);
+  double room = corner.norm();
+  for (const double turn : {-cone.half_angle, 0.0, cone.half_angle}) {
+    const Vector2d direction = Eigen::Rotation2Dd(turn) * axis;
+    for (int k = 0; k < 2; ++k) {
+      if (direction[k] == 0) continue;
+      const double border = direction[k] > 0 ? corner[k] - kConeInset : kConeInset;
+      room = std::min(room, (border - apex[k]) / direction[k]);
+    }
+  }
+  return room;
+}
+
+double UsualLength(const Polygon& polygon, const DoubleCone& cone, int side,
+                   const PanelView& view) {
   const double usual = kConeLength * view.scale * polygon.diameter();
-  return side > 0 ? usual : std::min(usual, kLongestOuter);
+  if (side < 0) return std::min(usual, kLongestOuter);
+  return std::min(usual, std::max(RoomOnPanel(cone, side, view), kShortestInner));
 }
 
 /// The part of the line through `p` along `d` on the panel, a little inside its border.
@@ -102,7 +124,7 @@ std::vector<Vector2d> OnPanel(const Outline& outline, const PanelView& view) {
 
 double ConeLength(const Polygon& polygon, const GraspDiagram& grasp, const DoubleCone& cone,
                   int side, const PanelView& view) {
-  const double length = UsualLength(polygon, side, view);
+  const double length = UsualLength(polygon, cone, side, view);
   if (!grasp.focus || side * cone.axis.dot(*grasp.focus - cone.apex) <= 0) return length;
   return std::max(length, kBeyondFocus * view.scale * (*grasp.focus - cone.apex).norm());
 }
@@ -114,7 +136,7 @@ void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
     const DoubleCone& cone = grasp.cones[i];
     for (const int side : {1, -1}) {
       DrawSide(cr, view.ToPanel(cone.apex), side * PanelView::ToPanelDirection(cone.axis),
-               cone.half_angle, UsualLength(polygon, side, view),
+               cone.half_angle, UsualLength(polygon, cone, side, view),
                ConeLength(polygon, grasp, cone, side, view),
                FingerColor(diagram.fingers[i].finger));
     }

@@ -11,7 +11,8 @@
 namespace regrasp {
 
 /// How long a side of a cone is drawn, points: on the inner side a share of the polygon's diameter,
-/// on the outer side no more than the panel's margin, and in both cases beyond a focus point there.
+/// less where the panel ends, on the outer side no more than the panel's margin, and in both cases
+/// beyond a focus point there.
 /// @param side  1 the inner side, −1 the outer one.
 [[nodiscard]] double ConeLength(const Polygon& polygon, const GraspDiagram& grasp,
                                 const DoubleCone& cone, int side, const PanelView& view);

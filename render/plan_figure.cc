@@ -21,6 +21,10 @@ namespace {
 
 constexpr double kGap = 8;  ///< between panels of a sheet, points
 constexpr int kUsualColumns = 4;
+/// Panels as low as this, over their width, would be small in a usual row: a sheet of a long object
+/// has fewer columns if it is no taller than a page.
+constexpr double kLowPanel = 0.6;
+constexpr double kTallestSheet = 235 * kPointsPerMillimetre;
 
 constexpr double kBorderWidth = 0.9;  ///< of the polygon, points
 constexpr Color kMaterial = {234, 238, 243};
@@ -78,18 +82,29 @@ struct SheetLayout {
   }
 };
 
-SheetLayout LayOut(const Polygon& polygon, std::span<const StepDiagram> diagrams) {
+SheetLayout LayOutIn(int columns, const Polygon& polygon, std::span<const StepDiagram> diagrams) {
   SheetLayout layout;
-  layout.columns = SheetColumns(static_cast<int>(diagrams.size()));
-  const int on_page = std::min(layout.columns, kUsualColumns);
+  layout.columns = columns;
+  const int on_page = std::min(columns, kUsualColumns);
   const double panel = (kTwoColumnWidth - (on_page - 1) * kGap) / on_page;
   layout.view = FitView(polygon, diagrams, std::min(panel, kColumnWidth));
   for (std::size_t i = 0; i < diagrams.size(); ++i) {
     layout.captions.push_back(WrapCaption(diagrams[i].caption, layout.view.width));
-    if (i % layout.columns == 0) layout.most_lines.push_back(0);
+    if (i % columns == 0) layout.most_lines.push_back(0);
     layout.most_lines.back() = std::max(layout.most_lines.back(), layout.captions.back().size());
   }
   return layout;
+}
+
+SheetLayout LayOut(const Polygon& polygon, std::span<const StepDiagram> diagrams) {
+  const int columns = SheetColumns(static_cast<int>(diagrams.size()));
+  SheetLayout usual = LayOutIn(columns, polygon, diagrams);
+  const bool low = usual.view.height < kLowPanel * usual.view.width;
+  for (int fewer = 2; low && fewer < std::min(columns, kUsualColumns); ++fewer) {
+    SheetLayout layout = LayOutIn(fewer, polygon, diagrams);
+    if (layout.height() <= kTallestSheet) return layout;
+  }
+  return usual;
 }
 
 }  // namespace

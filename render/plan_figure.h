@@ -14,8 +14,8 @@ namespace regrasp {
 ///
 /// Every panel shows the polygon, the grasp (render/panel_grasp.h) and what the fingers do
 /// (render/panel_fingers.h), with its caption below. Sizes are those of print: lines from 0.35
-/// points, text of 7.5 points. All panels of a figure have one scale. More than 24 steps make the
-/// sheet wider, not the panels smaller.
+/// points, text of 7.5 points. All panels of a figure have one scale; long objects have fewer
+/// in a row. More than 24 steps make the sheet wider, not the panels smaller.
 ///
 /// Laws: the same plan gives the same bytes.
 /// @throws EnvironmentError  Cairo failed.
@@ -25,7 +25,7 @@ namespace regrasp {
 [[nodiscard]] std::string DrawSheet(const Polygon& polygon, std::span<const StepDiagram> diagrams,
                                     FigureFormat format);
 
-/// Panels in a row of a sheet of `count` (> 0).
+/// Panels in a row of a sheet of `count` (> 0), of objects that are not long.
 [[nodiscard]] int SheetColumns(int count);
 
 }  // namespace regrasp

@@ -103,6 +103,20 @@ TEST(PlanFigureTest, ALongPlanMakesALargerSheetThatCanBeDrawn) {
   EXPECT_GT(size.height, 2055);
 }
 
+TEST(PlanFigureTest, ALongObjectHasFewerPanelsInARow) {
+  const auto height = [](const Polygon& polygon) {
+    StepDiagram hold = SquareDiagrams()[0];
+    hold.grasp = {};
+    hold.fingers.clear();
+    const std::vector<StepDiagram> four(4, hold);
+    return PngSize(DrawSheet(polygon, four, FigureFormat::kPng)).height;
+  };
+  const Polygon bar = Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");
+  const Polygon plate = Polygon::FromRings({{{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}}}, "plate");
+  // Two rows of bars are higher than one row of plates, though a plate is five times as high.
+  EXPECT_GT(height(bar), height(plate));
+}
+
 TEST(PlanFigureTest, RowsOfASheetAreFilled) {
   for (const auto& [count, columns] :
        {std::pair{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 3}, {6, 3}, {7, 4}, {8, 4}, {24, 4}}) {
@@ -146,6 +160,19 @@ TEST(PanelGraspTest, AConeReachesBeyondTheFocusOnItsSideOnly) {
     EXPECT_GT(ConeLength(triangle, diagram.grasp, cone, 1, view), distance);
     EXPECT_LT(ConeLength(triangle, diagram.grasp, cone, -1, view), kPanelMargin);
   }
+}
+
+TEST(PanelGraspTest, AConeEndsOnThePanel) {
+  const Polygon square = MakeSquare();
+  const PanelView view = FitView(square, {}, 240);
+  const auto length = [&](double x) {
+    // The material's side is to the right, as it is from a hole's border.
+    const DoubleCone cone = {Vector2d(x, 0), Vector2d(1, 0), 0.3};
+    return ConeLength(square, {}, cone, 1, view);
+  };
+  EXPECT_EQ(length(-0.5), length(0));
+  EXPECT_LT(length(0.8), length(0));
+  EXPECT_LT(view.ToPanel({0.8, 0}).x() + length(0.8), 240);
 }
 
 TEST(PanelFingersTest, RoomOutsideEndsWhereThePolygonBeginsAgain) {
