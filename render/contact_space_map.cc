@@ -31,19 +31,19 @@ std::array<int, 2> RingsOf(const ContourGraph& graph, int set) {
   return {graph.boundary().ring_of(edges[0]), graph.boundary().ring_of(edges[1])};
 }
 
-/// The centre of the largest square in a set.
-std::optional<Vector2d> FindCentre(const std::vector<DiagramEdge>& diagram) {
-  std::optional<Vector2d> centre;
+/// The largest square in a set, at an end of an edge of its diagram; of size 0 where there is none.
+struct LargestSquare {
+  Vector2d centre = Vector2d::Zero();
   double size = 0;
+};
+
+LargestSquare FindLargest(const std::vector<DiagramEdge>& diagram) {
+  LargestSquare largest;
   for (const DiagramEdge& edge : diagram) {
-    for (const bool at_end : {false, true}) {
-      const double half_width = at_end ? edge.to_size : edge.from_size;
-      if (half_width <= size) continue;
-      size = half_width;
-      centre = at_end ? edge.to : edge.from;
-    }
+    if (edge.from_size > largest.size) largest = {edge.from, edge.from_size};
+    if (edge.to_size > largest.size) largest = {edge.to, edge.to_size};
   }
-  return centre;
+  return largest;
 }
 
 MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
@@ -61,9 +61,9 @@ MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
     AddBoth({rings, {segment.from, segment.to}}, made.border);
   }
   if (!name) return made;
-  if (const auto centre = FindCentre(geometry.DiagramOf(set))) {
-    made.label_places = {{rings, *centre}, {{rings[1], rings[0]}, Mirrored(*centre)}};
-  }
+  const auto [centre, size] = FindLargest(geometry.DiagramOf(set));
+  made.largest = size;
+  if (size > 0) made.label_places = {{rings, centre}, {{rings[1], rings[0]}, Mirrored(centre)}};
   return made;
 }
 

@@ -27,6 +27,7 @@ struct MapSet {
   std::vector<SpaceShape> pieces;
   std::vector<SpaceShape> border;        ///< of two points each
   std::vector<SpacePoint> label_places;  ///< centres of its largest squares, where it has a name
+  double largest = 0;                    ///< half-width of these squares
 };
 
 struct MapSwitch {

@@ -66,6 +66,7 @@ class Overview {
   void DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const;
   void DrawAxes(cairo_t* cr) const;
   void DrawPlan(cairo_t* cr) const;
+  [[nodiscard]] bool HasRoomAt(const MapSet& set, const SpacePoint& place) const;
   void DrawMarks(cairo_t* cr) const;
 
   const Boundary& boundary_;
@@ -169,6 +170,14 @@ void Overview::DrawPlan(cairo_t* cr) const {
   for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kDotRadius);
 }
 
+/// True iff a set's largest square has room for its name, and no grasp is there.
+bool Overview::HasRoomAt(const MapSet& set, const SpacePoint& place) const {
+  const double half = set.largest * WindowOf(place.rings).scale.minCoeff();
+  return half >= kMarkRadius && std::ranges::none_of(map_.rests, [&](const SpacePoint& rest) {
+           return (ToPage(rest) - ToPage(place)).norm() < kMarkRadius + kDotRadius;
+         });
+}
+
 /// The numbers of the grasps and the names of the sets.
 void Overview::DrawMarks(cairo_t* cr) const {
   std::vector<std::string> marks;
@@ -192,8 +201,14 @@ void Overview::DrawMarks(cairo_t* cr) const {
   }
   for (const MapSet& set : map_.sets) {
     for (const SpacePoint& place : set.label_places) {
-      marks.push_back(SetName(*set.name));
-      anchors.push_back({ToPage(place), Vector2d::Zero()});
+      const Vector2d at = ToPage(place);
+      if (HasRoomAt(set, place)) {
+        DrawMark(cr, SetName(*set.name), at);
+        obstacles.push_back({at, at, kMarkRadius, kDotWeight});
+      } else {
+        marks.push_back(SetName(*set.name));
+        anchors.push_back({at, Vector2d::Zero()});
+      }
     }
   }
   const std::vector<Vector2d> centres = PlaceLabels(
