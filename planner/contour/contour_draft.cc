@@ -41,24 +41,35 @@ std::optional<Draft> ContourDraftMaker::Make(const std::vector<int>& path,
     const bool first = held.contact.face == geometry_.graph().pieces()[at_.piece].edges[0];
     fingers_[first ? 0 : 1] = held.finger;
   }
+  std::vector<ContourSwitch> switches;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const VertexPair edge = Unordered(path[i], path[i + 1]);
-    const auto found = ChooseSwitch(path[i], path[i + 1], i + 2 == path.size());
+    const auto found = ChooseRoomySwitch(path[i], path[i + 1], i + 2 == path.size());
     if (!found) {
-      banned.insert(edge);
+      banned.insert(Unordered(path[i], path[i + 1]));
       return std::nullopt;
     }
-    AlignTo(found->before, edge, draft);
-    SwitchTo(*found, edge, draft);
+    switches.push_back(*found);
+    at_ = found->after;
+  }
+  at_ = start_.at;
+  for (std::size_t i = 0; i < switches.size(); ++i) {
+    const VertexPair edge = Unordered(path[i], path[i + 1]);
+    if (aim_ == SwitchAim::kRegion) Enlarge(path[i], path[i + 1], switches[i]);
+    AlignTo(switches[i].before, edge, draft);
+    SwitchTo(switches[i], edge, draft);
   }
   AlignTo(goal_.at, std::nullopt, draft);
   return draft;
 }
 
-std::optional<ContourSwitch> ContourDraftMaker::ChooseSwitch(int from, int to, bool last) {
-  if (aim_ == SwitchAim::kRoom) return ChooseRoomySwitch(from, to, last);
-  return FindLargestSwitch(geometry_, from, to,
-                           [this](const ContourSwitch& found) { return IsGood(found); });
+/// Takes the switch with the largest regions whose grasps are good, where there is one with larger
+/// regions than the one at hand.
+void ContourDraftMaker::Enlarge(int from, int to, ContourSwitch& found) {
+  const auto largest = FindLargestSwitch(
+      geometry_, from, to, [this](const ContourSwitch& candidate) { return IsGood(candidate); });
+  if (!largest) return;
+  const auto rank = [this](const ContourSwitch& s) { return std::pair(IsGood(s), RegionOf(s)); };
+  if (rank(*largest) > rank(found)) found = *largest;
 }
 
 std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int to, bool last) {
@@ -89,6 +100,11 @@ std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int 
     if (serves(found, true, false)) return found;
   }
   return best;
+}
+
+/// Half-width of the smaller contact region of its two grasps.
+double ContourDraftMaker::RegionOf(const ContourSwitch& found) const {
+  return std::min(geometry_.SizeAt(found.before), geometry_.SizeAt(found.after));
 }
 
 /// Of the grasps that the switch is free to choose.
@@ -148,9 +164,8 @@ void ContourDraftMaker::SwitchTo(const ContourSwitch& found, VertexPair chosen_f
   // Of the three fingers the one that is free; their numbers sum to 3.
   const int free = kContourFingers - fingers_[0] - fingers_[1];
   FingerContact placed = {free, GraspOf(found.after)[1 - stays_after]};
-  const double region = std::min(geometry_.SizeAt(found.before), geometry_.SizeAt(found.after));
   const double rounding = kBoundaryRounding * graph.boundary().perimeter(0);
-  placed.region = std::max((1 - kRegionRounding) * region - rounding, 0.0);
+  placed.region = std::max((1 - kRegionRounding) * RegionOf(found) - rounding, 0.0);
   draft.steps.emplace_back(Switch{{placed}, {fingers_[1 - stays_before]}});
   const int stays = fingers_[stays_before];
   fingers_[stays_after] = stays;

@@ -44,8 +44,9 @@ class ContourDraftMaker {
                                           std::set<VertexPair>& banned);
 
  private:
-  [[nodiscard]] std::optional<ContourSwitch> ChooseSwitch(int from, int to, bool last);
   [[nodiscard]] std::optional<ContourSwitch> ChooseRoomySwitch(int from, int to, bool last);
+  void Enlarge(int from, int to, ContourSwitch& found);
+  [[nodiscard]] double RegionOf(const ContourSwitch& found) const;
   [[nodiscard]] bool IsGood(const ContourSwitch& found) const;
   [[nodiscard]] Grasp GraspOf(const PlacedGrasp& grasp) const;
   [[nodiscard]] FingerGrasp Held(const PlacedGrasp& grasp) const;

@@ -133,6 +133,9 @@ using Sizes = std::pair<double, double>;
 /// Switches that are asked whether they are accepted before the largest one is taken as it is.
 constexpr std::size_t kMostAsked = 2000;
 
+/// At the end of an edge of a diagram one of the half-widths may be nothing but rounding.
+constexpr double kLeastShare = 1e-9;
+
 class LargestSwitch {
  public:
   explicit LargestSwitch(const ContourGraph& graph) : graph_(graph) {}
@@ -141,17 +144,12 @@ class LargestSwitch {
     const double low = std::max(a.low_place, b.low_place);
     const double high = std::min(a.high_place, b.high_place);
     if (low > high) return;
-    Found best;
-    Try(a, b, low, best);
-    Try(a, b, high, best);
-    Try(a, b, (low + high) / 2, best);
-    // Where the two lines cross.
+    // Where the smaller of two lines is largest: at an end, or where they cross; between them for
+    // those who don't accept that.
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) Add(a, b, low + share * (high - low));
     const double at_low = a.SizeAt(low) - b.SizeAt(low);
     const double at_high = a.SizeAt(high) - b.SizeAt(high);
-    if (at_low * at_high < 0) {
-      Try(a, b, low + at_low / (at_low - at_high) * (high - low), best);
-    }
-    if (best.sizes > Sizes()) found_.push_back(best);
+    if (at_low * at_high < 0) Add(a, b, low + at_low / (at_low - at_high) * (high - low));
   }
 
   /// nullopt where no place is common to two edges.
@@ -176,9 +174,9 @@ class LargestSwitch {
     double place = 0;
   };
 
-  static void Try(const Profile& a, const Profile& b, double place, Found& best) {
+  void Add(const Profile& a, const Profile& b, double place) {
     const Sizes sizes = std::minmax({a.SizeAt(place), b.SizeAt(place)});
-    if (sizes > best.sizes) best = {sizes, &a, &b, place};
+    if (sizes.first > kLeastShare * sizes.second) found_.push_back({sizes, &a, &b, place});
   }
 
   [[nodiscard]] ContourSwitch Make(const Found& found) const {
