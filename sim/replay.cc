@@ -15,11 +15,6 @@
 namespace regrasp {
 namespace {
 
-FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
-  for (FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
-  return grasp;
-}
-
 void RestoreRoles(Stage& stage) {
   for (StageFinger& finger : stage.fingers()) {
     finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
@@ -38,16 +33,22 @@ void Perform(Stage& stage, const Object& object, const Plan& plan, int index, St
     SwitchFingers(stage, ToScene(object, plan.scale, change->place), change->release);
     return;
   }
-  Align align = std::get<Align>(step);
-  for (FingerGrasp& waypoint : align.waypoints) {
-    waypoint = ToScene(object, plan.scale, std::move(waypoint));
-  }
-  result.align_mode = PerformAlign(stage, align);
+  const auto& waypoints = std::get<Align>(step).waypoints;
+  if (waypoints.empty()) return;
+  result.align_mode = PerformAlign(stage, *stage.scene().scripts[index - 1]);
+  TellMoved(stage, ToScene(object, plan.scale, waypoints.front()),
+            ToScene(object, plan.scale, waypoints.back()));
 }
 
 StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int index) {
   StepReplay result;
   result.index = index;
+  if (const std::string& why = stage.scene().unreachable[index]; !why.empty()) {
+    result.reason = Reason::kUnreachable;
+    result.detail = why;
+    result.snapshot = stage.TakeSnapshot();
+    return result;
+  }
   RestoreRoles(stage);
   stage.StartJudging();
   try {

@@ -41,8 +41,8 @@ inline constexpr double kStiffness = 20;               ///< k D / F
 inline constexpr double kFingerMass = 0.2;             ///< m / M
 inline constexpr double kDampingStep = 0.4;            ///< damping · step / mass
 inline constexpr double kTipRadius = 0.04;             ///< over D
-inline constexpr double kLeastTipRadius = 1e-3;  ///< over D; closer to a concave edge than this
-                                                 ///< the finger is a point all the same
+inline constexpr double kLeastTipRadius = 1e-4;  ///< over D; where even this does not fit, a finger
+                                                 ///< cannot stand
 inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D

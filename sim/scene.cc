@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "sim/clearance.h"
@@ -24,19 +25,15 @@ constexpr int kClearanceSamples = 8;
 /// Fingers that the plan never uses wait this far from the centroid, in diameters.
 constexpr double kParkingDistance = 1.5;
 
+/// Gathers where fingers touch.
 struct SiteCollector {
   const Object& object;
   double scale;
   Scene& scene;
   double point_tolerance;  ///< metres
 
-  void Add(int finger, const Contact& from, const Contact& to) {
-    for (const Contact* contact : {&from, &to}) {
-      if (contact->face < 0 || contact->face >= object.face_count()) {
-        throw InputError("replay: a contact of finger " + std::to_string(finger) +
-                         " is on no face of the object");
-      }
-    }
+  /// Returns the site's index.
+  int Add(int finger, const Contact& from, const Contact& to) {
     const ContactSite site{to.face, ToScene(object, scale, from.face == to.face ? from : to).p,
                            ToScene(object, scale, to).p};
     int index = FindEqual(site);
@@ -47,27 +44,30 @@ struct SiteCollector {
     }
     std::vector<int>& fingers = scene.fingers_of_site[index];
     if (std::ranges::find(fingers, finger) == fingers.end()) fingers.push_back(finger);
-    if (finger >= static_cast<int>(first_site.size())) first_site.resize(finger + 1, -1);
-    if (first_site[finger] < 0) first_site[finger] = index;
+    return index;
   }
 
-  void Add(const FingerContact& held) { Add(held.finger, held.contact, held.contact); }
-
-  void Add(const Step& step) {
-    if (const auto* change = std::get_if<Switch>(&step)) {
-      for (const FingerContact& placed : change->place) Add(placed);
-      return;
+  void AddPlanned(const FingerGrasp& grasp) {
+    for (const FingerContact& held : grasp) {
+      const int index = Add(held.finger, held.contact, held.contact);
+      if (scene.first_site[held.finger] < 0) scene.first_site[held.finger] = index;
     }
-    const auto& waypoints = std::get<Align>(step).waypoints;
-    for (std::size_t j = 1; j < waypoints.size(); ++j) {
-      for (const FingerContact& to : waypoints[j]) {
-        const auto from = std::ranges::find(waypoints[j - 1], to.finger, &FingerContact::finger);
-        Add(to.finger, from == waypoints[j - 1].end() ? to.contact : from->contact, to.contact);
+  }
+
+  void Add(const AlignScript& script) {
+    for (const AlignMove& move : script.moves) {
+      if (const auto* over = std::get_if<FingersGoOver>(&move)) {
+        for (const FingerGrasp* grasp : {&over->stand_ins, &over->targets}) {
+          for (const FingerContact& held : *grasp) Add(held.finger, held.contact, held.contact);
+        }
+        continue;
+      }
+      const auto& grasps = std::get<FingersSlide>(move).grasps;
+      for (std::size_t k = 0; k < grasps.front().size(); ++k) {
+        Add(grasps.front()[k].finger, grasps.front()[k].contact, grasps.back()[k].contact);
       }
     }
   }
-
-  std::vector<int> first_site;  ///< of every finger
 
  private:
   [[nodiscard]] int FindEqual(const ContactSite& site) const {
@@ -81,6 +81,129 @@ struct SiteCollector {
     return -1;
   }
 };
+
+/// The initial grasp and the first steps of a plan, and how many fingers they need.
+struct Sequence {
+  const Object& object;
+  const Plan& plan;
+  int steps;
+
+  /// The contacts that entry `index` of the report names and where fingers come to rest.
+  [[nodiscard]] FingerGrasp PlannedRests(int index) const {
+    if (index == 0) return plan.initial;
+    const Step& step = plan.steps[index - 1];
+    if (const auto* change = std::get_if<Switch>(&step)) return change->place;
+    const auto& waypoints = std::get<Align>(step).waypoints;
+    return waypoints.empty() ? FingerGrasp() : waypoints.back();
+  }
+
+  [[nodiscard]] int CountFingers() const {
+    int fingers = plan.fingers;
+    for (int index = 0; index <= steps; ++index) {
+      for (const FingerContact& held : PlannedRests(index)) {
+        fingers = std::max(fingers, held.finger + 1);
+      }
+    }
+    return fingers;
+  }
+
+  void CheckFaces() const {
+    const auto check = [&](const FingerGrasp& grasp) {
+      for (const FingerContact& held : grasp) {
+        if (held.contact.face >= 0 && held.contact.face < object.face_count()) continue;
+        throw InputError("replay: a contact of finger " + std::to_string(held.finger) +
+                         " is on no face of the object");
+      }
+    };
+    check(plan.initial);
+    for (int i = 0; i < steps; ++i) {
+      if (const auto* align = std::get_if<Align>(&plan.steps[i])) {
+        std::ranges::for_each(align->waypoints, check);
+      } else {
+        check(PlannedRests(i + 1));
+      }
+    }
+  }
+};
+
+/// The smallest clearance of contacts where fingers stand, at most that of the largest fingertip.
+double SmallestClearance(const Object& object, const FingerGrasp& grasp) {
+  double least = kTipRadius * object.diameter() * 2;
+  for (const FingerContact& held : grasp) {
+    least = std::min(least, ComputeClearance(object, held.contact, least));
+  }
+  return least;
+}
+
+/// Scripts of all aligns, in the object's own frame and unit.
+std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, int fingers,
+                                                     double half_angle) {
+  const double D = sequence.object.diameter();
+  double clearance = 2 * kTipRadius * D;
+  for (int index = 0; index <= sequence.steps; ++index) {
+    clearance =
+        std::min(clearance, SmallestClearance(sequence.object, sequence.PlannedRests(index)));
+  }
+  AlignLimits limits{half_angle, {}, 0, 2 * kLeastTipRadius * D};
+  limits.clearance = std::max(clearance, limits.least_clearance);
+  std::vector<std::optional<AlignScript>> scripts(sequence.steps);
+  FingerGrasp holding = sequence.plan.initial;
+  for (int i = 0; i < sequence.steps; ++i) {
+    const Step& step = sequence.plan.steps[i];
+    if (const auto* align = std::get_if<Align>(&step)) {
+      limits.spare.clear();
+      for (int f = 0; f < fingers; ++f) {
+        if (std::ranges::find(holding, f, &FingerContact::finger) == holding.end()) {
+          limits.spare.push_back(f);
+        }
+      }
+      scripts[i] = WriteAlignScript(sequence.object, *align, limits);
+    }
+    holding = GraspAfter(holding, step);
+  }
+  return scripts;
+}
+
+AlignScript ToScene(const Object& object, double scale, AlignScript script) {
+  const auto convert = [&](FingerGrasp& grasp) {
+    grasp = ToScene(object, scale, std::move(grasp));
+  };
+  for (AlignMove& move : script.moves) {
+    if (auto* over = std::get_if<FingersGoOver>(&move)) {
+      convert(over->stand_ins);
+      convert(over->targets);
+    } else {
+      std::ranges::for_each(std::get<FingersSlide>(move).grasps, convert);
+    }
+  }
+  return script;
+}
+
+/// Names the first finger that has to come to rest where not even the smallest fingertip fits.
+std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
+  const double least = kLeastTipRadius * object.diameter();
+  for (const FingerContact& held : rests) {
+    const double room = ComputeClearance(object, held.contact, least);
+    if (room >= least) continue;
+    return "finger " + std::to_string(held.finger) +
+           " cannot stand at its contact: a ball of radius " + FormatShort(room) +
+           " there touches the object elsewhere too";
+  }
+  return "";
+}
+
+/// Everywhere that fingers come to rest in entry `index`.
+FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
+  FingerGrasp rests = sequence.PlannedRests(index);
+  if (index == 0 || !scene_O.scripts[index - 1]) return rests;
+  for (const AlignMove& move : scene_O.scripts[index - 1]->moves) {
+    if (const auto* over = std::get_if<FingersGoOver>(&move)) {
+      rests.insert(rests.end(), over->stand_ins.begin(), over->stand_ins.end());
+      rests.insert(rests.end(), over->targets.begin(), over->targets.end());
+    }
+  }
+  return rests;
+}
 
 Vector3d FromScene(const Object& object, double scale, const Vector3d& p_S) {
   return p_S / scale + object.mass_properties().centroid;
@@ -131,10 +254,8 @@ Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& 
   return inertia;
 }
 
-void PlaceFingersAtStart(const Object& object, int fingers, const std::vector<int>& first_site,
-                         Scene& scene) {
-  for (int f = 0; f < fingers; ++f) {
-    const int site = f < static_cast<int>(first_site.size()) ? first_site[f] : -1;
+void PlaceFingersAtStart(const Object& object, Scene& scene) {
+  for (const int site : scene.first_site) {
     if (site < 0) {
       scene.finger_start_S.push_back(Vector3d::UnitX() * kParkingDistance *
                                      scene.settings.diameter_m);
@@ -146,39 +267,52 @@ void PlaceFingersAtStart(const Object& object, int fingers, const std::vector<in
   }
 }
 
+/// Scripts, what is unreachable, and sites.
+void LayOut(const Sequence& sequence, int fingers, double half_angle, Scene& scene) {
+  const Object& object = sequence.object;
+  const double scale = sequence.plan.scale;
+  scene.scripts = WriteScripts(sequence, fingers, half_angle);
+  scene.first_site.assign(fingers, -1);
+  SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
+  for (int index = 0; index <= sequence.steps; ++index) {
+    scene.unreachable.push_back(FindUnreachable(object, AllRests(sequence, scene, index)));
+    if (index == 0 || !scene.scripts[index - 1]) {
+      collector.AddPlanned(sequence.PlannedRests(index));
+      continue;
+    }
+    collector.Add(*scene.scripts[index - 1]);
+    scene.scripts[index - 1] = ToScene(object, scale, *std::move(scene.scripts[index - 1]));
+  }
+}
+
 }  // namespace
 
 Contact ToScene(const Object& object, double scale, const Contact& contact) {
   return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face};
 }
 
+FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
+  for (FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
+  return grasp;
+}
+
 Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& options) {
-  Scene scene;
-  scene.dimension = body.dimension();
-  SiteCollector collector{
-      body, plan.scale, scene, kPointTolerance * body.diameter() * plan.scale, {}};
-  int fingers = plan.fingers;
-  for (const FingerContact& held : plan.initial) fingers = std::max(fingers, held.finger + 1);
-  for (int i = 0; i < steps; ++i) {
-    if (const auto* change = std::get_if<Switch>(&plan.steps[i])) {
-      for (const FingerContact& placed : change->place) {
-        fingers = std::max(fingers, placed.finger + 1);
-      }
-    }
-  }
+  const Sequence sequence{body, plan, steps};
+  sequence.CheckFaces();
+  const int fingers = sequence.CountFingers();
   if (fingers > kMostFingers) {
     throw InputError("replay: " + std::to_string(fingers) + " fingers; " +
                      std::to_string(kMostFingers) + " can be simulated");
   }
-  for (const FingerContact& held : plan.initial) collector.Add(held);
-  for (int i = 0; i < steps; ++i) collector.Add(plan.steps[i]);
-
+  Scene scene;
+  scene.dimension = body.dimension();
+  LayOut(sequence, fingers, options.half_angle.value_or(plan.half_angle), scene);
   scene.settings = DeriveSettings(body, plan.scale, plan.half_angle,
                                   SmallestClearance(body, plan.scale, scene), options);
   for (const ContactSite& site : scene.sites) {
     scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings));
   }
-  PlaceFingersAtStart(body, fingers, collector.first_site, scene);
+  PlaceFingersAtStart(body, scene);
   scene.inertia = Inertia(body, plan.scale, scene.settings);
   return scene;
 }

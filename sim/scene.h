@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "sim/align_script.h"
 #include "sim/contact_patches.h"
 #include "sim/settings.h"
 
@@ -18,15 +20,19 @@ namespace regrasp {
 struct Scene {
   int dimension = 3;
   ReplaySettings settings;
-  std::vector<ContactSite> sites;                     ///< where fingers touch, metres in S
-  std::vector<std::vector<ContactPatch>> patches;     ///< per site, metres in S
-  std::vector<std::vector<int>> fingers_of_site;      ///< which fingers touch there in the plan
+  std::vector<ContactSite> sites;                   ///< where fingers touch, metres in S
+  std::vector<std::vector<ContactPatch>> patches;   ///< per site, metres in S
+  std::vector<std::vector<int>> fingers_of_site;    ///< which fingers touch there
+  std::vector<int> first_site;                      ///< where the plan first puts each finger, −1
+  std::vector<std::optional<AlignScript>> scripts;  ///< of every step that is an align, in S
+  std::vector<std::string> unreachable;  ///< of every entry: which finger cannot stand, or nothing
   std::vector<Eigen::Vector3d> finger_start_S;        ///< tip of every finger at the beginning
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m², about the centroid
 };
 
 /// Metres about the centroid; normal and face stay.
 [[nodiscard]] Contact ToScene(const Object& object, double scale, const Contact& contact);
+[[nodiscard]] FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp);
 
 /// Everything that the replay of `plan` needs to know about the body. Only the initial grasp and
 /// the first `steps` steps are looked at.

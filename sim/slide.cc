@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/align.h"
+#include "sim/align_path.h"
 #include "sim/grasp_control.h"
 #include "sim/motions.h"
 

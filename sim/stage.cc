@@ -1,6 +1,5 @@
 #include "sim/stage.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace regrasp {
@@ -12,14 +11,9 @@ namespace {
 
 /// Where the plan first puts a finger; on no face where it never does.
 Contact FirstContact(const Object& body, const Scene& scene, int finger) {
-  for (std::size_t i = 0; i < scene.sites.size(); ++i) {
-    const ContactSite& site = scene.sites[i];
-    if (std::ranges::find(scene.fingers_of_site[i], finger) == scene.fingers_of_site[i].end()) {
-      continue;
-    }
-    return {site.from, body.inward_normal(site.face), site.face};
-  }
-  return {};
+  if (scene.first_site[finger] < 0) return {};
+  const ContactSite& site = scene.sites[scene.first_site[finger]];
+  return {site.from, body.inward_normal(site.face), site.face};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "replay_cases.h"
+#include "sim/align_path.h"
 
 namespace regrasp {
 namespace {
@@ -106,23 +107,35 @@ TEST(InterpolateContacts, TurnsNormalsOnTheGreatCircle) {
   EXPECT_EQ(Interpolate(from, to, 1)[0].contact.n, to[0].contact.n);
 }
 
-TEST(CutAlignTest, CutsUntilTheMixturesAreForceClosureAndGivesUpWhereNoneIs) {
+int CountMoves(const CubeCase& cube, const FingerGrasp& from, const FingerGrasp& to, double degrees,
+               std::vector<int> spare, bool slides) {
+  const AlignLimits limits{Radians(degrees), std::move(spare), 1e-3, 1e-3};
+  const AlignScript script = WriteAlignScript(cube.object, Align{{from, to}}, limits);
+  int moves = 0;
+  for (const AlignMove& move : script.moves) {
+    moves += std::holds_alternative<FingersSlide>(move) == slides;
+  }
+  return moves;
+}
+
+TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesWhereNoneIs) {
   const CubeCase cube;
   // Two opposite pairs slide from one end of their faces to the other: a pair that has half gone
   // over is far from opposite, so at little friction the way must be cut.
   const FingerGrasp from = {cube.At(0, 0.03, -0.02, -0.02), cube.At(1, -0.03, -0.02, -0.02),
                             cube.At(2, -0.02, 0.03, -0.018), cube.At(3, -0.02, -0.03, -0.018)};
-  const FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
-                          cube.At(2, 0.02, 0.03, 0.018), cube.At(3, 0.02, -0.03, 0.018)};
-  const WrenchFrame frame = cube.object.wrench_frame();
-  const auto rough = CutAlign(from, to, frame, Radians(20), 1);
-  const auto fine = CutAlign(from, to, frame, Radians(5), 1);
-  ASSERT_TRUE(rough.has_value());
-  ASSERT_TRUE(fine.has_value());
-  EXPECT_LT(rough->size(), fine->size());
-  EXPECT_EQ(fine->front().from.front().contact.p, from.front().contact.p);
-  EXPECT_EQ(fine->back().to.front().contact.p, to.front().contact.p);
-  EXPECT_FALSE(CutAlign(from, to, frame, Radians(0.1), 1).has_value());
+  FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
+                    cube.At(2, 0.02, 0.03, 0.018), cube.At(3, 0.02, -0.03, 0.018)};
+  const int rough = CountMoves(cube, from, to, 20, {4}, false);
+  EXPECT_GT(rough, 0);
+  EXPECT_LT(rough, CountMoves(cube, from, to, 5, {4}, false));
+  EXPECT_EQ(CountMoves(cube, from, to, 5, {4}, true), 0);
+  EXPECT_EQ(CountMoves(cube, from, to, 5, {}, false), 0);
+  EXPECT_EQ(CountMoves(cube, from, to, 5, {}, true), 1);
+  // Both pairs end askew: from somewhere on the way on nothing holds.
+  to = {cube.At(0, 0.03, 0.029, 0.029), cube.At(1, -0.03, -0.029, -0.029),
+        cube.At(2, 0.029, 0.03, -0.029), cube.At(3, -0.029, -0.03, 0.029)};
+  EXPECT_EQ(CountMoves(cube, from, to, 5, {4}, true), 1);
 }
 
 }  // namespace

@@ -119,20 +119,36 @@ void ExpectTouchesAsPlanned(const Polygon& polygon, const FingerGrasp& grasp,
   EXPECT_EQ(touching, grasp.size());
 }
 
-TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCornerAndTheCornerItself) {
+TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
   const Polygon l = MakeL();
   Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
-  // 0.4 mm from the corner, closer than a fingertip is usually thick, and in the corner.
+  // 0.4 and 0.04 mm from the corner, closer than a fingertip is usually thick.
   plan.steps = {Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {0, 1}},
-                Switch{{OnEdge(l, 0, 2, 1), OnEdge(l, 1, 0, 0.5)}, {2, 3}},
-                Switch{{OnEdge(l, 2, 3, 0), OnEdge(l, 3, 5, 0.5)}, {0, 1}}};
+                Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
   const ReplayResult result = ReplayPlan(l, plan, {});
-  ExpectGood(result, 4);
-  EXPECT_LT(result.settings.fingertip_radius_m, 0.0004);
+  ExpectGood(result, 3);
+  EXPECT_LT(result.settings.fingertip_radius_m, 0.00004);
   FingerGrasp grasp = plan.initial;
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
     ExpectTouchesAsPlanned(l, grasp, result.steps[i].snapshot);
+  }
+}
+
+TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
+  const Polygon l = MakeL();
+  const FingerGrasp good = {OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)};
+  for (const double share : {0.9999, 1.0}) {
+    const FingerContact corner = OnEdge(l, 2, 2, share);
+    const ReplayResult hold = ReplayPlan(l, MakePlanarPlan({corner, OnEdge(l, 1, 0, 0.5)}, 20), {});
+    EXPECT_EQ(hold.steps.at(0).reason, Reason::kUnreachable);
+    EXPECT_NE(hold.steps.at(0).detail.find("finger 2 cannot stand"), std::string::npos);
+    Plan plan = MakePlanarPlan(good, 20);
+    plan.steps = {Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {0, 1}}};
+    const ReplayResult result = ReplayPlan(l, plan, {});
+    ASSERT_EQ(result.steps.size(), 2u);
+    EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
+    EXPECT_EQ(result.steps[1].reason, Reason::kUnreachable);
   }
 }
 

@@ -85,6 +85,8 @@ std::optional<Plan> DrawAlign(const Polygon& polygon, int fingers, bool corner, 
       waypoints.back()[0] = OnEdge(polygon, from[0].finger, edge, 1);
       waypoints.push_back(waypoints.back());
       waypoints.back()[0] = OnEdge(polygon, from[0].finger, next, 0);
+      waypoints.push_back(waypoints.back());
+      waypoints.back()[0] = OnEdge(polygon, from[0].finger, next, dice.Share());
     }
     if (!std::ranges::all_of(waypoints, [&](const auto& grasp) { return dice.IsGood(grasp); })) {
       continue;

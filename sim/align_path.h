@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// The contacts `share` of the way between two waypoints; normals turn on the great circle.
+[[nodiscard]] FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double share);
+
+/// The way of an align as one motion: t from 0 to end(), a whole number at each waypoint.
+class AlignPath {
+ public:
+  /// @param align  at least one waypoint; each has the fingers of the first, in any order.
+  explicit AlignPath(const Align& align);
+
+  [[nodiscard]] int end() const { return static_cast<int>(waypoints_.size()) - 1; }
+  /// Fingers in the order of the first waypoint.
+  [[nodiscard]] FingerGrasp At(double t) const;
+  /// True iff the k-th contact is between the normals of two faces at t.
+  [[nodiscard]] bool IsTurning(std::size_t k, double t) const;
+
+ private:
+  std::vector<FingerGrasp> waypoints_;
+};
+
+}  // namespace regrasp

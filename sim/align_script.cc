@@ -1,0 +1,250 @@
+#include "sim/align_script.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "planner/grasp/force_closure.h"
+#include "sim/align_path.h"
+#include "sim/clearance.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Contacts this close, over D, are one: the finger stays.
+constexpr double kSamePoint = 1e-9;
+
+/// Where on its finger's way a stand-in touches, as far as it can: in the middle, so that it is far
+/// from both ends; at last at the target itself.
+constexpr std::array kStandInShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
+
+/// A piece is lengthened by halving the last share of the way so often.
+constexpr int kRefinements = 4;
+
+/// What is asked of a piece.
+struct Demand {
+  double half_angle;
+  double clearance;  ///< 0: none
+  bool may_turn;     ///< fingers may rest between the normals of two faces
+};
+
+struct Piece {
+  double end = 0;
+  std::vector<AlignMove> moves;
+};
+
+class ScriptWriter {
+ public:
+  ScriptWriter(const Object& object, const Align& align, const AlignLimits& limits)
+      : object_(object), limits_(limits), frame_(object.wrench_frame()), path_(align) {}
+
+  AlignScript Write() {
+    AlignScript script;
+    double at = 0;
+    while (at < path_.end()) {
+      if (std::optional<Piece> piece = ChoosePiece(at)) {
+        std::ranges::move(piece->moves, std::back_inserter(script.moves));
+        at = piece->end;
+        continue;
+      }
+      const double next = std::floor(at) + 1;
+      AddSlides(at, next, script);
+      at = next;
+    }
+    return script;
+  }
+
+ private:
+  using Places = std::vector<std::size_t>;
+
+  [[nodiscard]] bool Holds(const Grasp& grasp, double half_angle) const {
+    return IsForceClosure(grasp, frame_, half_angle);
+  }
+  [[nodiscard]] bool HoldsAt(double t) const {
+    return Holds(ContactsOf(path_.At(t)), limits_.half_angle);
+  }
+
+  /// The contacts that differ between two grasps of the way.
+  [[nodiscard]] Places FindMoving(const FingerGrasp& from, const FingerGrasp& to) const {
+    Places moving;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const Contact &a = from[k].contact, &b = to[k].contact;
+      const bool stays = a.face == b.face && (a.p - b.p).norm() <= kSamePoint * object_.diameter();
+      if (!stays) moving.push_back(k);
+    }
+    return moving;
+  }
+
+  [[nodiscard]] bool CanRest(const Places& places, double t, const Demand& demand) const {
+    const FingerGrasp grasp = path_.At(t);
+    return std::ranges::all_of(places, [&](std::size_t k) {
+      if (path_.IsTurning(k, t)) return demand.may_turn;
+      return demand.clearance == 0 ||
+             ComputeClearance(object_, grasp[k].contact, demand.clearance) >= demand.clearance;
+    });
+  }
+
+  /// Lets the contacts of `group` in `grasp` go over to where they are at `end`.
+  [[nodiscard]] std::optional<FingersGoOver> GoOver(double begin, double end, const Places& group,
+                                                    const Demand& demand, Grasp& grasp) const {
+    const FingerGrasp to = path_.At(end);
+    Grasp after = grasp;
+    for (const std::size_t k : group) after[k] = to[k].contact;
+    if (!Holds(after, demand.half_angle)) return std::nullopt;
+    for (const double share : kStandInShares) {
+      const double t = share < 1 ? begin + share * (end - begin) : end;
+      const FingerGrasp between = path_.At(t);
+      Grasp meanwhile = grasp;
+      for (const std::size_t k : group) meanwhile[k] = between[k].contact;
+      if (!Holds(meanwhile, demand.half_angle) || !CanRest(group, t, demand)) continue;
+      FingersGoOver move;
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        move.stand_ins.push_back({limits_.spare[i], between[group[i]].contact});
+        move.targets.push_back(to[group[i]]);
+      }
+      grasp = std::move(after);
+      return move;
+    }
+    return std::nullopt;
+  }
+
+  /// All moving contacts go over, in this order, as many at once as there are spare fingers.
+  [[nodiscard]] std::optional<std::vector<AlignMove>> GoOverInOrder(double begin, double end,
+                                                                    const Places& order,
+                                                                    const Demand& demand) const {
+    std::vector<AlignMove> moves;
+    Grasp grasp = ContactsOf(path_.At(begin));
+    for (std::size_t first = 0; first < order.size(); first += limits_.spare.size()) {
+      const std::size_t last = std::min(first + limits_.spare.size(), order.size());
+      const Places group(order.begin() + first, order.begin() + last);
+      std::optional<FingersGoOver> move = GoOver(begin, end, group, demand, grasp);
+      if (!move) return std::nullopt;
+      moves.emplace_back(*std::move(move));
+    }
+    return moves;
+  }
+
+  [[nodiscard]] std::optional<Piece> TryPiece(double begin, double end,
+                                              const Demand& demand) const {
+    Places order = FindMoving(path_.At(begin), path_.At(end));
+    std::optional<std::vector<AlignMove>> moves;
+    for (std::size_t turn = 0; turn < std::max<std::size_t>(order.size(), 1) && !moves; ++turn) {
+      moves = GoOverInOrder(begin, end, order, demand);
+      if (!order.empty()) std::ranges::rotate(order, order.begin() + 1);
+    }
+    if (!moves || !CanRest(order, end, demand)) return std::nullopt;
+    return Piece{end, *std::move(moves)};
+  }
+
+  /// How far the way from `begin` on is force closure, in steps of a share of the way.
+  [[nodiscard]] int FindReach(double begin) const {
+    int reach = static_cast<int>(std::floor(begin * kSharesOfWay));
+    while (reach < path_.end() * kSharesOfWay && HoldsAt(Share(reach + 1))) ++reach;
+    return reach;
+  }
+
+  [[nodiscard]] static double Share(int steps) { return static_cast<double>(steps) / kSharesOfWay; }
+
+  /// The longest piece that is found from `begin` up to a number of steps.
+  [[nodiscard]] std::optional<Piece> FindLongest(double begin, int reach,
+                                                 const Demand& demand) const {
+    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
+    for (int steps = reach; steps >= first; --steps) {
+      std::optional<Piece> piece = TryPiece(begin, Share(steps), demand);
+      if (!piece) continue;
+      if (steps < reach) Lengthen(begin, Share(steps + 1), demand, *piece);
+      return piece;
+    }
+    for (double end = (begin + Share(first)) / 2; end - begin >= kShortestPiece;
+         end = (begin + end) / 2) {
+      if (std::optional<Piece> piece = TryPiece(begin, end, demand)) return piece;
+    }
+    return std::nullopt;
+  }
+
+  void Lengthen(double begin, double limit, const Demand& demand, Piece& piece) const {
+    for (int i = 0; i < kRefinements; ++i) {
+      const double end = (piece.end + limit) / 2;
+      if (std::optional<Piece> longer = TryPiece(begin, end, demand)) {
+        piece = *std::move(longer);
+      } else {
+        limit = end;
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<Piece> ChoosePiece(double begin) const {
+    if (limits_.spare.empty()) return std::nullopt;
+    const double full = limits_.half_angle;
+    const double easy = std::atan(kEasyFriction * std::tan(full));
+    const int reach = FindReach(begin);
+    std::optional<Piece> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
+    if (longest) {
+      std::optional<Piece> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
+      if (easier && 2 * (easier->end - begin) >= longest->end - begin) return easier;
+      return longest;
+    }
+    longest = FindLongest(begin, reach, {full, limits_.least_clearance, false});
+    return longest ? longest : FindLongest(begin, reach, {full, 0, true});
+  }
+
+  [[nodiscard]] bool CanSlide(double begin, double end) const {
+    const FingerGrasp to = path_.At(end);
+    Grasp grasp = ContactsOf(path_.At(begin));
+    return std::ranges::all_of(FindMoving(path_.At(begin), to), [&](std::size_t k) {
+      grasp[k] = to[k].contact;
+      return Holds(grasp, limits_.half_angle);
+    });
+  }
+
+  /// By bisection: a piece is as long as the way done before it allows.
+  [[nodiscard]] std::optional<std::vector<double>> CutSlides(double begin, double end) const {
+    std::vector<double> cuts;
+    double done = 0, length = 1;
+    const auto at = [&](double share) { return share < 1 ? begin + share * (end - begin) : end; };
+    while (done < 1) {
+      if (CanSlide(at(done), at(done + length))) {
+        done += length;
+        cuts.push_back(at(done));
+        while (length < 1 && std::fmod(done, 2 * length) == 0 && done + 2 * length <= 1) {
+          length *= 2;
+        }
+      } else {
+        length /= 2;
+        if (length < kShortestPiece) return std::nullopt;
+      }
+    }
+    return cuts;
+  }
+
+  void AddSlides(double begin, double end, AlignScript& script) const {
+    std::optional<std::vector<double>> cuts = CutSlides(begin, end);
+    if (!cuts) {
+      cuts.emplace();
+      for (int i = 1; i < kHopelessPieces; ++i) {
+        cuts->push_back(begin + (end - begin) * i / kHopelessPieces);
+      }
+      cuts->push_back(end);
+    }
+    FingersSlide slide{{path_.At(begin)}};
+    for (const double cut : *cuts) slide.grasps.push_back(path_.At(cut));
+    script.moves.emplace_back(std::move(slide));
+  }
+
+  const Object& object_;
+  const AlignLimits& limits_;
+  WrenchFrame frame_;
+  AlignPath path_;
+};
+
+}  // namespace
+
+AlignScript WriteAlignScript(const Object& object, const Align& align, const AlignLimits& limits) {
+  if (align.waypoints.empty()) return {};
+  return ScriptWriter(object, align, limits).Write();
+}
+
+}  // namespace regrasp
