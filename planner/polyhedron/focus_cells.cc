@@ -16,9 +16,9 @@ namespace {
 /// part of its faces.
 constexpr double kReach = 100;
 
-/// A point this near to a vertex, over the diameter, is at it: minima that are zero are found to
-/// about the square root of roundings.
-constexpr double kAtVertex = 1e-6;
+/// A point this near to a vertex or an edge, over the diameter, is at it: minima that are zero are
+/// found to about the square root of roundings.
+constexpr double kAtBorder = 1e-6;
 
 std::vector<UnionVolume::Shape> ShapesOf(const std::vector<FacePart>& parts) {
   return {parts.begin(), parts.end()};
@@ -59,20 +59,23 @@ FocusCellFinder::FocusCellFinder(const Polyhedron& solid, double tangent)
 
 bool FocusCellFinder::Decide(const MinMaxResult& result, std::span<const int> halves) {
   const bool unclear = result.overlap == Overlap::kUnclear;
-  if (unclear && !IsAtSharedVertex(result.point, halves)) ++unclear_;
+  if (unclear && !IsAtSharedBorder(result.point, halves)) ++unclear_;
   return result.overlap == Overlap::kSome;
 }
 
-bool FocusCellFinder::IsAtSharedVertex(const Vector3d& point, std::span<const int> halves) const {
-  const auto corners = [&](int half) -> const std::vector<int>& {
-    return parts_.parts[half / 2].corners;
-  };
+bool FocusCellFinder::IsAtSharedBorder(const Vector3d& point, std::span<const int> halves) const {
   for (std::size_t i = 0; i < halves.size(); ++i) {
-    for (const int vertex : corners(halves[i])) {
-      const double distance = (solid_.vertices()[vertex] - point).norm();
-      if (distance > kAtVertex * solid_.diameter()) continue;
-      for (std::size_t j = 0; j < halves.size(); ++j) {
-        if (j != i && std::ranges::count(corners(halves[j]), vertex) > 0) return true;
+    for (std::size_t j = i + 1; j < halves.size(); ++j) {
+      const std::vector<int> shared = SharedCorners(halves[i] / 2, halves[j] / 2);
+      for (const int a : shared) {
+        for (const int b : shared) {
+          const Vector3d& from = solid_.vertices()[a];
+          const Vector3d along = solid_.vertices()[b] - from;
+          const double share =
+              a == b ? 0 : std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          const double distance = (point - from - share * along).norm();
+          if (distance <= kAtBorder * solid_.diameter()) return true;
+        }
       }
     }
   }
@@ -89,16 +92,22 @@ bool FocusCellFinder::MayMeet(int half, int other) {
     min_max_.Restart();
     const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kSign);
     known = result.overlap == Overlap::kSome ? Known::kYes : Known::kNo;
-    if (result.overlap == Overlap::kUnclear && !ShareVertex(half / 2, other / 2)) ++unclear_;
+    if (result.overlap == Overlap::kUnclear && SharedCorners(half / 2, other / 2).empty()) {
+      ++unclear_;
+    }
     meet_[other * 2 * shapes_.size() + half] = known;
   }
   return known == Known::kYes;
 }
 
-bool FocusCellFinder::ShareVertex(int part, int other) const {
+/// The vertices that two parts have in common: the ends of a common edge, or a corner.
+std::vector<int> FocusCellFinder::SharedCorners(int part, int other) const {
+  std::vector<int> shared;
   const std::vector<int>& corners = parts_.parts[part].corners;
-  return std::ranges::any_of(parts_.parts[other].corners,
-                             [&](int vertex) { return std::ranges::count(corners, vertex) > 0; });
+  for (const int vertex : parts_.parts[other].corners) {
+    if (std::ranges::count(corners, vertex) > 0) shared.push_back(vertex);
+  }
+  return shared;
 }
 
 std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate) {

@@ -43,7 +43,7 @@ class FocusCellFinder {
   [[nodiscard]] bool Overlap(const FocusCell& a, const FocusCell& b);
 
   /// Decisions that doubles could not make; the sets then count as touching, which is not meeting.
-  /// Not those at a vertex of the solid that two of the faces share: there they touch by
+  /// Not those at a vertex or an edge of the solid that two of the faces share: there they touch by
   /// construction.
   [[nodiscard]] std::int64_t unclear_count() const { return unclear_; }
 
@@ -73,11 +73,11 @@ class FocusCellFinder {
   enum class Known : std::uint8_t { kNo, kYes, kNotYet };
 
   [[nodiscard]] bool MayMeet(int half, int other);
-  [[nodiscard]] bool ShareVertex(int part, int other) const;
+  [[nodiscard]] std::vector<int> SharedCorners(int part, int other) const;
   void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                   std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
   [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const int> halves);
-  [[nodiscard]] bool IsAtSharedVertex(const Eigen::Vector3d& point,
+  [[nodiscard]] bool IsAtSharedBorder(const Eigen::Vector3d& point,
                                       std::span<const int> halves) const;
 
   const Polyhedron& solid_;
