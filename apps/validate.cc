@@ -64,6 +64,9 @@ void ValidateProgram::AddTo(CLI::App& app) {
   AddFiles(app);
   AddPhysics(app);
   app.add_flag("--no-frames", no_frames, "Draw no frames");
+  app.add_flag("--show-focus", frame.show_focus,
+               "Frames of a solid also show the focus point of four concurrent contacts, the lines "
+               "to it, and the contact regions that it gives");
   app.add_option_function<std::string>(
          "--size", [this](const std::string& text) { SetSize(text); },
          "Size of the frames, pixels, each side from " + std::to_string(kMinFrameSide) + " to " +

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "planner/polyhedron/focus_view.h"
 #include "render/annotation.h"
 #include "render/body_shape.h"
 #include "render/camera.h"
@@ -30,6 +31,15 @@ constexpr double kInsideOpacity = 0.30;
 /// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
 constexpr double kPrismOpacity = 0.9;
 constexpr Color kPrism = {205, 221, 241};
+
+/// The focus point, the lines to it and the outlines of contact regions, in diameters.
+constexpr double kFocusRadius = 0.014;
+constexpr double kFocusLineRadius = 0.0020;
+constexpr double kRegionLineRadius = 0.0030;
+constexpr Color kFocus = {150, 30, 90};
+
+/// A contact of the replay is this near to the face that it is planned on, in diameters.
+constexpr double kFocusReach = 1e-2;
 
 /// Room for a finger's number beyond its end, in diameters.
 constexpr double kLabelRoom = 0.05;
@@ -86,6 +96,9 @@ class FrameRenderer::Impl {
   Impl(const Object& object, double scale, double half_angle,
        const std::vector<Snapshot>& snapshots, const FrameOptions& options)
       : options_(options),
+        object_(object),
+        scale_(scale),
+        half_angle_(half_angle),
         body_(MakeBodyShape(object, options.thickness)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         camera_(MakeCamera(object.dimension() == 2, snapshots)),
@@ -102,6 +115,7 @@ class FrameRenderer::Impl {
       AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
     }
     if (planar_) LayFlat(shapes);
+    if (options_.show_focus) AddFocus(snapshot, shapes);
     return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
   }
 
@@ -125,6 +139,49 @@ class FrameRenderer::Impl {
       shapes.push_back({Rod{pose * a, pose * b, kEdgeRadius}, kInk});
     }
     return shapes;
+  }
+
+  /// The contacts of the fingers that hold, where they are planned, on the object.
+  [[nodiscard]] Grasp HeldGrasp(const Snapshot& snapshot) const {
+    const Eigen::Isometry3d X_OW = snapshot.X_WO.inverse();
+    Grasp grasp;
+    for (const FingerState& finger : snapshot.fingers) {
+      if (finger.role == FingerRole::kFree || finger.role == FingerRole::kReleased) continue;
+      Contact contact = {X_OW * finger.contact_W / scale_, X_OW.linear() * finger.normal_W};
+      double most = -1;
+      for (const int face : object_.FacesNear(contact.p, kFocusReach * object_.diameter())) {
+        const double along = object_.inward_normal(face).dot(contact.n);
+        if (along <= most) continue;
+        most = along;
+        contact.face = face;
+      }
+      if (contact.face < 0) return {};
+      contact.p = object_.ClosestPoint(contact.face, contact.p);
+      grasp.push_back(contact);
+    }
+    return grasp;
+  }
+
+  void AddFocus(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
+    const auto* solid = dynamic_cast<const Polyhedron*>(&object_);
+    if (solid == nullptr) return;
+    const Grasp grasp = HeldGrasp(snapshot);
+    const auto view = DescribeFocus(*solid, grasp, half_angle_);
+    if (!view) return;
+    const auto place = [&](const Vector3d& p) {
+      return frame_.FromWorld(snapshot.X_WO * (scale_ * p));
+    };
+    shapes.push_back({Ball{place(view->focus), kFocusRadius}, kFocus});
+    for (const Contact& contact : grasp) {
+      shapes.push_back({Rod{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
+    }
+    for (const std::vector<Vector3d>& region : view->regions) {
+      for (std::size_t i = 0; i < region.size(); ++i) {
+        shapes.push_back(
+            {Rod{place(region[i]), place(region[(i + 1) % region.size()]), kRegionLineRadius},
+             kFocus});
+      }
+    }
   }
 
   [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<Snapshot>& snapshots) const {
@@ -165,6 +222,9 @@ class FrameRenderer::Impl {
   }
 
   FrameOptions options_;
+  const Object& object_;
+  double scale_;
+  double half_angle_;
   BodyShape body_;
   PictureFrame frame_;
   Camera camera_;

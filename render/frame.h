@@ -20,6 +20,9 @@ struct FrameOptions {
   int height = 960;
   int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
   double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+  /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
+  /// that it gives on the faces (planner/polyhedron/focus_view.h).
+  bool show_focus = false;
 };
 
 /// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a
@@ -34,6 +37,7 @@ struct FrameOptions {
 /// Force arrows have one scale for all of them too. Deterministic: the same bytes every time.
 class FrameRenderer {
  public:
+  /// @param object      must outlive this renderer.
   /// @param scale       metres per unit of the object.
   /// @param half_angle  of the friction cones drawn, radians.
   /// @param snapshots   of the whole sequence, to choose the camera.
