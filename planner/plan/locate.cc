@@ -1,9 +1,11 @@
 #include "planner/plan/locate.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "planner/base/number.h"
+#include "planner/plan/locate_align.h"
 #include "planner/plan/tolerance.h"
 
 namespace regrasp {
@@ -12,6 +14,25 @@ namespace {
 
 void LocateAll(const Object& object, FingerGrasp& grasp) {
   for (FingerContact& held : grasp) held.contact = LocateContact(object, held.contact).contact;
+}
+
+bool IsUnit(const Eigen::Vector3d& normal) {
+  return std::abs(normal.norm() - 1) <= kNormalLengthTolerance;
+}
+
+/// Angles between the contact's normal and those of faces near it, nearest first.
+std::vector<std::pair<double, int>> RankFaces(const std::vector<int>& faces, const Object& object,
+                                              const Contact& contact) {
+  std::vector<std::pair<double, int>> ranked;
+  for (const int face : faces) {
+    ranked.emplace_back(AngleBetween(contact.n, object.inward_normal(face)), face);
+  }
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, int>::first);
+  return ranked;
+}
+
+Contact Project(const Object& object, const Contact& contact, int face) {
+  return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
 }  // namespace
@@ -25,30 +46,30 @@ LocatedContact LocateContact(const Object& object, const Contact& contact) {
     located.detail = "farther than " + FormatShort(tolerance) + " from the surface";
     return located;
   }
-  const double length = contact.n.norm();
-  if (!(std::abs(length - 1) <= kNormalLengthTolerance)) {
+  if (!IsUnit(contact.n)) {
     located.reason = Reason::kWrongNormal;
-    located.detail = "the normal is " + FormatShort(length) + " long, not 1";
+    located.detail = "the normal is " + FormatShort(contact.n.norm()) + " long, not 1";
     return located;
   }
-  double least = std::numeric_limits<double>::infinity();
-  int nearest = -1;
-  for (const int face : faces) {
-    const double angle = AngleBetween(contact.n, object.inward_normal(face));
-    if (angle < least) {
-      least = angle;
-      nearest = face;
-    }
-  }
+  const auto [least, nearest] = RankFaces(faces, object, contact).front();
   if (!(least <= kNormalTolerance)) {
     located.reason = Reason::kWrongNormal;
     located.detail = "the normal differs by " + FormatShort(Degrees(least)) +
                      " degrees from the inward normal of face " + std::to_string(nearest);
     return located;
   }
-  located.contact = {object.ClosestPoint(nearest, contact.p), object.inward_normal(nearest),
-                     nearest};
+  located.contact = Project(object, contact, nearest);
   return located;
+}
+
+std::vector<Contact> LocateEverywhere(const Object& object, const Contact& contact) {
+  std::vector<Contact> places;
+  if (!IsUnit(contact.n)) return places;
+  const std::vector<int> faces = object.FacesNear(contact.p, kPointTolerance * object.diameter());
+  for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
+    if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));
+  }
+  return places;
 }
 
 Plan LocatePlan(const Object& object, const Plan& plan) {
@@ -58,7 +79,7 @@ Plan LocatePlan(const Object& object, const Plan& plan) {
     if (auto* finger_switch = std::get_if<Switch>(&step)) {
       LocateAll(object, finger_switch->place);
     } else {
-      for (FingerGrasp& waypoint : std::get<Align>(step).waypoints) LocateAll(object, waypoint);
+      LocateAlign(object, std::get<Align>(step));
     }
   }
   for (Contact& contact : located.goal) contact = LocateContact(object, contact).contact;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
@@ -21,6 +22,10 @@ struct LocatedContact {
 /// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
 /// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
 [[nodiscard]] LocatedContact LocateContact(const Object& object, const Contact& contact);
+
+/// All places that a contact can have by the tolerances, nearest normal first, ties by distance and
+/// index; the first is that of LocateContact. Empty where that has none.
+[[nodiscard]] std::vector<Contact> LocateEverywhere(const Object& object, const Contact& contact);
 
 /// Places every contact of a plan on the object, without judging; docs at PlanCheck::located.
 [[nodiscard]] Plan LocatePlan(const Object& object, const Plan& plan);

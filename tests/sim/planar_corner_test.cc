@@ -120,6 +120,15 @@ TEST(PlanarCorner, ShortEdgesAndAlmostStraightCornersAreNoObstacle) {
   ExpectPasses(bar, plan, 50, 4);
 }
 
+TEST(PlanarCorner, CornersOfExactlyAStraightAngleArePassed) {
+  // Normals cannot tell which of the edges a waypoint at a vertex is on.
+  const Polygon bar = Polygon::FromRings(
+      {{{0, 0}, {0.02, 0}, {0.04, 0}, {0.05, 0}, {0.1, 0}, {0.1, 0.06}, {0.05, 0.06}, {0, 0.06}}},
+      "bar");
+  const Plan plan = MakeWalkPlan(bar, {{0, 0, 0.5, 0.06}, {1, 6, 0.8, -0.05}}, 20);
+  ExpectPasses(bar, plan, 4, 6);
+}
+
 TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
   const Polygon disc = MakeDisc(60);
   int checked = 0;

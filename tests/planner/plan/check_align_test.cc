@@ -99,6 +99,27 @@ TEST(CheckAlign, KeepsCollinearEdgesOfAPolygonApart) {
   const auto stop = AlignPlan(plan, {grasp(-0.3), grasp(0), grasp(0.3)});
   EXPECT_EQ(ReasonOf(MakeSquare(), slide), Reason::kNone);
   EXPECT_EQ(ReasonOf(MakeSquare(/*divided=*/true), slide), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(MakeSquare(/*divided=*/true), stop), Reason::kLeavesFace);
+}
+
+TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
+  const auto grasp = [](double x) {
+    return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
+  };
+  const Polygon square = MakeSquare(/*divided=*/true);
+  const Plan plan = EmptyPlan(2, 4, 30);
+  for (const double sign : {1.0, -1.0}) {
+    const auto over = AlignPlan(plan, {grasp(-0.3 * sign), grasp(0), grasp(0), grasp(0.3 * sign)});
+    EXPECT_EQ(ReasonOf(square, over), Reason::kNone);
+    const Align located = std::get<Align>(LocatePlan(square, over).steps.front());
+    const auto face = [&](int waypoint) { return located.waypoints[waypoint][0].contact.face; };
+    EXPECT_EQ(face(0), face(1));
+    EXPECT_NE(face(1), face(2));
+    EXPECT_EQ(face(2), face(3));
+    // Two vertices at once it cannot pass.
+    EXPECT_EQ(ReasonOf(square, AlignPlan(plan, {grasp(-0.3 * sign), grasp(0.3 * sign)})),
+              Reason::kLeavesFace);
+  }
 }
 
 /// Two fingers of the square, below and above.

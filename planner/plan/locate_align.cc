@@ -1,0 +1,93 @@
+#include "planner/plan/locate_align.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "planner/plan/contact_motion.h"
+#include "planner/plan/locate.h"
+
+namespace regrasp {
+
+namespace {
+
+/// No more places of a contact are looked at: where so many faces meet in one plane, almost, the
+/// nearest normals are as good as any.
+constexpr std::size_t kMostChoices = 16;
+
+/// One place of a contact, and the best way of the finger to it.
+struct Choice {
+  Contact place;
+  int faults = 0;     ///< on the best way
+  int ranks = 0;      ///< places before the chosen ones in their lists, summed
+  int previous = -1;  ///< choice at the waypoint before
+};
+
+using Choices = std::vector<Choice>;
+
+Choices FindChoices(const Object& object, const Contact& contact) {
+  Choices choices;
+  for (const Contact& place : LocateEverywhere(object, contact)) {
+    if (choices.size() == kMostChoices) break;
+    choices.push_back({place, 0, static_cast<int>(choices.size())});
+  }
+  if (choices.empty()) choices.push_back({LocateContact(object, contact).contact});
+  return choices;
+}
+
+bool IsFault(const Object& object, const Contact& from, const Contact& to) {
+  return from.face >= 0 && to.face >= 0 && FindMotionFault(object, from, to).has_value();
+}
+
+bool IsBetter(const Choice& a, const Choice& b) {
+  return a.faults != b.faults ? a.faults < b.faults : a.ranks < b.ranks;
+}
+
+/// Extends the best ways to the waypoint before by one motion.
+void Extend(const Object& object, const Choices& before, Choices& choices) {
+  for (Choice& choice : choices) {
+    Choice best;
+    best.faults = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      Choice way = choice;
+      way.faults = before[i].faults + IsFault(object, before[i].place, choice.place);
+      way.ranks = before[i].ranks + choice.ranks;
+      way.previous = static_cast<int>(i);
+      if (IsBetter(way, best)) best = way;
+    }
+    choice = best;
+  }
+}
+
+/// The contacts of one finger, in the order of the waypoints.
+void LocateChain(const Object& object, const std::vector<Contact*>& chain) {
+  std::vector<Choices> choices;
+  for (const Contact* contact : chain) {
+    choices.push_back(FindChoices(object, *contact));
+    if (choices.size() > 1) Extend(object, choices[choices.size() - 2], choices.back());
+  }
+  int chosen =
+      static_cast<int>(std::ranges::min_element(choices.back(), IsBetter) - choices.back().begin());
+  for (std::size_t j = chain.size(); j-- > 0;) {
+    *chain[j] = choices[j][chosen].place;
+    chosen = choices[j][chosen].previous;
+  }
+}
+
+}  // namespace
+
+void LocateAlign(const Object& object, Align& align) {
+  // A finger that a waypoint names twice, by mistake, is two chains.
+  std::map<std::pair<int, int>, std::vector<Contact*>> chains;
+  for (FingerGrasp& waypoint : align.waypoints) {
+    std::map<int, int> named;
+    for (FingerContact& held : waypoint) {
+      chains[{held.finger, named[held.finger]++}].push_back(&held.contact);
+    }
+  }
+  for (const auto& [finger, chain] : chains) LocateChain(object, chain);
+}
+
+}  // namespace regrasp
