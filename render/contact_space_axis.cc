@@ -139,6 +139,11 @@ std::vector<AxisTick> MakeTicks(const Boundary& boundary, int ring, const PlaceR
   return ticks;
 }
 
+std::string AxisTitle(const Boundary& boundary, const std::string& length, int ring) {
+  if (boundary.ring_count() == 1) return length;
+  return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
+}
+
 void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
                     const std::string& title) {
   const double bottom = window.corner.y() + window.size().y();

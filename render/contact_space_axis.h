@@ -47,6 +47,9 @@ inline constexpr double kTickGap = 1.6;
 inline constexpr double kLeftRoom = 44;
 inline constexpr double kBottomRoom = 27;
 
+/// "u", or where the polygon has holes "u, outer ring", "u, hole 1".
+[[nodiscard]] std::string AxisTitle(const Boundary& boundary, const std::string& length, int ring);
+
 /// Draw ticks, labels and a title below a plot, and to its left.
 void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
                     const std::string& title);

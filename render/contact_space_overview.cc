@@ -62,7 +62,6 @@ class Overview {
   [[nodiscard]] Vector2d ToPage(const SpacePoint& p) const {
     return WindowOf(p.rings).ToPage(p.places);
   }
-  [[nodiscard]] std::string Title(const std::string& length, int ring) const;
   void DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const;
   void DrawAxes(cairo_t* cr) const;
   void DrawPlan(cairo_t* cr) const;
@@ -106,11 +105,6 @@ PlotWindow Overview::WindowOf(const std::array<int, 2>& rings) const {
   return window;
 }
 
-std::string Overview::Title(const std::string& length, int ring) const {
-  if (boundary_.ring_count() == 1) return length;
-  return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
-}
-
 void Overview::DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const {
   const PlotWindow window = WindowOf(rings);
   SaveAndClip(cr, window);
@@ -140,8 +134,10 @@ void Overview::DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const {
 
 void Overview::DrawAxes(cairo_t* cr) const {
   for (const int ring : map_.rings) {
-    DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}), Title("u", ring));
-    DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}), Title("u′", ring));
+    DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}),
+                   AxisTitle(boundary_, "u", ring));
+    DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}),
+                 AxisTitle(boundary_, "u′", ring));
   }
 }
 

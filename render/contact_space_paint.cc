@@ -1,9 +1,9 @@
 #include "render/contact_space_paint.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "render/cairo_paint.h"
 

@@ -4,8 +4,6 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "render/contact_space_axis.h"
 #include "render/contact_space_unfolding.h"

@@ -63,11 +63,6 @@ double FitWidths(double a, double b, double room) {
   return std::min((room - kNarrowest) / std::max(a, b), kNarrowest / std::min(a, b));
 }
 
-std::string RingTitle(const Boundary& boundary, const std::string& length, int ring) {
-  if (boundary.ring_count() == 1) return length;
-  return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
-}
-
 void DrawSet(cairo_t* cr, const SwitchSide& side, const PlotWindow& window) {
   FillPieces(cr, window, side.set.pieces, PlanSetTint(side.name));
   if (side.stretching) HatchPieces(cr, window, side.set.pieces, kHatchInk);
@@ -149,13 +144,13 @@ void DrawSwitch(cairo_t* cr, const Boundary& boundary, const ContactSwitch& step
     cairo_restore(cr);
     DrawFrame(cr, window);
     DrawBottomAxis(cr, boundary, step.sides[k].other_ring, window,
-                   RingTitle(boundary, "other contact", step.sides[k].other_ring));
+                   AxisTitle(boundary, "other contact", step.sides[k].other_ring));
     const double middle = window.corner.x() + window.size().x() / 2;
     DrawLabel(cr, std::string(k == 0 ? "before" : "after") + ": set " + SetName(step.sides[k].name),
               {middle, window.corner.y() - kTitleAbove}, TextAlign::kCentre);
   }
   DrawLeftAxis(cr, boundary, step.shared_ring, layout.windows[0],
-               RingTitle(boundary, "contact that stays", step.shared_ring));
+               AxisTitle(boundary, "contact that stays", step.shared_ring));
   DrawBars(cr, step, layout);
   const double y = layout.windows[0].ToPage(step.sides[0].grasp).y();
   SetColor(cr, kInk);

@@ -86,6 +86,14 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
   EXPECT_GT(checked, 30);
 }
 
+TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
+  const Polygon square = MakeSquare();
+  EXPECT_EQ(AxisTitle(Boundary(square), "u", 0), "u");
+  const Polygon ring = MakeRing(8);
+  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 0), "u, outer ring");
+  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 1), "u, hole 1");
+}
+
 TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {
   const PlotWindow window = {{1, 2}, {3, 6}, {10, 20}, {5, 4}};
   EXPECT_EQ(window.ToPage({1, 2}), Eigen::Vector2d(10, 36));
