@@ -2,8 +2,8 @@
 
 A ring is drawn as a list of pieces, each a finely drawn curve that starts where the last one ended,
 and then cut into edges: the ends of the pieces stay vertices, and between them vertices are closer
-where the curve bends more, at uneven distances, as in an outline that was traced. A straight piece is
-one edge.
+where the curve bends more, at uneven distances, as in an outline that was traced. A straight piece
+is one edge.
 """
 
 import itertools
@@ -207,9 +207,8 @@ def plate_with_holes():
     slot = moved([arc((1.4, 0), 0.55, 90, -90), [(1.4, -0.55), (-1.4, -0.55)],
                   arc((-1.4, 0), 0.55, 270, 90), [(-1.4, 0.55), (1.4, 0.55)]], (3.7, -1.05), -12)
     neck = math.degrees(math.asin(0.45 / 1.1))
-    keyhole = moved([arc((0, 0), 1.1, 270 - neck, -90 + neck), [polar((0, 0), 1.1, -90 + neck),
-                                                             (0.45, -2.6)],
-                     arc((0, -2.6), 0.45, 0, -180), [(-0.45, -2.6), polar((0, 0), 1.1, 270 - neck)]],
-                    (-0.5, 2.4), 8)
+    left, right = (polar((0, 0), 1.1, angle) for angle in (270 - neck, neck - 90))
+    keyhole = moved([arc((0, 0), 1.1, 270 - neck, neck - 90), [right, (0.45, -2.6)],
+                     arc((0, -2.6), 0.45, 0, -180), [(-0.45, -2.6), left]], (-0.5, 2.4), 8)
     return [cut(pieces, count, seed=count) for pieces, count in
             ((outer, 72), (round_hole, 27), (slot, 26), (keyhole, 35))]
