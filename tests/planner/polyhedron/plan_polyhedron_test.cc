@@ -89,11 +89,11 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
   int joined = 0;
   int apart = 0;
   for (const auto& [name, body] : SmallBodies()) {
-    PolyhedronGraph graph(body, Radians(3), Spanning::kUniform);
+    PolyhedronGraph graph(body, Radians(14), Spanning::kUniform);
     FocusGeometry geometry(body, graph);
     const Components components = graph.components();
     RandomStream random(3, RandomUse::kGoal);
-    for (int i = 0; i < 12 && graph.vertex_count() > 0; ++i) {
+    for (int i = 0; i < 40 && graph.vertex_count() > 0; ++i) {
       const int a = static_cast<int>(random.Index(graph.vertex_count()));
       const int b = static_cast<int>(random.Index(graph.vertex_count()));
       const auto start = geometry.Draw(a, random);
@@ -101,7 +101,7 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
       ASSERT_TRUE(start && goal);
       const PlanResult result =
           PlanOnPolyhedron(body, Given(geometry.GraspOf(*start)), Given(geometry.GraspOf(*goal)),
-                           Options(3, 0, Spanning::kUniform));
+                           Options(14, 0, Spanning::kUniform));
       SCOPED_TRACE(name + ", cells " + std::to_string(a) + " and " + std::to_string(b));
       if (components.of_vertex[a] == components.of_vertex[b]) {
         ++joined;
