@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/graph/grasp_choice.h"
+#include "planner/graph/standing_room.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
@@ -26,18 +27,25 @@ bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
 }  // namespace
 
 GraspJudge::GraspJudge(const Object& object, double half_angle, double min_quality)
-    : frame_(object.wrench_frame()),
+    : object_(object),
+      frame_(object.wrench_frame()),
       half_angle_(half_angle),
       min_quality_(min_quality),
       same_point_(kSamePoint * object.diameter()) {}
 
+bool GraspJudge::CanStand(const Grasp& grasp) const {
+  return HaveDistinctPoints(grasp, same_point_) &&
+         std::all_of(grasp.begin(), grasp.end(),
+                     [&](const Contact& contact) { return HasStandingRoom(object_, contact); });
+}
+
 bool GraspJudge::IsGood(const Grasp& grasp) const {
-  return HaveDistinctPoints(grasp, same_point_) && IsForceClosure(grasp, frame_, half_angle_) &&
+  return CanStand(grasp) && IsForceClosure(grasp, frame_, half_angle_) &&
          QualityAtLeast(grasp, frame_, half_angle_, min_quality_);
 }
 
 double GraspJudge::Score(const Grasp& grasp) const {
-  if (!HaveDistinctPoints(grasp, same_point_) || !IsForceClosure(grasp, frame_, half_angle_)) {
+  if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle_)) {
     return -1;
   }
   if (!QualityAtLeast(grasp, frame_, half_angle_, min_quality_)) {

@@ -17,21 +17,31 @@ double SmallestMargin(const std::vector<Rest>& rests, const GraspJudge& judge) {
 }
 
 std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests, const GraspJudge& judge) {
+  const auto name = [&](std::size_t step) {
+    if (step == 0) return std::string("the start grasp (step 0)");
+    return "the grasp after step " + std::to_string(step) + " of " +
+           std::to_string(rests.size() - 1);
+  };
   double weakest = judge.min_quality();
   std::size_t step = 0;
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < rests.size(); ++i) {
     if (judge.IsGood(rests[i].grasp)) continue;
+    if (warnings.empty() && !judge.CanStand(rests[i].grasp)) {
+      warnings.push_back("a fingertip has no room in " + name(i) +
+                         ": a contact is in a concave corner");
+    }
     const double quality = judge.Quality(rests[i].grasp);
     if (quality >= weakest) continue;
     weakest = quality;
     step = i;
   }
-  if (weakest >= judge.min_quality()) return {};
-  const std::string where = step == 0 ? "the start grasp (step 0)"
-                                      : "the grasp after step " + std::to_string(step) + " of " +
-                                            std::to_string(rests.size() - 1);
-  return {"the sequence passes grasps below the quality " + FormatShort(judge.min_quality()) +
-          " that was asked for; the weakest is " + where + " with " + FormatShort(weakest)};
+  if (weakest < judge.min_quality()) {
+    warnings.push_back("the sequence passes grasps below the quality " +
+                       FormatShort(judge.min_quality()) + " that was asked for; the weakest is " +
+                       name(step) + " with " + FormatShort(weakest));
+  }
+  return warnings;
 }
 
 }  // namespace regrasp

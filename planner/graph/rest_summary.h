@@ -11,7 +11,8 @@ namespace regrasp {
 /// The smallest margin of a sequence's grasps at rest to their required half-angles, radians.
 [[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests, const GraspJudge& judge);
 
-/// A warning that names the weakest grasp, where one is below the quality that is asked for.
+/// Warnings that name the weakest grasp, where one is below the quality that is asked for, and the
+/// first one where a fingertip has no room.
 /// @param rests  before all steps and after each.
 [[nodiscard]] std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
                                                        const GraspJudge& judge);

@@ -2,21 +2,31 @@
 
 #include <algorithm>
 
+#include "planner/graph/standing_room.h"
 #include "planner/polygon/set_cells.h"
 
 namespace regrasp {
+
+namespace {
+
+/// Contacts drawn before room is no longer asked for: on nearly all of a boundary fingers have it.
+constexpr int kMostDraws = 1000;
+
+}  // namespace
 
 Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random) {
   double perimeter = 0;
   for (int e = 0; e < polygon.face_count(); ++e) perimeter += polygon.face_measure(e);
   Grasp grasp;
-  while (static_cast<int>(grasp.size()) < contacts) {
+  for (int draw = 0; static_cast<int>(grasp.size()) < contacts; ++draw) {
     double along = random.Uniform() * perimeter;
     int edge = 0;
     while (edge + 1 < polygon.face_count() && along >= polygon.face_measure(edge)) {
       along -= polygon.face_measure(edge++);
     }
-    grasp.push_back(ContactAt(polygon, edge, std::min(along / polygon.face_measure(edge), 1.0)));
+    const Contact contact =
+        ContactAt(polygon, edge, std::min(along / polygon.face_measure(edge), 1.0));
+    if (draw > kMostDraws || HasStandingRoom(polygon, contact)) grasp.push_back(contact);
   }
   return grasp;
 }

@@ -8,7 +8,7 @@
 
 namespace regrasp {
 
-/// Contacts spread evenly over the boundary of a polygon.
+/// Contacts spread evenly over the boundary of a polygon, where fingers have room.
 [[nodiscard]] Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random);
 
 /// A random grasp of the boundary that is as good as `judge` asks, of two contacts or of three by

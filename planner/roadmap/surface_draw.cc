@@ -3,9 +3,17 @@
 #include "planner/base/number.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_search.h"
+#include "planner/graph/standing_room.h"
 #include "planner/roadmap/surface_sample.h"
 
 namespace regrasp {
+
+namespace {
+
+/// Contacts drawn before room is no longer asked for: on nearly all of a surface fingers have it.
+constexpr int kMostDraws = 1000;
+
+}  // namespace
 
 Grasp DrawOnSurface(const Polyhedron& solid, int contacts, const GraspJudge& judge,
                     RandomStream& random, const std::string& name) {
@@ -13,7 +21,10 @@ Grasp DrawOnSurface(const Polyhedron& solid, int contacts, const GraspJudge& jud
   const auto grasp = DrawGoodGrasp(
       [&] {
         Grasp drawn;
-        while (static_cast<int>(drawn.size()) < contacts) drawn.push_back(sampler.Draw(random));
+        for (int draw = 0; static_cast<int>(drawn.size()) < contacts; ++draw) {
+          const Contact contact = sampler.Draw(random);
+          if (draw > kMostDraws || HasStandingRoom(solid, contact)) drawn.push_back(contact);
+        }
         return drawn;
       },
       judge.frame(), judge.half_angle(), judge.min_quality(), kSamePoint * solid.diameter());
