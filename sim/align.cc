@@ -23,6 +23,9 @@ std::vector<int> FingersOf(const FingerGrasp& grasp) {
   return fingers;
 }
 
+/// The verdict stands; to go on with an object that is lost takes long and tells nothing.
+bool HasFailed(Stage& stage) { return stage.judge().reason() != Reason::kNone; }
+
 void GoOver(Stage& stage, const FingersGoOver& move) {
   SwitchFingers(stage, move.stand_ins, FingersOf(move.targets));
   SwitchFingers(stage, move.targets, FingersOf(move.stand_ins));
@@ -48,12 +51,15 @@ void Slide(Stage& stage, const FingerGrasp& from, const FingerGrasp& to) {
 AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
   AlignMode mode = AlignMode::kImitated;
   for (const AlignMove& move : script_B.moves) {
+    if (HasFailed(stage)) break;
     if (const auto* over = std::get_if<FingersGoOver>(&move)) {
       GoOver(stage, *over);
     } else {
       mode = AlignMode::kSlid;
       const auto& grasps = std::get<FingersSlide>(move).grasps;
-      for (std::size_t i = 1; i < grasps.size(); ++i) Slide(stage, grasps[i - 1], grasps[i]);
+      for (std::size_t i = 1; i < grasps.size() && !HasFailed(stage); ++i) {
+        Slide(stage, grasps[i - 1], grasps[i]);
+      }
     }
   }
   return mode;

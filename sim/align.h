@@ -16,7 +16,8 @@ namespace regrasp {
 /// Slid: one finger after the other moves along the surface; its force lies on its cone's edge,
 /// towards where it goes, as friction wants it, and the others balance it inside cones of
 /// kSlideFriction μ. Where no such forces exist either, the finger is dragged along with the best
-/// effort, and the judge decides. A finger that turns its normal at a border slides too.
+/// effort, and the judge decides. An align that has failed ends there. A finger that turns its
+/// normal at a border slides too.
 AlignMode PerformAlign(Stage& stage, const AlignScript& script_B);
 
 /// What the frame of an align shows: who moved, and from where.

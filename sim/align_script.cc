@@ -21,6 +21,10 @@ constexpr double kSamePoint = 1e-9;
 /// from both ends; at last at the target itself.
 constexpr std::array kStandInShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
 
+/// Where a piece holds only at the full friction, this much of it is gone: what a mixture has to
+/// spare falls about evenly with the length.
+constexpr std::array kShorter = {0.5, 0.4, 0.6, 0.3, 0.7};
+
 /// A piece is lengthened by halving the last share of the way so often.
 constexpr int kRefinements = 4;
 
@@ -81,7 +85,7 @@ class ScriptWriter {
   [[nodiscard]] bool CanRest(const Places& places, double t, const Demand& demand) const {
     const FingerGrasp grasp = path_.At(t);
     return std::ranges::all_of(places, [&](std::size_t k) {
-      if (path_.IsTurning(k, t)) return demand.may_turn;
+      if (path_.IsTurning(k, t) && !demand.may_turn) return false;
       return demand.clearance == 0 ||
              ComputeClearance(object_, grasp[k].contact, demand.clearance) >= demand.clearance;
     });
@@ -179,16 +183,33 @@ class ScriptWriter {
   [[nodiscard]] std::optional<Piece> ChoosePiece(double begin) const {
     if (limits_.spare.empty()) return std::nullopt;
     const double full = limits_.half_angle;
-    const double easy = std::atan(kEasyFriction * std::tan(full));
     const int reach = FindReach(begin);
     std::optional<Piece> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
-    if (longest) {
-      std::optional<Piece> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
-      if (easier && 2 * (easier->end - begin) >= longest->end - begin) return easier;
-      return longest;
+    if (longest) return MakeEasier(begin, reach, *std::move(longest));
+    for (const Demand& demand : {Demand{full, limits_.least_clearance, false},
+                                 {full, limits_.least_clearance, true},
+                                 {full, 0, true}}) {
+      longest = FindLongest(begin, reach, demand);
+      if (longest) break;
     }
-    longest = FindLongest(begin, reach, {full, limits_.least_clearance, false});
-    return longest ? longest : FindLongest(begin, reach, {full, 0, true});
+    return longest;
+  }
+
+  /// A shorter piece in place of the longest one, whose mixtures may be at the very limit.
+  [[nodiscard]] Piece MakeEasier(double begin, int reach, Piece longest) const {
+    const double length = longest.end - begin;
+    for (const double share : kEasyFriction) {
+      const double easy = std::atan(share * std::tan(limits_.half_angle));
+      std::optional<Piece> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
+      if (easier && 2 * (easier->end - begin) >= length) return *std::move(easier);
+    }
+    for (const double share : kShorter) {
+      if (share * length < kShortestPiece) break;
+      const Demand demand{limits_.half_angle, limits_.clearance, false};
+      std::optional<Piece> shorter = TryPiece(begin, begin + share * length, demand);
+      if (shorter) return *std::move(shorter);
+    }
+    return longest;
   }
 
   [[nodiscard]] bool CanSlide(double begin, double end) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -46,8 +47,9 @@ struct AlignLimits {
 /// kSharesOfWay places between two waypoints), and so are the mixtures that come up while the
 /// fingers go over, stand-ins included. Fingers come to rest only where they can stand, with
 /// `clearance`: not in a concave corner, nor on a normal that turns there. A piece that holds at
-/// kEasyFriction of the friction too is preferred, unless it is less than half as long. Only where
-/// no piece serves fingers rest with `least_clearance`, then anywhere on the way.
+/// kEasyFriction of the friction too is preferred, unless it is less than half as long; then about
+/// half of the piece serves. Only where no piece serves fingers rest with `least_clearance`, then
+/// between two normals too, and at last where nothing fits.
 ///
 /// Where no piece serves at all, or no finger is spare, the fingers slide to the next waypoint,
 /// the way cut so that grasps between two slides are force closure where that is possible.
@@ -57,6 +59,6 @@ struct AlignLimits {
 inline constexpr int kSharesOfWay = 16;
 inline constexpr double kShortestPiece = 1.0 / 256;  ///< of the way between two waypoints
 inline constexpr int kHopelessPieces = 8;            ///< where no number of them serves
-inline constexpr double kEasyFriction = 0.9;         ///< of μ
+inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that serves
 
 }  // namespace regrasp

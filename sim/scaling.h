@@ -41,8 +41,12 @@ inline constexpr double kStiffness = 20;               ///< k D / F
 inline constexpr double kFingerMass = 0.2;             ///< m / M
 inline constexpr double kDampingStep = 0.4;            ///< damping · step / mass
 inline constexpr double kTipRadius = 0.04;             ///< over D
-inline constexpr double kLeastTipRadius = 1e-4;  ///< over D; where even this does not fit, a finger
-                                                 ///< cannot stand
+/// Over D. Nearer to a concave corner the finger is as thin as this and no thinner, or a contact
+/// would be deeper than the finger is thick; it touches its own face only, all the same.
+inline constexpr double kLeastTipRadius = 1e-4;
+/// Over D: where no larger ball fits, a finger cannot stand. What is read to within kPointTolerance
+/// cannot be told from a contact in the corner itself, where no ball fits.
+inline constexpr double kLeastClearance = kPointTolerance;
 inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D

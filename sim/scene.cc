@@ -144,8 +144,8 @@ std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, i
     clearance =
         std::min(clearance, SmallestClearance(sequence.object, sequence.PlannedRests(index)));
   }
-  AlignLimits limits{half_angle, {}, 0, 2 * kLeastTipRadius * D};
-  limits.clearance = std::max(clearance, limits.least_clearance);
+  AlignLimits limits{half_angle, {}, 0, kLeastClearance * D};
+  limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
   std::vector<std::optional<AlignScript>> scripts(sequence.steps);
   FingerGrasp holding = sequence.plan.initial;
   for (int i = 0; i < sequence.steps; ++i) {
@@ -179,15 +179,15 @@ AlignScript ToScene(const Object& object, double scale, AlignScript script) {
   return script;
 }
 
-/// Names the first finger that has to come to rest where not even the smallest fingertip fits.
+/// Names the first finger that has to come to rest where no ball fits.
 std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
-  const double least = kLeastTipRadius * object.diameter();
+  const double least = kLeastClearance * object.diameter();
   for (const FingerContact& held : rests) {
     const double room = ComputeClearance(object, held.contact, least);
     if (room >= least) continue;
     return "finger " + std::to_string(held.finger) +
-           " cannot stand at its contact: a ball of radius " + FormatShort(room) +
-           " there touches the object elsewhere too";
+           " cannot stand at its contact: no fingertip thicker than a radius of " +
+           FormatShort(room) + " fits in the corner there";
   }
   return "";
 }

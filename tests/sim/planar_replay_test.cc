@@ -127,7 +127,7 @@ TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
                 Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
   const ReplayResult result = ReplayPlan(l, plan, {});
   ExpectGood(result, 3);
-  EXPECT_LT(result.settings.fingertip_radius_m, 0.00004);
+  EXPECT_LT(result.settings.fingertip_radius_m, 0.00003);
   FingerGrasp grasp = plan.initial;
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
@@ -138,7 +138,7 @@ TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
 TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
   const Polygon l = MakeL();
   const FingerGrasp good = {OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)};
-  for (const double share : {0.9999, 1.0}) {
+  for (const double share : {0.9999999, 1.0}) {
     const FingerContact corner = OnEdge(l, 2, 2, share);
     const ReplayResult hold = ReplayPlan(l, MakePlanarPlan({corner, OnEdge(l, 1, 0, 0.5)}, 20), {});
     EXPECT_EQ(hold.steps.at(0).reason, Reason::kUnreachable);
