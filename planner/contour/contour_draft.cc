@@ -65,23 +65,36 @@ std::optional<Draft> ContourDraftMaker::Make(const std::vector<int>& path,
 /// Takes the switch with the largest regions whose grasps are good, where there is one with larger
 /// regions than the one at hand.
 void ContourDraftMaker::Enlarge(int from, int to, ContourSwitch& found) {
-  const auto largest = FindLargestSwitch(
-      geometry_, from, to, [this](const ContourSwitch& candidate) { return IsGood(candidate); });
+  const auto [known, is_new] = largest_.try_emplace({from, to});
+  if (is_new) {
+    known->second = FindLargestSwitch(
+        geometry_, from, to, [this](const ContourSwitch& candidate) { return IsGood(candidate); });
+  }
+  const std::optional<ContourSwitch>& largest = known->second;
   if (!largest) return;
   const auto rank = [this](const ContourSwitch& s) { return std::pair(IsGood(s), RegionOf(s)); };
   if (rank(*largest) > rank(found)) found = *largest;
+}
+
+/// Well inside both sets; where that is not good, the best by its score.
+const std::optional<ContourSwitch>& ContourDraftMaker::BestRoomySwitch(int from, int to,
+                                                                       const PlacedScore& margin) {
+  const auto [known, is_new] = roomy_.try_emplace({from, to});
+  if (!is_new) return known->second;
+  known->second = FindRoomySwitch(geometry_, from, to, margin);
+  if (known->second && !IsGood(*known->second)) {
+    const PlacedScore score = [this](const PlacedGrasp& g) { return judge_.Score(GraspOf(g)); };
+    known->second = FindRoomySwitch(geometry_, from, to, score);
+  }
+  return known->second;
 }
 
 std::optional<ContourSwitch> ContourDraftMaker::ChooseRoomySwitch(int from, int to, bool last) {
   const PlacedScore margin = [this](const PlacedGrasp& grasp) {
     return geometry_.AngleMarginOf(grasp);
   };
-  auto best = FindRoomySwitch(geometry_, from, to, margin);
+  const std::optional<ContourSwitch>& best = BestRoomySwitch(from, to, margin);
   if (!best) return std::nullopt;
-  if (!IsGood(*best)) {
-    const PlacedScore score = [this](const PlacedGrasp& g) { return judge_.Score(GraspOf(g)); };
-    best = FindRoomySwitch(geometry_, from, to, score);
-  }
   const double least = kGoodShare * std::min(geometry_.AngleMarginOf(best->before),
                                              geometry_.AngleMarginOf(best->after));
   const auto serves = [&](const std::optional<ContourSwitch>& found, bool before, bool after) {

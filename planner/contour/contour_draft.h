@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "planner/contour/contour_switch.h"
@@ -45,6 +47,8 @@ class ContourDraftMaker {
 
  private:
   [[nodiscard]] std::optional<ContourSwitch> ChooseRoomySwitch(int from, int to, bool last);
+  [[nodiscard]] const std::optional<ContourSwitch>& BestRoomySwitch(int from, int to,
+                                                                    const PlacedScore& margin);
   void Enlarge(int from, int to, ContourSwitch& found);
   [[nodiscard]] double RegionOf(const ContourSwitch& found) const;
   [[nodiscard]] bool IsGood(const ContourSwitch& found) const;
@@ -58,6 +62,9 @@ class ContourDraftMaker {
   SwitchAim aim_;
   const End& start_;
   const End& goal_;
+  /// Found once for all paths, by the sets before and after.
+  std::map<std::pair<int, int>, std::optional<ContourSwitch>> roomy_;
+  std::map<std::pair<int, int>, std::optional<ContourSwitch>> largest_;
   PlacedGrasp at_;              ///< the grasp at hand
   std::array<int, 2> fingers_;  ///< that hold it, by the edges of its piece
 };

@@ -59,10 +59,16 @@ std::optional<FocusSwitch> PolyhedronDraftMaker::ChooseSwitch(int from, int to, 
     const auto between = geometry_.FindSwitchBetween(at_, *goal_at_);
     if (between) return between;
   }
-  const auto best = geometry_.FindSwitch(from, to);
+  const auto [known, is_new] = best_switches_.try_emplace({from, to});
+  if (is_new) {
+    known->second.found = geometry_.FindSwitch(from, to);
+    if (const auto& found = known->second.found) {
+      known->second.score = std::min(ScoreOf(found->before), ScoreOf(found->after));
+    }
+  }
+  const std::optional<FocusSwitch>& best = known->second.found;
   if (!best) return std::nullopt;
-  const double least =
-      std::max(kGoodShare * std::min(ScoreOf(best->before), ScoreOf(best->after)), 0.0);
+  const double least = std::max(kGoodShare * known->second.score, 0.0);
   const auto found = geometry_.FindSwitchFrom(at_, to);
   if (found && ScoreOf(found->after) >= least) return found;
   if (last) {

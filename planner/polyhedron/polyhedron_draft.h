@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "planner/graph/draft.h"
@@ -49,9 +51,14 @@ class PolyhedronDraftMaker {
   const GraspJudge& judge_;
   const End& start_;
   const End& goal_;
-  const FocusGrasp* goal_at_ = nullptr;  ///< in the path's last cell
-  FocusGrasp at_;                        ///< the grasp at hand
-  std::array<int, 4> fingers_;           ///< that hold it, by the faces of its cell
+  struct BestSwitch {
+    std::optional<FocusSwitch> found;
+    double score = 0;  ///< of its worse grasp
+  };
+  std::map<std::pair<int, int>, BestSwitch> best_switches_;  ///< by the cells before and after
+  const FocusGrasp* goal_at_ = nullptr;                      ///< in the path's last cell
+  FocusGrasp at_;                                            ///< the grasp at hand
+  std::array<int, 4> fingers_;  ///< that hold it, by the faces of its cell
 };
 
 }  // namespace regrasp
