@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "planner/base/error.h"
-#include "planner/graph/grasp_judge.h"
+#include "planner/grasp/force_closure.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "planner/polyhedron/focus_geometry.h"
@@ -123,12 +123,12 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
     for (const double degrees : {8.0, 30.0}) {
       PolyhedronGraph graph(body, Radians(degrees), Spanning::kAdaptive);
       FocusGeometry geometry(body, graph);
-      const GraspJudge judge(body, Radians(degrees), 0);
       RandomStream random(5, RandomUse::kStart);
       for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 40) {
         const auto grasp = geometry.Draw(cell, random);
         ASSERT_TRUE(grasp);
-        EXPECT_TRUE(judge.IsGood(geometry.GraspOf(*grasp))) << name << ", cell " << cell;
+        EXPECT_TRUE(IsForceClosure(geometry.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
+            << name << ", cell " << cell;
         const auto located = geometry.Locate(geometry.GraspOf(*grasp));
         EXPECT_TRUE(
             std::ranges::any_of(located, [&](const FocusGrasp& at) { return at.cell == cell; }))
