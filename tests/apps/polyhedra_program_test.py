@@ -94,7 +94,8 @@ class Bodies(ProgramCase):
 
     def reflex_edges(self, facets):
         """Edges at which the body is not convex, counted from both sides."""
-        across = {edge: points for points in facets for edge in zip(points, points[1:] + points[:1])}
+        across = {edge: points for points in facets
+                  for edge in zip(points, points[1:] + points[:1])}
         reflex = 0
         for (p, q), points in across.items():
             here, there = area_vector(points), area_vector(across[q, p])
