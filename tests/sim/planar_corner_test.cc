@@ -129,6 +129,18 @@ TEST(PlanarCorner, CornersOfExactlyAStraightAngleArePassed) {
   ExpectPasses(bar, plan, 4, 6);
 }
 
+TEST(PlanarCorner, AWalkNearTheLimitIsCutSoThatMixturesHaveSomethingToSpare) {
+  const Polygon bar = Polygon::FromRings({{{0, 0}, {0.15, 0}, {0.15, 0.06}, {0, 0.06}}}, "bar");
+  int checked = 0;
+  for (const double needed : {17.0, 17.5, 18.0}) {
+    const double ahead = 0.06 * std::tan(Radians(needed)) / 0.15;
+    const Plan plan = MakeWalkPlan(bar, {{0, 0, 0.3, 0.06}, {1, 2, 0.7 - ahead, -0.06}}, 20);
+    ExpectPasses(bar, plan, 0, 60);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 3);
+}
+
 TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
   const Polygon disc = MakeDisc(60);
   int checked = 0;
