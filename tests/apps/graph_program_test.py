@@ -83,6 +83,28 @@ class Graph(ProgramCase):
         self.assertEqual(graph["edges"], {"two_finger-two_finger": 0})
         self.assertEqual((graph["vertices"], graph["components"]), (1, 1))
 
+    def test_a_polyhedron_is_counted_directly_and_by_sampling(self):
+        body = ["--object", self.model("body14.obj"), "--friction-angle", "10", "--planner",
+                "polyhedron", "--spanning", "uniform"]
+        done = self.assert_done(*body, "--json", "graph.json")
+        self.assertIn("polyhedron of body14.obj, 14 faces, 10°, uniform", done.stdout)
+        graph = json.loads(self.read("graph.json"))
+        self.assertEqual((graph["planner"], graph["faces"], graph["unclear"]),
+                         ("polyhedron", 14, 0))
+        cells = graph["types"]["concurrent"]["vertices"]
+        links = graph["edges"]["concurrent-concurrent"]
+        self.assertGreater(min(cells, links), 10)
+        shares = []
+        for points in ("20", "2000", "2000"):
+            done = self.assert_done(*body, "--sampling", points, "--compare", "--json",
+                                    "sampled.json")
+            self.assertIn("of the direct graph sampling found", done.stdout)
+            shares.append(json.loads(self.read("sampled.json"))["compare"])
+        self.assertEqual(shares[1], shares[2])
+        self.assertLess(shares[0]["found_combinations"], shares[1]["found_combinations"])
+        self.assertLessEqual(shares[1]["found_combinations"], cells)
+        self.assertEqual(shares[1]["links"], links)
+
     def test_spanning_decides_which_normals_span(self):
         triangle = self.write("triangle.wkt", "POLYGON((0 0, 1 0, 0.5 0.866, 0 0))")
         def counts(angle, spanning):
@@ -127,7 +149,10 @@ class Graph(ProgramCase):
         self.assert_refused(2, "--object", "--friction-angle", "20")
         self.assert_refused(2, "friction is missing", *self.arguments())
         self.assert_refused(2, "exclude", *self.arguments("--mu", "1", "--friction-angle", "20"))
-        self.assert_refused(2, "planner", *self.arguments("--mu", "1", "--planner", "polyhedron"))
+        self.assert_refused(2, "planner", *self.arguments("--mu", "1", "--planner", "general"))
+        self.assert_refused(2, "--sampling", *self.arguments("--mu", "1", "--sampling", "100"))
+        self.assert_refused(2, "--compare", *self.arguments("--mu", "1", "--planner", "polyhedron",
+                                                            "--compare"))
         self.assert_refused(2, "no.obj", "--object", "no.obj", "--mu", "1")
         self.assert_refused(2, "planar", *self.polygon("--mu", "1", "--planner", "roadmap"))
         self.assert_refused(2, "solid", *self.arguments("--mu", "1", "--planner", "polygon"))
