@@ -18,6 +18,7 @@
 
 #include "bench/polyhedron_nef.h"
 #include "bench/polyhedron_program.h"
+#include "bench/polyhedron_query.h"
 #include "bench/polyhedron_stone.h"
 #include "planner/base/angle.h"
 #include "planner/polyhedron/polyhedron_graph.h"
@@ -33,6 +34,7 @@ constexpr int kRuns = 15;  // the fastest counts
 constexpr int kGrowthRuns = 3;
 constexpr int kProgramSample = 40;
 constexpr int kNefSample = 15;
+constexpr int kQueries = 100;
 constexpr unsigned kSeed = 1;
 const Vector3d kRound(1, 1, 1);
 const Vector3d kStretched(2.5, 1, 0.6);
@@ -103,6 +105,10 @@ double NanosecondsPer(double milliseconds, std::int64_t count) {
          static_cast<double>(std::max<std::int64_t>(count, 1));
 }
 
+const char* NameOf(Spanning spanning) {
+  return spanning == Spanning::kUniform ? "uniform" : "adaptive";
+}
+
 void PrintHeader(const char* first) {
   std::printf("%-18s %5s %4s %-8s %10s %8s %9s %5s %7s %9s %9s %9s %9s %9s", first, "faces", "deg",
               "spanning", "candidates", "cells", "links", "comp", "unclear", "cells ms", "links ms",
@@ -112,9 +118,9 @@ void PrintHeader(const char* first) {
 void PrintGraph(const std::string& name, int faces, double degrees, Spanning spanning,
                 const Timed& t) {
   std::printf("%-18s %5d %4g %-8s %10lld %8d %9lld %5d %7lld %9.2f %9.2f %9.0f %9.0f %9.0f",
-              name.c_str(), faces, degrees, spanning == Spanning::kUniform ? "uniform" : "adaptive",
-              static_cast<long long>(t.candidates), t.cells, static_cast<long long>(t.links),
-              t.components, static_cast<long long>(t.unclear), t.cell_ms, t.link_ms,
+              name.c_str(), faces, degrees, NameOf(spanning), static_cast<long long>(t.candidates),
+              t.cells, static_cast<long long>(t.links), t.components,
+              static_cast<long long>(t.unclear), t.cell_ms, t.link_ms,
               NanosecondsPer(t.cell_ms, t.candidates), NanosecondsPer(t.cell_ms, t.cells),
               NanosecondsPer(t.link_ms, t.links));
 }
@@ -231,6 +237,21 @@ void PrintGrowth(double degrees, const Vector3d& stretch, const std::vector<int>
   }
 }
 
+void PrintQueries(const std::string& model) {
+  const ObjectFile file = ReadObject(std::filesystem::path(REGRASP_MODELS) / (model + ".obj"));
+  const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
+  std::printf("%-10s %4s %-8s %7s %8s %8s %8s %8s %9s %9s\n", "queries", "deg", "spanning",
+              "queries", "no plan", "warning", "switches", "mean ms", "median ms", "most ms");
+  for (const auto& [degrees, spanning] :
+       {std::pair(10.0, Spanning::kUniform), std::pair(20.0, Spanning::kAdaptive)}) {
+    const QueryTimes t = TimeQueries(solid, degrees, spanning, kQueries);
+    std::printf("%-10s %4g %-8s %7d %8d %8d %8.1f %8.2f %9.2f %9.2f\n", model.c_str(), degrees,
+                NameOf(spanning), t.queries, t.without_plan, t.with_warning, t.mean_switches,
+                t.mean_ms, t.median_ms, t.most_ms);
+    std::fflush(stdout);
+  }
+}
+
 void TimeWholeGraph(benchmark::State& state, const Vector3d& stretch) {
   const Polyhedron solid = MakeStone(kFaces, stretch, kSeed);
   for (auto _ : state) {
@@ -245,6 +266,8 @@ BENCHMARK_CAPTURE(TimeWholeGraph, stretched, kStretched)->Unit(benchmark::kMilli
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const std::vector<NamedSolid> bodies = Bodies();
+  PrintQueries("body67");
+  std::printf("\n");
   PrintBodies(bodies);
   std::printf("\npyramids of eight sides, %g degrees, uniform\n", kDegrees);
   for (const NamedSolid& body : bodies) CompareWithBaselines(body);

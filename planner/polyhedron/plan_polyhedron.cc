@@ -54,15 +54,15 @@ class WithEnds final : public SwitchingGraph {
 /// The planning of one sequence: what its stages share.
 class PolyhedronPlanner {
  public:
-  PolyhedronPlanner(const Polyhedron& solid, GraspChoice start, GraspChoice goal,
-                    const PolyhedronPlanOptions& options)
+  PolyhedronPlanner(const Polyhedron& solid, PolyhedronGraph& graph, GraspChoice start,
+                    GraspChoice goal, const PolyhedronPlanOptions& options)
       : solid_(solid),
         options_(options),
         judge_(solid, options.half_angle, options.min_quality),
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
-        graph_(MakeGraph()),
-        geometry_(solid, graph_) {}
+        graph_(graph),
+        geometry_(solid, graph) {}
 
   PlanResult Run() {
     RandomStream of_start(options_.seed, RandomUse::kStart);
@@ -86,11 +86,6 @@ class PolyhedronPlanner {
   }
 
  private:
-  PolyhedronGraph MakeGraph() const {
-    options_.progress("building the switching graph");
-    return {solid_, options_.half_angle, options_.spanning};
-  }
-
   PlanResult PlanToGoal() {
     goal_ = {goal_choice_.grasp, Locate(goal_choice_)};
     options_.progress("searching a sequence among " + std::to_string(graph_.vertex_count()) +
@@ -185,7 +180,7 @@ class PolyhedronPlanner {
   GraspChoice start_choice_;
   GraspChoice goal_choice_;
   Urns goal_urns_;  ///< that a random goal is drawn from
-  PolyhedronGraph graph_;
+  PolyhedronGraph& graph_;
   FocusGeometry geometry_;
   PolyhedronDraftMaker::End start_;
   PolyhedronDraftMaker::End goal_;
@@ -195,9 +190,17 @@ class PolyhedronPlanner {
 
 PlanResult PlanOnPolyhedron(const Polyhedron& solid, const GraspChoice& start,
                             const GraspChoice& goal, const PolyhedronPlanOptions& options) {
+  options.progress("building the switching graph");
+  PolyhedronGraph graph(solid, options.half_angle, options.spanning);
+  return PlanOnPolyhedron(solid, graph, start, goal, options);
+}
+
+PlanResult PlanOnPolyhedron(const Polyhedron& solid, PolyhedronGraph& graph,
+                            const GraspChoice& start, const GraspChoice& goal,
+                            const PolyhedronPlanOptions& options) {
   if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
   try {
-    return PolyhedronPlanner(solid, start, goal, options).Run();
+    return PolyhedronPlanner(solid, graph, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return ResultOf(none);
   }

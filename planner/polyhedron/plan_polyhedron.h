@@ -8,6 +8,7 @@
 #include "planner/graph/plan_result.h"
 #include "planner/graph/spanning.h"
 #include "planner/object/polyhedron.h"
+#include "planner/polyhedron/polyhedron_graph.h"
 
 namespace regrasp {
 
@@ -35,6 +36,12 @@ struct PolyhedronPlanOptions {
 /// @throws std::invalid_argument  an option is out of its range.
 [[nodiscard]] PlanResult PlanOnPolyhedron(const Polyhedron& solid, const GraspChoice& start,
                                           const GraspChoice& goal,
+                                          const PolyhedronPlanOptions& options);
+
+/// The same on a graph that is built already: many queries, one graph.
+/// @param graph  of `solid`, with the half-angle and the spanning of `options`.
+[[nodiscard]] PlanResult PlanOnPolyhedron(const Polyhedron& solid, PolyhedronGraph& graph,
+                                          const GraspChoice& start, const GraspChoice& goal,
                                           const PolyhedronPlanOptions& options);
 
 }  // namespace regrasp

@@ -1,0 +1,91 @@
+#include "bench/polyhedron_query.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <set>
+#include <variant>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/graph/plan_search.h"
+#include "planner/polyhedron/focus_geometry.h"
+#include "planner/polyhedron/plan_polyhedron.h"
+
+namespace regrasp {
+
+namespace {
+
+using Kind = GraspChoice::Kind;
+
+constexpr double kMillisecondsPerSecond = 1e3;
+
+/// Draws starts from all cells of a graph and goals from a start's component.
+class QueryMaker {
+ public:
+  QueryMaker(PolyhedronGraph& graph, FocusGeometry& geometry, const GraspJudge& judge)
+      : graph_(graph), components_(graph.components()), geometry_(geometry), judge_(judge) {}
+
+  std::array<GraspChoice, 2> Make(std::uint64_t seed) {
+    RandomStream of_start(seed, RandomUse::kStart);
+    RandomStream of_goal(seed, RandomUse::kGoal);
+    const GraspChoice start = Draw("start", StartUrns(graph_.vertex_count()), of_start);
+    std::set<int> cells;
+    for (const FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
+    return {start, Draw("goal", GoalUrns(components_, cells), of_goal)};
+  }
+
+ private:
+  GraspChoice Draw(const std::string& name, const Urns& urns, RandomStream& random) {
+    const auto draw = [&](int cell) {
+      const auto grasp = geometry_.Draw(cell, random);
+      return grasp ? geometry_.GraspOf(*grasp) : Grasp();
+    };
+    GraspChoice choice{Kind::kGiven, {}, name};
+    choice.grasp = DrawFromSets(choice, urns, draw, judge_, random);
+    return choice;
+  }
+
+  PolyhedronGraph& graph_;
+  Components components_;
+  FocusGeometry& geometry_;
+  const GraspJudge& judge_;
+};
+
+}  // namespace
+
+QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spanning, int queries) {
+  PolyhedronPlanOptions options;
+  options.half_angle = Radians(degrees);
+  options.spanning = spanning;
+  const GraspJudge judge(solid, options.half_angle, options.min_quality);
+  PolyhedronGraph graph(solid, options.half_angle, spanning);
+  FocusGeometry geometry(solid, graph);
+  QueryMaker maker(graph, geometry, judge);
+  QueryTimes times;
+  std::vector<double> milliseconds;
+  int switches = 0;
+  for (int seed = 1; seed <= queries; ++seed) {
+    const auto [start, goal] = maker.Make(seed);
+    const auto begin = std::chrono::steady_clock::now();
+    const PlanResult result = PlanOnPolyhedron(solid, graph, start, goal, options);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    milliseconds.push_back(kMillisecondsPerSecond * took.count());
+    ++times.queries;
+    if (!result.plan) {
+      ++times.without_plan;
+      continue;
+    }
+    if (!result.warnings.empty()) ++times.with_warning;
+    switches += static_cast<int>(std::ranges::count_if(
+        result.plan->steps, [](const Step& step) { return std::holds_alternative<Switch>(step); }));
+  }
+  std::ranges::sort(milliseconds);
+  times.mean_switches = static_cast<double>(switches) / queries;
+  times.mean_ms = std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0) / queries;
+  times.median_ms = milliseconds[milliseconds.size() / 2];
+  times.most_ms = milliseconds.back();
+  return times;
+}
+
+}  // namespace regrasp
