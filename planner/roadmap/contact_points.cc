@@ -70,4 +70,17 @@ std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count, std
   return EliminateSamples(candidates, count, SurfaceSampler(solid).area());
 }
 
+std::vector<Contact> MeshContacts(const Polyhedron& solid, int most, std::uint64_t seed) {
+  if (most < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
+  const auto triangles = static_cast<std::int64_t>(solid.triangles().size());
+  if (triangles > most || kFewTriangles * triangles < most) {
+    return SpreadContactPoints(solid, most, seed);
+  }
+  std::vector<Contact> points;
+  for (int i = 0; i < static_cast<int>(triangles); ++i) {
+    points.push_back(TriangleCentroid(solid, i));
+  }
+  return points;
+}
+
 }  // namespace regrasp

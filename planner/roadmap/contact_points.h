@@ -23,6 +23,23 @@ namespace regrasp {
 [[nodiscard]] std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count,
                                                        std::uint64_t seed);
 
+/// Contact points of a triangle mesh (Phoka 2010, section 6.2): the centroids of its triangles,
+/// with the inward normals of their faces, in the order of the triangles.
+///
+/// That holds for a mesh of `most / kFewTriangles` to `most` triangles. Outside of that range the
+/// points are those of SpreadContactPoints, `most` of them on the surface as it is: a mesh of more
+/// triangles has too many centroids, and on one of fewer (a cube has twelve) they would be no
+/// choice of places, and depend on how its flat faces happen to be cut.
+///
+/// Laws: moving and scaling the solid moves and scales the centroids, and they do not depend on the
+/// seed; points that are spread are as far apart whatever the unit of length.
+/// @throws std::invalid_argument  most < 1.
+[[nodiscard]] std::vector<Contact> MeshContacts(const Polyhedron& solid, int most,
+                                                std::uint64_t seed);
+
+/// A mesh with fewer than a quarter as many triangles as contact points are asked for counts as a
+/// body of flat faces.
+inline constexpr int kFewTriangles = 4;
 /// Yuksel (2015) recommends five or more.
 inline constexpr int kCandidatesPerPoint = 20;
 /// 2 mm on a 10 cm body: less than a fingertip's radius, so that faces keep most of their area.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
 
@@ -73,6 +74,78 @@ TEST(SpreadContactPoints, DoNotDependOnTheUnitOfLength) {
 
 TEST(SpreadContactPoints, RefusesNone) {
   EXPECT_THROW((void)SpreadContactPoints(MakeCube(), 0, 1), std::invalid_argument);
+}
+
+/// The triangles of a box of 2 × 3 × 4, four cells along each of its edges.
+constexpr int kBoxTriangles = 6 * 4 * 4 * 2;
+
+Polyhedron MakeFineBox() { return MakeBox({2, 3, 4}, 4); }
+
+/// The same solid, every vertex mapped.
+template <typename Map>
+Polyhedron Moved(const Polyhedron& solid, const Map& map) {
+  PolygonSoup soup;
+  for (const Eigen::Vector3d& v : solid.vertices()) soup.vertices.push_back(map(v));
+  for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
+  return Polyhedron::FromSoup(soup, "moved");
+}
+
+TEST(MeshContacts, AreTheCentroidsOfAllTrianglesInTheirOrder) {
+  const Polyhedron box = MakeFineBox();
+  const std::vector<Contact> points = MeshContacts(box, kBoxTriangles, 1);
+  ASSERT_EQ(points.size(), std::size_t{kBoxTriangles});
+  for (int i = 0; i < kBoxTriangles; ++i) {
+    const auto& [a, b, c] = box.triangles()[i];
+    const auto& v = box.vertices();
+    EXPECT_LE((points[i].p - (v[a] + v[b] + v[c]) / 3).norm(), kOnFace * box.diameter());
+    EXPECT_EQ(points[i].face, box.face_of_triangle(i));
+    EXPECT_EQ(points[i].n, box.inward_normal(points[i].face));
+  }
+}
+
+TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const auto map = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return 37.5 * (turn * v) + Eigen::Vector3d(3, -8, 21);
+  };
+  const Polyhedron box = MakeFineBox();
+  const Polyhedron moved = Moved(box, map);
+  const std::vector<Contact> before = MeshContacts(box, 300, 1);
+  const std::vector<Contact> after = MeshContacts(moved, 300, 2);
+  ASSERT_EQ(before.size(), std::size_t{kBoxTriangles});
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_LE((after[i].p - map(before[i].p)).norm(), kOnFace * moved.diameter());
+    EXPECT_LE((after[i].n - turn * before[i].n).norm(), kOnFace);
+  }
+}
+
+TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrTooFew) {
+  const Polyhedron box = MakeFineBox();
+  struct Case {
+    int most;
+    bool centroids;
+  };
+  int spread = 0;
+  for (const auto& [most, centroids] : {Case{kBoxTriangles - 1, false}, Case{kBoxTriangles, true},
+                                        Case{kFewTriangles * kBoxTriangles, true},
+                                        Case{kFewTriangles * kBoxTriangles + 1, false}}) {
+    const std::vector<Contact> points = MeshContacts(box, most, 1);
+    if (centroids) {
+      EXPECT_EQ(points.size(), std::size_t{kBoxTriangles}) << most;
+      continue;
+    }
+    const std::vector<Contact> expected = SpreadContactPoints(box, most, 1);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(most));
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].p, expected[i].p);
+    ++spread;
+  }
+  EXPECT_EQ(spread, 2);
+}
+
+TEST(MeshContacts, RefusesNone) {
+  EXPECT_THROW((void)MeshContacts(MakeCube(), 0, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "planner/base/random.h"
@@ -51,6 +52,36 @@ TEST(EliminateSamples, SpreadsThemFarBetterThanChance) {
   // Fifty equal discs in a unit square are at most 0.15 apart; blue noise reaches about two thirds.
   EXPECT_GT(SmallestDistance(EliminateSamples(all, kKept, 1)), 0.09);
   EXPECT_LT(SmallestDistance(by_chance), 0.05);
+}
+
+/// The same rule, every pair looked at and the most crowded found by looking at all.
+std::vector<Contact> EliminatePlainly(const std::vector<Contact>& contacts, int count,
+                                      double area) {
+  const double reach = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * count));
+  const double share = double(count) / double(contacts.size());
+  const double floor = reach * (1 - std::pow(share, 1.5)) * 0.65;
+  std::vector<Contact> kept = contacts;
+  while (kept.size() > static_cast<std::size_t>(count)) {
+    std::vector<double> weight(kept.size(), 0);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      for (std::size_t j = 0; j < kept.size(); ++j) {
+        const double distance = (kept[i].p - kept[j].p).norm();
+        if (i == j || distance >= reach) continue;
+        weight[i] += std::pow(1 - std::max(distance, floor) / reach, 8);
+      }
+    }
+    kept.erase(kept.begin() + (std::max_element(weight.begin(), weight.end()) - weight.begin()));
+  }
+  return kept;
+}
+
+TEST(EliminateSamples, TakesTheMostCrowdedFirst) {
+  const std::vector<Contact> all = DrawInSquare(150);
+  const std::vector<Contact> kept = EliminateSamples(all, 20, 1);
+  const std::vector<Contact> expected = EliminatePlainly(all, 20, 1);
+  ASSERT_EQ(kept.size(), 20u);
+  ASSERT_EQ(expected.size(), 20u);
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].p, expected[i].p);
 }
 
 TEST(EliminateSamples, KeepsAllWhereThereAreNoMore) {
