@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -21,12 +22,16 @@
 #include "planner/polygon/polygon_graph.h"
 #include "planner/polyhedron/polyhedron_graph.h"
 #include "planner/polyhedron/sampled_graph.h"
+#include "planner/roadmap/roadmap_queries.h"
 
 namespace {
 
 using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
+
+/// More queries take minutes on bodies where many fail.
+constexpr int kMostQueries = 100'000;
 
 /// More focus points take minutes.
 constexpr int kMostSamples = 10'000'000;
@@ -38,6 +43,15 @@ struct TypeSummary {
   std::int64_t combinations = 0;
   std::int64_t vertices = 0;
   std::int64_t components = 0;  ///< of the graph, were there only this type
+};
+
+/// Random queries over a roadmap, and the times they took.
+struct QuerySummary {
+  int count = 0;
+  int connected = 0;
+  double shortest_seconds = 0;
+  double longest_seconds = 0;
+  double mean_seconds = 0;
 };
 
 /// What is known of a graph when it is built.
@@ -52,6 +66,8 @@ struct GraphSummary {
   double edge_seconds = 0;
   std::int64_t unclear = 0;  ///< decisions too close to call
   std::optional<SamplingShare> sampling_share;
+  int clusters = 0;  ///< of the contact points of a roadmap
+  std::optional<QuerySummary> queries;
 };
 
 class Stopwatch {
@@ -68,9 +84,27 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
-  Stopwatch stopwatch;
-  const Roadmap roadmap = BuildRoadmap(solid, options);
+QuerySummary RunQueries(const Polyhedron& solid, const ClusteredRoadmap& roadmap, int count,
+                        const RoadmapOptions& options) {
+  options.progress(std::to_string(count) + " random queries");
+  QuerySummary summary;
+  summary.shortest_seconds = std::numeric_limits<double>::infinity();
+  for (const RandomQuery& query : RunRandomQueries(roadmap, kSamePoint * solid.diameter(), count,
+                                                   options.seed, options.last_resort)) {
+    ++summary.count;
+    summary.connected += query.chain.grasps.empty() ? 0 : 1;
+    summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);
+    summary.longest_seconds = std::max(summary.longest_seconds, query.seconds);
+    summary.mean_seconds += query.seconds;
+  }
+  if (summary.count == 0) return {};
+  summary.mean_seconds /= summary.count;
+  return summary;
+}
+
+/// The part of a roadmap's summary that does not depend on its contact points' clusters.
+GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const RoadmapOptions& options,
+                              Stopwatch& stopwatch) {
   GraphSummary summary;
   summary.planner = "roadmap";
   summary.vertex_seconds = stopwatch.Lap();
@@ -83,6 +117,19 @@ GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& opt
   summary.types = {
       {"representative", roadmap.candidate_count(), vertices, vertices, summary.components}};
   summary.edge_seconds = stopwatch.Lap();
+  return summary;
+}
+
+GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options, int queries) {
+  Stopwatch stopwatch;
+  if (options.clusters == 0) {
+    return SummarizeRoadmap(BuildRoadmap(solid, options), options, stopwatch);
+  }
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(solid, options);
+  GraphSummary summary = SummarizeRoadmap(roadmap.roadmap, options, stopwatch);
+  summary.faces = roadmap.clusters.clustered_count();
+  summary.clusters = roadmap.clusters.cluster_count();
+  if (queries > 0) summary.queries = RunQueries(solid, roadmap, queries, options);
   return summary;
 }
 
@@ -184,6 +231,14 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
       {"components", summary.components},
       {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
   if (summary.planner == "polyhedron") json["unclear"] = summary.unclear;
+  if (summary.clusters > 0) json["clusters"] = summary.clusters;
+  if (summary.queries) {
+    json["queries"] = {{"count", summary.queries->count},
+                       {"connected", summary.queries->connected},
+                       {"shortest_seconds", summary.queries->shortest_seconds},
+                       {"longest_seconds", summary.queries->longest_seconds},
+                       {"mean_seconds", summary.queries->mean_seconds}};
+  }
   if (summary.sampling_share) {
     const SamplingShare& share = *summary.sampling_share;
     json["compare"] = {{"combinations", share.quadruples},
@@ -212,6 +267,14 @@ std::string FormatTable(const std::vector<std::vector<std::string>>& rows) {
   return table.str();
 }
 
+std::string QueryText(const QuerySummary& queries) {
+  const auto milliseconds = [](double seconds) { return FormatShort(1000 * seconds, 3); };
+  return std::to_string(queries.connected) + " of " + std::to_string(queries.count) +
+         " random queries joined, " + milliseconds(queries.shortest_seconds) + " to " +
+         milliseconds(queries.longest_seconds) + " ms each, mean " +
+         milliseconds(queries.mean_seconds) + " ms\n";
+}
+
 std::string GraphTable(const GraphSummary& summary, const std::string& title) {
   const auto cell = [](std::int64_t count) { return std::to_string(count); };
   std::vector<std::vector<std::string>> types = {{"grasps", "#can", "#comb", "#vertex", "#CC"}};
@@ -224,11 +287,12 @@ std::string GraphTable(const GraphSummary& summary, const std::string& title) {
   }
   std::vector<std::vector<std::string>> edges = {{"switches", "#edge"}};
   for (const auto& [name, count] : summary.edges) edges.push_back({name, cell(count)});
+  const std::string queries = summary.queries ? QueryText(*summary.queries) : "";
   const std::string unclear =
       summary.unclear > 0 ? cell(summary.unclear) + " decisions were too close to call\n" : "";
   return title + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
          FormatShort(summary.vertex_seconds, 3) + " s, edges " +
-         FormatShort(summary.edge_seconds, 3) + " s\n" + unclear;
+         FormatShort(summary.edge_seconds, 3) + " s\n" + unclear + queries;
 }
 
 /// What `faces` counts.
@@ -254,6 +318,8 @@ struct GraphProgram {
   std::string json;
   int sampling = 0;
   bool compare = false;
+  int queries = 0;
+  bool no_lazy = false;
 
   void AddTo(CLI::App& app) {
     common.AddTo(app, {.in_plane = "polygon", .in_space = "roadmap"});
@@ -266,6 +332,12 @@ struct GraphProgram {
                "directly, in a box that contains all cells");
     app.add_flag("--compare", compare,
                  "With --sampling: also says how much of the direct graph the points found");
+    AddInteger(app, "--queries", queries, 1, kMostQueries,
+               "A roadmap of clusters also answers so many queries between random force-closure "
+               "grasps of its contact points");
+    app.add_flag("--no-lazy", no_lazy,
+                 "With --queries: no search among the grasps of all contact points where the way "
+                 "over the representatives fails");
   }
 
   int Run() const {
@@ -274,6 +346,11 @@ struct GraphProgram {
                        " draws no focus points; polyhedron does");
     }
     if (compare && sampling == 0) throw InputError("--compare: needs --sampling");
+    const bool may_query = common.planner == "roadmap" || common.planner == "auto";
+    if (queries > 0 && !may_query) {
+      throw InputError("--queries: the planner " + common.planner + " answers none; roadmap does");
+    }
+    if (no_lazy && queries == 0) throw InputError("--no-lazy: needs --queries");
     const ObjectFile object = ReadObject(common.object);
     const double half_angle = common.friction.required_half_angle();
     const GraphSummary summary = Summarize(object);
@@ -289,6 +366,7 @@ struct GraphProgram {
     if (summary.planner == "polygon" || summary.planner == "polyhedron") {
       title += ", " + common.spanning;
     }
+    if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
     if (sampling > 0) title += ", " + std::to_string(sampling) + " focus points";
     std::cout << GraphTable(summary, title);
     if (compare) std::cout << ShareText(*summary.sampling_share);
@@ -311,9 +389,14 @@ struct GraphProgram {
       summary = SummarizePolygon(PolygonOf(object, common), common.friction.required_half_angle(),
                                  common.spanning_value());
     } else {
-      RoadmapOptions options = common.roadmap();
+      const Polyhedron& solid = SolidOf(object, common);
+      RoadmapOptions options = common.roadmap(solid);
       options.progress = [&](std::string_view text) { progress.Report(text); };
-      summary = SummarizeRoadmap(SolidOf(object, common), options);
+      options.last_resort = !no_lazy;
+      if (queries > 0 && options.clusters == 0) {
+        throw InputError("--queries: needs a roadmap of clusters (--clusters)");
+      }
+      summary = SummarizeRoadmap(solid, options, queries);
     }
     progress.Clear();
     return summary;

@@ -81,12 +81,27 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
   return AddParsed(app, name, value, range, description, "X");
 }
 
-CLI::Option* AddInteger(CLI::App& app, const std::string& name, int& value, int lower, int upper,
-                        const std::string& description) {
+namespace {
+
+template <typename Value>
+CLI::Option* AddIntegerTo(CLI::App& app, const std::string& name, Value& value, int lower,
+                          int upper, const std::string& description) {
   const auto parse = [name, lower, upper, &value](const std::string& text) {
     value = ParseInteger(name, text, lower, upper);
   };
   return app.add_option_function<std::string>(name, parse, description)->type_name("N");
+}
+
+}  // namespace
+
+CLI::Option* AddInteger(CLI::App& app, const std::string& name, int& value, int lower, int upper,
+                        const std::string& description) {
+  return AddIntegerTo(app, name, value, lower, upper, description);
+}
+
+CLI::Option* AddInteger(CLI::App& app, const std::string& name, std::optional<int>& value,
+                        int lower, int upper, const std::string& description) {
+  return AddIntegerTo(app, name, value, lower, upper, description);
 }
 
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description) {

@@ -28,6 +28,8 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
 /// Adds an option that takes a decimal integer in [lower, upper].
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, int& value, int lower, int upper,
                         const std::string& description);
+CLI::Option* AddInteger(CLI::App& app, const std::string& name, std::optional<int>& value,
+                        int lower, int upper, const std::string& description);
 
 /// Adds `--seed N`, any number of 64 bits.
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description);

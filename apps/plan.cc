@@ -32,6 +32,7 @@ struct PlanProgram {
   std::string output;
   double min_quality = RoadmapOptions().min_quality;
   std::string optimize;
+  bool no_lazy = false;
 
   void AddTo(CLI::App& app) {
     common.AddTo(app, {.in_plane = "contour where start and goal are 2-finger grasps and it joins "
@@ -54,6 +55,9 @@ struct PlanProgram {
               "Quality that random grasps have at least, and the sequence's grasps where there is "
               "a way: the largest ball of wrenches resisted, normal forces summing to 1, torques "
               "over half the diameter (default 0.01)");
+    app.add_flag("--no-lazy", no_lazy,
+                 "On a roadmap of clusters: no search among the grasps of all contact points where "
+                 "the way over the representatives fails");
     app.add_option("--optimize", optimize,
                    "regions: the planner contour makes every switch where the smaller of its two "
                    "grasps' contact regions is largest (default: well inside both sets, sparing "
@@ -98,7 +102,8 @@ PlanResult PlanProgram::Find(const ObjectFile& object) const {
 }
 
 PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const {
-  RoadmapOptions options = common.roadmap();
+  RoadmapOptions options = common.roadmap(solid);
+  options.last_resort = !no_lazy;
   options.min_quality = min_quality;
   options.progress = report;
   const GraspChoice from = Choose("--start", start, solid);

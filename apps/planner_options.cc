@@ -41,18 +41,25 @@ void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
          "the friction's half-angle; the roadmap has none (default adaptive)")
       ->type_name("NAME")
       ->check(CheckSpanning);
-  AddInteger(app, "--contacts", contacts, 4, kMaxRoadmapContacts,
-             "Contact points that the roadmap spreads over the surface (default " +
-                 std::to_string(contacts) + ")");
+  AddInteger(app, "--contacts", contacts, kFewestClusters, kMaxClusteredContacts,
+             "Contact points of the roadmap: spread evenly over the surface, on a mesh at the "
+             "centres of its facets (default 60, in clusters 1000)");
+  AddInteger(app, "--clusters", clusters, kFewestClusters, kMostClusters,
+             "The roadmap sorts its contact points into so many clusters and looks at all grasps "
+             "of their representatives only (default: 50 where there are more than " +
+                 std::to_string(kMaxRoadmapContacts) +
+                 " contact points to choose or faces, otherwise none)");
   AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
   AddScale(app, scale);
   AddQuiet(app, quiet);
 }
 
-RoadmapOptions PlannerOptions::roadmap() const {
+RoadmapOptions PlannerOptions::roadmap(const Polyhedron& solid) const {
   RoadmapOptions options;
   options.half_angle = friction.required_half_angle();
-  options.contacts = contacts;
+  const RoadmapSize size = ChooseRoadmapSize(solid, contacts, clusters);
+  options.contacts = size.contacts;
+  options.clusters = size.clusters;
   options.seed = seed;
   return options;
 }

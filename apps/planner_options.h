@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/options.h"
@@ -24,7 +25,8 @@ struct PlannerOptions {
   std::string planner = "auto";
   std::string spanning = "adaptive";
   std::uint64_t seed = 0;
-  int contacts = RoadmapOptions().contacts;
+  std::optional<int> contacts;
+  std::optional<int> clusters;
   double scale = 1;
   bool quiet = false;
 
@@ -32,8 +34,9 @@ struct PlannerOptions {
 
   [[nodiscard]] Spanning spanning_value() const;
 
-  /// @throws InputError  friction is missing, doubled or out of range.
-  [[nodiscard]] RoadmapOptions roadmap() const;
+  /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
+  ///                     plain roadmap takes, and no clusters.
+  [[nodiscard]] RoadmapOptions roadmap(const Polyhedron& solid) const;
 };
 
 /// The object as a polygon, which the planners `polygon` and `contour` need.

@@ -12,6 +12,7 @@ enum class RandomUse : std::uint32_t {
   kStart = 2,
   kGoal = 3,
   kFocusPoints = 4,
+  kClusters = 5,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the

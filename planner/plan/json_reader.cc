@@ -82,6 +82,11 @@ int JsonReader::Integer(int lower, int upper) const {
   return static_cast<int>(number);
 }
 
+std::uint64_t JsonReader::Unsigned() const {
+  if (!value_.is_number_unsigned()) FailType("a whole number of 64 bits");
+  return value_.get<std::uint64_t>();
+}
+
 Eigen::Vector3d JsonReader::Vector(int dimension) const {
   const std::vector<JsonReader> elements = Elements();
   if (elements.size() != static_cast<std::size_t>(dimension)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -34,6 +35,8 @@ class JsonReader {
   [[nodiscard]] double Number() const;
   /// A whole number in [lower, upper], lower ≥ 0.
   [[nodiscard]] int Integer(int lower, int upper) const;
+  /// A whole number of 64 bits, ≥ 0.
+  [[nodiscard]] std::uint64_t Unsigned() const;
   /// `dimension` numbers; the third is 0 in the plane.
   [[nodiscard]] Eigen::Vector3d Vector(int dimension) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -37,6 +38,15 @@ struct Align {
 
 using Step = std::variant<Switch, Align>;
 
+/// How a plan over a roadmap of clustered contact points came about.
+struct RoadmapNote {
+  int contacts = 0;  ///< contact points asked for
+  int clusters = 0;
+  std::uint64_t seed = 0;
+  std::string start;  ///< what linked the start to the representatives: "algorithm-1", …
+  std::string goal;
+};
+
 /// A regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.
 struct Plan {
   std::string object_file;
@@ -46,6 +56,7 @@ struct Plan {
   double half_angle = 0;  ///< friction half-angle, radians
   int fingers = 0;        ///< that the hand has
   std::string planner;
+  std::optional<RoadmapNote> roadmap = std::nullopt;
   FingerGrasp initial;
   std::vector<Step> steps;
   Grasp goal;

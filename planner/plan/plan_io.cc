@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
@@ -81,6 +82,24 @@ double WrittenDegrees(double radians) {
   return degrees;
 }
 
+RoadmapNote ReadRoadmapNote(const JsonReader& json) {
+  RoadmapNote note;
+  note.contacts = json.Member("contacts").Integer(1, std::numeric_limits<int>::max());
+  note.clusters = json.Member("clusters").Integer(1, std::numeric_limits<int>::max());
+  note.seed = json.Member("seed").Unsigned();
+  note.start = json.Member("start").String();
+  note.goal = json.Member("goal").String();
+  return note;
+}
+
+Json RoadmapNoteJson(const RoadmapNote& note) {
+  return {{"contacts", note.contacts},
+          {"clusters", note.clusters},
+          {"seed", note.seed},
+          {"start", note.start},
+          {"goal", note.goal}};
+}
+
 Json SwitchJson(const Switch& step, int dimension) {
   Json json = Json::object();
   json["kind"] = "switch";
@@ -120,6 +139,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   plan.half_angle = ReadHalfAngle(root.Member("friction").Member("half_angle_deg"));
   plan.fingers = root.Member("fingers").Integer(1, kMostFingers);
   plan.planner = root.Member("planner").String();
+  if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
   for (const JsonReader& step : root.Member("steps").Elements()) {
     plan.steps.push_back(ReadStep(step, plan.dimension));
@@ -145,6 +165,7 @@ std::string FormatPlan(const Plan& plan) {
   json["friction"]["half_angle_deg"] = WrittenDegrees(plan.half_angle);
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;
+  if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);
   json["initial"]["contacts"] = FingerGraspJson(plan.initial, plan.dimension);
   json["steps"] = Json::array();
   for (const Step& step : plan.steps) json["steps"].push_back(StepJson(step, plan.dimension));

@@ -13,6 +13,8 @@
 #include "planner/graph/widest_path.h"
 #include "planner/grasp/quality.h"
 #include "planner/roadmap/contact_points.h"
+#include "planner/roadmap/find_contact.h"
+#include "planner/roadmap/plan_clustered.h"
 #include "planner/roadmap/surface_draw.h"
 #include "planner/roadmap/vertex_quality.h"
 
@@ -33,21 +35,11 @@ using Status = RoadmapPlanResult::Status;
 double SamePoint(const Polyhedron& solid) { return kSamePoint * solid.diameter(); }
 
 void CheckOptions(const RoadmapOptions& options) {
-  if (options.contacts < 4 || options.contacts > kMaxRoadmapContacts) {
+  const int most = options.clusters > 0 ? kMaxClusteredContacts : kMaxRoadmapContacts;
+  if (options.contacts < 4 || options.contacts > most) {
     throw std::invalid_argument("the number of contact points is out of range");
   }
   if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
-}
-
-/// The contact of `points` that is the same as `contact`: on the same face, within the tolerance
-/// for reading.
-std::optional<int> FindContact(const std::vector<Contact>& points, const Contact& contact,
-                               double tolerance) {
-  const auto found = std::find_if(points.begin(), points.end(), [&](const Contact& point) {
-    return point.face == contact.face && (point.p - contact.p).norm() <= tolerance;
-  });
-  if (found == points.end()) return std::nullopt;
-  return static_cast<int>(found - points.begin());
 }
 
 void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more,
@@ -57,17 +49,34 @@ void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more
   }
 }
 
+std::vector<Contact> SpreadContacts(const Polyhedron& solid, const RoadmapOptions& options) {
+  CheckOptions(options);
+  options.progress("spreading " + std::to_string(options.contacts) + " contact points");
+  return SpreadContactPoints(solid, options.contacts, options.seed);
+}
+
+Roadmap JoinedRoadmap(const Polyhedron& solid, const std::vector<Contact>& given,
+                      const std::vector<Contact>& contacts, const RoadmapOptions& options) {
+  const double tolerance = kPointTolerance * solid.diameter();
+  std::vector<Contact> points;
+  JoinContacts(points, given, tolerance);
+  JoinContacts(points, contacts, tolerance);
+  options.progress("testing the grasps of four of " + std::to_string(points.size()) +
+                   " contact points");
+  return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid));
+}
+
 /// The planning of one sequence: what its stages share.
 class RoadmapPlanner {
  public:
-  RoadmapPlanner(const Polyhedron& solid, const GraspChoice& start, const GraspChoice& goal,
-                 const RoadmapOptions& options)
+  RoadmapPlanner(const Polyhedron& solid, const std::vector<Contact>& contacts,
+                 const GraspChoice& start, const GraspChoice& goal, const RoadmapOptions& options)
       : solid_(solid),
         options_(options),
         frame_(solid.wrench_frame()),
         start_(Fix(start, RandomUse::kStart)),
         goal_(Fix(goal, RandomUse::kGoal)),
-        roadmap_(BuildRoadmap(solid, options, GivenContacts())),
+        roadmap_(RoadmapOver(contacts)),
         quality_(roadmap_, frame_, options.half_angle, options.min_quality) {}
 
   RoadmapPlanResult Run() {
@@ -106,10 +115,10 @@ class RoadmapPlanner {
     return choice;
   }
 
-  std::vector<Contact> GivenContacts() const {
-    std::vector<Contact> contacts = start_.grasp;
-    contacts.insert(contacts.end(), goal_.grasp.begin(), goal_.grasp.end());
-    return contacts;
+  Roadmap RoadmapOver(const std::vector<Contact>& contacts) const {
+    std::vector<Contact> given = start_.grasp;
+    given.insert(given.end(), goal_.grasp.begin(), goal_.grasp.end());
+    return JoinedRoadmap(solid_, given, contacts, options_);
   }
 
   int ChooseVertex(GraspChoice& choice, RandomUse use, std::optional<int> start) {
@@ -246,27 +255,41 @@ class RoadmapPlanner {
 
 }  // namespace
 
+RoadmapSize ChooseRoadmapSize(const Polyhedron& solid, std::optional<int> contacts,
+                              std::optional<int> clusters) {
+  constexpr int kClusteredContacts = 1000;
+  constexpr int kClusters = 50;
+  const bool many = contacts.value_or(solid.face_count()) > kMaxRoadmapContacts;
+  const int chosen = clusters.value_or(many ? kClusters : 0);
+  return {contacts.value_or(chosen > 0 ? kClusteredContacts : RoadmapOptions().contacts), chosen};
+}
+
 Roadmap BuildRoadmap(const Polyhedron& solid, const RoadmapOptions& options,
                      const std::vector<Contact>& joined) {
+  return JoinedRoadmap(solid, joined, SpreadContacts(solid, options), options);
+}
+
+ClusteredRoadmap BuildClusteredRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
   CheckOptions(options);
-  const double tolerance = kPointTolerance * solid.diameter();
-  std::vector<Contact> points;
-  JoinContacts(points, joined, tolerance);
-  options.progress("spreading " + std::to_string(options.contacts) + " contact points");
-  JoinContacts(points, SpreadContactPoints(solid, options.contacts, options.seed), tolerance);
-  options.progress("testing the grasps of four of " + std::to_string(points.size()) +
-                   " contact points");
-  return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid));
+  return ClusteredRoadmap(solid, {options.half_angle, options.contacts, options.clusters,
+                                  options.seed, options.progress});
+}
+
+RoadmapPlanResult PlanOverContacts(const Polyhedron& solid, const std::vector<Contact>& contacts,
+                                   const GraspChoice& start, const GraspChoice& goal,
+                                   const RoadmapOptions& options) {
+  try {
+    return RoadmapPlanner(solid, contacts, start, goal, options).Run();
+  } catch (const NoGrasp& none) {
+    return {ResultOf(none)};
+  }
 }
 
 RoadmapPlanResult PlanOnRoadmap(const Polyhedron& solid, const GraspChoice& start,
                                 const GraspChoice& goal, const RoadmapOptions& options) {
   CheckOptions(options);
-  try {
-    return RoadmapPlanner(solid, start, goal, options).Run();
-  } catch (const NoGrasp& none) {
-    return {ResultOf(none)};
-  }
+  if (options.clusters > 0) return PlanOnClusters(solid, start, goal, options);
+  return PlanOverContacts(solid, SpreadContacts(solid, options), start, goal, options);
 }
 
 }  // namespace regrasp

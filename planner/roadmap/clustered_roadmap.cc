@@ -1,0 +1,50 @@
+#include "planner/roadmap/clustered_roadmap.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planner/graph/grasp_choice.h"
+#include "planner/graph/standing_room.h"
+#include "planner/roadmap/contact_points.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Contact points at which a fingertip has room; where it has none, all, so that the answer is
+/// about the grasps and not about the fingers.
+ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapOptions& options) {
+  if (options.clusters < kFewestClusters || options.clusters > kMostClusters) {
+    throw std::invalid_argument("the number of clusters is out of range");
+  }
+  options.progress("choosing contact points");
+  std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
+  std::erase_if(contacts, [&](const Contact& contact) { return !HasStandingRoom(solid, contact); });
+  const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
+  options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
+  return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
+                         options.seed);
+}
+
+Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactClusters& clusters,
+                                   const ClusteredRoadmapOptions& options) {
+  std::vector<Contact> representatives;
+  for (const int contact : clusters.representatives()) {
+    representatives.push_back(clusters.contacts()[contact]);
+  }
+  options.progress("testing the grasps of four of " + std::to_string(representatives.size()) +
+                   " representatives");
+  return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
+                 kSamePoint * solid.diameter());
+}
+
+}  // namespace
+
+ClusteredRoadmap::ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadmapOptions& options)
+    : half_angle(options.half_angle),
+      frame(solid.wrench_frame()),
+      clusters(ClusterContacts(solid, options)),
+      roadmap(BuildRepresentativeRoadmap(solid, clusters, options)),
+      components(roadmap.components()) {}
+
+}  // namespace regrasp

@@ -1,0 +1,16 @@
+#include "planner/roadmap/find_contact.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+std::optional<int> FindContact(const std::vector<Contact>& points, const Contact& contact,
+                               double tolerance) {
+  const auto found = std::find_if(points.begin(), points.end(), [&](const Contact& point) {
+    return point.face == contact.face && (point.p - contact.p).norm() <= tolerance;
+  });
+  if (found == points.end()) return std::nullopt;
+  return static_cast<int>(found - points.begin());
+}
+
+}  // namespace regrasp

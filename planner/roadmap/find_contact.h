@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// The first of `points` that is the same contact: on the same face, no farther than `tolerance`.
+[[nodiscard]] std::optional<int> FindContact(const std::vector<Contact>& points,
+                                             const Contact& contact, double tolerance);
+
+}  // namespace regrasp

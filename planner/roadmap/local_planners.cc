@@ -1,0 +1,154 @@
+#include "planner/roadmap/local_planners.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "planner/roadmap/grasp_tree.h"
+
+namespace regrasp {
+
+namespace {
+
+Quadruple Sorted(Quadruple grasp) {
+  std::sort(grasp.begin(), grasp.end());
+  return grasp;
+}
+
+}  // namespace
+
+const char* RoadmapLinkName(RoadmapLink link) {
+  constexpr std::array kNames = {"none", "vertex", "algorithm-1", "algorithm-2", "algorithm-3"};
+  return kNames[static_cast<int>(link)];
+}
+
+LocalPlanners::LocalPlanners(const ContactClusters& clusters, const Roadmap& roadmap,
+                             GraspOracle& oracle)
+    : clusters_(clusters), roadmap_(roadmap), oracle_(oracle) {
+  assert(static_cast<int>(roadmap.points().size()) == clusters.cluster_count());
+}
+
+bool LocalPlanners::IsVertex(const Quadruple& grasp) {
+  std::array<int, 4> clusters;
+  for (int i = 0; i < 4; ++i) {
+    clusters[i] = clusters_.cluster_of(grasp[i]);
+    if (clusters_.representative(clusters[i]) != grasp[i]) return false;
+  }
+  return roadmap_.Find(clusters).has_value() && oracle_.Admits(grasp);
+}
+
+std::optional<Quadruple> LocalPlanners::OwnRepresentatives(const Quadruple& grasp) {
+  Quadruple representatives;
+  for (int i = 0; i < 4; ++i) {
+    representatives[i] = clusters_.representative(clusters_.cluster_of(grasp[i]));
+  }
+  representatives = Sorted(representatives);
+  if (!IsVertex(representatives)) return std::nullopt;
+  return representatives;
+}
+
+std::optional<LocalPlanners::NearestCluster> LocalPlanners::FindNearestCluster(
+    const Quadruple& grasp) {
+  struct Candidate {
+    double distance;
+    NearestCluster nearest;
+  };
+  std::vector<Candidate> candidates;
+  for (int slot = 0; slot < 4; ++slot) {
+    std::array<int, 4> clusters;
+    for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
+    for (int cluster = 0; cluster < clusters_.cluster_count(); ++cluster) {
+      if (cluster == clusters_.cluster_of(grasp[slot])) continue;
+      clusters[slot] = cluster;
+      if (!roadmap_.Find(clusters)) continue;
+      Quadruple vertex;
+      for (int i = 0; i < 4; ++i) vertex[i] = clusters_.representative(clusters[i]);
+      candidates.push_back(
+          {clusters_.DistanceToCenter(grasp[slot], cluster), {Sorted(vertex), slot, cluster}});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  for (const Candidate& candidate : candidates) {
+    if (oracle_.Admits(candidate.nearest.vertex)) return candidate.nearest;
+  }
+  return std::nullopt;
+}
+
+std::vector<int> LocalPlanners::Between(int contact, int cluster) const {
+  const int representative = clusters_.representative(cluster);
+  const double apart = clusters_.Distance(contact, representative);
+  std::vector<int> between = {representative};
+  if (contact != representative) between.push_back(contact);
+  for (const int j : clusters_.members(cluster)) {
+    if (j == contact || j == representative) continue;
+    if (clusters_.Distance(contact, j) <= apart && clusters_.Distance(representative, j) <= apart) {
+      between.push_back(j);
+    }
+  }
+  return between;
+}
+
+std::vector<Quadruple> LocalPlanners::JoinWithin(const Quadruple& grasp,
+                                                 const std::array<int, 4>& clusters,
+                                                 const Quadruple& goal) {
+  Replacements replacements;
+  replacements.list_of.assign(clusters_.contacts().size(), 0);
+  for (int i = 0; i < 4; ++i) {
+    std::vector<int>& list = replacements.lists.emplace_back(Between(grasp[i], clusters[i]));
+    // A contact that moved to another cluster leaves its own.
+    std::erase_if(list, [&](int contact) {
+      return contact != grasp[i] && std::find(grasp.begin(), grasp.end(), contact) != grasp.end();
+    });
+    for (const int contact : list) replacements.list_of[contact] = i;
+  }
+  const auto distance = [&](int a, int b) { return clusters_.Distance(a, b); };
+  return JoinGrasps(grasp, goal, replacements, distance, kMostLocalSteps, oracle_).path;
+}
+
+std::vector<Quadruple> LocalPlanners::RunAlgorithm1(const Quadruple& grasp) {
+  const std::optional<Quadruple> goal = OwnRepresentatives(grasp);
+  if (!goal) return {};
+  std::array<int, 4> clusters;
+  for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
+  return JoinWithin(grasp, clusters, *goal);
+}
+
+std::vector<Quadruple> LocalPlanners::RunAlgorithm2(const Quadruple& grasp) {
+  const std::optional<NearestCluster> nearest = FindNearestCluster(grasp);
+  if (!nearest) return {};
+  std::array<int, 4> clusters;
+  for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
+  clusters[nearest->slot] = nearest->cluster;
+  return JoinWithin(grasp, clusters, nearest->vertex);
+}
+
+std::vector<Quadruple> LocalPlanners::RunAlgorithm3(const Quadruple& grasp) {
+  std::vector<int> contacts = clusters_.representatives();
+  std::vector<double> remoteness(clusters_.contacts().size(), 0);
+  for (const int contact : grasp) {
+    if (std::find(contacts.begin(), contacts.end(), contact) != contacts.end()) continue;
+    contacts.push_back(contact);
+    remoteness[contact] = 1;
+  }
+  const int count = static_cast<int>(clusters_.contacts().size());
+  GraspTree tree(grasp, Replacements::AnyOf(std::move(contacts), count), std::move(remoteness),
+                 oracle_);
+  for (std::int64_t step = 0; step < kMostLocalSteps && !tree.exhausted(); ++step) {
+    if (tree.Step() && IsVertex(tree.last())) return tree.PathTo(tree.last());
+  }
+  return {};
+}
+
+LocalPlanners::Way LocalPlanners::Link(const Quadruple& grasp) {
+  if (IsVertex(grasp)) return {RoadmapLink::kVertex, {grasp}};
+  std::vector<Quadruple> way = RunAlgorithm1(grasp);
+  if (!way.empty()) return {RoadmapLink::kAlgorithm1, std::move(way)};
+  way = RunAlgorithm2(grasp);
+  if (!way.empty()) return {RoadmapLink::kAlgorithm2, std::move(way)};
+  way = RunAlgorithm3(grasp);
+  if (!way.empty()) return {RoadmapLink::kAlgorithm3, std::move(way)};
+  return {};
+}
+
+}  // namespace regrasp

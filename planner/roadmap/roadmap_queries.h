@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/contact_chain.h"
+
+namespace regrasp {
+
+/// A force-closure grasp of four of the contact points, all of them equally likely; nullopt where
+/// none of kMaxSurfaceDraws draws is one.
+/// @param same_point  contacts no farther apart than this stand in no grasp.
+[[nodiscard]] std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
+                                                        double same_point, RandomStream& random);
+
+/// A query between two random force-closure grasps, and the time that it took.
+struct RandomQuery {
+  Quadruple start;
+  Quadruple goal;
+  ContactChain chain;
+  double seconds = 0;
+};
+
+/// Queries between force-closure grasps drawn from all contact points, joined or not, as in tables
+/// 6.1 to 6.6 of Phoka 2010. The same seed gives the same queries whatever the clusters.
+/// @returns fewer than `count` where grasps can't be drawn.
+[[nodiscard]] std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
+                                                        double same_point, int count,
+                                                        std::uint64_t seed, bool last_resort);
+
+}  // namespace regrasp
