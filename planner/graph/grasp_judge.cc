@@ -15,6 +15,19 @@ namespace {
 /// Of required half-angles that are only compared, radians.
 constexpr double kScoreAccuracy = 1e-5;
 
+/// Of qualities that are only compared: to a hundredth they would take ten times as long.
+constexpr double kScoreGap = 0.1;
+
+std::vector<double> NumbersOf(const Grasp& grasp) {
+  std::vector<double> numbers;
+  for (const Contact& contact : grasp) {
+    numbers.insert(numbers.end(), contact.p.begin(), contact.p.end());
+    numbers.insert(numbers.end(), contact.n.begin(), contact.n.end());
+    numbers.push_back(contact.face);
+  }
+  return numbers;
+}
+
 bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
@@ -45,11 +58,17 @@ bool GraspJudge::IsGood(const Grasp& grasp) const {
 }
 
 double GraspJudge::Score(const Grasp& grasp) const {
+  const auto [known, is_new] = scores_.try_emplace(NumbersOf(grasp), 0);
+  if (is_new) known->second = ComputeScore(grasp);
+  return known->second;
+}
+
+double GraspJudge::ComputeScore(const Grasp& grasp) const {
   if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle_)) {
     return -1;
   }
   if (!QualityAtLeast(grasp, frame_, half_angle_, min_quality_)) {
-    return Quality(grasp) / min_quality_ - 1;
+    return ComputeQuality(grasp, frame_, half_angle_, kScoreGap).lower / min_quality_ - 1;
   }
   const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
   return required ? std::max(half_angle_ - required->upper, 0.0) : 0;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
@@ -22,6 +25,7 @@ class GraspJudge {
 
   /// How good it is to rest in a grasp: its margin to the required half-angle, radians, where it is
   /// good; otherwise a negative number, the worse the lower its quality.
+  /// Remembers what it was asked: searches come back to the same grasps. Not for several threads.
   [[nodiscard]] double Score(const Grasp& grasp) const;
 
   [[nodiscard]] double Quality(const Grasp& grasp) const;
@@ -31,11 +35,14 @@ class GraspJudge {
   [[nodiscard]] double min_quality() const { return min_quality_; }
 
  private:
+  [[nodiscard]] double ComputeScore(const Grasp& grasp) const;
+
   const Object& object_;
   WrenchFrame frame_;
   double half_angle_;
   double min_quality_;
   double same_point_;
+  mutable std::map<std::vector<double>, double> scores_;  ///< by the numbers of a grasp
 };
 
 }  // namespace regrasp

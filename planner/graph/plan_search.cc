@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "planner/base/number.h"
-#include "planner/graph/fewest_switches.h"
 #include "planner/graph/rest_summary.h"
+#include "planner/graph/shortest_ways.h"
 
 namespace regrasp {
 
@@ -18,6 +18,31 @@ constexpr std::size_t kMaxSetDraws = 2000;
 
 /// Paths tried for one whose grasps are all of the quality that is asked for.
 constexpr int kMaxPaths = 600;
+
+/// A graph that knows how far it is to its ends on the shortest ways: a search over sequences with
+/// the fewest switches looks at nothing beside them.
+class OnShortestWays final : public SwitchingGraph {
+ public:
+  /// Both must outlive this object.
+  OnShortestWays(const SwitchingGraph& graph, const ShortestWays& ways, int goal)
+      : graph_(graph), ways_(ways), goal_(goal) {}
+
+  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count(); }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
+    graph_.GetNeighbours(vertex, neighbours);
+  }
+  /// @param to  start or goal.
+  [[nodiscard]] int MinSwitches(int from, int to) const override {
+    const int depth = ways_.depth[from];
+    if (depth < 0) return ways_.switches + 1;
+    return to == goal_ ? ways_.switches - depth : depth;
+  }
+
+ private:
+  const SwitchingGraph& graph_;
+  const ShortestWays& ways_;
+  int goal_;
+};
 
 }  // namespace
 
@@ -83,10 +108,11 @@ void GraphWithout::GetNeighbours(int vertex, std::vector<int>& neighbours) const
 
 std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
                               const VertexWidth& width) {
-  const VertexFilter all = [](int) { return true; };
-  const auto switches = FewestSwitches(graph, start, goal, all);
-  if (!switches) return {};
-  return WidestPath(graph, start, goal, *switches, all, width);
+  const auto ways = FindShortestWays(graph, start, goal);
+  if (!ways) return {};
+  const OnShortestWays on_ways(graph, *ways, goal);
+  return WidestPath(
+      on_ways, start, goal, ways->switches, [](int) { return true; }, width);
 }
 
 std::optional<Draft> FindDraft(

@@ -1,6 +1,7 @@
 #include "planner/graph/rest_summary.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "planner/base/number.h"
 #include "planner/grasp/required_half_angle.h"
@@ -8,9 +9,14 @@
 namespace regrasp {
 
 double SmallestMargin(const std::vector<Rest>& rests, const GraspJudge& judge) {
+  // A score is a lower bound of the margin, so that only the few smallest ones need it exactly.
+  std::vector<std::pair<double, const Rest*>> by_score;
+  for (const Rest& rest : rests) by_score.emplace_back(judge.Score(rest.grasp), &rest);
+  std::ranges::sort(by_score);
   double smallest = judge.half_angle();
-  for (const Rest& rest : rests) {
-    const auto required = ComputeRequiredHalfAngle(rest.grasp, judge.frame());
+  for (const auto& [score, rest] : by_score) {
+    if (score >= std::max(smallest, 0.0)) break;
+    const auto required = ComputeRequiredHalfAngle(rest->grasp, judge.frame());
     smallest = std::min(smallest, required ? judge.half_angle() - required->upper : 0);
   }
   return smallest;
@@ -26,7 +32,7 @@ std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests, const G
   std::size_t step = 0;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < rests.size(); ++i) {
-    if (judge.IsGood(rests[i].grasp)) continue;
+    if (judge.Score(rests[i].grasp) >= 0) continue;
     if (warnings.empty() && !judge.CanStand(rests[i].grasp)) {
       warnings.push_back("a fingertip has no room in " + name(i) +
                          ": a contact is in a concave corner");

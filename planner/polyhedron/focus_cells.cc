@@ -201,8 +201,13 @@ std::optional<FocusCellFinder::Junction> FocusCellFinder::FindJunction(double ta
   return std::nullopt;
 }
 
-std::optional<MinMaxResult> FocusCellFinder::FindDeepest(std::span<const UnionVolume> volumes) {
-  min_max_.Restart();
+std::optional<MinMaxResult> FocusCellFinder::FindDeepest(std::span<const UnionVolume> volumes,
+                                                         const FocusPiece* from) {
+  if (from != nullptr) {
+    min_max_.Resume(from->basis);
+  } else {
+    min_max_.Restart();
+  }
   const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kMinimum);
   if (result.overlap != Overlap::kSome) return std::nullopt;
   return result;
@@ -237,12 +242,10 @@ bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
                                   VolumeOf(of_a.halves[common_a[0]], narrower),
                                   VolumeOf(of_a.halves[common_a[1]], narrower),
                                   VolumeOf(of_a.halves[common_a[2]], narrower)};
-      if (a.tangent == b.tangent) {
-        if (volumes[0].At(of_a.point) < 0 || volumes[1].At(of_b.point) < 0) return true;
-        min_max_.Resume(of_a.basis);
-      } else {
-        min_max_.Restart();
-      }
+      // What is known of the piece with the narrower cones holds: its volumes are among the five.
+      if (a.tangent == narrower && volumes[0].At(of_a.point) < 0) return true;
+      if (b.tangent == narrower && volumes[1].At(of_b.point) < 0) return true;
+      min_max_.Resume(a.tangent == narrower ? of_a.basis : of_b.basis);
       if (Decide(min_max_.Solve(volumes, MinMax::Until::kSign), of_a.halves)) return true;
     }
   }

@@ -58,7 +58,9 @@ class FocusCellFinder {
                                                      const FocusPiece& b);
 
   /// The focus point deepest inside some volumes; nullopt where they have none in common.
-  [[nodiscard]] std::optional<MinMaxResult> FindDeepest(std::span<const UnionVolume> volumes);
+  /// @param from  a piece whose volumes are among them, to go on from what is known of it.
+  [[nodiscard]] std::optional<MinMaxResult> FindDeepest(std::span<const UnionVolume> volumes,
+                                                        const FocusPiece* from = nullptr);
 
   /// Whether the largest of some convex functions is negative somewhere.
   [[nodiscard]] bool HasPoint(const MinMax::LargestCut& largest_cut);

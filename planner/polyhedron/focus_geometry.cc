@@ -100,7 +100,7 @@ double FocusGeometry::WidthOf(int cell) {
     std::vector<UnionVolume> volumes;
     for (const int half : piece.halves)
       volumes.push_back(graph_.finder().VolumeOf(half, c.tangent));
-    if (const auto deepest = graph_.finder().FindDeepest(volumes)) {
+    if (const auto deepest = graph_.finder().FindDeepest(volumes, &piece)) {
       known->second = std::max(known->second, -deepest->value);
     }
   }
@@ -173,18 +173,24 @@ std::optional<FocusSwitch> FocusGeometry::FindSwitch(int from, int to) {
   const double narrower = std::min(a.tangent, b.tangent);
   std::optional<FocusSwitch> best;
   double least = 0;
+  std::array<std::size_t, 4> position_in_b;
+  for (std::size_t k = 0; k < 4; ++k) position_in_b[k] = PositionOf(b, a.faces[k]);
+  std::vector<UnionVolume> volumes;
   for (std::size_t p = 0; p < a.pieces.size(); ++p) {
     for (std::size_t q = 0; q < b.pieces.size(); ++q) {
       const auto& of_a = a.pieces[p].halves;
       const auto& of_b = b.pieces[q].halves;
-      std::vector<UnionVolume> volumes = {graph_.finder().VolumeOf(of_a[own_a], a.tangent),
-                                          graph_.finder().VolumeOf(of_b[own_b], b.tangent)};
+      volumes.assign({graph_.finder().VolumeOf(of_a[own_a], a.tangent),
+                      graph_.finder().VolumeOf(of_b[own_b], b.tangent)});
       for (std::size_t k = 0; k < of_a.size(); ++k) {
-        if (k == own_a || of_b[PositionOf(b, a.faces[k])] != of_a[k]) continue;
+        if (k == own_a) continue;
+        if (of_b[position_in_b[k]] != of_a[k]) break;
         volumes.push_back(graph_.finder().VolumeOf(of_a[k], narrower));
       }
       if (volumes.size() < 5) continue;
-      const auto deepest = graph_.finder().FindDeepest(volumes);
+      // The narrower cell's own volumes are all among the five.
+      const FocusPiece& known = a.tangent == narrower ? a.pieces[p] : b.pieces[q];
+      const auto deepest = graph_.finder().FindDeepest(volumes, &known);
       if (!deepest || deepest->value >= least) continue;
       least = deepest->value;
       FocusSwitch found;

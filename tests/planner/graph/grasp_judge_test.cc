@@ -57,5 +57,15 @@ TEST(GraspJudge, TwoContactsAtOnePointAreNoGrasp) {
   EXPECT_TRUE(judge.IsGood(grasp));
 }
 
+TEST(GraspJudge, RemembersTheScoreOfEachGraspApart) {
+  const Polygon square = Square(1);
+  const GraspJudge judge(square, Radians(30), 0.01);
+  const double first = judge.Score(Across(square, 0.5, 0.5));
+  const double second = judge.Score(Across(square, 0.4, 0.6));
+  EXPECT_GT(first, second);
+  EXPECT_EQ(judge.Score(Across(square, 0.5, 0.5)), first);
+  EXPECT_EQ(judge.Score(Across(square, 0.4, 0.6)), second);
+}
+
 }  // namespace
 }  // namespace regrasp
