@@ -146,6 +146,22 @@ ForceClosure DecideOpenForceClosure(const UnitContacts& contacts, ForceClosurePr
 }
 
 template <int kDim>
+Decision DecideOnly(const UnitContacts& contacts, typename WrenchSimplex<kDim>::Vector& twist) {
+  using Simplex = WrenchSimplex<kDim>;
+  Simplex simplex(contacts, typename Simplex::Vector{});
+  const typename Simplex::Status status = simplex.FindWeights(/*stop_early=*/true);
+  if (status == Simplex::Status::kInfeasible) {
+    twist = simplex.twist();
+    return Decision::kNo;
+  }
+  if (status == Simplex::Status::kFeasible && simplex.BallRadius() > kForceClosureEpsilon) {
+    return Decision::kYes;
+  }
+  twist = {};
+  return DecideOpenForceClosure<kDim>(contacts).decision;
+}
+
+template <int kDim>
 ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<kDim>* proof) {
   const bool space = kDim == 6;
   const bool few = contacts.size() <= kPairLinesFirst;
@@ -167,5 +183,6 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
 template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*);
 template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
 template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
+template Decision DecideOnly<6>(const UnitContacts&, WrenchSimplex<6>::Vector&);
 
 }  // namespace regrasp

@@ -26,4 +26,10 @@ template <int kDim>
 [[nodiscard]] ForceClosure DecideOpenForceClosure(const UnitContacts& contacts,
                                                   ForceClosureProof<kDim>* proof = nullptr);
 
+/// Its decision alone, without bounds or forces.
+/// @param twist  after kNo the one that separates; zero where the rank decides.
+template <int kDim>
+[[nodiscard]] Decision DecideOnly(const UnitContacts& contacts,
+                                  typename WrenchSimplex<kDim>::Vector& twist);
+
 }  // namespace regrasp

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/separator_pool.h"
 #include "planner/grasp/turn_table.h"
 
 namespace regrasp {
@@ -18,6 +19,15 @@ UnitContacts MakeRimmedContacts(std::span<const Contact> points, const WrenchFra
   return units;
 }
 
+/// The twist of moved contacts, as one of the contacts before they were: u = v + ω × (q − c) s.
+SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentring& moved) {
+  const Eigen::Map<const Eigen::Vector3d> omega(twist.data() + 3);
+  const Eigen::Vector3d v =
+      Eigen::Map<const Eigen::Vector3d>(twist.data()) - moved.scale * omega.cross(moved.centre);
+  const Eigen::Vector3d w = moved.scale * omega;
+  return {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+}
+
 /// Enumerates with three contacts fixed and the fourth as the bit of a word.
 class SubsetSearch {
  public:
@@ -25,6 +35,7 @@ class SubsetSearch {
       : count_(static_cast<int>(points.size())),
         units_(MakeRimmedContacts(points, frame, half_angle)),
         turns_(units_),
+        separators_(units_),
         triples_(static_cast<std::size_t>(count_) * count_ * turns_.words()) {}
 
   std::vector<std::array<int, 4>> Run() {
@@ -37,19 +48,24 @@ class SubsetSearch {
 
  private:
   template <typename Function>
-  void ForEachTriple(Function function) const {
+  void ForEachTriple(Function function) {
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
+        separators_.FixPair(i, j);
         for (int k = j + 1; k < count_; ++k) function(i, j, k);
       }
     }
   }
 
-  [[nodiscard]] Decision Simplex(std::initializer_list<int> subset) const {
+  /// Remembers the twist that a no comes with.
+  [[nodiscard]] Decision Simplex(std::initializer_list<int> subset) {
     UnitContacts contacts;
     for (int index : subset) contacts.push_back(units_[index]);
-    Recentre(contacts);
-    return DecideOpenForceClosure<6>(contacts).decision;
+    const Recentring moved = Recentre(contacts);
+    SeparatorPool::Twist twist;
+    const Decision decision = DecideOnly<6>(contacts, twist);
+    if (decision == Decision::kNo) separators_.Add(MovedBack(twist, moved));
+    return decision;
   }
 
   [[nodiscard]] Word* Triple(int a, int b) {
@@ -81,7 +97,10 @@ class SubsetSearch {
       counts_.rejected_by_lines += std::popcount(range & ~open);
       counts_.accepted_by_pairs += std::popcount(pairs);
       counts_.accepted_by_triples += std::popcount(triples);
+      const std::int64_t before = counts_.by_simplex;
       Collect(i, j, k, word, open, pairs | triples);
+      counts_.rejected_by_twists +=
+          std::popcount(open & ~pairs & ~triples) - (counts_.by_simplex - before);
     }
   }
 
@@ -138,22 +157,26 @@ class SubsetSearch {
   }
 
   void Collect(int i, int j, int k, int word, Word open, Word accepted) {
-    for (Word rest = open; rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const int l = word * TurnTable::kWordBits + bit;
-      if (((accepted >> bit) & 1U) == 0) {
-        ++counts_.by_simplex;
-        const Decision decision = Simplex({i, j, k, l});
-        if (decision == Decision::kTooClose) ++counts_.too_close;
-        if (decision != Decision::kYes) continue;
-      }
-      found_.push_back({i, j, k, l});
+    Word unsettled = separators_.LeftOpen(k, word, open & ~accepted);
+    while (unsettled != 0) {
+      const int bit = std::countr_zero(unsettled);
+      unsettled &= unsettled - 1;
+      ++counts_.by_simplex;
+      const Decision decision = Simplex({i, j, k, word * TurnTable::kWordBits + bit});
+      if (decision == Decision::kTooClose) ++counts_.too_close;
+      if (decision == Decision::kYes) accepted |= Word{1} << bit;
+      // Its twist may hold off more of them.
+      if (decision == Decision::kNo) unsettled = separators_.LeftOpenByLast(k, word, unsettled);
+    }
+    for (; accepted != 0; accepted &= accepted - 1) {
+      found_.push_back({i, j, k, word * TurnTable::kWordBits + std::countr_zero(accepted)});
     }
   }
 
   int count_;
   UnitContacts units_;
   TurnTable turns_;
+  SeparatorPool separators_;
   std::vector<Word> triples_;  // row (a, b), bit c: a, b, c are force closure
   std::vector<std::array<int, 4>> found_;
   SubsetCounts counts_;

@@ -10,11 +10,12 @@
 
 namespace regrasp {
 
-/// How the 4-subsets were settled. The first four sum to `subsets`.
+/// How the 4-subsets were settled. The first five sum to `subsets`.
 struct SubsetCounts {
   std::int64_t rejected_by_lines = 0;    ///< PairLineVerdict::kNo
   std::int64_t accepted_by_pairs = 0;    ///< PairLineVerdict::kYes
   std::int64_t accepted_by_triples = 0;  ///< three of the four are force closure alone
+  std::int64_t rejected_by_twists = 0;   ///< held off by the twist that refuted another subset
   std::int64_t by_simplex = 0;           ///< one linear program each
   std::int64_t subsets = 0;
   std::int64_t too_close = 0;  ///< of by_simplex: too close to call, not among the results

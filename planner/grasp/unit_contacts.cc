@@ -58,7 +58,7 @@ WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension) {
   return frame;
 }
 
-void Recentre(UnitContacts& contacts) {
+Recentring Recentre(UnitContacts& contacts) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const UnitContact& contact : contacts) centre += contact.q;
   centre /= static_cast<double>(contacts.size());
@@ -67,9 +67,10 @@ void Recentre(UnitContacts& contacts) {
     contact.q -= centre;
     squared = std::max(squared, contact.q.squaredNorm());
   }
-  if (!(squared > 0)) return;
+  if (!(squared > 0)) return {centre, 1};
   const double scale = 1 / std::sqrt(squared);
   for (UnitContact& contact : contacts) contact.q *= scale;
+  return {centre, scale};
 }
 
 void SetUnitForces(UnitContacts& contacts, double half_angle) {

@@ -49,8 +49,15 @@ void CheckHalfAngle(double half_angle);
 /// coincide. Force closure does not depend on the frame, and is decided most precisely in this one.
 [[nodiscard]] WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension);
 
-/// Moves contacts to their own centre and radius (ContactFrame); left as they are where that is 0.
-void Recentre(UnitContacts& contacts);
+/// How contacts were moved: q became (q − centre) · scale.
+struct Recentring {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double scale = 1;
+};
+
+/// Moves contacts to their own centre and radius (ContactFrame); only to the centre where that is
+/// 0.
+Recentring Recentre(UnitContacts& contacts);
 
 /// Sets the rims of all contacts to half-angle θ with forces of unit length.
 void SetUnitForces(UnitContacts& contacts, double half_angle);

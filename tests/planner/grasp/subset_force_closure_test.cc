@@ -55,7 +55,9 @@ TEST(SubsetForceClosureTest, IndicesBeyondOneWordOfBitsAreRight) {
   EXPECT_GT(beyond, 100);
   EXPECT_EQ(counts.subsets, 766480);  // 67 over 4
   EXPECT_EQ(counts.subsets, counts.rejected_by_lines + counts.accepted_by_pairs +
-                                counts.accepted_by_triples + counts.by_simplex);
+                                counts.accepted_by_triples + counts.rejected_by_twists +
+                                counts.by_simplex);
+  EXPECT_GT(counts.rejected_by_twists, counts.by_simplex);
   EXPECT_EQ(found.size(), OneByOne(points, Radians(12)).size());
 }
 
