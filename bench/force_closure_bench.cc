@@ -3,18 +3,16 @@
 // the same run. Prints how the verdicts compare and the ratios of the times.
 
 #include <benchmark/benchmark.h>
-#include <glpk.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "bench/pyramid_force_closure.h"
 #include "planner/base/angle.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
@@ -25,15 +23,11 @@ namespace {
 
 using namespace regrasp;
 
-constexpr int kSides = 8;
 constexpr int kContacts = 4;
-constexpr int kDimension = 6;
 constexpr int kGrasps = 2000;
 constexpr int kHullGrasps = 100;  // Qhull takes milliseconds each
 constexpr std::array kDegrees{10.0, 20.0};
 const WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
-
-using Wrenches = Eigen::Matrix<double, kDimension, kContacts * kSides>;
 
 /// Half of the points on a ball with normals up to 17° off, half on a box.
 Contact RandomContact(std::mt19937_64& engine, bool box) {
@@ -66,46 +60,12 @@ const std::vector<Grasp>& Grasps() {
   return grasps;
 }
 
-Wrenches PyramidWrenches(const Grasp& grasp, double half_angle) {
-  Wrenches wrenches;
-  int column = 0;
-  for (const Contact& contact : grasp) {
-    const Eigen::Vector3d first = contact.n.unitOrthogonal();
-    const Eigen::Vector3d second = contact.n.cross(first);
-    for (int side = 0; side < kSides; ++side) {
-      const double angle = 2 * std::numbers::pi * side / kSides;
-      const Eigen::Vector3d force =
-          contact.n + std::tan(half_angle) * (std::cos(angle) * first + std::sin(angle) * second);
-      wrenches.col(column++) << force, contact.p.cross(force);
-    }
-  }
-  return wrenches;
-}
-
-/// Weights of at least 1 on all edges that balance exist iff the pyramids' interiors balance.
 bool GlpkForceClosure(const Grasp& grasp, double half_angle) {
-  const Wrenches wrenches = PyramidWrenches(grasp, half_angle);
-  const std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem(glp_create_prob(), &glp_delete_prob);
-  glp_add_rows(problem.get(), kDimension);
-  glp_add_cols(problem.get(), kContacts * kSides);
-  for (int row = 1; row <= kDimension; ++row) glp_set_row_bnds(problem.get(), row, GLP_FX, 0, 0);
-  std::array<int, kDimension + 1> rows{0, 1, 2, 3, 4, 5, 6};
-  std::array<double, kDimension + 1> values{};
-  for (int column = 0; column < kContacts * kSides; ++column) {
-    glp_set_col_bnds(problem.get(), column + 1, GLP_LO, 1, 0);
-    for (int row = 0; row < kDimension; ++row) values[row + 1] = wrenches(row, column);
-    glp_set_mat_col(problem.get(), column + 1, kDimension, rows.data(), values.data());
-  }
-  glp_smcp parameters;
-  glp_init_smcp(&parameters);
-  parameters.msg_lev = GLP_MSG_OFF;
-  parameters.presolve = GLP_OFF;
-  glp_simplex(problem.get(), &parameters);
-  return glp_get_status(problem.get()) == GLP_OPT;
+  return PyramidForceClosure(grasp, half_angle);
 }
 
 bool QhullForceClosure(const Grasp& grasp, double half_angle) {
-  const ConvexHull hull = ComputeConvexHull(PyramidWrenches(grasp, half_angle));
+  const ConvexHull hull = ComputeConvexHull(WrenchesOfPyramids(grasp, half_angle));
   for (const HullFacet& facet : hull.facets) {
     if (facet.offset <= hull.joggle) return false;
   }

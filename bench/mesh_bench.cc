@@ -1,0 +1,151 @@
+// The planner of triangle meshes: clustering, deciding all subsets of the representatives, queries.
+// The baseline of the subsets is a linear program of GLPK each, on a sample of the same subsets,
+// friction cones as pyramids of eight sides.
+
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "bench/pyramid_force_closure.h"
+#include "planner/base/angle.h"
+#include "planner/graph/grasp_choice.h"
+#include "planner/grasp/subset_force_closure.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/roadmap_queries.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr double kDegrees = 10;
+constexpr int kQueries = 30;
+constexpr std::uint64_t kSeed = 1;
+constexpr std::array kBodies = {"ellipsoid1000", "flask1000", "mug1000",
+                                "spanner1000",   "star1000",  "duck1000"};
+
+const Polyhedron& Body(std::int64_t index) {
+  static std::map<std::int64_t, ObjectFile> files;
+  const auto [entry, is_new] = files.try_emplace(index);
+  if (is_new) {
+    entry->second = ReadObject(std::filesystem::path(REGRASP_MODELS) /
+                               (kBodies.at(index) + std::string(".obj")));
+  }
+  return dynamic_cast<const Polyhedron&>(*entry->second.object);
+}
+
+ClusteredRoadmapOptions Options(int clusters) {
+  ClusteredRoadmapOptions options;
+  options.half_angle = Radians(kDegrees);
+  options.clusters = clusters;
+  return options;
+}
+
+const ClusteredRoadmap& RoadmapOf(std::int64_t index, int clusters) {
+  static std::map<std::pair<std::int64_t, int>, std::unique_ptr<ClusteredRoadmap>> roadmaps;
+  std::unique_ptr<ClusteredRoadmap>& roadmap = roadmaps[{index, clusters}];
+  if (!roadmap) roadmap = std::make_unique<ClusteredRoadmap>(Body(index), Options(clusters));
+  return *roadmap;
+}
+
+/// Affinities, embedding, k-means and representatives of a thousand contact points.
+void BM_Cluster(benchmark::State& state) {
+  const Polyhedron& solid = Body(state.range(0));
+  const int clusters = static_cast<int>(state.range(1));
+  const std::vector<Contact> contacts = RoadmapOf(state.range(0), clusters).clusters.contacts();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        ContactClusters(contacts, solid.wrench_frame(), Radians(kDegrees), clusters, 0));
+  }
+  state.SetLabel(kBodies.at(state.range(0)));
+  state.counters["contacts"] = static_cast<double>(contacts.size());
+}
+
+/// All subsets of four of the representatives.
+void BM_Subsets(benchmark::State& state) {
+  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  SubsetCounts counts;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        ForceClosureSubsets(roadmap.roadmap.points(), roadmap.frame, roadmap.half_angle, &counts));
+  }
+  state.SetLabel(kBodies.at(state.range(0)));
+  state.counters["subsets"] = static_cast<double>(counts.subsets);
+  state.counters["by_simplex"] = static_cast<double>(counts.by_simplex);
+  state.counters["vertices"] = roadmap.roadmap.vertex_count();
+  state.counters["per_subset"] = benchmark::Counter(
+      static_cast<double>(counts.subsets),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// A linear program for each of a sample of the same subsets.
+void BM_SubsetsByGlpk(benchmark::State& state) {
+  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  const std::vector<Contact>& points = roadmap.roadmap.points();
+  RandomStream random(kSeed, RandomUse::kStart);
+  std::int64_t asked = 0;
+  for (auto _ : state) {
+    Grasp grasp;
+    for (int i = 0; i < 4; ++i) {
+      Contact contact = points[random.Index(points.size())];
+      contact.p = (contact.p - roadmap.frame.origin) / roadmap.frame.radius;
+      grasp.push_back(contact);
+    }
+    benchmark::DoNotOptimize(PyramidForceClosure(grasp, roadmap.half_angle));
+    ++asked;
+  }
+  state.SetLabel(kBodies.at(state.range(0)));
+  state.counters["per_subset"] = benchmark::Counter(
+      static_cast<double>(asked), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// Thirty queries between random force-closure grasps of all contact points.
+void BM_Queries(benchmark::State& state) {
+  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  const double same_point = kSamePoint * Body(state.range(0)).diameter();
+  double seconds = 0;
+  double longest = 0;
+  double joined = 0;
+  double asked = 0;
+  std::uint64_t seed = kSeed;
+  for (auto _ : state) {
+    for (const RandomQuery& query :
+         RunRandomQueries(roadmap, same_point, kQueries, seed++, /*last_resort=*/true)) {
+      seconds += query.seconds;
+      longest = std::max(longest, query.seconds);
+      joined += query.chain.grasps.empty() ? 0 : 1;
+      ++asked;
+    }
+  }
+  state.SetLabel(kBodies.at(state.range(0)));
+  state.counters["mean_ms"] = 1e3 * seconds / asked;
+  state.counters["max_ms"] = 1e3 * longest;
+  state.counters["joined"] = joined / asked;
+}
+
+/// A large roadmap, and the most memory that the program has had in use by then.
+void BM_LargeRoadmap(benchmark::State& state) {
+  const Polyhedron& solid = Body(state.range(0));
+  for (auto _ : state) {
+    const ClusteredRoadmap roadmap(solid, Options(static_cast<int>(state.range(1))));
+    state.counters["vertices"] = roadmap.roadmap.vertex_count();
+    state.counters["edges"] = static_cast<double>(roadmap.roadmap.edge_count());
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;
+  state.SetLabel(kBodies.at(state.range(0)));
+}
+
+const std::vector<std::int64_t> kAll = {0, 1, 2, 3, 4, 5};
+
+BENCHMARK(BM_Cluster)->ArgsProduct({kAll, {70}})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Subsets)->ArgsProduct({kAll, {70}})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_SubsetsByGlpk)->ArgsProduct({kAll, {70}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_Queries)->ArgsProduct({kAll, {70}})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_LargeRoadmap)->ArgsProduct({{0, 3}, {150}})->Unit(benchmark::kMillisecond);
+
+}  // namespace
