@@ -32,6 +32,10 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
   return entry->second;
 }
 
+bool GraspOracle::AtSamePoint(int a, int b) const {
+  return (contacts_[a].p - contacts_[b].p).norm() <= same_point_;
+}
+
 bool GraspOracle::Test(const Quadruple& grasp) {
   ++test_count_;
   const std::array contacts = {contacts_[grasp[0]], contacts_[grasp[1]], contacts_[grasp[2]],
@@ -39,7 +43,7 @@ bool GraspOracle::Test(const Quadruple& grasp) {
   if (!IsForceClosure(contacts, frame_, half_angle_)) return false;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < i; ++j) {
-      if ((contacts[i].p - contacts[j].p).norm() <= same_point_) return false;
+      if (AtSamePoint(grasp[i], grasp[j])) return false;
     }
   }
   if (!is_good_) return true;

@@ -31,6 +31,9 @@ class GraspOracle {
               double same_point, std::function<bool(const Grasp&)> is_good = {});
 
   [[nodiscard]] bool Admits(const Quadruple& ascending);
+  /// Whether two contacts are at one point: then a finger can't take the one before another leaves
+  /// the other.
+  [[nodiscard]] bool AtSamePoint(int a, int b) const;
 
   [[nodiscard]] Grasp GraspOf(const Quadruple& contacts) const;
 

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+inline Eigen::Vector3d DrawDirection(RandomStream& random) {
+  const double z = 2 * random.Uniform() - 1;
+  const double turn = 2 * std::numbers::pi * random.Uniform();
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+/// The convex hull of points on an ellipsoid of some centimetres: 2 · corners − 4 triangles. Facets
+/// are the triples of points that have all others behind them.
+inline Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
+                                 const Eigen::Vector3d& axes = {0.05, 0.03, 0.04}) {
+  RandomStream random(seed, RandomUse::kContactPoints);
+  PolygonSoup soup;
+  while (std::ssize(soup.vertices) < corners) {
+    soup.vertices.push_back(DrawDirection(random).cwiseProduct(axes));
+  }
+  const auto& v = soup.vertices;
+  const auto add_if_facet = [&](int a, int b, int c) {
+    const Eigen::Vector3d normal = (v[b] - v[a]).cross(v[c] - v[a]);
+    int before = 0;
+    for (int d = 0; d < corners; ++d) {
+      if (d != a && d != b && d != c && normal.dot(v[d] - v[a]) > 0) ++before;
+    }
+    if (before == 0) soup.facets.push_back({a, b, c});
+    if (before == corners - 3) soup.facets.push_back({a, c, b});
+  };
+  for (int a = 0; a < corners; ++a) {
+    for (int b = a + 1; b < corners; ++b) {
+      for (int c = b + 1; c < corners; ++c) add_if_facet(a, b, c);
+    }
+  }
+  return Polyhedron::FromSoup(soup, "convex body");
+}
+
+inline std::vector<Contact> Centroids(const Polyhedron& solid) {
+  std::vector<Contact> contacts;
+  for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
+    const auto& [a, b, c] = solid.triangles()[i];
+    const auto& v = solid.vertices();
+    const int face = solid.face_of_triangle(i);
+    contacts.push_back({(v[a] + v[b] + v[c]) / 3, solid.inward_normal(face), face});
+  }
+  return contacts;
+}
+
+/// A mesh of models/ by its name.
+inline Polyhedron ReadMesh(const std::string& name) {
+  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/" + name + ".obj");
+  return dynamic_cast<const Polyhedron&>(*file.object);
+}
+
+/// The same mesh, every vertex moved.
+inline Polyhedron Moved(const Polyhedron& solid, const Eigen::Affine3d& motion) {
+  PolygonSoup soup;
+  for (const Eigen::Vector3d& vertex : solid.vertices()) soup.vertices.push_back(motion * vertex);
+  for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
+  return Polyhedron::FromSoup(soup, "moved");
+}
+
+/// A rigid motion and another unit of length, of no round numbers.
+inline Eigen::Affine3d MotionAndUnit(double unit) {
+  return Eigen::Translation3d(0.7 * unit, -0.31 * unit, 0.19 * unit) *
+         Eigen::AngleAxisd(1.234, Eigen::Vector3d(0.3, -0.5, 0.7).normalized()) *
+         Eigen::Scaling(unit);
+}
+
+}  // namespace regrasp
