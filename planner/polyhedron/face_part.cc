@@ -1,13 +1,18 @@
 #include "planner/polyhedron/face_part.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace regrasp {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 namespace {
 
@@ -42,6 +47,7 @@ class FaceSplitter {
       parts.joints.push_back(
           {{first + owner, first + other->second}, MakePart({side[0], side[1]})});
     }
+    parts.hulls.push_back(rings_.size() == 1 ? parts.parts[first] : MakeHull());
   }
 
  private:
@@ -58,6 +64,24 @@ class FaceSplitter {
     for (const int vertex : ring) part.outline.push_back(Flat(vertex));
     part.corners = ring;
     return part;
+  }
+
+  [[nodiscard]] FacePart MakeHull() const {
+    FacePart hull = frame_;
+    for (const Ring& ring : rings_)
+      hull.corners.insert(hull.corners.end(), ring.begin(), ring.end());
+    std::ranges::sort(hull.corners);
+    const auto repeated = std::ranges::unique(hull.corners);
+    hull.corners.erase(repeated.begin(), repeated.end());
+    std::vector<Kernel::Point_2> points;
+    for (const int vertex : hull.corners) {
+      const Vector2d flat = Flat(vertex);
+      points.emplace_back(flat.x(), flat.y());
+    }
+    std::vector<Kernel::Point_2> outline;
+    CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(outline));
+    for (const Kernel::Point_2& point : outline) hull.outline.emplace_back(point.x(), point.y());
+    return hull;
   }
 
   /// The directed sides of all rings and the rings they belong to.

@@ -30,6 +30,9 @@ struct FaceParts {
   std::vector<FacePart> parts;    ///< by faces
   std::vector<int> first;         ///< parts of face f: first[f] to first[f + 1] − 1
   std::vector<PartJoint> joints;  ///< by faces
+  /// Of each face the smallest convex part that contains all of its parts; its corners are all that
+  /// they have.
+  std::vector<FacePart> hulls;
 };
 
 /// Cuts faces that are not convex, or have holes, into convex parts: the face's triangles, joined

@@ -75,19 +75,34 @@ class FocusCellFinder {
   enum class Known : std::uint8_t { kNo, kYes, kNotYet };
 
   [[nodiscard]] bool MayMeet(int half, int other);
-  [[nodiscard]] std::vector<int> SharedCorners(int part, int other) const;
+  [[nodiscard]] const FacePart& PartOf(int half) const;
+  [[nodiscard]] std::vector<int> SharedCorners(int half, int other) const;
   void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                   std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
+  void Refine(const QuadrupleCandidate& candidate, std::size_t position, const FocusPiece& piece,
+              std::vector<FocusPiece>& pieces);
+  [[nodiscard]] std::vector<UnionVolume> VolumesOf(const FocusPiece& piece, double tangent) const;
+  [[nodiscard]] bool AreJoined(double tangent, const FocusPiece& a, const FocusPiece& b);
+  [[nodiscard]] MinMaxResult MeetAcrossFace(double tangent, const FocusPiece& a,
+                                            std::size_t changed, MinMax::Until until);
   [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const int> halves);
   [[nodiscard]] bool IsAtSharedBorder(const Eigen::Vector3d& point,
                                       std::span<const int> halves) const;
 
+  /// A joint as one of its parts sees it.
+  struct JoinedPart {
+    int other;  ///< part
+    int joint;
+  };
+
   const Polyhedron& solid_;
   FaceParts parts_;
-  std::vector<UnionVolume::Shape> shapes_;  ///< of the parts
+  std::vector<UnionVolume::Shape> shapes_;        ///< of the parts, then of the hulls
+  std::vector<UnionVolume::Shape> joint_shapes_;  ///< segments
+  std::vector<std::vector<JoinedPart>> joined_;   ///< by parts
   double tangent_;
   MinMax min_max_;
-  std::vector<Known> meet_;  ///< by pairs of halves
+  std::vector<Known> meet_;  ///< by pairs of halves of faces' hulls
   std::int64_t unclear_ = 0;
 };
 

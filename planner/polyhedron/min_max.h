@@ -50,6 +50,9 @@ class MinMax {
   [[nodiscard]] MinMaxResult Solve(std::span<const UnionVolume> volumes, Until until);
   [[nodiscard]] MinMaxResult Solve(const LargestCut& largest_cut, Until until);
 
+  /// Values this close to zero decide nothing.
+  [[nodiscard]] double rounding() const { return rounding_; }
+
   /// Back to the first basis.
   void Restart();
 
