@@ -99,6 +99,41 @@ int CheckParts(const Polyhedron& body, const FaceParts& split) {
   return static_cast<int>(split.parts.size());
 }
 
+/// The hull of a face contains its parts, touches them at all of its own corners, and is the part
+/// where there is one; how many faces have several.
+int CheckHulls(const Polyhedron& body, const FaceParts& split) {
+  EXPECT_EQ(split.hulls.size(), body.faces().size());
+  const double small = kRounding * body.diameter();
+  int several = 0;
+  for (int face = 0; face < body.face_count(); ++face) {
+    const FacePart& hull = split.hulls[face];
+    const int first = split.first[face];
+    const int end = split.first[face + 1];
+    EXPECT_EQ(hull.face, face);
+    EXPECT_GT(AreaOf(hull.outline), 0);
+    std::vector<Vector2d> corners;
+    for (int p = first; p < end; ++p) {
+      for (const Vector2d& corner : split.parts[p].outline) {
+        EXPECT_TRUE(IsInside(hull, corner, -small));
+        corners.push_back(corner);
+      }
+      for (const int corner : split.parts[p].corners) {
+        EXPECT_EQ(std::ranges::count(hull.corners, corner), 1);
+      }
+    }
+    for (const Vector2d& corner : hull.outline) {
+      EXPECT_GT(std::ranges::count(corners, corner), 0);
+    }
+    if (end - first == 1) {
+      EXPECT_EQ(hull.outline, split.parts[first].outline);
+    } else {
+      EXPECT_GT(AreaOf(hull.outline), body.face_measure(face) + small);
+      ++several;
+    }
+  }
+  return several;
+}
+
 /// Joints lie on the borders of both their parts, and parts of a face hang together by them.
 int CheckJoints(const FaceParts& split) {
   for (const PartJoint& joint : split.joints) {
@@ -135,6 +170,7 @@ TEST(SplitFaces, ConvexFacesAreOnePart) {
     const FaceParts split = SplitFaces(body);
     EXPECT_EQ(CheckParts(body, split), body.face_count());
     EXPECT_TRUE(split.joints.empty());
+    EXPECT_EQ(CheckHulls(body, split), 0);
   }
 }
 
@@ -144,6 +180,7 @@ TEST(SplitFaces, AnLIsTwoPartsWithOneJoint) {
   const FaceParts split = SplitFaces(body);
   EXPECT_EQ(CheckParts(body, split), 10);
   EXPECT_EQ(CheckJoints(split), 2);
+  EXPECT_EQ(CheckHulls(body, split), 2);
 }
 
 TEST(SplitFaces, AFrameIsPartsInACircle) {
@@ -155,6 +192,7 @@ TEST(SplitFaces, AFrameIsPartsInACircle) {
   EXPECT_GE(parts, 8);
   EXPECT_LE(parts, 16);
   EXPECT_EQ(CheckJoints(split), parts);
+  EXPECT_EQ(CheckHulls(body, split), 2);
 }
 
 TEST(SplitFaces, AStarOfManyCornersIsCutAtItsConcaveOnes) {
@@ -172,6 +210,7 @@ TEST(SplitFaces, AStarOfManyCornersIsCutAtItsConcaveOnes) {
   EXPECT_GE(parts, 2 * (kTips / 2 + 1));
   EXPECT_LE(parts, 8 * (kTips / 2 + 1));
   EXPECT_GT(CheckJoints(split), 0);
+  EXPECT_EQ(CheckHulls(body, split), 2);
 }
 
 TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
