@@ -37,7 +37,7 @@ std::vector<double> RemotenessFrom(const Quadruple& grasp, const Quadruple& root
 }  // namespace
 
 Replacements Replacements::AnyOf(std::vector<int> contacts, int count) {
-  return {{std::move(contacts)}, std::vector<int>(count, 0)};
+  return {{std::move(contacts)}, std::vector<int>(count, 0), {}};
 }
 
 bool GraspTree::Offer::operator<(const Offer& other) const {
@@ -83,6 +83,7 @@ bool GraspTree::Step() {
   Push(offer.from, offer.slot, offer.position + 1);
   const std::optional<Quadruple> grasp = Replaced(from, offer.slot, contact);
   if (!grasp || Has(*grasp) || oracle_.AtSamePoint(from[offer.slot], contact)) return false;
+  if (replacements_.allows && !replacements_.allows(*grasp)) return false;
   if (!oracle_.Admits(*grasp)) return false;
   Reach(*grasp, offer.from);
   return true;

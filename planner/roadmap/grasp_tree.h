@@ -16,6 +16,8 @@ namespace regrasp {
 struct Replacements {
   std::vector<std::vector<int>> lists;
   std::vector<int> list_of;  ///< by contact: which list may replace it
+  /// Grasps that this may lead to; empty: all.
+  std::function<bool(const Quadruple&)> allows = {};
 
   /// Any of `contacts` for any of `count` contacts.
   [[nodiscard]] static Replacements AnyOf(std::vector<int> contacts, int count);

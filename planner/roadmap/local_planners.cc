@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <span>
 
 #include "planner/roadmap/grasp_tree.h"
 
@@ -13,6 +14,50 @@ namespace {
 Quadruple Sorted(Quadruple grasp) {
   std::sort(grasp.begin(), grasp.end());
   return grasp;
+}
+
+/// Contacts for each of the four of a grasp.
+using Sets = std::array<std::vector<int>, 4>;
+
+bool Contains(std::span<const int> contacts, int contact) {
+  return std::find(contacts.begin(), contacts.end(), contact) != contacts.end();
+}
+
+/// Whether two different contacts of a grasp are one of each set.
+bool HasOneOfEach(const Quadruple& grasp, const std::vector<int>& a, const std::vector<int>& b) {
+  for (const int one : grasp) {
+    if (!Contains(a, one)) continue;
+    for (const int other : grasp) {
+      if (other != one && Contains(b, other)) return true;
+    }
+  }
+  return false;
+}
+
+/// Replacements that keep to grasps of one contact of each set.
+///
+/// The sets are disjoint but for a contact of the grasp that was added to another cluster and is
+/// near the representative of its own: it can stand for either. These two sets are one list then,
+/// and grasps that take both contacts from one of them are left out.
+/// @param sets  outlive the answer.
+Replacements OneOfEach(const Sets& sets, const Quadruple& grasp, int contact_count) {
+  Replacements replacements{{sets.begin(), sets.end()}, std::vector<int>(contact_count, 0), {}};
+  for (int i = 0; i < 4; ++i) {
+    for (int moved = 0; moved < 4; ++moved) {
+      if (moved == i || !Contains(sets[i], grasp[moved])) continue;
+      std::vector<int>& both = replacements.lists[i];
+      std::erase(both, grasp[moved]);
+      both.insert(both.end(), sets[moved].begin(), sets[moved].end());
+      replacements.lists[moved].clear();
+      replacements.allows = [&one = sets[i], &other = sets[moved]](const Quadruple& reached) {
+        return HasOneOfEach(reached, one, other);
+      };
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (const int contact : replacements.lists[i]) replacements.list_of[contact] = i;
+  }
+  return replacements;
 }
 
 }  // namespace
@@ -92,16 +137,10 @@ std::vector<int> LocalPlanners::Between(int contact, int cluster) const {
 std::vector<Quadruple> LocalPlanners::JoinWithin(const Quadruple& grasp,
                                                  const std::array<int, 4>& clusters,
                                                  const Quadruple& goal) {
-  Replacements replacements;
-  replacements.list_of.assign(clusters_.contacts().size(), 0);
-  for (int i = 0; i < 4; ++i) {
-    std::vector<int>& list = replacements.lists.emplace_back(Between(grasp[i], clusters[i]));
-    // A contact that moved to another cluster leaves its own.
-    std::erase_if(list, [&](int contact) {
-      return contact != grasp[i] && std::find(grasp.begin(), grasp.end(), contact) != grasp.end();
-    });
-    for (const int contact : list) replacements.list_of[contact] = i;
-  }
+  Sets sets;
+  for (int i = 0; i < 4; ++i) sets[i] = Between(grasp[i], clusters[i]);
+  const Replacements replacements =
+      OneOfEach(sets, grasp, static_cast<int>(clusters_.contacts().size()));
   const auto distance = [&](int a, int b) { return clusters_.Distance(a, b); };
   return JoinGrasps(grasp, goal, replacements, distance, kMostLocalSteps, oracle_).path;
 }

@@ -1,0 +1,283 @@
+#include "planner/roadmap/local_planners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <ostream>
+
+#include "planner/base/angle.h"
+#include "tests/planner/roadmap/grasp_graph.h"
+#include "tests/planner/roadmap/small_meshes.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kNear = 1e-9;
+
+std::vector<Contact> RepresentativesOf(const ContactClusters& clusters) {
+  std::vector<Contact> points;
+  for (const int contact : clusters.representatives()) {
+    points.push_back(clusters.contacts()[contact]);
+  }
+  return points;
+}
+
+/// The clusters of a small mesh, their roadmap, and the same once more by brute force.
+struct Problem {
+  Problem(const Polyhedron& solid, double degrees, int cluster_count)
+      : frame(solid.wrench_frame()),
+        half_angle(Radians(degrees)),
+        clusters(Centroids(solid), frame, half_angle, cluster_count, 1),
+        roadmap(RepresentativesOf(clusters), frame, half_angle, kNear),
+        oracle(clusters.contacts(), frame, half_angle, kNear),
+        local(clusters, roadmap, oracle),
+        is_grasp(ForceClosureOf(clusters.contacts(), frame, half_angle)),
+        vertices(Subsets(clusters.representatives(), is_grasp)) {}
+
+  /// All grasps of four contacts, or every so manyth of them.
+  [[nodiscard]] std::vector<Quadruple> Sample(std::size_t most) const {
+    std::vector<int> all;
+    for (int i = 0; i < clusters.clustered_count(); ++i) all.push_back(i);
+    const std::set<Quadruple> grasps = Subsets(all, is_grasp);
+    std::vector<Quadruple> sample;
+    const std::size_t stride = grasps.size() / most + 1;
+    std::size_t k = 0;
+    for (const Quadruple& grasp : grasps) {
+      if (k++ % stride == 0) sample.push_back(grasp);
+    }
+    return sample;
+  }
+
+  [[nodiscard]] std::array<int, 4> ClustersOf(const Quadruple& grasp) const {
+    std::array<int, 4> of;
+    for (int i = 0; i < 4; ++i) of[i] = clusters.cluster_of(grasp[i]);
+    return of;
+  }
+  [[nodiscard]] Quadruple Representatives(const std::array<int, 4>& of) const {
+    Quadruple grasp;
+    for (int i = 0; i < 4; ++i) grasp[i] = clusters.representative(of[i]);
+    std::sort(grasp.begin(), grasp.end());
+    return grasp;
+  }
+
+  /// S_i as section 6.2.4 says: the contacts j of the cluster, the added one among them, with
+  /// F_ij <= F_ii' and F_i'j <= F_ii'.
+  [[nodiscard]] std::vector<int> SetBetween(int contact, int cluster) const {
+    const int representative = clusters.representative(cluster);
+    const double apart = clusters.Distance(contact, representative);
+    std::vector<int> set;
+    for (int j = 0; j < clusters.clustered_count(); ++j) {
+      if (j != contact && clusters.cluster_of(j) != cluster) continue;
+      if (clusters.Distance(contact, j) <= apart && clusters.Distance(representative, j) <= apart) {
+        set.push_back(j);
+      }
+    }
+    return set;
+  }
+  [[nodiscard]] std::array<std::vector<int>, 4> SetsBetween(const Quadruple& grasp,
+                                                            const std::array<int, 4>& of) const {
+    std::array<std::vector<int>, 4> sets;
+    for (int i = 0; i < 4; ++i) sets[i] = SetBetween(grasp[i], of[i]);
+    return sets;
+  }
+  /// Grasps from which a way leads within the sets, by brute force.
+  [[nodiscard]] std::set<Quadruple> LocalGrasps(const std::array<std::vector<int>, 4>& sets) const {
+    return Product(sets, is_grasp);
+  }
+
+  WrenchFrame frame;
+  double half_angle;
+  ContactClusters clusters;
+  Roadmap roadmap;
+  GraspOracle oracle;
+  LocalPlanners local;
+  IsGrasp is_grasp;
+  std::set<Quadruple> vertices;
+};
+
+/// Meshes of at most forty triangles, few and many clusters, little and much friction.
+struct Setting {
+  int corners;
+  std::uint64_t seed;
+  double degrees;
+  int clusters;
+};
+constexpr Setting kSettings[] = {{16, 1, 20, 7},  {18, 2, 12, 9},  {20, 3, 10, 12}, {22, 4, 8, 14},
+                                 {22, 5, 15, 10}, {22, 6, 10, 18}, {20, 7, 25, 6}};
+constexpr std::size_t kSample = 250;
+
+void PrintTo(const Setting& setting, std::ostream* out) {
+  *out << setting.corners << " corners, seed " << setting.seed << ", " << setting.degrees << "°, "
+       << setting.clusters << " clusters";
+}
+
+class LocalPlannersOn : public testing::TestWithParam<Setting> {
+ protected:
+  Problem problem_{MakeConvexBody(GetParam().corners, GetParam().seed), GetParam().degrees,
+                   GetParam().clusters};
+  std::vector<Quadruple> sample_ = problem_.Sample(kSample);
+};
+INSTANTIATE_TEST_SUITE_P(SmallMeshes, LocalPlannersOn, testing::ValuesIn(kSettings));
+
+TEST_P(LocalPlannersOn, OwnRepresentativesAreAVertexOrNothing) {
+  int with = 0;
+  for (const Quadruple& grasp : sample_) {
+    const Quadruple own = problem_.Representatives(problem_.ClustersOf(grasp));
+    const bool expected = problem_.vertices.contains(own);
+    EXPECT_EQ(problem_.local.OwnRepresentatives(grasp),
+              expected ? std::optional(own) : std::nullopt);
+    if (expected) ++with;
+  }
+  EXPECT_GT(with, 0);
+  EXPECT_LT(with, std::ssize(sample_));
+}
+
+TEST_P(LocalPlannersOn, Algorithm1FindsAWayWhereTheLocalRoadmapHasOne) {
+  int found = 0;
+  for (const Quadruple& grasp : sample_) {
+    const auto own = problem_.local.OwnRepresentatives(grasp);
+    const std::vector<Quadruple> way = problem_.local.RunAlgorithm1(grasp);
+    if (!own) {
+      EXPECT_TRUE(way.empty());
+      continue;
+    }
+    const std::set<Quadruple> local =
+        problem_.LocalGrasps(problem_.SetsBetween(grasp, problem_.ClustersOf(grasp)));
+    GraspGraph graph(local);
+    ASSERT_EQ(!way.empty(), graph.Joined(grasp, *own));
+    if (way.empty()) continue;
+    EXPECT_EQ(FaultOf(way, grasp, *own, problem_.is_grasp), std::nullopt);
+    for (const Quadruple& on_way : way) EXPECT_TRUE(local.contains(on_way));
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+}
+
+TEST_P(LocalPlannersOn, FindNearestClusterIsTheNearestOfAllVertices) {
+  int found = 0;
+  for (const Quadruple& grasp : sample_) {
+    const std::array<int, 4> own = problem_.ClustersOf(grasp);
+    double least = std::numeric_limits<double>::infinity();
+    for (int vertex = 0; vertex < problem_.roadmap.vertex_count(); ++vertex) {
+      for (int slot = 0; slot < 4; ++slot) {
+        // The vertex without the clusters of the other three contacts.
+        std::vector<int> rest(problem_.roadmap.vertex(vertex).begin(),
+                              problem_.roadmap.vertex(vertex).end());
+        for (int i = 0; i < 4; ++i) {
+          const auto place = std::find(rest.begin(), rest.end(), own[i]);
+          if (i != slot && place != rest.end()) rest.erase(place);
+        }
+        if (rest.size() != 1 || rest[0] == own[slot]) continue;
+        least = std::min(least, problem_.clusters.DistanceToCenter(grasp[slot], rest[0]));
+      }
+    }
+    const auto nearest = problem_.local.FindNearestCluster(grasp);
+    ASSERT_EQ(nearest.has_value(), least < std::numeric_limits<double>::infinity());
+    if (!nearest) continue;
+    EXPECT_EQ(problem_.clusters.DistanceToCenter(grasp[nearest->slot], nearest->cluster), least);
+    std::array<int, 4> moved = own;
+    moved[nearest->slot] = nearest->cluster;
+    EXPECT_EQ(nearest->vertex, problem_.Representatives(moved));
+    EXPECT_TRUE(problem_.vertices.contains(nearest->vertex));
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+}
+
+TEST_P(LocalPlannersOn, Algorithm2FindsAWayWhereTheLocalRoadmapHasOne) {
+  int found = 0;
+  int shared = 0;
+  for (const Quadruple& grasp : sample_) {
+    const auto nearest = problem_.local.FindNearestCluster(grasp);
+    const std::vector<Quadruple> way = problem_.local.RunAlgorithm2(grasp);
+    if (!nearest) {
+      EXPECT_TRUE(way.empty());
+      continue;
+    }
+    std::array<int, 4> moved = problem_.ClustersOf(grasp);
+    moved[nearest->slot] = nearest->cluster;
+    const auto sets = problem_.SetsBetween(grasp, moved);
+    const std::set<Quadruple> local = problem_.LocalGrasps(sets);
+    GraspGraph graph(local);
+    EXPECT_EQ(!way.empty(), graph.Joined(grasp, nearest->vertex));
+    for (int i = 0; i < 4; ++i) {
+      const int mover = grasp[nearest->slot];
+      if (i != nearest->slot && std::count(sets[i].begin(), sets[i].end(), mover) > 0) ++shared;
+    }
+    if (way.empty()) continue;
+    EXPECT_EQ(FaultOf(way, grasp, nearest->vertex, problem_.is_grasp), std::nullopt);
+    for (const Quadruple& on_way : way) EXPECT_TRUE(local.contains(on_way));
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_GT(shared, 0) << "no contact that moves stands for two clusters";
+}
+
+TEST_P(LocalPlannersOn, Algorithm3FindsAWayWhereTheLargerRoadmapHasOne) {
+  int found = 0;
+  for (const Quadruple& grasp : sample_) {
+    if (problem_.vertices.contains(grasp)) continue;
+    std::vector<int> contacts = problem_.clusters.representatives();
+    for (const int contact : grasp) {
+      if (std::count(contacts.begin(), contacts.end(), contact) == 0) contacts.push_back(contact);
+    }
+    GraspGraph graph(Subsets(contacts, problem_.is_grasp));
+    const bool expected =
+        std::any_of(problem_.vertices.begin(), problem_.vertices.end(),
+                    [&](const Quadruple& vertex) { return graph.Joined(grasp, vertex); });
+    const std::vector<Quadruple> way = problem_.local.RunAlgorithm3(grasp);
+    ASSERT_EQ(!way.empty(), expected);
+    if (way.empty()) continue;
+    EXPECT_EQ(FaultOf(way, grasp, way.back(), problem_.is_grasp), std::nullopt);
+    EXPECT_TRUE(problem_.vertices.contains(way.back()));
+    for (const Quadruple& on_way : way) {
+      EXPECT_TRUE(graph.Has(on_way));
+      EXPECT_TRUE(on_way == way.back() || !problem_.vertices.contains(on_way));
+    }
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+}
+
+TEST_P(LocalPlannersOn, LinkTakesTheFirstThatFindsAWay) {
+  std::map<RoadmapLink, int> links;
+  std::vector<Quadruple> grasps = sample_;
+  grasps.insert(grasps.end(), problem_.vertices.begin(), problem_.vertices.end());
+  for (const Quadruple& grasp : grasps) {
+    const LocalPlanners::Way way = problem_.local.Link(grasp);
+    RoadmapLink expected = RoadmapLink::kNone;
+    std::vector<Quadruple> expected_way;
+    if (problem_.vertices.contains(grasp)) {
+      expected = RoadmapLink::kVertex;
+      expected_way = {grasp};
+    } else if (const auto one = problem_.local.RunAlgorithm1(grasp); !one.empty()) {
+      expected = RoadmapLink::kAlgorithm1;
+      expected_way = one;
+    } else if (const auto two = problem_.local.RunAlgorithm2(grasp); !two.empty()) {
+      expected = RoadmapLink::kAlgorithm2;
+      expected_way = two;
+    } else if (const auto three = problem_.local.RunAlgorithm3(grasp); !three.empty()) {
+      expected = RoadmapLink::kAlgorithm3;
+      expected_way = three;
+    }
+    EXPECT_EQ(way.link, expected);
+    EXPECT_EQ(way.grasps, expected_way);
+    ++links[way.link];
+  }
+  EXPECT_GT(links[RoadmapLink::kVertex], 0);
+  EXPECT_GT(links[RoadmapLink::kAlgorithm1], 0);
+  EXPECT_GT(links[RoadmapLink::kAlgorithm2], 0);
+  EXPECT_GT(links[RoadmapLink::kAlgorithm3], 0);
+}
+
+TEST(RoadmapLinkName, NamesAllLinks) {
+  EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kNone), "none");
+  EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kVertex), "vertex");
+  EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kAlgorithm1), "algorithm-1");
+  EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kAlgorithm2), "algorithm-2");
+  EXPECT_STREQ(RoadmapLinkName(RoadmapLink::kAlgorithm3), "algorithm-3");
+}
+
+}  // namespace
+}  // namespace regrasp
