@@ -19,14 +19,17 @@ class ChainSearch {
   ContactChain ByRoadmap(const Quadruple& start, const Quadruple& goal) {
     LocalPlanners local(clusters_, roadmap_.roadmap, oracle_);
     ContactChain chain;
-    const LocalPlanners::Way from = local.Link(start);
+    const LocalPlanners::Way from = LinkOrAdd(start, local);
+    const LocalPlanners::Way to = LinkOrAdd(goal, local);
     chain.start_link = from.link;
-    const LocalPlanners::Way to = local.Link(goal);
     chain.goal_link = to.link;
-    if (from.grasps.empty() || to.grasps.empty()) return chain;
     const std::vector<Quadruple> middle = JoinInRoadmap(from, to, start, goal);
     if (middle.empty()) return chain;
     chain.by = ContactChain::By::kRoadmap;
+    // An end without a link was joined to the other by its contacts among the representatives.
+    for (RoadmapLink* link : {&chain.start_link, &chain.goal_link}) {
+      if (*link == RoadmapLink::kNone) *link = RoadmapLink::kAlgorithm3;
+    }
     chain.grasps = from.grasps;
     chain.grasps.insert(chain.grasps.end(), middle.begin() + 1, middle.end());
     chain.grasps.insert(chain.grasps.end(), to.grasps.rbegin() + 1, to.grasps.rend());
@@ -49,6 +52,18 @@ class ChainSearch {
   }
 
  private:
+  /// The way of an end to the roadmap. Algorithm 3 adds an end to the roadmap even where no way
+  /// leads on to a vertex of before: the other end, added as well, may be joined to it.
+  static LocalPlanners::Way LinkOrAdd(const Quadruple& end, LocalPlanners& local) {
+    LocalPlanners::Way way = local.Link(end);
+    if (way.grasps.empty()) way.grasps = {end};
+    return way;
+  }
+
+  static bool IsAdded(const LocalPlanners::Way& way) {
+    return way.link == RoadmapLink::kAlgorithm3 || way.link == RoadmapLink::kNone;
+  }
+
   static std::vector<int> ContactsOf(const Quadruple& start, const Quadruple& goal) {
     std::vector<int> contacts(start.begin(), start.end());
     for (const int contact : goal) {
@@ -83,13 +98,11 @@ class ChainSearch {
         }
       }
     };
-    const bool from_more = from.link == RoadmapLink::kAlgorithm3;
-    const bool to_more = to.link == RoadmapLink::kAlgorithm3;
-    if (from_more) take(start);
-    if (to_more) take(goal);
+    if (IsAdded(from)) take(start);
+    if (IsAdded(to)) take(goal);
     const Quadruple& a = from.grasps.back();
     const Quadruple& b = to.grasps.back();
-    if (!from_more && !to_more && ComponentOf(a) != ComponentOf(b)) return {};
+    if (!IsAdded(from) && !IsAdded(to) && ComponentOf(a) != ComponentOf(b)) return {};
     return Join(a, b, std::move(contacts), kMostLocalSteps).path;
   }
 

@@ -30,7 +30,7 @@ struct ContactChain {
 
 /// Looks for a chain of grasps, each differing from the one before by one contact: by the local
 /// planners from both ends to the roadmap of representatives and a search in it, with the contacts
-/// of an end that Algorithm 3 linked among the representatives (Phoka 2010, 6.2.4).
+/// of an end that the algorithms 1 and 2 don't link among the representatives (Phoka 2010, 6.2.4).
 ///
 /// With `last_resort`, where that fails: the at most 70 grasps of the two ends' contacts, then the
 /// grasps of all contact points, best first from both ends.
