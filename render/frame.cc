@@ -24,6 +24,14 @@ using Eigen::Vector3d;
 const double kTanHalfHeight = std::tan(0.15);
 
 constexpr double kEdgeRadius = 0.0026;  // in diameters
+/// The more edges a body has beyond this, the thinner they are drawn: those of a fine mesh would
+/// cover it.
+constexpr double kManyEdges = 150;
+
+/// Representatives of clusters, in diameters.
+constexpr double kRepresentativeRadius = 0.005;
+/// Of the near surface where it shows clusters.
+constexpr double kClusterOpacity = 0.85;
 
 /// Opacity of the body's near surface, and of its far surface behind that.
 constexpr double kOutsideOpacity = 0.33;
@@ -49,7 +57,8 @@ constexpr double kFarAway = 0.5;
 
 constexpr int kMaxSupersampling = 4;
 
-enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh };
+/// The clusters' meshes come last, one a colour.
+enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
 
 /// a + (b − a) · opacity.
 void BlendOver(Image& a, const Image& b, double opacity) {
@@ -69,10 +78,29 @@ void CheckOptions(const FrameOptions& options) {
   }
 }
 
-std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle) {
-  return {body.surface, TurnInsideOut(body.surface),
-          planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
-          MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+/// The surface's triangles, those of one colour a mesh.
+std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface, const ClusterView& clusters) {
+  std::vector<FacetMesh> meshes(kClusterColors);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    FacetMesh& mesh = meshes[clusters.color_of_triangle[i]];
+    mesh.triangles.push_back(surface.triangles[i]);
+    mesh.normals.push_back(surface.normals[i]);
+  }
+  return meshes;
+}
+
+std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
+                                  const std::optional<ClusterView>& clusters) {
+  std::vector<FacetMesh> meshes = {
+      body.surface, TurnInsideOut(body.surface),
+      planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
+      MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+  if (clusters) {
+    for (FacetMesh& mesh : MakeClusterMeshes(body.surface, *clusters)) {
+      meshes.push_back(std::move(mesh));
+    }
+  }
+  return meshes;
 }
 
 /// Turns the friction cones, which are flat in the plane, about their axes into the plane.
@@ -104,8 +132,8 @@ class FrameRenderer::Impl {
         camera_(MakeCamera(object.dimension() == 2, snapshots)),
         largest_force_(LargestForce(snapshots)),
         planar_(object.dimension() == 2),
-        canvas_(MakeMeshes(body_, planar_, half_angle), options.width * options.supersampling,
-                options.height * options.supersampling) {}
+        canvas_(MakeMeshes(body_, planar_, half_angle, options.clusters),
+                options.width * options.supersampling, options.height * options.supersampling) {}
 
   Image Render(const Snapshot& snapshot, const std::string& caption) {
     const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame_, body_.surface);
@@ -116,6 +144,7 @@ class FrameRenderer::Impl {
     }
     if (planar_) LayFlat(shapes);
     if (options_.show_focus) AddFocus(snapshot, shapes);
+    if (options_.clusters) AddRepresentatives(snapshot, shapes);
     return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
   }
 
@@ -128,15 +157,40 @@ class FrameRenderer::Impl {
     Image image = draw();
     shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
     BlendOver(image, draw(), kInsideOpacity);
-    shapes.back() = {MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside};
-    BlendOver(image, draw(), planar_ ? kPrismOpacity : kOutsideOpacity);
+    shapes.pop_back();
+    BlendOver(image, DrawWithNearSurface(shapes, pose), NearOpacity());
     return image;
+  }
+
+  Image DrawWithNearSurface(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
+    if (!options_.clusters) {
+      shapes.push_back({MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside});
+    } else {
+      for (int color = 0; color < kClusterColors; ++color) {
+        shapes.push_back({MeshInstance{kClusterMesh + color, pose}, kClusterPalette[color]});
+      }
+    }
+    return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling);
+  }
+
+  [[nodiscard]] double NearOpacity() const {
+    if (planar_) return kPrismOpacity;
+    return options_.clusters ? kClusterOpacity : kOutsideOpacity;
+  }
+
+  void AddRepresentatives(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
+    for (const Vector3d& p : options_.clusters->representatives) {
+      shapes.push_back(
+          {Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius}, kInk});
+    }
   }
 
   [[nodiscard]] std::vector<Shape> MakeEdges(const Eigen::Isometry3d& pose) const {
     std::vector<Shape> shapes;
+    const auto edges = static_cast<double>(body_.edges.size());
+    const double radius = kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges));
     for (const auto& [a, b] : body_.edges) {
-      shapes.push_back({Rod{pose * a, pose * b, kEdgeRadius}, kInk});
+      shapes.push_back({Rod{pose * a, pose * b, radius}, kInk});
     }
     return shapes;
   }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/object/object.h"
 #include "planner/plan/snapshot.h"
+#include "planner/roadmap/cluster_view.h"
 #include "render/body_shape.h"
 #include "render/image.h"
 
@@ -23,6 +25,8 @@ struct FrameOptions {
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
   /// that it gives on the faces (planner/polyhedron/focus_view.h).
   bool show_focus = false;
+  /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
+  std::optional<ClusterView> clusters = std::nullopt;
 };
 
 /// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace regrasp {
 
 /// A colour, 8 bits a channel, sRGB.
@@ -18,6 +20,16 @@ struct Color {
 
 inline constexpr Color kInk = {34, 40, 52};       ///< edges of the object, text
 inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows
+/// Clusters of contact points: pale, so that fingers stand out on them.
+inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},
+                                                          {253, 205, 150},
+                                                          {186, 222, 170},
+                                                          {244, 184, 196},
+                                                          {204, 192, 228},
+                                                          {240, 232, 160},
+                                                          {170, 220, 212},
+                                                          {214, 200, 184}}};
+
 inline constexpr Color kBodyOutside = {148, 184, 226};
 inline constexpr Color kBodyInside = {186, 208, 236};
 

@@ -11,21 +11,6 @@ namespace regrasp {
 
 namespace {
 
-/// Contact points at which a fingertip has room; where it has none, all, so that the answer is
-/// about the grasps and not about the fingers.
-ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapOptions& options) {
-  if (options.clusters < kFewestClusters || options.clusters > kMostClusters) {
-    throw std::invalid_argument("the number of clusters is out of range");
-  }
-  options.progress("choosing contact points");
-  std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
-  std::erase_if(contacts, [&](const Contact& contact) { return !HasStandingRoom(solid, contact); });
-  const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
-  options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
-  return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
-                         options.seed);
-}
-
 Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactClusters& clusters,
                                    const ClusteredRoadmapOptions& options) {
   std::vector<Contact> representatives;
@@ -39,6 +24,19 @@ Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactCluster
 }
 
 }  // namespace
+
+ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapOptions& options) {
+  if (options.clusters < kFewestClusters || options.clusters > kMostClusters) {
+    throw std::invalid_argument("the number of clusters is out of range");
+  }
+  options.progress("choosing contact points");
+  std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
+  std::erase_if(contacts, [&](const Contact& contact) { return !HasStandingRoom(solid, contact); });
+  const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
+  options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
+  return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
+                         options.seed);
+}
 
 ClusteredRoadmap::ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadmapOptions& options)
     : half_angle(options.half_angle),

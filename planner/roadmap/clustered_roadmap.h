@@ -25,6 +25,12 @@ struct ClusteredRoadmapOptions {
   std::function<void(std::string_view)> progress = [](std::string_view) {};
 };
 
+/// The contact points of a mesh at which a fingertip has room, in clusters; no more clusters than
+/// contact points less one.
+/// @throws std::invalid_argument  an option is out of its range.
+[[nodiscard]] ContactClusters ClusterContacts(const Polyhedron& solid,
+                                              const ClusteredRoadmapOptions& options);
+
 /// A mesh's contact points in clusters, and the roadmap of all force-closure grasps of four of the
 /// clusters' representatives (Phoka 2010, 6.2.2 and 6.2.3). Queries share it and change nothing.
 struct ClusteredRoadmap {

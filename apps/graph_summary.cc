@@ -1,0 +1,157 @@
+#include "apps/graph_summary.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+
+#include "planner/graph/grasp_choice.h"
+#include "planner/polyhedron/polyhedron_graph.h"
+#include "planner/roadmap/roadmap_queries.h"
+
+namespace regrasp {
+
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last lap.
+  double Lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> lap = now - begin_;
+    begin_ = now;
+    return lap.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+QuerySummary RunQueries(const Polyhedron& solid, const ClusteredRoadmap& roadmap, int count,
+                        const RoadmapOptions& options) {
+  options.progress(std::to_string(count) + " random queries");
+  QuerySummary summary;
+  summary.shortest_seconds = std::numeric_limits<double>::infinity();
+  for (const RandomQuery& query : RunRandomQueries(roadmap, kSamePoint * solid.diameter(), count,
+                                                   options.seed, options.last_resort)) {
+    ++summary.count;
+    summary.connected += query.chain.grasps.empty() ? 0 : 1;
+    summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);
+    summary.longest_seconds = std::max(summary.longest_seconds, query.seconds);
+    summary.mean_seconds += query.seconds;
+  }
+  if (summary.count == 0) return {};
+  summary.mean_seconds /= summary.count;
+  return summary;
+}
+
+/// The part of a roadmap's summary that does not depend on its contact points' clusters.
+GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const RoadmapOptions& options,
+                              Stopwatch& stopwatch) {
+  GraphSummary summary;
+  summary.planner = "roadmap";
+  summary.vertex_seconds = stopwatch.Lap();
+  options.progress("joining " + std::to_string(roadmap.vertex_count()) + " grasps");
+  const std::int64_t vertices = roadmap.vertex_count();
+  summary.faces = std::ssize(roadmap.points());
+  summary.vertices = vertices;
+  summary.edges = {{"representative-representative", roadmap.edge_count()}};
+  summary.components = roadmap.components().count();
+  summary.types = {
+      {"representative", roadmap.candidate_count(), vertices, vertices, summary.components}};
+  summary.edge_seconds = stopwatch.Lap();
+  return summary;
+}
+
+}  // namespace
+
+GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spanning spanning) {
+  const PolygonGraph graph(polygon, half_angle, spanning);
+  const auto name = [](GraspType type) {
+    constexpr std::array kNames = {"concurrent", "two_finger", "parallel"};
+    return std::string(kNames[static_cast<int>(type)]);
+  };
+  GraphSummary summary;
+  summary.planner = "polygon";
+  summary.faces = polygon.face_count();
+  for (const auto type : {GraspType::kConcurrent, GraspType::kTwoFinger, GraspType::kParallel}) {
+    const GraspTypeCounts& counts = graph.counts(type);
+    summary.types.push_back(
+        {name(type), counts.candidates, counts.combinations, counts.vertices, counts.components});
+  }
+  const auto add_edges = [&](GraspType a, GraspType b) {
+    summary.edges.emplace_back(name(a) + "-" + name(b), graph.edge_count(a, b));
+  };
+  add_edges(GraspType::kConcurrent, GraspType::kConcurrent);
+  add_edges(GraspType::kTwoFinger, GraspType::kConcurrent);
+  add_edges(GraspType::kParallel, GraspType::kParallel);
+  add_edges(GraspType::kTwoFinger, GraspType::kParallel);
+  add_edges(GraspType::kTwoFinger, GraspType::kTwoFinger);
+  if (spanning == Spanning::kAdaptive) add_edges(GraspType::kConcurrent, GraspType::kParallel);
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  return summary;
+}
+
+GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
+  const ContourGraph graph(polygon, half_angle);
+  GraphSummary summary;
+  summary.planner = "contour";
+  summary.faces = polygon.face_count();
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.edges = {{"two_finger-two_finger", graph.switch_count()}};
+  summary.types = {{"two_finger", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  return summary;
+}
+
+GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning,
+                                 int sampling, std::uint64_t seed) {
+  PolyhedronGraph graph(solid, half_angle, spanning);
+  GraphSummary summary;
+  summary.planner = "polyhedron";
+  summary.faces = solid.face_count();
+  if (sampling > 0) {
+    const auto region = FindSamplingRegion(solid, graph);
+    Stopwatch stopwatch;
+    const SampledGraph sampled =
+        SamplePolyhedron(solid, half_angle, spanning, region, sampling, seed);
+    const auto found = std::ssize(sampled.quadruples);
+    summary.vertex_seconds = stopwatch.Lap();
+    summary.vertices = found;
+    summary.components = sampled.components;
+    summary.edges = {{"concurrent-concurrent", std::ssize(sampled.links)}};
+    summary.types = {{"concurrent", graph.candidate_count(), found, found, summary.components}};
+    summary.sampling_share = CompareSampling(sampled, graph);
+    return summary;
+  }
+  summary.vertices = graph.vertex_count();
+  summary.components = graph.components().count();
+  summary.edges = {{"concurrent-concurrent", std::ssize(graph.links())}};
+  summary.types = {{"concurrent", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  summary.vertex_seconds = graph.vertex_seconds();
+  summary.edge_seconds = graph.edge_seconds();
+  summary.unclear = graph.unclear_count();
+  return summary;
+}
+
+GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options, int queries) {
+  Stopwatch stopwatch;
+  if (options.clusters == 0) {
+    return SummarizeRoadmap(BuildRoadmap(solid, options), options, stopwatch);
+  }
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(solid, options);
+  GraphSummary summary = SummarizeRoadmap(roadmap.roadmap, options, stopwatch);
+  summary.faces = roadmap.clusters.clustered_count();
+  summary.clusters = roadmap.clusters.cluster_count();
+  if (queries > 0) summary.queries = RunQueries(solid, roadmap, queries, options);
+  return summary;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,120 @@
+#include "planner/roadmap/cluster_view.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/roadmap/clustered_roadmap.h"
+#include "planner/roadmap/plan_roadmap.h"
+#include "planner/roadmap/surface_sample.h"
+
+namespace regrasp {
+
+namespace {
+
+ContactClusters ClustersOf(const Polyhedron& solid, double half_angle, const RoadmapNote& note) {
+  const auto check = [](const char* name, int value, int least, int most) {
+    if (value >= least && value <= most) return;
+    throw InputError(std::string("the plan's roadmap has ") + std::to_string(value) + " " + name +
+                     ", which no roadmap of clusters has");
+  };
+  check("contact points", note.contacts, kFewestClusters, kMaxClusteredContacts);
+  check("clusters", note.clusters, kFewestClusters, kMostClusters);
+  ClusteredRoadmapOptions options;
+  options.half_angle = half_angle;
+  options.contacts = note.contacts;
+  options.clusters = note.clusters;
+  options.seed = note.seed;
+  return ClusterContacts(solid, options);
+}
+
+/// The nearest contact whose normal does not point the other way.
+int NearestContact(const std::vector<Contact>& contacts, const Contact& to) {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
+    if (contacts[i].n.dot(to.n) < 0) continue;
+    const double distance = (contacts[i].p - to.p).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+std::vector<int> ClusterOfTriangles(const Polyhedron& solid, const ContactClusters& clusters) {
+  std::vector<int> cluster_of;
+  for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
+    const auto& [a, b, c] = solid.triangles()[i];
+    const auto& v = solid.vertices();
+    const Contact centroid = ContactOnTriangle(solid, i, (v[a] + v[b] + v[c]) / 3);
+    cluster_of.push_back(clusters.cluster_of(NearestContact(clusters.contacts(), centroid)));
+  }
+  return cluster_of;
+}
+
+/// The clusters that each cluster meets along an edge of a triangle.
+std::vector<std::set<int>> Neighbours(const Polyhedron& solid, const std::vector<int>& cluster_of,
+                                      int cluster_count) {
+  std::map<std::pair<int, int>, int> cluster_at_edge;
+  std::vector<std::set<int>> neighbours(cluster_count);
+  for (std::size_t i = 0; i < cluster_of.size(); ++i) {
+    const auto& corners = solid.triangles()[i];
+    for (int k = 0; k < 3; ++k) {
+      const std::pair<int, int> edge = std::minmax(corners[k], corners[(k + 1) % 3]);
+      const auto [entry, is_new] = cluster_at_edge.emplace(edge, cluster_of[i]);
+      if (is_new || entry->second == cluster_of[i]) continue;
+      neighbours[entry->second].insert(cluster_of[i]);
+      neighbours[cluster_of[i]].insert(entry->second);
+    }
+  }
+  return neighbours;
+}
+
+/// Colours by the greedy rule, those with most neighbours first (Welsh and Powell 1967); where all
+/// colours are taken, the one that the fewest neighbours have.
+std::vector<int> ColorClusters(const std::vector<std::set<int>>& neighbours) {
+  std::vector<int> order(neighbours.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return neighbours[a].size() > neighbours[b].size(); });
+  std::vector<int> color(neighbours.size(), -1);
+  int turn = 0;
+  for (const int cluster : order) {
+    std::array<int, kClusterColors> taken{};
+    for (const int other : neighbours[cluster]) {
+      if (color[other] >= 0) ++taken[color[other]];
+    }
+    // Beginning at another colour each time, so that all are used alike.
+    int best = turn % kClusterColors;
+    for (int i = 0; i < kClusterColors; ++i) {
+      const int next = (turn + i) % kClusterColors;
+      if (taken[next] < taken[best]) best = next;
+    }
+    color[cluster] = best;
+    ++turn;
+  }
+  return color;
+}
+
+}  // namespace
+
+ClusterView DescribeClusters(const Polyhedron& solid, double half_angle, const RoadmapNote& note) {
+  const ContactClusters clusters = ClustersOf(solid, half_angle, note);
+  ClusterView view;
+  view.color_of_triangle = ClusterOfTriangles(solid, clusters);
+  const std::vector<int> color =
+      ColorClusters(Neighbours(solid, view.color_of_triangle, clusters.cluster_count()));
+  for (int& cluster : view.color_of_triangle) cluster = color[cluster];
+  for (const int contact : clusters.representatives()) {
+    view.representatives.push_back(clusters.contacts()[contact].p);
+  }
+  return view;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// Colours that neighbouring clusters are told apart by.
+inline constexpr int kClusterColors = 8;
+
+/// What a picture shows of clustered contact points.
+struct ClusterView {
+  /// By triangle of the solid: a number in 0 … kClusterColors − 1, the same all over a cluster. Two
+  /// clusters that meet have different ones, as far as there are enough.
+  std::vector<int> color_of_triangle;
+  std::vector<Eigen::Vector3d> representatives;
+};
+
+/// The clusters that a plan was made on, found anew. A triangle belongs to the cluster of the
+/// nearest contact point on its side of the body.
+/// @param half_angle  the plan's, radians.
+/// @throws InputError  the note's numbers are none of a roadmap of clusters.
+[[nodiscard]] ClusterView DescribeClusters(const Polyhedron& solid, double half_angle,
+                                           const RoadmapNote& note);
+
+}  // namespace regrasp
