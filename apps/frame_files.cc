@@ -8,6 +8,7 @@
 
 #include "planner/base/error.h"
 #include "render/caption.h"
+#include "render/webp.h"
 
 namespace regrasp {
 
@@ -36,6 +37,10 @@ std::string Caption(const Plan& plan, const ReportStep& step) {
   return failed ? caption + " — " + std::string(ReasonName(step.reason())) : caption;
 }
 
+PagePicture MakePicture(const Image& image, int width) {
+  return {EncodeWebp(image, width), image.width, image.height};
+}
+
 }  // namespace
 
 void RemoveFrames(const std::filesystem::path& folder) {
@@ -50,24 +55,30 @@ void RemoveFrames(const std::filesystem::path& folder) {
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
 }
 
-void WriteFrames(const Object& object, const Plan& plan, const FrameOptions& options,
-                 const std::filesystem::path& folder, Report& report) {
+std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
+                                     const FrameOptions& options,
+                                     const std::filesystem::path& folder, Report& report) {
+  std::vector<PagePicture> pictures(report.steps.size());
   std::vector<Snapshot> snapshots;
   for (const ReportStep& step : report.steps) {
     if (step.replay) snapshots.push_back(step.replay->snapshot);
   }
-  if (snapshots.empty()) return;
+  if (snapshots.empty()) return pictures;
   FrameOptions frame = options;
   if (object.dimension() == 2) {
     frame.thickness = report.settings->thickness_m / report.settings->diameter_m;
   }
   FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
+  const int width = PagePictureWidth(static_cast<int>(snapshots.size()));
   for (ReportStep& step : report.steps) {
     if (!step.replay) continue;
     const std::string name = FrameName(step);
-    WritePng(folder / name, renderer.Render(step.replay->snapshot, Caption(plan, step)));
+    const Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
+    WritePng(folder / name, image);
     step.frame = name;
+    pictures[step.check.index] = MakePicture(image, width);
   }
+  return pictures;
 }
 
 }  // namespace regrasp

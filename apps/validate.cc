@@ -13,6 +13,7 @@
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "page/report_page.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
@@ -43,6 +44,7 @@ struct ValidateProgram {
   ReplayOptions replay;
   FrameOptions frame;
   bool no_frames = false;
+  bool show_clusters = false;
   bool allow_object_change = false;
   bool quiet = false;
 
@@ -54,6 +56,7 @@ struct ValidateProgram {
   void AddPhysics(CLI::App& app);
   void SetSize(const std::string& text);
   void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
+  ClusterView ClustersOf(const Plan& plan, const ObjectFile& object) const;
   Report Check(const Plan& plan, const ObjectFile& object, std::vector<Snapshot>& samples) const;
   void WriteResults(const Plan& plan, const ObjectFile& object,
                     const std::vector<Snapshot>& samples, Report& report) const;
@@ -67,6 +70,9 @@ void ValidateProgram::AddTo(CLI::App& app) {
   app.add_flag("--show-focus", frame.show_focus,
                "Frames of a solid also show the focus point of four concurrent contacts, the lines "
                "to it, and the contact regions that it gives");
+  app.add_flag("--show-clusters", show_clusters,
+               "Frames of a plan over clustered contact points show the clusters on the surface, "
+               "and their representatives as dots");
   app.add_option_function<std::string>(
          "--size", [this](const std::string& text) { SetSize(text); },
          "Size of the frames, pixels, each side from " + std::to_string(kMinFrameSide) + " to " +
@@ -145,6 +151,15 @@ void ValidateProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) 
   }
 }
 
+ClusterView ValidateProgram::ClustersOf(const Plan& plan, const ObjectFile& object) const {
+  const auto* solid = dynamic_cast<const Polyhedron*>(object.object.get());
+  if (solid == nullptr || !plan.roadmap || plan.roadmap->clusters == 0) {
+    throw InputError("--show-clusters: " + plan_path +
+                     " was not made on a roadmap of clustered contact points");
+  }
+  return DescribeClusters(*solid, plan.half_angle, *plan.roadmap);
+}
+
 Report ValidateProgram::Check(const Plan& plan, const ObjectFile& object,
                               std::vector<Snapshot>& samples) const {
   CheckOptions check;
@@ -184,11 +199,13 @@ void ValidateProgram::WriteResults(const Plan& plan, const ObjectFile& object,
   std::filesystem::create_directories(folder, error);
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
   RemoveFrames(folder);
+  std::vector<PagePicture> pictures;
   if (!no_frames) {
     ProgressLine progress(quiet);
     progress.Report("drawing frames");
-    WriteFrames(*object.object, plan, frame, folder, report);
+    pictures = WriteFrames(*object.object, plan, frame, folder, report);
   }
+  WriteFile(folder / "report.html", FormatReportHtml(report, plan, pictures));
   WriteFile(folder / "report.json", FormatReportJson(report));
   if (!junit.empty()) WriteFile(junit, FormatReportJunit(report));
   if (!trajectory.empty()) WriteFile(trajectory, FormatTrajectory(samples));
@@ -199,6 +216,7 @@ int ValidateProgram::Run() {
   const std::string plan_text = ReadFile(plan_path);
   const Plan plan = ParsePlan(plan_text, plan_path);
   CheckPlanFits(plan, object);
+  if (show_clusters) frame.clusters = ClustersOf(plan, object);
   replay.half_angle = friction.half_angle();
   std::vector<Snapshot> samples;
   Report report = Check(plan, object, samples);
