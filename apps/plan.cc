@@ -132,6 +132,11 @@ PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport
 int PlanProgram::Run() const {
   const auto begin = std::chrono::steady_clock::now();
   const bool can_optimize = common.planner == "contour" || common.planner == "auto";
+  const bool on_roadmap = common.planner == "roadmap" || common.planner == "auto";
+  if (no_lazy && !on_roadmap) {
+    throw InputError("--no-lazy: the planner " + common.planner +
+                     " has no last resort; roadmap has");
+  }
   if (!optimize.empty() && !can_optimize) {
     throw InputError("--optimize regions: the planner " + common.planner +
                      " has no such regions; contour has");
@@ -164,7 +169,12 @@ void PlanProgram::PrintSummary(const PlanResult& result, double seconds) const {
     return std::to_string(n) + " " + (n == 1 ? kind : several);
   };
   const double given = Degrees(result.plan->half_angle);
-  PrintMessage(kProgram, result.plan->planner + ": " + count("switch", "switches") + ", " +
+  std::string planner = result.plan->planner;
+  if (const auto& note = result.plan->roadmap) {
+    planner += " of " + std::to_string(note->clusters) + " clusters (start: " + note->start +
+               ", goal: " + note->goal + ")";
+  }
+  PrintMessage(kProgram, planner + ": " + count("switch", "switches") + ", " +
                              count("align", "aligns") +
                              "; the weakest grasp needs a friction half-angle of " +
                              FormatShort(given - Degrees(result.margin)) + "° of " +
