@@ -1,0 +1,288 @@
+#include "planner/roadmap/plan_clustered.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/grasp/quality.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "tests/planner/roadmap/small_meshes.h"
+#include "tests/planner/roadmap/solids.h"
+
+namespace regrasp {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Kind = GraspChoice::Kind;
+using Status = RoadmapPlanResult::Status;
+
+GraspChoice Given(const Grasp& grasp) { return {Kind::kGiven, grasp, "given.json"}; }
+GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
+GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
+
+RoadmapOptions Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
+  RoadmapOptions options;
+  options.half_angle = Radians(degrees);
+  options.contacts = 1000;
+  options.clusters = clusters;
+  options.seed = seed;
+  return options;
+}
+
+class PlanOnModel : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Models, PlanOnModel,
+                         testing::Values("ellipsoid500", "mug500", "spanner500"),
+                         [](const auto& model) { return std::string(model.param); });
+
+TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
+  const Polyhedron solid = ReadMesh(GetParam());
+  constexpr int kQueries = 3;
+  for (std::uint64_t seed = 0; seed < kQueries; ++seed) {
+    for (const GraspChoice& choice : {Random(), RandomAny()}) {
+      const RoadmapPlanResult result = PlanOnRoadmap(solid, choice, choice, Options(seed));
+      ASSERT_EQ(result.status, Status::kFound) << "seed " << seed << ": " << result.message;
+      EXPECT_TRUE(CheckPlan(solid, *result.plan).passed()) << "seed " << seed;
+      EXPECT_FALSE(result.plan->steps.empty());
+      EXPECT_GE(result.margin, 0);
+      EXPECT_EQ(result.plan->planner, "roadmap");
+      EXPECT_EQ(result.plan->fingers, kRoadmapFingers);
+      ASSERT_TRUE(result.plan->roadmap.has_value());
+      EXPECT_EQ(result.plan->roadmap->clusters, 30);
+      EXPECT_EQ(result.plan->roadmap->contacts, 1000);
+      EXPECT_EQ(result.plan->roadmap->seed, seed);
+      EXPECT_THAT(result.plan->roadmap->start, ContainsRegex("^(vertex|algorithm-|last-resort)"));
+      EXPECT_THAT(result.plan->roadmap->goal, ContainsRegex("^(vertex|algorithm-|last-resort)"));
+    }
+  }
+  // The checker is no rubber stamp.
+  Plan plan = *PlanOnRoadmap(solid, Random(), Random(), Options()).plan;
+  plan.half_angle = Radians(0.5);
+  EXPECT_FALSE(CheckPlan(solid, plan).passed());
+}
+
+TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
+  const Polyhedron solid = ReadMesh(GetParam());
+  int good = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const RoadmapOptions options = Options(seed);
+    const RoadmapPlanResult result = PlanOnRoadmap(solid, Random(), Random(), options);
+    ASSERT_EQ(result.status, Status::kFound) << result.message;
+    FingerGrasp holding = result.plan->initial;
+    bool all_good = true;
+    const auto look = [&] {
+      all_good = all_good && QualityAtLeast(ContactsOf(holding), solid.wrench_frame(),
+                                            options.half_angle, options.min_quality);
+    };
+    look();
+    for (const Step& step : result.plan->steps) {
+      holding = GraspAfter(holding, step);
+      look();
+    }
+    EXPECT_EQ(result.warnings.empty(), all_good) << "seed " << seed;
+    if (all_good) ++good;
+  }
+  EXPECT_GT(good, 0);
+}
+
+TEST(PlanOnClusters, GivesTheSameBytesForTheSameSeed) {
+  const Polyhedron mug = ReadMesh("mug500");
+  const auto plan = [&](std::uint64_t seed) {
+    return FormatPlan(*PlanOnRoadmap(mug, Random(), RandomAny(), Options(seed)).plan);
+  };
+  EXPECT_EQ(plan(3), plan(3));
+  EXPECT_NE(plan(3), plan(4));
+}
+
+/// The grasp on a mesh that was moved.
+Grasp Moved(const Grasp& grasp, const Eigen::Affine3d& motion) {
+  Grasp moved = grasp;
+  for (Contact& contact : moved) {
+    contact.p = motion * contact.p;
+    contact.n = (motion.linear() * contact.n).normalized();
+  }
+  return moved;
+}
+
+TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
+  int checked = 0;
+  for (const char* name : {"duck500", "star500"}) {
+    const Polyhedron solid = ReadMesh(name);
+    const RoadmapPlanResult here = PlanOnRoadmap(solid, Random(), Random(), Options(2));
+    ASSERT_EQ(here.status, Status::kFound) << here.message;
+    for (const double unit : {1.0, 1000.0}) {
+      const Eigen::Affine3d motion = MotionAndUnit(unit);
+      const Polyhedron moved = regrasp::Moved(solid, motion);
+      const RoadmapPlanResult there =
+          PlanOnRoadmap(moved, Given(Moved(ContactsOf(here.plan->initial), motion)),
+                        Given(Moved(here.plan->goal, motion)), Options(2));
+      ASSERT_EQ(there.status, Status::kFound) << there.message;
+      ASSERT_EQ(there.plan->steps.size(), here.plan->steps.size());
+      FingerGrasp a = here.plan->initial;
+      FingerGrasp b = there.plan->initial;
+      for (std::size_t i = 0; i < here.plan->steps.size(); ++i) {
+        a = GraspAfter(a, here.plan->steps[i]);
+        b = GraspAfter(b, there.plan->steps[i]);
+        const Grasp expected = Moved(ContactsOf(a), motion);
+        const Grasp actual = ContactsOf(b);
+        ASSERT_EQ(actual.size(), expected.size());
+        for (std::size_t k = 0; k < actual.size(); ++k) {
+          EXPECT_EQ(b[k].finger, a[k].finger);
+          EXPECT_LT((actual[k].p - expected[k].p).norm(), 1e-9 * moved.diameter());
+        }
+      }
+      EXPECT_NEAR(there.margin, here.margin, 1e-6);
+      EXPECT_TRUE(CheckPlan(moved, *there.plan).passed());
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 4);
+}
+
+TEST(PlanOnClusters, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
+  const Polyhedron mug = ReadMesh("mug500");
+  const Grasp start = ContactsOf(PlanOnRoadmap(mug, Random(), Random(), Options()).plan->initial);
+  Grasp goal = start;
+  std::reverse(goal.begin(), goal.end());
+  const RoadmapPlanResult result = PlanOnRoadmap(mug, Given(start), Given(goal), Options());
+  ASSERT_EQ(result.status, Status::kFound);
+  EXPECT_THAT(result.plan->steps, IsEmpty());
+  EXPECT_TRUE(CheckPlan(mug, *result.plan).passed());
+}
+
+/// A cube with two grasps of so little friction that no contact of either can be replaced unless
+/// one stands on its very line of force.
+struct Isolated {
+  Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 8);
+  Contact On(int axis, int sign, double u, double v) const {
+    Contact contact;
+    contact.p[axis] = sign * 0.03;
+    contact.p[(axis + 1) % 3] = u;
+    contact.p[(axis + 2) % 3] = v;
+    contact.face = cube.FacesNear(contact.p, kPointTolerance * cube.diameter()).front();
+    contact.n = cube.inward_normal(contact.face);
+    return contact;
+  }
+  Grasp Pinwheel(int axis) const {
+    constexpr double kArm = 0.0201;
+    const int other = (axis + 1) % 3;
+    return {On(axis, 1, kArm, 0), On(axis, -1, -kArm, 0), On(other, 1, 0, kArm),
+            On(other, -1, 0, -kArm)};
+  }
+};
+
+TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
+  const Isolated isolated;
+  RoadmapOptions options = Options(0, 0.5, 10);
+  options.contacts = 100;
+  const RoadmapPlanResult result = PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)),
+                                                 Given(isolated.Pinwheel(1)), options);
+  ASSERT_EQ(result.status, Status::kNoSequence);
+  EXPECT_FALSE(result.plan.has_value());
+  EXPECT_THAT(result.message, HasSubstr("there is none: the last resort reached all of 1 grasps"));
+  options.last_resort = false;
+  const RoadmapPlanResult without = PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)),
+                                                  Given(isolated.Pinwheel(1)), options);
+  ASSERT_EQ(without.status, Status::kNoSequence);
+  EXPECT_THAT(without.message, Not(HasSubstr("last resort")));
+  options.half_angle = Radians(20);
+  EXPECT_EQ(PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)), Given(isolated.Pinwheel(1)),
+                          options)
+                .status,
+            Status::kFound);
+}
+
+TEST(PlanOnClusters, WithoutTheLastResortCanFailWhereItFinds) {
+  const Polyhedron spanner = ReadMesh("spanner500");
+  int failed = 0;
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 30 && (found == 0 || failed == 0); ++seed) {
+    RoadmapOptions options = Options(seed);
+    options.last_resort = false;
+    const RoadmapPlanResult without = PlanOnRoadmap(spanner, Random(), RandomAny(), options);
+    ++(without.status == Status::kFound ? found : failed);
+    options.last_resort = true;
+    EXPECT_EQ(PlanOnRoadmap(spanner, Random(), RandomAny(), options).status, Status::kFound);
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_GT(failed, 0);
+}
+
+TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
+  const Isolated isolated;
+  // A contact on the border of two faces of the cube, with either normal.
+  Grasp start = {isolated.On(0, 1, 0.03, 0.0), isolated.On(0, -1, 0.02, 0.001),
+                 isolated.On(1, 1, 0.013, 0.012), isolated.On(1, -1, -0.013, 0.011)};
+  Grasp goal = start;
+  const auto face_of = [&](int axis) {
+    const auto faces = isolated.cube.FacesNear(start[0].p, kPointTolerance * 0.1);
+    return *std::find_if(faces.begin(), faces.end(),
+                         [&](int face) { return isolated.cube.inward_normal(face)[axis] < -0.9; });
+  };
+  start[0].face = face_of(0);
+  start[0].n = isolated.cube.inward_normal(start[0].face);
+  goal[0].face = face_of(1);
+  goal[0].n = isolated.cube.inward_normal(goal[0].face);
+  RoadmapOptions options = Options(0, 40, 10);
+  options.contacts = 100;
+  const RoadmapPlanResult result = PlanOnRoadmap(isolated.cube, Given(start), Given(goal), options);
+  ASSERT_EQ(result.status, Status::kFound) << result.message;
+  EXPECT_GT(result.plan->steps.size(), 1u);
+  EXPECT_TRUE(CheckPlan(isolated.cube, *result.plan).passed());
+}
+
+TEST(PlanOnClusters, CannotDrawAGraspBetterThanAll) {
+  RoadmapOptions options = Options();
+  options.min_quality = 0.9;
+  const RoadmapPlanResult result = PlanOnRoadmap(ReadMesh("mug500"), Random(), Random(), options);
+  EXPECT_EQ(result.status, Status::kNoGrasp);
+  EXPECT_THAT(result.message, HasSubstr("500 contact points"));
+}
+
+TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
+  const Polyhedron body = MakeConvexBody(22, 1);
+  const auto plan = [&](int contacts, int clusters) {
+    RoadmapOptions options = Options(0, 20, clusters);
+    options.contacts = contacts;
+    return PlanOnRoadmap(body, Random(), Random(), options);
+  };
+  EXPECT_THROW((void)plan(3, 10), std::invalid_argument);
+  EXPECT_THROW((void)plan(kMaxClusteredContacts + 1, 10), std::invalid_argument);
+  EXPECT_THROW((void)plan(40, kFewestClusters - 1), std::invalid_argument);
+  EXPECT_THROW((void)plan(40, kMostClusters + 1), std::invalid_argument);
+  EXPECT_EQ(plan(40, 10).status, Status::kFound);
+}
+
+TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
+  const Polyhedron body = MakeConvexBody(22, 1);
+  for (const int contacts : {4, 5, 8}) {
+    RoadmapOptions options = Options(0, 20, 50);
+    options.contacts = contacts;
+    const ClusteredRoadmap roadmap = BuildClusteredRoadmap(body, options);
+    EXPECT_LT(roadmap.clusters.cluster_count(), roadmap.clusters.clustered_count());
+    EXPECT_GT(roadmap.clusters.cluster_count(), 0);
+    EXPECT_NO_THROW((void)PlanOnRoadmap(body, RandomAny(), RandomAny(), options));
+  }
+}
+
+TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
+  const Isolated isolated;
+  RoadmapOptions options = Options(0, 0.5, 10);
+  options.contacts = 100;
+  Grasp start = isolated.Pinwheel(0);
+  start[2] = isolated.On(0, 1, -0.01, 0.01);
+  EXPECT_THROW(
+      (void)PlanOnRoadmap(isolated.cube, Given(start), Given(isolated.Pinwheel(1)), options),
+      InputError);
+}
+
+}  // namespace
+}  // namespace regrasp
