@@ -65,8 +65,9 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
   CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
   const double steps = 2 / kDampingStep;
   s.finger_mass_kg = kFingerMass * s.mass_kg;
-  s.finger_stiffness_N_m = kStiffness * s.squeeze_N / s.diameter_m;
-  s.timestep_s = std::sqrt(s.finger_mass_kg / s.finger_stiffness_N_m) / steps;
+  s.finger_stiffness_N_m = options.stiffness_factor * kStiffness * s.squeeze_N / s.diameter_m;
+  s.timestep_s =
+      options.timestep_factor * std::sqrt(s.finger_mass_kg / s.finger_stiffness_N_m) / steps;
   s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
   s.fingertip_radius_m =
       std::clamp(clearance / 2, kLeastTipRadius * s.diameter_m, kTipRadius * s.diameter_m);

@@ -13,6 +13,8 @@ struct ReplayOptions {
   std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
   double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
   double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  double stiffness_factor = 1;       ///< of the fingers, times what is derived
+  double timestep_factor = 1;        ///< times what is derived
   bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame; none of
                                      ///< it in the plane, which carries a planar object's weight
 };

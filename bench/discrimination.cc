@@ -1,0 +1,395 @@
+// What a replay can tell: random grasps of several bodies, in space and in the plane, at 0.7 to 1.5
+// times their critical friction, and switches to such grasps, the analytic check bypassed. Writes
+// tables of false passes and false fails by friction and by quality, of what the settings change,
+// every sample as CSV, and a plot.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/scatter_plot.h"
+#include "bench/table_file.h"
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/base/random.h"
+#include "planner/graph/standing_room.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/surface_sample.h"
+#include "sim/replay.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr std::array kBodies = {"cube.obj",   "l_block.obj",   "hole_block.obj",  "stone.obj",
+                                "mug500.obj", "polygon15.wkt", "polygon_hole.wkt"};
+constexpr double kLeastRatio = 0.7;
+constexpr double kMostRatio = 1.5;
+/// Grasps that need more friction than this are not what anyone plans with.
+constexpr double kMostCritical = Radians(50);
+constexpr double kLeastCritical = Radians(0.5);
+/// The first grasp of a switch resists this much more than the shake, so that a fail is the
+/// second's.
+constexpr double kFirstQuality = 0.03;
+
+/// Where grasps are drawn, and how.
+class Body {
+ public:
+  explicit Body(const std::filesystem::path& path)
+      : name_(path.stem().string()), file_(ReadObject(path)) {
+    if (const auto* solid = dynamic_cast<const Polyhedron*>(file_.object.get())) {
+      sampler_ = std::make_unique<SurfaceSampler>(*solid);
+    }
+  }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const Object& object() const { return *file_.object; }
+  [[nodiscard]] bool planar() const { return object().dimension() == 2; }
+  [[nodiscard]] int hold() const { return planar() ? 3 : 4; }
+
+  /// A contact drawn evenly over the surface where a fingertip has room.
+  [[nodiscard]] Contact Draw(RandomStream& random) const {
+    for (;;) {
+      const Contact contact = sampler_ ? sampler_->Draw(random) : DrawOnEdges(random);
+      if (HasStandingRoom(object(), contact)) return contact;
+    }
+  }
+
+  [[nodiscard]] Grasp DrawGrasp(RandomStream& random) const {
+    Grasp grasp;
+    for (int i = 0; i < hold(); ++i) grasp.push_back(Draw(random));
+    return grasp;
+  }
+
+ private:
+  [[nodiscard]] Contact DrawOnEdges(RandomStream& random) const {
+    const auto& polygon = dynamic_cast<const Polygon&>(object());
+    double length = 0;
+    for (int edge = 0; edge < polygon.face_count(); ++edge) length += polygon.face_measure(edge);
+    double left = random.Uniform() * length;
+    int edge = 0;
+    while (edge + 1 < polygon.face_count() && left > polygon.face_measure(edge)) {
+      left -= polygon.face_measure(edge++);
+    }
+    const auto [from, to] = polygon.edge(edge);
+    const double share = random.Uniform();
+    return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
+  }
+
+  std::string name_;
+  ObjectFile file_;
+  std::unique_ptr<SurfaceSampler> sampler_;
+};
+
+/// One replay.
+struct Sample {
+  std::string body;
+  double ratio = 0;  ///< μ over the critical μ of the grasp that is judged
+  double quality = 0;
+  bool passed = false;
+  std::string reason;
+  double displacement = 0;  ///< over D
+};
+
+/// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.
+std::optional<double> CriticalFriction(const Body& body, const Grasp& grasp) {
+  if (!IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical)) return std::nullopt;
+  const auto required = ComputeRequiredHalfAngle(grasp, body.object().wrench_frame());
+  if (!required || required->upper > kMostCritical || required->upper < kLeastCritical) {
+    return std::nullopt;
+  }
+  return std::tan(required->upper);
+}
+
+/// A plan that holds the grasp.
+Plan PlanOf(const Body& body, const Grasp& initial, double half_angle) {
+  Plan plan;
+  plan.dimension = body.object().dimension();
+  plan.half_angle = half_angle;
+  plan.fingers = body.hold() + 1;
+  for (const Contact& contact : initial) {
+    plan.initial.push_back({static_cast<int>(plan.initial.size()), contact});
+  }
+  plan.goal = initial;
+  return plan;
+}
+
+Sample Judge(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
+             const ReplayOptions& options) {
+  const ReplayResult result = ReplayPlan(body.object(), plan, options);
+  const StepReplay& last = result.steps.back();
+  Sample sample;
+  sample.body = body.name();
+  sample.ratio = ratio;
+  sample.quality = ComputeQuality(judged, body.object().wrench_frame(), plan.half_angle).lower;
+  const bool complete = result.steps.size() == plan.steps.size() + 1;
+  sample.passed = complete && last.reason == Reason::kNone;
+  sample.reason = ReasonName(last.reason);
+  sample.displacement =
+      last.displacement_m / result.settings.diameter_m + last.rotation_deg * Radians(1) / 2;
+  return sample;
+}
+
+double DrawRatio(RandomStream& random) {
+  return kLeastRatio + (kMostRatio - kLeastRatio) * random.Uniform();
+}
+
+std::vector<Sample> JudgeHolds(const Body& body, int count, std::uint64_t seed,
+                               const ReplayOptions& options) {
+  RandomStream random(seed, RandomUse::kStart);
+  std::vector<Sample> samples;
+  while (static_cast<int>(samples.size()) < count) {
+    const Grasp grasp = body.DrawGrasp(random);
+    const auto critical = CriticalFriction(body, grasp);
+    if (!critical) continue;
+    const double ratio = DrawRatio(random);
+    const Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
+    samples.push_back(Judge(body, plan, grasp, ratio, options));
+  }
+  return samples;
+}
+
+/// Switches of one finger from a good grasp.
+std::vector<Sample> JudgeSwitches(const Body& body, int count, std::uint64_t seed,
+                                  const ReplayOptions& options) {
+  RandomStream random(seed, RandomUse::kGoal);
+  std::vector<Sample> samples;
+  while (static_cast<int>(samples.size()) < count) {
+    const Grasp first = body.DrawGrasp(random);
+    Grasp second = first;
+    second.erase(second.begin());
+    second.push_back(body.Draw(random));
+    const auto critical = CriticalFriction(body, second);
+    if (!critical) continue;
+    const double ratio = DrawRatio(random);
+    const double half_angle = std::atan(ratio * *critical);
+    if (!QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality)) continue;
+    Plan plan = PlanOf(body, first, half_angle);
+    plan.steps.push_back(Switch{{{body.hold(), second.back()}}, {0}});
+    plan.goal = second;
+    samples.push_back(Judge(body, plan, second, ratio, options));
+  }
+  return samples;
+}
+
+std::string Share(const std::vector<Sample>& samples,
+                  const std::function<bool(const Sample&)>& in) {
+  int count = 0;
+  int passed = 0;
+  for (const Sample& sample : samples) {
+    if (!in(sample)) continue;
+    ++count;
+    passed += sample.passed ? 1 : 0;
+  }
+  return count == 0 ? "–" : std::to_string(passed) + " of " + std::to_string(count);
+}
+
+struct Range {
+  std::string name;
+  double from;
+  double to;
+};
+
+const std::vector<Range> kRatios = {{"0.7 to 0.9", 0.7, 0.9},   {"0.9 to 0.98", 0.9, 0.98},
+                                    {"0.98 to 1", 0.98, 1},     {"1 to 1.02", 1, 1.02},
+                                    {"1.02 to 1.1", 1.02, 1.1}, {"1.1 to 1.3", 1.1, 1.3},
+                                    {"1.3 to 1.5", 1.3, 1.5}};
+const std::vector<Range> kQualities = {
+    {"0 to 0.002", 0, 0.002},       {"0.002 to 0.005", 0.002, 0.005},
+    {"0.005 to 0.01", 0.005, 0.01}, {"0.01 to 0.012", 0.01, 0.012},
+    {"0.012 to 0.02", 0.012, 0.02}, {"0.02 to 0.05", 0.02, 0.05},
+    {"0.05 and more", 0.05, 1e9}};
+
+std::vector<std::string> BodyNames(const std::vector<Sample>& samples) {
+  std::vector<std::string> names;
+  for (const Sample& sample : samples) {
+    if (names.empty() || names.back() != sample.body) names.push_back(sample.body);
+  }
+  return names;
+}
+
+/// Passes in each range, all bodies and one by one.
+TableFile RangeTable(const std::string& name, const std::string& title, const std::string& column,
+                     const std::vector<Range>& ranges, const std::vector<Sample>& samples,
+                     const std::function<std::optional<double>(const Sample&)>& value) {
+  TableFile table{name, title, {column, "all"}, {}};
+  const std::vector<std::string> bodies = BodyNames(samples);
+  table.columns.insert(table.columns.end(), bodies.begin(), bodies.end());
+  for (const Range& range : ranges) {
+    const auto in_range = [&](const Sample& sample) {
+      const auto x = value(sample);
+      return x && *x >= range.from && *x < range.to;
+    };
+    std::vector<std::string> row = {range.name, Share(samples, in_range)};
+    for (const std::string& body : bodies) {
+      row.push_back(Share(samples, [&](const Sample& s) { return s.body == body && in_range(s); }));
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+void WriteSamples(const std::vector<Sample>& samples, const std::filesystem::path& file) {
+  std::string csv = "body,ratio,quality,verdict,reason,displacement_over_diameter\n";
+  for (const Sample& sample : samples) {
+    csv += sample.body + "," + FormatFixed(sample.ratio, 4) + "," + FormatShort(sample.quality, 4) +
+           "," + (sample.passed ? "pass" : "fail") + "," + sample.reason + "," +
+           FormatShort(sample.displacement, 3) + "\n";
+  }
+  WriteFile(file, csv);
+}
+
+/// The settings that the table of settings compares, each a change of one.
+struct Variant {
+  std::string name;
+  std::function<void(ReplayOptions&)> change;
+};
+
+const std::vector<Variant> kVariants = {
+    {"as they are", [](ReplayOptions&) {}},
+    {"shake ρ 0.005", [](ReplayOptions& o) { o.shake = 0.005; }},
+    {"shake ρ 0.02", [](ReplayOptions& o) { o.shake = 0.02; }},
+    {"no shake, gravity alone", [](ReplayOptions& o) { o.shake = 0; }},
+    {"tolerance 1e-4 D", [](ReplayOptions& o) { o.tolerance = 1e-4; }},
+    {"tolerance 1e-2 D", [](ReplayOptions& o) { o.tolerance = 1e-2; }},
+    {"squeeze 100 weights", [](ReplayOptions& o) { o.squeeze_N = 100; }},
+    {"squeeze 10,000 weights", [](ReplayOptions& o) { o.squeeze_N = 10'000; }},
+    {"finger stiffness halved", [](ReplayOptions& o) { o.stiffness_factor = 0.5; }},
+    {"finger stiffness doubled", [](ReplayOptions& o) { o.stiffness_factor = 2; }},
+    {"time step halved", [](ReplayOptions& o) { o.timestep_factor = 0.5; }},
+    {"time step doubled", [](ReplayOptions& o) { o.timestep_factor = 2; }},
+};
+
+/// A squeeze given in weights becomes newtons of a body of 0.1 kg.
+ReplayOptions OptionsFor(const Variant& variant) {
+  ReplayOptions options;
+  variant.change(options);
+  if (options.squeeze_N) {
+    constexpr double kGravityOnEarth = 9.81;
+    options.mass_kg = 0.1;
+    *options.squeeze_N *= *options.mass_kg * kGravityOnEarth;
+  }
+  return options;
+}
+
+TableFile SettingsTable(const std::vector<Body>& bodies, int count, std::uint64_t seed) {
+  TableFile table{"settings",
+                  "What the settings change: grasps that pass",
+                  {"setting", "at most 0.98 of the critical friction", "0.98 to 1",
+                   "above it, quality under 0.01", "0.01 to 0.02", "0.02 and more"},
+                  {}};
+  for (const Variant& variant : kVariants) {
+    std::vector<Sample> samples;
+    for (const Body& body : bodies) {
+      const auto more = JudgeHolds(body, count, seed, OptionsFor(variant));
+      samples.insert(samples.end(), more.begin(), more.end());
+    }
+    const auto between = [](double x, double from, double to) { return x >= from && x < to; };
+    table.rows.push_back(
+        {variant.name, Share(samples, [](const Sample& s) { return s.ratio <= 0.98; }),
+         Share(samples, [&](const Sample& s) { return s.ratio > 0.98 && s.ratio < 1; }),
+         Share(samples, [&](const Sample& s) { return s.ratio >= 1 && s.quality < 0.01; }),
+         Share(samples,
+               [&](const Sample& s) { return s.ratio >= 1 && between(s.quality, 0.01, 0.02); }),
+         Share(samples, [&](const Sample& s) { return s.ratio >= 1 && s.quality >= 0.02; })});
+    std::fprintf(stderr, "settings: %s done\n", variant.name.c_str());
+  }
+  return table;
+}
+
+ScatterPlot PlotOf(const std::vector<Sample>& samples) {
+  ScatterPlot plot;
+  plot.x_title = "friction over the grasp's critical friction";
+  plot.y_title = "largest displacement over the diameter";
+  plot.x_from = kLeastRatio;
+  plot.x_to = kMostRatio;
+  plot.y_from = 1e-8;
+  plot.y_to = 10;
+  plot.level = ReplayOptions().tolerance;
+  plot.level_name = "tolerance";
+  plot.series = {{"force closure, quality above the shake", "#2166ac", {}},
+                 {"force closure, quality below the shake", "#e08214", {}},
+                 {"not force closure", "#b2182b", {}}};
+  for (const Sample& sample : samples) {
+    const std::size_t series =
+        sample.ratio < 1 ? 2 : (sample.quality < ReplayOptions().shake ? 1 : 0);
+    plot.series[series].points.emplace_back(sample.ratio, sample.displacement);
+  }
+  return plot;
+}
+
+int Run(const std::filesystem::path& models, const std::filesystem::path& folder, int count) {
+  constexpr std::uint64_t kSeed = 2026;
+  std::filesystem::create_directories(folder);
+  std::vector<Body> bodies;
+  for (const char* name : kBodies) bodies.emplace_back(models / name);
+  std::vector<Sample> holds;
+  std::vector<Sample> switches;
+  for (const Body& body : bodies) {
+    const auto held = JudgeHolds(body, count, kSeed, {});
+    const auto switched = JudgeSwitches(body, count, kSeed, {});
+    holds.insert(holds.end(), held.begin(), held.end());
+    switches.insert(switches.end(), switched.begin(), switched.end());
+    std::fprintf(stderr, "%s: %d holds and %d switches\n", body.name().c_str(), count, count);
+  }
+  const auto ratio = [](const Sample& s) { return std::optional(s.ratio); };
+  const auto quality = [](const Sample& s) {
+    return s.ratio < 1 ? std::nullopt : std::optional(s.quality);
+  };
+  WriteTable(
+      RangeTable("holds_by_friction", "Random grasps that pass, by friction over the critical one",
+                 "friction", kRatios, holds, ratio),
+      folder);
+  WriteTable(RangeTable("holds_by_quality", "Force-closure grasps that pass, by quality", "quality",
+                        kQualities, holds, quality),
+             folder);
+  WriteTable(
+      RangeTable("switches_by_friction",
+                 "Random switches that pass, by friction over the critical one of the grasp after",
+                 "friction", kRatios, switches, ratio),
+      folder);
+  WriteTable(RangeTable("switches_by_quality",
+                        "Switches to force-closure grasps that pass, by quality of the grasp after",
+                        "quality", kQualities, switches, quality),
+             folder);
+  WriteTable(SettingsTable(bodies, std::max(count / 5, 1), kSeed + 1), folder);
+  WriteSamples(holds, folder / "holds.csv");
+  WriteSamples(switches, folder / "switches.csv");
+  WriteFile(folder / "discrimination.svg", FormatScatterPlot(PlotOf(holds)));
+  const auto false_pass = [](const Sample& s) { return s.passed && s.ratio <= 0.98; };
+  const auto false_passes = std::count_if(holds.begin(), holds.end(), false_pass) +
+                            std::count_if(switches.begin(), switches.end(), false_pass);
+  std::printf("%zu holds, %zu switches, %d passes at or below 0.98 of the critical friction\n",
+              holds.size(), switches.size(), static_cast<int>(false_passes));
+  return false_passes == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto count = argc == 4 ? ParseDouble(argv[3]) : std::optional<double>();
+  if (!count || *count < 1 || *count > 1e6) {
+    std::fprintf(stderr, "usage: discrimination MODELS_FOLDER OUTPUT_FOLDER GRASPS_PER_BODY\n");
+    return 2;
+  }
+  try {
+    return Run(argv[1], argv[2], static_cast<int>(*count));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "discrimination: %s\n", error.what());
+    return 2;
+  }
+}
