@@ -19,16 +19,20 @@ constexpr double kCoplanar = 1e-12;
 /// tan φ* is rounded down by this share.
 constexpr double kRoundedDown = 1e-12;
 
-/// Sets of normals as bits.
-class BitRow {
+/// For each pair of normals a set of normals, as bits.
+class PairRows {
  public:
-  explicit BitRow(std::size_t bits) : words_((bits + 63) / 64) {}
-  void Set(std::size_t i) { words_[i / 64] |= std::uint64_t{1} << (i % 64); }
-  [[nodiscard]] std::uint64_t word(std::size_t w) const { return words_[w]; }
-  [[nodiscard]] std::size_t words() const { return words_.size(); }
+  explicit PairRows(std::size_t count)
+      : count_(count), words_((count + 63) / 64), bits_(count * count * words_) {}
+  [[nodiscard]] std::uint64_t* Row(std::size_t a, std::size_t b) {
+    return &bits_[(a * count_ + b) * words_];
+  }
+  [[nodiscard]] std::size_t words() const { return words_; }
 
  private:
-  std::vector<std::uint64_t> words_;
+  std::size_t count_;
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
 };
 
 /// The distance from the origin to the plane through the ends of three vectors.
@@ -42,17 +46,19 @@ class QuadrupleFinder {
   QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, Spanning spanning)
       : normals_(normals),
         tangent_(tangent),
-        least_(spanning == Spanning::kUniform ? tangent / std::sqrt(1 + tangent * tangent) : 0) {
+        least_(spanning == Spanning::kUniform ? tangent / std::sqrt(1 + tangent * tangent) : 0),
+        left_(normals.size()),
+        right_(normals.size()) {
     const std::size_t n = normals.size();
-    left_.assign(n * n, BitRow(n));
-    right_.assign(n * n, BitRow(n));
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = a + 1; b < n; ++b) {
         const Vector3d across = normals[a].cross(normals[b]);
+        std::uint64_t* left = left_.Row(a, b);
+        std::uint64_t* right = right_.Row(a, b);
         for (std::size_t k = 0; k < n; ++k) {
           const double volume = across.dot(normals[k]);
-          if (volume > kCoplanar) left_[a * n + b].Set(k);
-          if (volume < -kCoplanar) right_[a * n + b].Set(k);
+          left[k / 64] |= std::uint64_t{volume > kCoplanar} << (k % 64);
+          right[k / 64] |= std::uint64_t{volume < -kCoplanar} << (k % 64);
         }
       }
     }
@@ -62,6 +68,7 @@ class QuadrupleFinder {
     const int n = static_cast<int>(normals_.size());
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) {
+        if (!MaySpan(a, b)) continue;
         for (int c = b + 1; c < n; ++c) FindFourth(a, b, c);
       }
     }
@@ -69,21 +76,22 @@ class QuadrupleFinder {
   }
 
  private:
+  /// Planes through two ends are no farther from the origin than the middle between them.
+  [[nodiscard]] bool MaySpan(int a, int b) const {
+    return (normals_[a] + normals_[b]).squaredNorm() > 4 * least_ * least_;
+  }
+
   /// Normals inside the trihedron of the opposites of three, after the third.
   void FindFourth(int a, int b, int c) {
-    const std::size_t n = normals_.size();
-    const std::size_t ab = a * n + b;
-    const std::size_t bc = b * n + c;
-    const std::size_t ac = a * n + c;
-    const auto bit = [&](const BitRow& row) { return (row.word(c / 64) >> (c % 64) & 1) != 0; };
-    const bool turns_left = bit(left_[ab]);
-    if (!turns_left && !bit(right_[ab])) return;
-    const BitRow& of_ab = turns_left ? right_[ab] : left_[ab];
-    const BitRow& of_bc = turns_left ? right_[bc] : left_[bc];
-    const BitRow& of_ac = turns_left ? left_[ac] : right_[ac];
+    const auto has_c = [&](const std::uint64_t* row) { return (row[c / 64] >> (c % 64) & 1) != 0; };
+    const bool turns_left = has_c(left_.Row(a, b));
+    if (!turns_left && !has_c(right_.Row(a, b))) return;
+    const std::uint64_t* of_ab = (turns_left ? right_ : left_).Row(a, b);
+    const std::uint64_t* of_bc = (turns_left ? right_ : left_).Row(b, c);
+    const std::uint64_t* of_ac = (turns_left ? left_ : right_).Row(a, c);
     double height = -1;  // of the plane of the three, once it is needed
-    for (std::size_t w = c / 64; w < of_ab.words(); ++w) {
-      std::uint64_t bits = of_ab.word(w) & of_bc.word(w) & of_ac.word(w);
+    for (std::size_t w = c / 64; w < left_.words(); ++w) {
+      std::uint64_t bits = of_ab[w] & of_bc[w] & of_ac[w];
       if (w == static_cast<std::size_t>(c) / 64) bits &= ~std::uint64_t{0} << (c % 64);
       if (bits != 0 && height < 0) {
         height = PlaneDistance(normals_[a], normals_[b], normals_[c]);
@@ -109,9 +117,9 @@ class QuadrupleFinder {
 
   const std::vector<Vector3d>& normals_;
   double tangent_;
-  double least_;               ///< that φ*'s sine must exceed
-  std::vector<BitRow> left_;   ///< for a < b: the normals on the left of the plane through both
-  std::vector<BitRow> right_;  ///< those on the right
+  double least_;    ///< that φ*'s sine must exceed
+  PairRows left_;   ///< for a < b: the normals on the left of the plane through both
+  PairRows right_;  ///< those on the right
   std::vector<QuadrupleCandidate> found_;
 };
 

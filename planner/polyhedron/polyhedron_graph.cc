@@ -56,6 +56,7 @@ PolyhedronGraph::PolyhedronGraph(const Polyhedron& solid, double half_angle, Spa
 
 void PolyhedronGraph::FindLinks() {
   std::vector<OfTriple> of_triples;
+  of_triples.reserve(4 * cells_.size());
   for (int cell = 0; cell < vertex_count(); ++cell) {
     const std::array<int, 4>& f = cells_[cell].faces;
     for (std::size_t left_out = 0; left_out < f.size(); ++left_out) {
