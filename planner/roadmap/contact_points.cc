@@ -72,14 +72,11 @@ std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count, std
 
 std::vector<Contact> MeshContacts(const Polyhedron& solid, int most, std::uint64_t seed) {
   if (most < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
-  const auto triangles = static_cast<std::int64_t>(solid.triangles().size());
-  if (triangles > most || kFewTriangles * triangles < most) {
-    return SpreadContactPoints(solid, most, seed);
-  }
+  const int triangles = static_cast<int>(solid.triangles().size());
+  const bool few_faces = std::int64_t{kFewFaces} * solid.face_count() < most;
+  if (triangles > most || few_faces) return SpreadContactPoints(solid, most, seed);
   std::vector<Contact> points;
-  for (int i = 0; i < static_cast<int>(triangles); ++i) {
-    points.push_back(TriangleCentroid(solid, i));
-  }
+  for (int i = 0; i < triangles; ++i) points.push_back(TriangleCentroid(solid, i));
   return points;
 }
 

@@ -26,10 +26,10 @@ namespace regrasp {
 /// Contact points of a triangle mesh (Phoka 2010, section 6.2): the centroids of its triangles,
 /// with the inward normals of their faces, in the order of the triangles.
 ///
-/// That holds for a mesh of `most / kFewTriangles` to `most` triangles. Outside of that range the
-/// points are those of SpreadContactPoints, `most` of them on the surface as it is: a mesh of more
-/// triangles has too many centroids, and on one of fewer (a cube has twelve) they would be no
-/// choice of places, and depend on how its flat faces happen to be cut.
+/// That holds for a mesh of at most `most` triangles and at least `most / kFewFaces` faces.
+/// Elsewhere the points are those of SpreadContactPoints, `most` of them on the surface as it is: a
+/// mesh of more triangles has too many centroids; on a body of few faces (a cube has six) they
+/// would be no choice of places, and depend on how its flat faces happen to be cut.
 ///
 /// Laws: moving and scaling the solid moves and scales the centroids, and they do not depend on the
 /// seed; points that are spread are as far apart whatever the unit of length.
@@ -37,9 +37,9 @@ namespace regrasp {
 [[nodiscard]] std::vector<Contact> MeshContacts(const Polyhedron& solid, int most,
                                                 std::uint64_t seed);
 
-/// A mesh with fewer than a quarter as many triangles as contact points are asked for counts as a
-/// body of flat faces.
-inline constexpr int kFewTriangles = 4;
+/// A solid with fewer than a quarter as many faces as contact points are asked for counts as a body
+/// of flat faces.
+inline constexpr int kFewFaces = 4;
 /// Yuksel (2015) recommends five or more.
 inline constexpr int kCandidatesPerPoint = 20;
 /// 2 mm on a 10 cm body: less than a fingertip's radius, so that faces keep most of their area.

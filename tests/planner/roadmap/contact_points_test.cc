@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/planner/roadmap/solids.h"
@@ -76,11 +77,6 @@ TEST(SpreadContactPoints, RefusesNone) {
   EXPECT_THROW((void)SpreadContactPoints(MakeCube(), 0, 1), std::invalid_argument);
 }
 
-/// The triangles of a box of 2 × 3 × 4, four cells along each of its edges.
-constexpr int kBoxTriangles = 6 * 4 * 4 * 2;
-
-Polyhedron MakeFineBox() { return MakeBox({2, 3, 4}, 4); }
-
 /// The same solid, every vertex mapped.
 template <typename Map>
 Polyhedron Moved(const Polyhedron& solid, const Map& map) {
@@ -90,16 +86,27 @@ Polyhedron Moved(const Polyhedron& solid, const Map& map) {
   return Polyhedron::FromSoup(soup, "moved");
 }
 
+constexpr int kPotatoTriangles = 6 * 4 * 4 * 2;
+
+/// A box of four cells along each edge blown up to a potato, so that no two triangles are coplanar.
+Polyhedron MakePotato() {
+  return Moved(MakeBox({2, 3, 4}, 4), [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    const Eigen::Vector3d n = v.normalized();
+    return (1 + 0.1 * std::sin(2 * n.x() + 3 * n.y() + n.z())) * n;
+  });
+}
+
 TEST(MeshContacts, AreTheCentroidsOfAllTrianglesInTheirOrder) {
-  const Polyhedron box = MakeFineBox();
-  const std::vector<Contact> points = MeshContacts(box, kBoxTriangles, 1);
-  ASSERT_EQ(points.size(), std::size_t{kBoxTriangles});
-  for (int i = 0; i < kBoxTriangles; ++i) {
-    const auto& [a, b, c] = box.triangles()[i];
-    const auto& v = box.vertices();
-    EXPECT_LE((points[i].p - (v[a] + v[b] + v[c]) / 3).norm(), kOnFace * box.diameter());
-    EXPECT_EQ(points[i].face, box.face_of_triangle(i));
-    EXPECT_EQ(points[i].n, box.inward_normal(points[i].face));
+  const Polyhedron potato = MakePotato();
+  ASSERT_EQ(potato.face_count(), kPotatoTriangles);
+  const std::vector<Contact> points = MeshContacts(potato, kPotatoTriangles, 1);
+  ASSERT_EQ(points.size(), std::size_t{kPotatoTriangles});
+  for (int i = 0; i < kPotatoTriangles; ++i) {
+    const auto& [a, b, c] = potato.triangles()[i];
+    const auto& v = potato.vertices();
+    EXPECT_LE((points[i].p - (v[a] + v[b] + v[c]) / 3).norm(), kOnFace * potato.diameter());
+    EXPECT_EQ(points[i].face, potato.face_of_triangle(i));
+    EXPECT_EQ(points[i].n, potato.inward_normal(points[i].face));
   }
 }
 
@@ -109,11 +116,11 @@ TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
   const auto map = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     return 37.5 * (turn * v) + Eigen::Vector3d(3, -8, 21);
   };
-  const Polyhedron box = MakeFineBox();
-  const Polyhedron moved = Moved(box, map);
-  const std::vector<Contact> before = MeshContacts(box, 300, 1);
+  const Polyhedron potato = MakePotato();
+  const Polyhedron moved = Moved(potato, map);
+  const std::vector<Contact> before = MeshContacts(potato, 300, 1);
   const std::vector<Contact> after = MeshContacts(moved, 300, 2);
-  ASSERT_EQ(before.size(), std::size_t{kBoxTriangles});
+  ASSERT_EQ(before.size(), std::size_t{kPotatoTriangles});
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_LE((after[i].p - map(before[i].p)).norm(), kOnFace * moved.diameter());
@@ -121,27 +128,34 @@ TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
   }
 }
 
-TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrTooFew) {
-  const Polyhedron box = MakeFineBox();
+TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrFacesTooFew) {
+  const Polyhedron potato = MakePotato();
   struct Case {
     int most;
     bool centroids;
   };
   int spread = 0;
-  for (const auto& [most, centroids] : {Case{kBoxTriangles - 1, false}, Case{kBoxTriangles, true},
-                                        Case{kFewTriangles * kBoxTriangles, true},
-                                        Case{kFewTriangles * kBoxTriangles + 1, false}}) {
-    const std::vector<Contact> points = MeshContacts(box, most, 1);
+  for (const auto& [most, centroids] :
+       {Case{kPotatoTriangles - 1, false}, Case{kPotatoTriangles, true},
+        Case{kFewFaces * kPotatoTriangles, true}, Case{kFewFaces * kPotatoTriangles + 1, false}}) {
+    const std::vector<Contact> points = MeshContacts(potato, most, 1);
     if (centroids) {
-      EXPECT_EQ(points.size(), std::size_t{kBoxTriangles}) << most;
+      EXPECT_EQ(points.size(), std::size_t{kPotatoTriangles}) << most;
       continue;
     }
-    const std::vector<Contact> expected = SpreadContactPoints(box, most, 1);
+    const std::vector<Contact> expected = SpreadContactPoints(potato, most, 1);
     ASSERT_EQ(points.size(), static_cast<std::size_t>(most));
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].p, expected[i].p);
     ++spread;
   }
   EXPECT_EQ(spread, 2);
+}
+
+TEST(MeshContacts, AreSpreadOnFlatFacesHoweverTheseAreCut) {
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 4);
+  ASSERT_EQ(cube.triangles().size(), std::size_t{kPotatoTriangles});
+  EXPECT_EQ(MeshContacts(cube, 300, 1).size(), 300u);
+  EXPECT_EQ(MeshContacts(MakeCube(), 300, 1).size(), 300u);
 }
 
 TEST(MeshContacts, RefusesNone) {
