@@ -12,6 +12,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace regrasp {
 namespace {
@@ -29,6 +31,10 @@ constexpr double kAreaTolerance = 1e-9;
 
 /// Pieces smaller than this share of the square are slivers of rounding along its border.
 constexpr double kLeastPiece = 1e-8;
+
+/// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter:
+/// several times what fingers of good grasps slip.
+constexpr int kMostHalvings = 6;
 
 /// Coordinates in the plane of a face: u along `axis`, v to its left seen from outside.
 struct Chart {
@@ -101,19 +107,33 @@ double TotalArea(const std::vector<Ring>& pieces) {
   return area;
 }
 
-/// The largest extent up to `size` from the path towards ±v that stays on the face, by the nearest
-/// border parallel to u; 0 extents are as good as any other, on a border.
-Rectangle FittingWindow(const Polyhedron& body, const ContactSite& site, const Chart& chart,
-                        double size) {
+/// A rectangle along u that reaches `size` from the path on all sides, cut short at its ends and at
+/// its sides to the distance of the nearest border where it does not fit otherwise; nothing where
+/// none fits.
+std::optional<Rectangle> FittingWindow(const Polyhedron& body, const ContactSite& site,
+                                       const Chart& chart, double size) {
   const double end = chart.u.dot(site.to - site.from);
   const double reach = std::min(size, body.DistanceToBorder(site.face, site.from));
-  for (const double side : {1.0, -1.0}) {
-    const Point low(-size, side > 0 ? -reach : -size), high(end + size, side > 0 ? size : reach);
-    const Rectangle window(low, high);
-    const double covered = TotalArea(ClipTriangles(body, site.face, chart, window));
-    if (covered > (1 - kAreaTolerance) * window.area()) return window;
+  constexpr std::pair<bool, bool> kCuts[] = {{false, false}, {true, false}, {false, true}};
+  for (const auto& [cut_start, cut_end] : kCuts) {
+    for (const bool cut_right : {false, true}) {
+      const Point low(cut_start ? -reach : -size, cut_right ? -reach : -size);
+      const Point high(end + (cut_end ? reach : size), cut_right ? size : reach);
+      const Rectangle window(low, high);
+      const double covered = TotalArea(ClipTriangles(body, site.face, chart, window));
+      if (covered > (1 - kAreaTolerance) * window.area()) return window;
+    }
   }
-  return {Point(0, 0), Point(0, 0)};
+  return std::nullopt;
+}
+
+/// The largest of the fitting windows of `size`, half of it, a quarter of it …
+std::optional<Rectangle> LargestFittingWindow(const Polyhedron& body, const ContactSite& site,
+                                              const Chart& chart, double size) {
+  for (int halvings = 0; halvings <= kMostHalvings; ++halvings, size /= 2) {
+    if (const auto window = FittingWindow(body, site, chart, size)) return window;
+  }
+  return std::nullopt;
 }
 
 ContactPatch Lift(const Chart& chart, Ring ring, bool rectangle) {
@@ -131,9 +151,9 @@ ContactPatch Lift(const Chart& chart, Ring ring, bool rectangle) {
 std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const ContactSite& site,
                                              double size) {
   const Chart chart = MakeChart(body, site);
-  const Rectangle fitting = FittingWindow(body, site, chart, size);
-  if (!fitting.is_degenerate()) {
-    return {Lift(chart, {fitting[0], fitting[1], fitting[2], fitting[3]}, true)};
+  if (const auto fitting = LargestFittingWindow(body, site, chart, size)) {
+    const Rectangle& window = *fitting;
+    return {Lift(chart, {window[0], window[1], window[2], window[3]}, true)};
   }
   const double end = chart.u.dot(site.to - site.from);
   const Rectangle window(Point(-size, -size), Point(end + size, size));
