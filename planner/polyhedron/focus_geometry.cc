@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Contacts are looked for at so many places on the way from the foot of the focus point towards
-/// the middle of the part.
+/// Contacts are looked for at so many places on the way from the part's point nearest to the foot
+/// of the focus point towards the middle of the part, as far as the cone reaches.
 constexpr int kContactSteps = 16;
 
 /// A contact this far outside a part, over the diameter, is on it.
@@ -67,6 +67,20 @@ Vector2d NearestOn(const Shape& shape, const Vector2d& y) {
     nearest = candidate;
   }
   return nearest;
+}
+
+/// The share of the way from a point to another, both of a part's plane, at which it leaves the
+/// circle about `centre`; at most 1, 0 from a point outside.
+double ShareInside(const Vector2d& from, const Vector2d& to, const Vector2d& centre,
+                   double radius) {
+  const double a = (to - from).squaredNorm();
+  const double b = (to - from).dot(from - centre);
+  const double c = (from - centre).squaredNorm() - radius * radius;
+  if (c >= 0) return 0;
+  const double root = std::sqrt(b * b - a * c);
+  if (root - b >= a) return 1;
+  // Of the two forms of the larger root the one without cancellation.
+  return b > 0 ? -c / (b + root) : (root - b) / a;
 }
 
 /// The position of a face among a cell's, 4 where it has another.
@@ -153,10 +167,11 @@ Vector3d FocusGeometry::ContactFor(int half, double tangent, const Vector3d& foc
   const double radius = std::abs(shape.normal.dot(focus - shape.origin)) * tangent;
   const Vector2d nearest = NearestOn(shape, foot);
   const Vector2d middle = MiddleOf(shape);
+  const Vector2d way = ShareInside(nearest, middle, foot, radius) * (middle - nearest);
   Vector2d best = nearest;
   double most = -std::numeric_limits<double>::infinity();
   for (int step = 0; step <= kContactSteps; ++step) {
-    const Vector2d y = nearest + static_cast<double>(step) / kContactSteps * (middle - nearest);
+    const Vector2d y = nearest + static_cast<double>(step) / kContactSteps * way;
     const double room = std::min(radius - (y - foot).norm(), DepthIn(shape, y));
     if (room <= most) continue;
     most = room;
