@@ -1,0 +1,36 @@
+// Any bytes as a grasp file of a tetrahedron and of a square: contacts on the surface, or one line
+// that says what is wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hostile_input.h"
+#include "planner/plan/grasp_io.h"
+#include "small_objects.h"
+
+namespace {
+
+using namespace regrasp;
+
+/// What was read is on the object, so it reads back as the same bytes.
+void ReadTwice(std::string_view text, const Object& object) {
+  const Grasp grasp = ParseGrasp(text, kHostileName, object);
+  for (const Contact& contact : grasp) {
+    if (contact.face < 0 || contact.face >= object.face_count()) ReportFinding("a contact off");
+    if (!contact.p.allFinite()) ReportFinding("a contact at no finite point");
+  }
+  const std::string written = FormatGrasp(grasp, object.dimension());
+  if (FormatGrasp(ParseGrasp(written, kHostileName, object), object.dimension()) != written) {
+    ReportFinding("a grasp that was written reads back as another");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput([&] { ReadTwice(text, SmallSolid()); });
+  ReadHostileInput([&] { ReadTwice(text, SmallPolygon()); });
+  return 0;
+}

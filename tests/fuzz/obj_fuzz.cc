@@ -1,0 +1,17 @@
+// Any bytes as an OBJ file: a sound solid, or one line that says what is wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hostile_input.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/object/polyhedron.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace regrasp;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput(
+      [&] { ExpectSound(Polyhedron::FromSoup(ReadObj(bytes, kHostileName), kHostileName)); });
+  return 0;
+}

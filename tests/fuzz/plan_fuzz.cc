@@ -1,0 +1,38 @@
+// Any bytes as a plan file: a plan that is written as it was read and that the analytic check can
+// judge on a small object, or one line that says what is wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hostile_input.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "small_objects.h"
+
+namespace {
+
+using namespace regrasp;
+
+void ReadAndCheck(std::string_view text) {
+  const Plan plan = ParsePlan(text, kHostileName);
+  const std::string written = FormatPlan(plan);
+  if (FormatPlan(ParsePlan(written, kHostileName)) != written) {
+    ReportFinding("a plan that was written reads back as another");
+  }
+  const Object& object =
+      plan.dimension == 2 ? static_cast<const Object&>(SmallPolygon()) : SmallSolid();
+  const PlanCheck check = CheckPlan(object, plan);
+  if (check.steps.size() != plan.steps.size() + 1) ReportFinding("a step was not judged");
+  for (const StepCheck& step : check.steps) {
+    if (step.force_closure && !step.required) ReportFinding("force closure at no angle");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput([&] { ReadAndCheck(text); });
+  return 0;
+}

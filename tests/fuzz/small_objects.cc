@@ -1,0 +1,27 @@
+#include "small_objects.h"
+
+namespace regrasp {
+
+const Polyhedron& SmallSolid() {
+  // Never destroyed: nothing runs behind the end of main.
+  static const Polyhedron* const cube = new Polyhedron(Polyhedron::FromSoup(
+      {{{-1, -1, -1},
+        {1, -1, -1},
+        {1, 1, -1},
+        {-1, 1, -1},
+        {-1, -1, 1},
+        {1, -1, 1},
+        {1, 1, 1},
+        {-1, 1, 1}},
+       {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+      "cube"));
+  return *cube;
+}
+
+const Polygon& SmallPolygon() {
+  static const Polygon* const square =
+      new Polygon(Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square"));
+  return *square;
+}
+
+}  // namespace regrasp

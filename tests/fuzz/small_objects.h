@@ -1,0 +1,14 @@
+#pragma once
+
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+/// The cube [-1, 1]^3, which the plans and grasps of tests/data are of.
+[[nodiscard]] const Polyhedron& SmallSolid();
+
+/// The square [-1, 1]^2.
+[[nodiscard]] const Polygon& SmallPolygon();
+
+}  // namespace regrasp

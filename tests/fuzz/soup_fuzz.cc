@@ -1,0 +1,21 @@
+// Any bytes as those that the child process that runs assimp sends: a sound solid, or a refusal.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hostile_input.h"
+#include "planner/base/error.h"
+#include "planner/object/polyhedron.h"
+#include "planner/object/soup_bytes.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace regrasp;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput([&] {
+    const auto soup = SoupFromBytes(bytes);
+    if (!soup) throw InputError(kHostileName + ": not a soup");
+    ExpectSound(Polyhedron::FromSoup(*soup, kHostileName));
+  });
+  return 0;
+}

@@ -1,0 +1,15 @@
+// Any bytes as a WKT file: a sound polygon, or one line that says what is wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hostile_input.h"
+#include "planner/object/polygon.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace regrasp;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput([&] { ExpectSound(Polygon::FromWkt(text, kHostileName)); });
+  return 0;
+}
