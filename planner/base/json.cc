@@ -26,7 +26,8 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
-      throw InputError(name + ": the key " + value.dump() + " is repeated");
+      const std::string key = value.dump(-1, ' ', /*ensure_ascii=*/true);
+      throw InputError(name + ": the key " + key + " is repeated");
     }
     return true;
   };
@@ -38,9 +39,9 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (const auto bracket = what.find("] "); bracket != std::string::npos) {
       what.erase(0, bracket + 2);
     }
-    // It quotes what it read last, broken UTF-8 included.
+    // It quotes what it read last, broken UTF-8 and the delete character included.
     std::ranges::replace_if(
-        what, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }, '?');
+        what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
     throw InputError(name + ": not JSON: " + what);
   }
 }

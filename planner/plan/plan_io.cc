@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
@@ -67,7 +68,12 @@ double ReadHalfAngle(const JsonReader& json) {
   if (!(degrees > 0 && degrees < 90)) {
     json.Fail("must lie between 0 and 90, found " + json.Quoted());
   }
-  return Radians(degrees);
+  const double angle = Radians(degrees);
+  // A number next to an end of the interval may round onto it, in radians or written again.
+  if (!(angle > 0 && angle < std::numbers::pi / 2 && Degrees(angle) < 90)) {
+    json.Fail("too close to an end of (0, 90), found " + json.Quoted());
+  }
+  return angle;
 }
 
 /// Degrees that read back as the same radians, where there are such, and round ones if possible:

@@ -49,6 +49,9 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       {"\"line\nbreak\"", "not JSON"},
       {std::string("[1]\0", 4), "a NUL byte"},
       {std::string("[1]\0{", 5), "a NUL byte"},
+      {"[\x7f]", "not JSON"},
+      {"{\"\x7f\": 1, \"\x7f\": 2}", "is repeated"},
+      {"{\"\xc2\x9b\": 1, \"\xc2\x9b\": 2}", "is repeated"},
       {"\xEF\xBB\xBF", "not JSON"},
       {"\xEF\xBB", "not JSON"},
   };

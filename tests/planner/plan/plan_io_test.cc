@@ -130,6 +130,8 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
        "plan.json: /object/dimension: expected a whole number from 2 to 3, found 4"},
       {"/object/sha256", "abc",
        "plan.json: /object/sha256: expected 64 lower-case hexadecimal digits, found \"abc\""},
+      {"/friction/half_angle_deg", 5e-324,
+       "plan.json: /friction/half_angle_deg: too close to an end of (0, 90), found 5e-324"},
       {"/friction/half_angle_deg", 90,
        "plan.json: /friction/half_angle_deg: must lie between 0 and 90, found 90"},
       {"/fingers", 0, "plan.json: /fingers: expected a whole number from 1 to 64, found 0"},
