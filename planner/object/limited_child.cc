@@ -26,8 +26,11 @@ constexpr int kExitDone = 0;
 constexpr int kExitThrew = 1;
 constexpr int kExitNoMemory = 2;
 
+// GCC says with a macro that it builds for the address sanitizer, clang with a feature.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kLimitMemory = false;
+#elif defined(__has_feature)
+constexpr bool kLimitMemory = !__has_feature(address_sanitizer);
 #else
 constexpr bool kLimitMemory = true;
 #endif

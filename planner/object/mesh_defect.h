@@ -10,7 +10,7 @@ namespace regrasp {
 enum class MeshDefect {
   kEmpty,             ///< no facet, or no volume
   kNotFinite,         ///< a coordinate is NaN, infinite or beyond kMaxCoordinate
-  kBadSize,           ///< too small, or too far from the origin for its size
+  kBadSize,           ///< too small, too thin, or too far from the origin for its size
   kIndexOutOfRange,   ///< a facet names a vertex that is not there
   kDegenerateFacet,   ///< fewer than three corners, a corner named twice, or no area
   kNotPlanar,         ///< a polygon's corners do not lie in one plane

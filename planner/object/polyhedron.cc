@@ -21,9 +21,16 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// The facets of a face point the same way, so their areas add up as vectors do. Only where all of
+/// a body is slivers, which join whatever lies beside them, do they cancel.
+constexpr double kLeastFlatness = 0.5;
+
+/// Areas and borders of the faces.
+/// @throws MeshError  kBadSize where a face has no normal.
 std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
                                            const SurfaceTopology& topology,
-                                           const std::vector<int>& face_of_triangle) {
+                                           const std::vector<int>& face_of_triangle,
+                                           const std::string& name) {
   std::vector<Polyhedron::Face> faces(1 + *std::ranges::max_element(face_of_triangle));
   std::vector<Vector3d> area_vectors(faces.size(), Vector3d::Zero());
   for (auto& face : faces) {
@@ -46,6 +53,11 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
     }
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (!(area_vectors[f].stableNorm() > kLeastFlatness * faces[f].area)) {
+      throw MeshError(MeshDefect::kBadSize,
+                      name + ": " + FacetName(mesh, faces[f].triangles.front()) +
+                          ": too thin: it and its neighbours have no common normal");
+    }
     faces[f].point /= faces[f].area;
     // Adding 0 turns −0 into +0: normals are printed.
     faces[f].inward_normal = (-area_vectors[f].stableNormalized()).array() + 0.0;
@@ -66,7 +78,7 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
   CheckSelfIntersection(mesh, name);
   OrientSolid(mesh, topology, name);
   std::vector<int> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
-  std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle);
+  std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle, name);
   const MassProperties mass = ComputeMassProperties(mesh.vertices, mesh.triangles);
   return Polyhedron(std::move(mesh.vertices), std::move(mesh.triangles),
                     std::move(face_of_triangle), std::move(faces), diameter, mass);

@@ -77,6 +77,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"nan.stl", "line 5: facet 0: \"nan\" is not a finite number"},
     {"nan_binary.ply", "vertex 0: the coordinate nan is not finite"},
     {"nan_binary.stl", "facet 0: the coordinate inf is not finite"},
+    {"needle.off", "facet 0: too thin"},
     {"negative_count.off", "line 2: a negative number"},
     {"negative_list.ply", "facet 0: a list of length -3"},
     {"no_area.obj", "facet 0: degenerate: it has no area"},
