@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/certificate/force_proof.h"
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// What exact arithmetic says of a proof.
+struct ProofVerdict {
+  enum class Kind {
+    kForceClosure,     ///< proved
+    kNotForceClosure,  ///< refuted
+    kNothing,          ///< the proof proves neither
+  };
+  Kind kind = Kind::kNothing;
+  std::string why;  ///< of kNothing, for people
+};
+
+/// Checks a proof in exact rational arithmetic, every double taken at its value: contacts, friction
+/// and forces. What decides force closure in floating point is not used.
+///
+/// Forces that were computed, or written as decimals, never balance exactly. The residual is
+/// removed exactly: the columns of a nonsingular part of the grasp matrix, found by elimination,
+/// take it up, which changes their forces by about as much as it was. What is tested is whether the
+/// corrected forces f lie strictly inside the cones, n·f > 0 and (n·f)² (1 + μ²) > |f|² |n|². With
+/// contacts that are not on one line (in the plane: not at one point) that is force closure
+/// (Murray, Li and Sastry 1994, Prop. 5.3).
+///
+/// A twist refutes where every contact's velocity u lies in the polar cone, n·u ≤ 0 and (n·u)² (1 +
+/// μ²) ≥ μ² |u|² |n|², and some u is not 0: forces inside the cones then do negative work, and
+/// balanced ones do none.
+/// @param contacts   normals need not be exactly unit: their direction counts.
+/// @param dimension  3, or 2 for planar contacts and forces. @param mu  > 0.
+[[nodiscard]] ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension,
+                                           double mu, const GraspProof& proof);
+
+/// The same for a whole motion: contacts move straight from `from` to `to` and keep their normals.
+/// The pieces must follow each other from 0 to 1. With forces f₀ and f₁ at the ends of a piece, p
+/// and p' the points there, balance for all t is Σ f₀ = Σ f₁ = 0, Σ p × f₀ = Σ p' × f₁ = 0 and Σ (p
+/// × f₁ + p' × f₀) = 0, again made exact by elimination.
+[[nodiscard]] ProofVerdict CheckMotionProof(std::span<const Contact> from,
+                                            std::span<const Contact> to, int dimension, double mu,
+                                            std::span<const MotionPiece> pieces);
+
+}  // namespace regrasp

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace regrasp {
+
+/// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts
+/// and the friction alone. Lengths and points are in the object's unit, about its origin.
+struct GraspProof {
+  enum class Kind {
+    kNone,    ///< none was found
+    kForces,  ///< balanced forces strictly inside the cones, and contacts that are not on one line
+    kTwist,   ///< a motion of the object that all forces in the cones work against
+    kLine,    ///< about the line through two contacts all others turn the object the same way
+  };
+  Kind kind = Kind::kNone;
+  std::vector<Eigen::Vector3d> forces;  ///< kForces: one a contact, balanced up to rounding
+  /// kTwist: velocities v + ω × p of points of the object; (v, ω).
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+  std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts
+};
+
+/// Why a grasp is force closure everywhere on a piece of a straight motion of its contacts: forces
+/// that go linearly from `start` to `end`, balanced all the way up to rounding. A force between two
+/// of a cone is in the cone.
+struct MotionPiece {
+  double from = 0;  ///< of the way between two waypoints, 0 to 1
+  double to = 1;
+  std::vector<Eigen::Vector3d> start;
+  std::vector<Eigen::Vector3d> end;
+};
+
+}  // namespace regrasp
