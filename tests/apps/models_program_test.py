@@ -17,6 +17,11 @@ SMALLEST_REQUIRED = 0.1  # degrees
 MANY_EDGES = 100  # with more, random grasps are 2-finger grasps of the whole boundary
 SHORTEST_EDGE = 0.004  # of the diameter
 REGIONS = ("--optimize", "regions")
+MANY_FACES = ("body14", "body24", "body34", "body36", "body38", "body40", "body42", "body47",
+              "body67")
+# Their focus cells are many; fewer with little friction and uniform spanning.
+CONCURRENT = ("--planner", "polyhedron", "--spanning", "uniform")
+FRICTION_OF_MANY_FACES = "10"
 
 
 class Models(ProgramCase):
@@ -25,7 +30,8 @@ class Models(ProgramCase):
     def names(self):
         ending = ".start.json"
         names = sorted(name[:-len(ending)] for name in os.listdir(self.model(""))
-                       if name.endswith(ending))
+                       if name.endswith(ending)
+                       and name[:-len(ending)] not in MANY_FACES)
         solids = [name for name in names if os.path.exists(self.model(name + ".obj"))]
         self.assertGreaterEqual(len(solids), 7, solids)
         self.assertGreaterEqual(len(names) - len(solids), 14, names)
@@ -50,8 +56,9 @@ class Models(ProgramCase):
         return names
 
     def plan(self, name, start, goal, *more):
+        friction = FRICTION_OF_MANY_FACES if name in MANY_FACES else FRICTION_ANGLE
         self.assert_done("--object", self.body(name), "--start", start, "--goal", goal,
-                         "--friction-angle", FRICTION_ANGLE, "--output", "plan.json", *more)
+                         "--friction-angle", friction, "--output", "plan.json", *more)
         return json.loads(self.read("plan.json"))
 
     def validate(self, name, *more):
@@ -119,6 +126,33 @@ class Models(ProgramCase):
                     self.plan(name, "random", "random", "--planner", planner, "--seed", seed, *aim)
                     done, _ = self.validate(name)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_solids_of_many_faces_plan_with_aligns_and_switches_and_validate(self):
+        for name in MANY_FACES:
+            with self.subTest(model=name):
+                start, goal = self.model(name + ".start.json"), self.model(name + ".goal.json")
+                plan = self.plan(name, start, goal, *CONCURRENT)
+                self.assertEqual({step["kind"] for step in plan["steps"]}, {"align", "switch"})
+                done, report = self.validate(name, "--start", start, "--goal", goal)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual(len(report["steps"]), len(plan["steps"]) + 1)
+                # The same plan with less friction than its weakest grasp needs.
+                weakest = max(step["force_closure"]["required_half_angle_deg"]
+                              for step in report["steps"])
+                done, report = self.validate(name, "--friction-angle", str(weakest - 0.01))
+                self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+                self.assertEqual(report["verdict"], "fail")
+
+    def test_random_grasps_of_solids_of_many_faces_plan_and_validate(self):
+        aligns = 0
+        for name in MANY_FACES:
+            for seed in SEEDS_OF_RANDOM_PLANS:
+                with self.subTest(model=name, seed=seed):
+                    plan = self.plan(name, "random", "random", *CONCURRENT, "--seed", seed)
+                    aligns += sum(step["kind"] == "align" for step in plan["steps"])
+                    done, _ = self.validate(name)
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertGreater(aligns, 0)
 
     def test_every_model_fails_below_the_friction_that_its_plan_requires(self):
         analytic_failures = 0
