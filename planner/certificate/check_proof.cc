@@ -202,10 +202,9 @@ ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimensio
   return {Kind::kForceClosure, ""};
 }
 
-/// Whether velocities refute: all in the polar cones, not all zero.
+/// Whether velocities refute: all are in the polar cones.
 ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
                              const std::vector<Vector>& velocities, const Rational& mu) {
-  bool moves = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vector& u = velocities[i];
     if (IsZero(u)) continue;
@@ -215,14 +214,13 @@ ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
       return Nothing("some force in the cone of contact " + std::to_string(i) +
                      " works with the twist");
     }
-    moves = true;
   }
-  if (!moves) return Nothing("the twist moves no contact");
   return {Kind::kNotForceClosure, ""};
 }
 
 ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rational& mu,
                         const Vector& v, const Vector& omega) {
+  if (IsZero(v) && IsZero(omega)) return Nothing("the twist is zero");
   std::vector<Vector> velocities;
   for (const ExactContact& contact : contacts) velocities.push_back(v + Cross(omega, contact.p));
   return CheckVelocities(contacts, velocities, mu);

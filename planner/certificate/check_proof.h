@@ -30,9 +30,9 @@ struct ProofVerdict {
 /// contacts that are not on one line (in the plane: not at one point) that is force closure
 /// (Murray, Li and Sastry 1994, Prop. 5.3).
 ///
-/// A twist refutes where every contact's velocity u lies in the polar cone, n·u ≤ 0 and (n·u)² (1 +
-/// μ²) ≥ μ² |u|² |n|², and some u is not 0: forces inside the cones then do negative work, and
-/// balanced ones do none.
+/// A twist other than 0 refutes where every contact's velocity u lies in the polar cone, n·u ≤ 0
+/// and (n·u)² (1 + μ²) ≥ μ² |u|² |n|². Where some u is not 0, forces inside the cones do negative
+/// work, and balanced ones do none; where all are 0, no force resists the twist.
 /// @param contacts   normals need not be exactly unit: their direction counts.
 /// @param dimension  3, or 2 for planar contacts and forces. @param mu  > 0.
 [[nodiscard]] ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension,

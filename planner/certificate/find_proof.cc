@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "planner/grasp/force_closure_core.h"
@@ -51,7 +52,7 @@ GraspProof FindLine(const UnitContacts& contacts) {
         negative = negative || turn == Turn::kNegative;
         other = other || turn == Turn::kBoth || turn == Turn::kUnclear;
       }
-      if (other || positive == negative) continue;
+      if (other || (positive && negative)) continue;
       proof.kind = GraspProof::Kind::kLine;
       proof.line = {a, b};
       return proof;
@@ -186,12 +187,28 @@ bool AddPieces(const GraspMotion& motion, int dimension, double half_angle, doub
 
 }  // namespace
 
+namespace {
+
+/// No forces resist a turn about the line that all contacts are on.
+bool AreOnOneLine(std::span<const Contact> contacts, const WrenchFrame& frame) {
+  double farthest = 0;
+  for (const Contact& a : contacts) {
+    for (const Contact& b : contacts) {
+      farthest = std::max(farthest, (a.p - contacts[0].p).cross(b.p - contacts[0].p).norm());
+    }
+  }
+  return farthest <= kOnLine * frame.radius * frame.radius;
+}
+
+}  // namespace
+
 GraspProof FindGraspProof(std::span<const Contact> contacts, int dimension, double half_angle) {
   const WrenchFrame frame = OwnFrame(contacts, dimension);
   CheckHalfAngle(half_angle);
   if (!(frame.radius > 0)) return {};
   const GraspForces internal = ComputeGraspForces(contacts, frame, half_angle, Wrench(), 1);
-  bool inside = internal.balanced && internal.margin > 0;
+  bool inside = internal.balanced && internal.margin > 0 &&
+                !(dimension == 3 && AreOnOneLine(contacts, frame));
   for (std::size_t i = 0; inside && i < contacts.size(); ++i) {
     inside = IsInside(internal.forces[i], contacts[i].n, half_angle);
   }

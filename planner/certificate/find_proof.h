@@ -11,7 +11,7 @@
 namespace regrasp {
 
 /// A proof of force closure where there is one with slack, otherwise of the opposite; kNone for
-/// grasps too close to the limit, and for contacts on one line.
+/// grasps too close to the limit.
 /// @param dimension   3, or 2 for planar contacts. @param half_angle  radians.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] GraspProof FindGraspProof(std::span<const Contact> contacts, int dimension,

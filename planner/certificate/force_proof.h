@@ -13,7 +13,7 @@ struct GraspProof {
     kNone,    ///< none was found
     kForces,  ///< balanced forces strictly inside the cones, and contacts that are not on one line
     kTwist,   ///< a motion of the object that all forces in the cones work against
-    kLine,    ///< about the line through two contacts all others turn the object the same way
+    kLine,  ///< about the line through two contacts all others turn the object the same way, or not
   };
   Kind kind = Kind::kNone;
   std::vector<Eigen::Vector3d> forces;  ///< kForces: one a contact, balanced up to rounding

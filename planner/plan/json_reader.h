@@ -23,6 +23,7 @@ class JsonReader {
       : value_(value), file_(std::move(file)), pointer_(std::move(pointer)) {}
 
   [[nodiscard]] bool Has(const char* key) const { return value_.contains(key); }
+  [[nodiscard]] bool IsNull() const { return value_.is_null(); }
   /// The member `key` of an object; missing is an error.
   [[nodiscard]] JsonReader Member(const char* key) const;
   /// The elements of an array.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/certificate/check_proof.h"
+#include "planner/certificate/force_proof.h"
+#include "planner/plan/json_reader.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's ways.
+struct EntryProof {
+  GraspProof rest;
+  /// By pair of waypoints that follow each other; empty where no proof was found, as where a normal
+  /// turns.
+  std::vector<std::vector<MotionPiece>> ways;
+};
+
+/// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included.
+/// @param located  its contacts placed on the object (LocatePlan). @param half_angle  radians.
+[[nodiscard]] std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle,
+                                                     int entries);
+
+/// What exact arithmetic says of the proofs of one entry.
+struct EntryVerdict {
+  int index = 0;
+  std::string kind;  ///< "hold", "switch" or "align"
+  ProofVerdict rest;
+  std::vector<ProofVerdict> ways;
+
+  /// The grasp and all ways are proved.
+  [[nodiscard]] bool proved() const;
+};
+
+/// Checks proofs against the plan, in order from the hold.
+/// @throws std::invalid_argument  more proofs than the plan has entries.
+[[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
+                                                        std::span<const EntryProof> proofs);
+
+[[nodiscard]] Json EntryProofJson(const EntryProof& proof, int dimension);
+/// @throws InputError
+[[nodiscard]] EntryProof ReadEntryProof(const JsonReader& json, int dimension);
+
+}  // namespace regrasp

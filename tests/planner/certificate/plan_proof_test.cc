@@ -1,0 +1,110 @@
+#include "planner/certificate/plan_proof.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/json.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using Kind = ProofVerdict::Kind;
+
+constexpr double kHalfAngle = Radians(20);
+const double kMu = std::tan(kHalfAngle);
+
+Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, -1}; }
+
+/// A hold of a cube of side 2 by two crossed pairs, a switch of one finger, and an align.
+Plan MakeCubePlan() {
+  Plan plan;
+  plan.half_angle = kHalfAngle;
+  plan.fingers = 5;
+  plan.initial = {{0, At({1, 0.1, 0}, -Vector3d::UnitX())},
+                  {1, At({-1, 0, 0.1}, Vector3d::UnitX())},
+                  {2, At({0, 1, -0.1}, -Vector3d::UnitY())},
+                  {3, At({0.1, -1, 0}, Vector3d::UnitY())}};
+  plan.steps.push_back(Switch{{{4, At({1, -0.1, 0.1}, -Vector3d::UnitX())}}, {0}});
+  const FingerGrasp before = GraspAfter(plan.initial, plan.steps[0]);
+  FingerGrasp after = before;
+  after[0].contact.p.y() += 0.1;
+  after[2].contact.p.z() -= 0.1;
+  plan.steps.push_back(Align{{before, after}});
+  plan.goal = ContactsOf(after);
+  return plan;
+}
+
+EntryProof WrittenAndRead(const EntryProof& proof) {
+  const Json json = ParseJson(FormatJson(EntryProofJson(proof, 3)), "proof");
+  return ReadEntryProof(JsonReader(json, "proof"), 3);
+}
+
+TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
+  const Plan plan = MakeCubePlan();
+  std::vector<EntryProof> proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  ASSERT_EQ(proofs.size(), 3U);
+  ASSERT_EQ(proofs[2].ways.size(), 1U);
+  for (int round = 0; round < 2; ++round) {
+    const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
+    ASSERT_EQ(verdicts.size(), 3U);
+    for (const EntryVerdict& verdict : verdicts) EXPECT_TRUE(verdict.proved()) << verdict.index;
+    EXPECT_EQ(verdicts[2].kind, "align");
+    for (EntryProof& proof : proofs) proof = WrittenAndRead(proof);
+  }
+}
+
+TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
+  const Plan plan = MakeCubePlan();
+  const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  Plan other = plan;
+  other.initial[0].contact.p.y() += 0.7;
+  EXPECT_FALSE(CheckPlanProofs(other, kMu, proofs)[0].proved());
+  EXPECT_FALSE(CheckPlanProofs(plan, kMu / 10, proofs)[1].proved());
+}
+
+TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
+  const Plan plan = MakeCubePlan();
+  auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  proofs[2].ways.clear();
+  const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
+  EXPECT_EQ(verdicts[2].rest.kind, Kind::kForceClosure);
+  EXPECT_FALSE(verdicts[2].proved());
+}
+
+TEST(PlanProofTest, AGraspThatLosesTheObjectIsRefuted) {
+  Plan plan = MakeCubePlan();
+  plan.steps[0] = Switch{{}, {0, 1}};
+  plan.steps.pop_back();
+  const auto proofs = FindPlanProofs(plan, kHalfAngle, 2);
+  for (const auto& proof : {proofs[1], WrittenAndRead(proofs[1])}) {
+    const std::vector<EntryProof> both = {proofs[0], proof};
+    EXPECT_EQ(CheckPlanProofs(plan, kMu, both)[1].rest.kind, Kind::kNotForceClosure);
+  }
+  plan.steps[0] = Switch{{}, {2}};
+  plan.initial[1].contact.p.y() = 0.9;
+  const auto three = FindPlanProofs(plan, kHalfAngle, 2);
+  EXPECT_EQ(CheckPlanProofs(plan, kMu, three)[1].rest.kind, Kind::kNotForceClosure);
+  EXPECT_EQ(
+      CheckPlanProofs(plan, kMu, std::vector<EntryProof>{three[0], WrittenAndRead(three[1])})[1]
+          .rest.kind,
+      Kind::kNotForceClosure);
+}
+
+TEST(PlanProofTest, BrokenProofsAreBadInput) {
+  for (const char* text :
+       {R"({})", R"({"rest": {}})", R"({"rest": {"forces": [[1, 2]]}})",
+        R"({"rest": {"line": [1]}})", R"({"rest": {"line": [-1, 2]}})",
+        R"({"rest": null, "ways": [[{"from": 0}]]})", R"({"rest": {"twist": {"v": [0, 0, 0]}}})"}) {
+    const Json json = ParseJson(text, "proof");
+    EXPECT_THROW((void)ReadEntryProof(JsonReader(json, "proof"), 3), InputError) << text;
+  }
+  const Plan plan = MakeCubePlan();
+  EXPECT_THROW((void)CheckPlanProofs(plan, kMu, std::vector<EntryProof>(4)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp
