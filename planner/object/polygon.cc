@@ -70,7 +70,9 @@ double Polygon::face_measure(int face) const {
 Vector3d Polygon::ClosestPoint(int face, const Vector3d& point) const {
   const auto [a, b] = edge(face);
   const Vector3d along = b - a;
-  const double t = (point - a).dot(along) / along.squaredNorm();
+  const double length_squared = along.squaredNorm();
+  if (!(length_squared > 0)) return a;  // an edge so short that its square underflows is a point
+  const double t = (point - a).dot(along) / length_squared;
   if (t <= 0) return a;
   if (t >= 1) return b;
   return a + t * along;

@@ -93,6 +93,13 @@ TEST(Polygon, QueriesMeasureToTheEdge) {
   EXPECT_TRUE(frame.FacesNear({2, 0.1, 1}, 0.3).empty()) << "off the plane";
 }
 
+TEST(Polygon, AnEdgeWhoseSquaredLengthUnderflowsIsAPoint) {
+  const Polygon polygon =
+      Polygon::FromRings({{{0, 0}, {1e-310, 0}, {1, 1}, {0, 1}}}, "underflow.wkt");
+  EXPECT_EQ(polygon.ClosestPoint(0, {0.3, 0.4, 0}), Vector3d(0, 0, 0));
+  EXPECT_EQ(polygon.FacesNear({0, 0, 0}, 1e-9), (std::vector<int>{0, 1, 3}));
+}
+
 TEST(Polygon, WktIsReadInAnyCaseAndLayout) {
   for (const std::string_view text :
        {"POLYGON((0 0,1 0,1 1,0 0))", "polygon ((0 0, 1 0, 1 1, 0 0))",
