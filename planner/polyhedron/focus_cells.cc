@@ -185,7 +185,7 @@ void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_
   const std::array volumes = {
       VolumeOf(halves[0], candidate.tangent), VolumeOf(halves[1], candidate.tangent),
       VolumeOf(halves[2], candidate.tangent), VolumeOf(halves[3], candidate.tangent)};
-  min_max_.RestartAtCentre(volumes);
+  min_max_.Restart();
   const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kSign);
   if (!Decide(result, halves)) return;
   Refine(candidate, 0, {halves, result.point, min_max_.basis()}, pieces);

@@ -47,16 +47,6 @@ void MinMax::Restart() {
   }
 }
 
-void MinMax::RestartAtCentre(std::span<const UnionVolume, kRows> volumes) {
-  for (int k = 0; k < kRows; ++k) {
-    cuts_[k] = volumes[k].CutAt(centre_);
-    cuts_[k].offset += cuts_[k].gradient.dot(centre_);
-  }
-  Resume(Basis(cuts_));
-  const bool is_basis = (inverse_.col(3).array() >= kLeastPivot).all();  // false for NaN too
-  if (!is_basis) Restart();
-}
-
 void MinMax::Resume(const Basis& basis) {
   cuts_ = basis;
   Matrix4d columns;

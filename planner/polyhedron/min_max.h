@@ -56,10 +56,6 @@ class MinMax {
   /// Back to the first basis.
   void Restart();
 
-  /// A first basis nearer to the minimum, of the volumes' cuts at the centre; that of Restart where
-  /// they are none.
-  void RestartAtCentre(std::span<const UnionVolume, 4> volumes);
-
   /// To go on later from the basis at hand.
   using Basis = std::array<Cut, 4>;
   [[nodiscard]] const Basis& basis() const { return cuts_; }
