@@ -110,6 +110,55 @@ class Bodies(ProgramCase):
                 self.assertEqual(reflex > 0, faces > 14, reflex)
 
 
+class Sequences(ProgramCase):
+    """What plan says where there is no sequence."""
+
+    program = "plan"
+    body = "body24.obj"  # its focus cells fall apart into several components
+
+    def arguments(self, start, goal, seed="1", planner="polyhedron", output="plan.json"):
+        return ("--object", self.model(self.body), "--friction-angle", str(HALF_ANGLE),
+                "--planner", planner, "--spanning", "uniform", "--start", start, "--goal", goal,
+                "--seed", seed, "--output", output)
+
+    def drawn_grasp(self, name, kind, planner, seed):
+        """Writes the start grasp that is drawn by the seed."""
+        self.assert_done(*self.arguments(kind, kind, seed, planner, "drawn.json"))
+        drawn = json.loads(self.read("drawn.json"))["initial"]["contacts"]
+        for contact in drawn:
+            del contact["finger"]
+        self.write(name, json.dumps({"format": "regrasp-grasp", "version": 1,
+                                     "contacts": drawn}))
+
+    def test_a_grasp_whose_contacts_are_not_concurrent_is_named(self):
+        self.drawn_grasp("apart.json", "random-any", "roadmap", "1")
+        self.drawn_grasp("concurrent.json", "random", "polyhedron", "1")
+        words = ["apart.json: force closure, but in none of the 99 focus cells", "not concurrent"]
+        self.assert_refused(1, words, *self.arguments("apart.json", "concurrent.json"))
+        self.assert_refused(1, words, *self.arguments("concurrent.json", "apart.json"))
+        self.assert_refused(1, ["--start random-any: force closure, but in none of the 99"],
+                            *self.arguments("random-any", "random"))
+
+    def test_grasps_of_other_components_are_told_from_joined_ones(self):
+        seeds = [str(seed) for seed in range(1, 13)]
+        for seed in seeds:
+            self.drawn_grasp(f"grasp{seed}.json", "random", "polyhedron", seed)
+        joined, apart = 0, 0
+        for seed in seeds[1:]:
+            pair = self.arguments("grasp1.json", f"grasp{seed}.json", output=f"plan{seed}.json")
+            if self.run_program(*pair).returncode == 0:
+                joined += 1
+                continue
+            apart += 1
+            said = self.assert_refused(1, ["no sequence of switches and aligns", "99 focus cells"],
+                                       *pair).stderr
+            sizes = re.search(r"start's component has (\d+), the goal's (\d+)", said)
+            self.assertIsNotNone(sizes, said)
+            self.assertLessEqual(sum(map(int, sizes.groups())), 99, said)
+        self.assertGreater(joined, 0)
+        self.assertGreater(apart, 0)
+
+
 class CutSolids(ProgramCase):
     """scripts/cut_solid.py on bodies whose faces and volumes are known."""
 
