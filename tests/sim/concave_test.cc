@@ -106,18 +106,75 @@ TEST(ContactPatches, AreARectangleInsideAFaceAndEndAtItsBorder) {
   EXPECT_EQ(checked, 12);
 }
 
-TEST(ContactPatches, CoverTheSurfaceAroundACornerWithNoMore) {
+TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
+  const ObjectFile file = ReadModel("tetrahedron.obj");
+  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  const double size = 0.002;
+  int checked = 0;
+  for (int face = 0; face < body.face_count(); ++face) {
+    // No rectangle fits into an angle of 60° down to its corner.
+    const Eigen::Vector3d& apex = body.vertices()[body.faces()[face].border.front()[0]];
+    const auto patches = MakeContactPatches(body, {face, apex, apex}, size);
+    ASSERT_EQ(patches.size(), 1u);
+    EXPECT_FALSE(patches[0].rectangle);
+    double nearest = size;
+    double farthest = 0;
+    for (const Eigen::Vector3d& corner : patches[0].outline) {
+      EXPECT_LE((body.ClosestPoint(face, corner) - corner).norm(), 1e-12);
+      nearest = std::min(nearest, (corner - apex).norm());
+      farthest = std::max(farthest, (corner - apex).norm());
+      ++checked;
+    }
+    EXPECT_LE(nearest, 1e-12);
+    EXPECT_GE(farthest, size);
+  }
+  EXPECT_GE(checked, 12);
+}
+
+TEST(ContactPatches, AreRectanglesInTheCornersOfFacesToo) {
   const ObjectFile file = ReadModel("cube.obj");
   const auto& cube = dynamic_cast<const Polyhedron&>(*file.object);
-  const Contact contact = ContactAt(cube, {0.03, 0.0295, 0.0297}, {-1, 0, 0});
-  const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
-  ASSERT_EQ(patches.size(), 1u);
-  double largest_y = 0;
-  for (const Eigen::Vector3d& corner : patches[0].outline) {
-    EXPECT_LE((cube.ClosestPoint(contact.face, corner) - corner).norm(), 1e-12);
-    largest_y = std::max(largest_y, corner.y());
+  int checked = 0;
+  // Near a corner, on a border near it, in the corner itself.
+  for (const auto& [y, z] : {std::pair{0.0295, 0.0297}, {0.03, 0.0297}, {0.03, 0.03}}) {
+    const Contact contact = ContactAt(cube, {0.03, y, z}, {-1, 0, 0});
+    const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
+    ASSERT_EQ(patches.size(), 1u);
+    EXPECT_TRUE(patches[0].rectangle);
+    for (const Eigen::Vector3d& corner : patches[0].outline) {
+      EXPECT_LE((cube.ClosestPoint(contact.face, corner) - corner).norm(), 1e-12);
+      ++checked;
+    }
   }
-  EXPECT_NEAR(largest_y, 0.03, 1e-12);
+  EXPECT_EQ(checked, 12);
+}
+
+/// Replays the hold of a grasp on models/body40.obj with finger 1 in the
+/// obtuse corner of a face, with and without the friction that it needs.
+TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
+  const ObjectFile file = ReadModel("body40.obj");
+  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  const auto at = [&](int finger, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+    const Contact near = ContactAt(body, p, n);
+    return FingerContact{finger, {body.ClosestPoint(near.face, p), near.n, near.face}};
+  };
+  const Plan plan =
+      MakePlan({at(0, {-0.01888989081479386, -0.045945695692193006, 0.00316316295538566},
+                   {0.009995857568062635, 0.9995857575373747, -0.02698881545959375}),
+                at(1, {-0.044689062451825384, 0.034815850048827805, 0.03285538143182388},
+                   {0.578325978583356, -0.5703214667226197, -0.5833287984412938}),
+                at(2, {-0.026751029652762697, 0.014927150394035776, 0.0059301429062058745},
+                   {-0.09902788028509035, 0.04001126475399207, 0.9942799292045613}),
+                at(3, {0.02381663128383475, 0.0195471974296448, -0.0010204739953278245},
+                   {-0.9858319299820424, 0.07898653394404423, 0.1479747724559421})},
+               10);
+  ASSERT_LT(body.DistanceToBorder(plan.initial[1].contact.face, plan.initial[1].contact.p), 1e-9);
+  const ReplayResult held = ReplayPlan(body, plan, {});
+  EXPECT_EQ(held.steps.at(0).reason, Reason::kNone) << held.steps[0].detail;
+  // With less friction than the grasp needs it slips, as it should.
+  Plan slippery = plan;
+  slippery.half_angle = Radians(6);
+  EXPECT_NE(ReplayPlan(body, slippery, {}).steps.at(0).reason, Reason::kNone);
 }
 
 TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
