@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "render/caption.h"
+#include "render/contact_sheet.h"
 #include "render/webp.h"
 
 namespace regrasp {
@@ -23,7 +25,11 @@ std::string FrameName(const ReportStep& step) {
   return std::string(zeros, '0') + index + "_" + step.check.kind + ".png";
 }
 
+constexpr char kOverviewName[] = "overview.png";
+constexpr char kAnimationName[] = "replay.webp";
+
 bool IsFrameName(const std::string& name) {
+  if (name == kOverviewName || name == kAnimationName) return true;
   const auto digits = std::find_if_not(name.begin(), name.end(),
                                        [](unsigned char c) { return std::isdigit(c) != 0; });
   const std::string rest(digits, name.end());
@@ -35,6 +41,27 @@ std::string Caption(const Plan& plan, const ReportStep& step) {
   const std::string caption = FrameCaption(plan, step.check.index);
   const bool failed = step.verdict() == Verdict::kFail;
   return failed ? caption + " — " + std::string(ReasonName(step.reason())) : caption;
+}
+
+SheetLabel MakeLabel(const ReportStep& step) {
+  constexpr Color kGood = {29, 107, 60};
+  constexpr Color kBad = {179, 38, 30};
+  const bool failed = step.verdict() == Verdict::kFail;
+  const std::string verdict(failed ? ReasonName(step.reason()) : VerdictName(step.verdict()));
+  return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
+          failed ? kBad : kGood};
+}
+
+std::vector<Snapshot> RestsOf(const Report& report) {
+  std::vector<Snapshot> rests;
+  for (const ReportStep& step : report.steps) {
+    if (step.replay) rests.push_back(step.replay->snapshot);
+  }
+  return rests;
+}
+
+double RelativeThickness(const Report& report) {
+  return report.settings->thickness_m / report.settings->diameter_m;
 }
 
 PagePicture MakePicture(const Image& image, int width) {
@@ -59,26 +86,34 @@ std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
                                      const FrameOptions& options,
                                      const std::filesystem::path& folder, Report& report) {
   std::vector<PagePicture> pictures(report.steps.size());
-  std::vector<Snapshot> snapshots;
-  for (const ReportStep& step : report.steps) {
-    if (step.replay) snapshots.push_back(step.replay->snapshot);
-  }
+  const std::vector<Snapshot> snapshots = RestsOf(report);
   if (snapshots.empty()) return pictures;
   FrameOptions frame = options;
-  if (object.dimension() == 2) {
-    frame.thickness = report.settings->thickness_m / report.settings->diameter_m;
-  }
+  if (object.dimension() == 2) frame.thickness = RelativeThickness(report);
   FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
-  const int width = PagePictureWidth(static_cast<int>(snapshots.size()));
+  const auto count = static_cast<int>(snapshots.size());
+  ContactSheet sheet(count, frame.width, frame.height);
   for (ReportStep& step : report.steps) {
     if (!step.replay) continue;
     const std::string name = FrameName(step);
     const Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
     WritePng(folder / name, image);
     step.frame = name;
-    pictures[step.check.index] = MakePicture(image, width);
+    pictures[step.check.index] = MakePicture(image, PagePictureWidth(count));
+    sheet.Add(image, MakeLabel(step));
   }
+  WritePng(folder / kOverviewName, sheet.ToImage());
   return pictures;
+}
+
+void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Snapshot>& samples,
+                    AnimationOptions options, const std::filesystem::path& folder,
+                    const Report& report) {
+  const std::vector<Snapshot> rests = RestsOf(report);
+  if (rests.empty()) return;
+  if (object.dimension() == 2) options.thickness = RelativeThickness(report);
+  WriteFile(folder / kAnimationName,
+            RenderAnimation(object, plan, report.half_angle, samples, rests, options));
 }
 
 }  // namespace regrasp

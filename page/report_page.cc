@@ -47,7 +47,9 @@ class Page {
   }
 
   [[nodiscard]] std::string Format() const {
-    const std::string body = Element("main", "", Header() + Facts() + Plots() + Table() + Frames());
+    const std::string body = Element(
+        "main", "",
+        Header() + Facts() + Plots() + Table() + (report_.grasp ? Fingers() : "") + Frames());
     return "<!DOCTYPE html>\n" +
            Element("html", "lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\"",
                    Head() + "\n" + Element("body", "", "\n" + body + "\n") + "\n") +
@@ -70,11 +72,13 @@ class Page {
 
   [[nodiscard]] std::string Header() const {
     const std::string style = report_.passed() ? "verdict pass" : "verdict fail";
-    return Element("header", "",
-                   Element("p", "class=\"kicker\"", "Validation of a regrasp plan") + "\n" +
-                       Element("h1", "", EscapeHtml(Subject())) + "\n" +
-                       Element("p", Attribute("class", style),
-                               Element("strong", "", Verdict()) + " " + EscapeHtml(Statement()))) +
+    return Element(
+               "header", "",
+               Element("p", "class=\"kicker\"",
+                       report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan") +
+                   "\n" + Element("h1", "", EscapeHtml(Subject())) + "\n" +
+                   Element("p", Attribute("class", style),
+                           Element("strong", "", Verdict()) + " " + EscapeHtml(Statement()))) +
            "\n";
   }
 
@@ -82,24 +86,31 @@ class Page {
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
     const ReplaySettings& settings = *report_.settings;
+    const std::string what =
+        " with " + DegreesText(Degrees(report_.half_angle)) +
+        " of friction, and in the replay the object resisted a push and a twist of " +
+        NumberText(100 * settings.shake) + " % of the squeeze along every axis, both ways";
+    if (report_.grasp) return "The grasp is force closure" + what + ".";
     const std::string steps = std::to_string(plan_.steps.size());
     return "The hold and " +
            (plan_.steps.size() == 1 ? "the one step" : "all " + steps + " steps") +
-           " stand: every grasp on the way is force closure with " +
-           DegreesText(Degrees(report_.half_angle)) +
-           " of friction, and in the replay the object resisted a push and a twist of " +
-           NumberText(100 * settings.shake) +
-           " % of the squeeze along every axis, both ways, at every rest.";
+           " stand: every grasp on the way is force closure" + what + ", at every rest.";
   }
 
   [[nodiscard]] std::string FailureStatement() const {
     const ReportStep& step = report_.steps[*failed_];
-    std::string text = "at " + StepName(*failed_) + " (" + EntryTitle(plan_, *failed_) +
-                       "): " + std::string(ReasonName(step.reason())) + ".";
+    std::string text;
+    if (!report_.grasp) {
+      text = "at " + StepName(*failed_);
+      if (*failed_ > 0) text += " (" + EntryTitle(plan_, *failed_) + ")";
+      text += ": ";
+    }
+    text += std::string(ReasonName(step.reason())) + ".";
+    text = Capitalized(text);
     if (!step.detail().empty()) text += " " + Capitalized(step.detail()) + ".";
     const bool replayed = step.replay.has_value();
-    text += replayed ? " The replay found it."
-                     : " The analytic check found it; nothing was replayed of this step.";
+    text +=
+        replayed ? " The replay found it." : " The analytic check found it; it was not replayed.";
     if (*failed_ + 1 < static_cast<int>(report_.steps.size())) text += " Later steps were skipped.";
     return text;
   }
@@ -116,15 +127,26 @@ class Page {
     if (!report_.planner.empty()) add("Planner", report_.planner);
     add("Friction", DegreesText(Degrees(report_.half_angle)) +
                         " (μ = " + NumberText(std::tan(report_.half_angle)) + ")");
+    if (report_.grasp) AddGrasp(add);
     const int weakest = report_.weakest_step();
-    if (weakest >= 0) {
+    if (weakest >= 0 && !report_.grasp) {
       add("Weakest", StepName(weakest) + ", " +
                          DegreesText(measures_[weakest].margin_deg.value_or(0)) + " to spare");
     }
     if (report_.settings) AddSettings(add);
     list += Digest("Object, SHA-256", report_.object_sha256) +
-            Digest("Plan, SHA-256", report_.plan_sha256);
+            Digest(report_.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report_.plan_sha256);
     return Element("dl", "class=\"facts\"", "\n" + list) + "\n";
+  }
+
+  template <typename Add>
+  void AddGrasp(const Add& add) const {
+    const GraspReport& grasp = *report_.grasp;
+    const std::optional<RequiredHalfAngle>& required = report_.steps.front().check.required;
+    add("Needs", required ? DegreesText(Degrees(required->upper)) : std::string("none serves"));
+    if (grasp.fingers.empty()) return;
+    add("Quality ε", NumberText(grasp.quality));
+    add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
   }
 
   template <typename Add>
@@ -159,9 +181,45 @@ class Page {
                                [member](const StepMeasures& m) { return (m.*member).has_value(); });
   }
 
+  /// Of a single grasp: what each finger needs.
+  [[nodiscard]] std::string Fingers() const {
+    const std::vector<FingerFriction>& fingers = report_.grasp->fingers;
+    if (fingers.empty()) return "";
+    std::string rows;
+    for (std::size_t i = 0; i < fingers.size(); ++i) {
+      const std::optional<double>& without = fingers[i].without;
+      const auto cell = [](const std::string& text) {
+        return Element("td", "class=\"number\"", EscapeHtml(text));
+      };
+      rows += Element("tr", "",
+                      cell(std::to_string(i)) + cell(DegreesText(Degrees(fingers[i].required))) +
+                          cell(DegreesText(Degrees(report_.half_angle - fingers[i].required))) +
+                          cell(without ? DegreesText(Degrees(*without)) : "none")) +
+              "\n";
+    }
+    std::string head;
+    for (const char* name : {"Finger", "Needs alone", "Margin", "Others need without it"}) {
+      head += Element("th", "scope=\"col\" class=\"number\"", name);
+    }
+    return Element("h2", "", "Fingers") + "\n" +
+           Element("div", "class=\"scroll\"",
+                   Element("table", "",
+                           Element("thead", "", Element("tr", "", head)) +
+                               Element("tbody", "", "\n" + rows))) +
+           "\n" +
+           Element("p", "class=\"note\"",
+                   "Needs alone: how far the friction half-angle of this finger may fall while all "
+                   "others keep theirs; 0 where it is not needed. Others need without it: the "
+                   "friction half-angle at which the grasp is force closure without this finger.") +
+           "\n";
+  }
+
   [[nodiscard]] std::string Plots() const {
-    std::string figures = MarginFigure();
+    if (report_.grasp) return "";  // one entry is no plot
+    std::string figures;
+    if (HasAny(&StepMeasures::margin_deg)) figures = MarginFigure();
     if (HasAny(&StepMeasures::moved_m)) figures = MotionFigure() + figures;
+    if (figures.empty()) return "";
     return Element("div", "class=\"plots\"", "\n" + figures) + "\n";
   }
 
@@ -210,10 +268,10 @@ class Page {
     for (const auto& [style, name] :
          std::initializer_list<std::pair<const char*, const char*>>{{"number", "Step"},
                                                                     {"", "What happens"},
-                                                                    {"number", "Needs"},
+                                                                    {"number minor", "Needs"},
                                                                     {"number", "Margin"},
                                                                     {"number", "Displacement"},
-                                                                    {"number", "Rotation"},
+                                                                    {"number minor", "Rotation"},
                                                                     {"number", "Slip"},
                                                                     {"", "Verdict"}}) {
       head += Element("th", "scope=\"col\" " + Attribute("class", style), name);
@@ -237,19 +295,19 @@ class Page {
     const int index = step.check.index;
     const StepMeasures& measures = measures_[index];
     std::string cells;
-    const auto number = [&](const std::string& text) {
-      cells += Element("td", "class=\"number\"", EscapeHtml(text));
+    const auto number = [&](const std::string& text, std::string_view style = "number") {
+      cells += Element("td", Attribute("class", style), EscapeHtml(text));
     };
     number(std::to_string(index));
     const std::string title = EscapeHtml(Capitalized(EntryTitle(plan_, index)));
     cells += Element(
         "td", "",
         HasPicture(index) ? Element("a", Attribute("href", "#" + Anchor(index)), title) : title);
-    number(Required(step));
+    number(Required(step), "number minor");
     number(TextOr(measures.margin_deg, DegreesText));
     const StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
     number(replay ? LengthText(replay->displacement_m) : kNothing);
-    number(replay ? NumberText(replay->rotation_deg) + "°" : kNothing);
+    number(replay ? NumberText(replay->rotation_deg) + "°" : kNothing, "number minor");
     number(replay ? LengthText(replay->slip_m) : kNothing);
     cells += Element("td", "", EscapeHtml(VerdictText(step)));
     return Element("tr", Attribute("class", VerdictName(step.verdict())), cells);

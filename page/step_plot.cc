@@ -141,9 +141,10 @@ class Drawing {
     const double y = Y(plot_.limit->value);
     // The label stands on the good side, where there is always room.
     const double text = plot_.limit->from_above ? y + 3 * kHalfFont : y - kHalfFont;
-    return Line("limit", kLeft, y, kWidth - kRight, y) + Text("end", kWidth - kRight - kTickRoom,
-                                                              text, plot_.limit->label,
-                                                              Attribute("class", "limit"));
+    const std::string line = Line("limit", kLeft, y, kWidth - kRight, y);
+    if (plot_.limit->label.empty()) return line;
+    return line + Text("end", kWidth - kRight - kTickRoom, text, plot_.limit->label,
+                       Attribute("class", "limit"));
   }
 
   [[nodiscard]] std::string Series(std::size_t index) const {
@@ -179,21 +180,18 @@ class Drawing {
                    "");
   }
 
-  /// Names above the plot, each behind its mark.
+  /// Names above the plot, each behind its mark; one text, so that names never overlap.
   [[nodiscard]] std::string Legend() const {
     constexpr double kBase = 16;
-    constexpr double kCharacter = 6.6;  // a guess at the mean width of a letter
-    double x = kLeft + kMarkRadius;
-    std::string svg;
+    std::string names;
     for (std::size_t i = 0; i < plot_.series.size(); ++i) {
       const PlotSeries& series = plot_.series[i];
-      svg += Element("g", Attribute("class", StyleOf(i)),
-                     Mark(series.mark, x, kBase - kHalfFont, /*failed=*/false));
-      x += 2 * kMarkRadius + kTickRoom / 2;
-      svg += Text("start", x, kBase, series.name);
-      x += kCharacter * static_cast<double>(series.name.size()) + 5 * kMarkRadius;
+      if (i > 0) names += "\u2003";
+      names += Element("tspan", Attribute("class", StyleOf(i)),
+                       series.mark == PlotMark::kDisc ? "●" : "○");
+      names += "\u2009" + EscapeHtml(series.name);
     }
-    return svg;
+    return Element("text", Numbered("x", kLeft) + Numbered("y", kBase), names);
   }
 
   const StepPlot& plot_;

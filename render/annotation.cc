@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <memory>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "planner/base/number.h"
+#include "render/cairo_image.h"
+#include "render/cairo_paint.h"
 #include "render/label_layout.h"
 
 namespace regrasp {
@@ -42,66 +41,6 @@ constexpr double kConeStrip = 0.3;
 
 /// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
 constexpr double kShade = 0.82;
-
-struct SurfaceDeleter {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-};
-struct ContextDeleter {
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-
-/// An image that Cairo draws on.
-class Page {
- public:
-  explicit Page(const Image& image)
-      : width_(image.width),
-        height_(image.height),
-        surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
-        context_(cairo_create(surface_.get())) {
-    if (cairo_status(context_.get()) != CAIRO_STATUS_SUCCESS) {
-      throw std::runtime_error(cairo_status_to_string(cairo_status(context_.get())));
-    }
-    const unsigned char* in = image.rgb.data();
-    for (int y = 0; y < height_; ++y) {
-      std::uint32_t* out = Row(y);
-      for (int x = 0; x < width_; ++x, in += 3) {
-        out[x] = std::uint32_t{in[0]} << 16 | std::uint32_t{in[1]} << 8 | in[2];
-      }
-    }
-    cairo_surface_mark_dirty(surface_.get());
-  }
-
-  [[nodiscard]] cairo_t* context() const { return context_.get(); }
-
-  [[nodiscard]] Image ToImage() const {
-    cairo_surface_flush(surface_.get());
-    Image image = MakeImage(width_, height_);
-    unsigned char* out = image.rgb.data();
-    for (int y = 0; y < height_; ++y) {
-      const std::uint32_t* in = Row(y);
-      for (int x = 0; x < width_; ++x) {
-        for (const int shift : {16, 8, 0}) *out++ = static_cast<unsigned char>(in[x] >> shift);
-      }
-    }
-    return image;
-  }
-
- private:
-  [[nodiscard]] std::uint32_t* Row(int y) const {
-    unsigned char* data = cairo_image_surface_get_data(surface_.get());
-    return reinterpret_cast<std::uint32_t*>(data + std::ptrdiff_t{y} * Stride());
-  }
-  [[nodiscard]] int Stride() const { return cairo_image_surface_get_stride(surface_.get()); }
-
-  int width_, height_;
-  std::unique_ptr<cairo_surface_t, SurfaceDeleter> surface_;
-  std::unique_ptr<cairo_t, ContextDeleter> context_;
-};
-
-void SetColor(cairo_t* cr, Color color) {
-  constexpr double kMax = 255;
-  cairo_set_source_rgb(cr, color.r / kMax, color.g / kMax, color.b / kMax);
-}
 
 Color NumberColor(int finger) {
   const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
@@ -259,7 +198,7 @@ std::string FormatLength(double metres) {
 
 Image Annotate(const Image& image, const Camera& camera, std::span<const FingerGlyph> fingers,
                const std::string& caption, double metres_per_unit) {
-  const Page page(image);
+  const CairoImage page(image);
   cairo_t* cr = page.context();
   const double font = kFontSize * image.height;
   for (const FingerGlyph& glyph : fingers) {

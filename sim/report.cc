@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "planner/base/number.h"
+#include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
 
 namespace regrasp {
@@ -129,6 +130,32 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
     Replay(object, checked.located, options, observer, passing, report);
   }
   SkipAfterFailure(report.steps);
+  return report;
+}
+
+Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, double scale) {
+  Plan plan;
+  plan.scale = scale;
+  plan.dimension = object.dimension();
+  plan.half_angle = half_angle;
+  plan.fingers = static_cast<int>(grasp.size());
+  for (int finger = 0; finger < plan.fingers; ++finger) {
+    plan.initial.push_back({finger, grasp[finger]});
+  }
+  plan.goal = grasp;
+  return plan;
+}
+
+Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle, double scale,
+                     const ReplayOptions& replay, const ReplayObserver& observer) {
+  const Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
+  Report report = Validate(object, plan, {}, replay, observer);
+  const WrenchFrame frame = object.wrench_frame();
+  report.grasp.emplace();
+  report.grasp->fingers = MeasureFingerFriction(grasp, frame, half_angle);
+  if (!report.grasp->fingers.empty()) {
+    report.grasp->quality = ComputeQuality(grasp, frame, half_angle).lower;
+  }
   return report;
 }
 

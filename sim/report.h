@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/grasp/finger_friction.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"
@@ -32,16 +33,27 @@ struct ReportStep {
   [[nodiscard]] Verdict verdict() const;
 };
 
+/// What is said of a single grasp.
+struct GraspReport {
+  /// ε of the grasp, from below (planner/grasp/quality.h); 0 where it is not force closure.
+  double quality = 0;
+  /// What each finger needs of its own friction, in the order of the file; empty where the grasp is
+  /// not force closure.
+  std::vector<FingerFriction> fingers;
+};
+
 /// Everything that `validate` says of a plan; report.json is this.
 struct Report {
   std::string object_file, object_sha256;
-  std::string plan_file, plan_sha256;
+  std::string plan_file, plan_sha256;  ///< or those of the grasp
   std::string planner;
   double scale = 1;
   int dimension = 3;
   double half_angle = 0;                   ///< checked against, radians
   std::optional<ReplaySettings> settings;  ///< none where nothing was replayed
   std::vector<ReportStep> steps;
+  /// Of a single grasp instead of a plan: the only entry is its hold.
+  std::optional<GraspReport> grasp = std::nullopt;
 
   [[nodiscard]] bool passed() const;
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
@@ -59,6 +71,21 @@ struct Report {
 /// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
 [[nodiscard]] Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
                               const ReplayOptions& replay, const ReplayObserver& observer = {});
+
+/// Holds one grasp: the report of a plan without steps whose hand has just the fingers of the
+/// grasp, numbered in its order, with what is said of a single grasp.
+/// @param grasp       placed on the object, not empty.
+/// @param half_angle  friction, radians.
+/// @param scale       metres per unit of the object.
+/// @throws InputError             the body cannot be simulated.
+/// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
+[[nodiscard]] Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle,
+                                   double scale, const ReplayOptions& replay,
+                                   const ReplayObserver& observer = {});
+
+/// The plan without steps that a grasp makes: fingers are numbered in its order.
+[[nodiscard]] Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle,
+                                double scale);
 
 /// The text of report.json. Beside what docs/formats.md promises it has, for each step, `detail`
 /// for people, `undecided` and, for an align, how it was carried out. Bytes of file names that are

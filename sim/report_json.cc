@@ -77,21 +77,46 @@ Json MakeStep(const ReportStep& step) {
   return json;
 }
 
+Json MakePlan(const Report& report) {
+  if (report.grasp) return nullptr;
+  return {{"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}};
+}
+
+Json MakeGrasp(const Report& report) {
+  const GraspReport& grasp = *report.grasp;
+  Json fingers = Json::array();
+  for (std::size_t i = 0; i < grasp.fingers.size(); ++i) {
+    const FingerFriction& friction = grasp.fingers[i];
+    Json without = nullptr;
+    if (friction.without) without = Degrees(*friction.without);
+    fingers.push_back({{"finger", i},
+                       {"needed", friction.needed},
+                       {"required_half_angle_deg", Degrees(friction.required)},
+                       {"margin_deg", Degrees(report.half_angle - friction.required)},
+                       {"without_half_angle_deg", without}});
+  }
+  const int weakest = WeakestFinger(grasp.fingers);
+  return {{"file", report.plan_file},
+          {"sha256", report.plan_sha256},
+          {"quality", grasp.quality},
+          {"weakest_finger", weakest < 0 ? Json(nullptr) : Json(weakest)},
+          {"fingers", fingers}};
+}
+
 }  // namespace
 
 std::string FormatReportJson(const Report& report) {
-  Json json = {
-      {"format", "regrasp-report"},
-      {"version", 1},
-      {"verdict", report.passed() ? "pass" : "fail"},
-      {"object",
-       {{"file", report.object_file},
-        {"sha256", report.object_sha256},
-        {"scale", report.scale},
-        {"dimension", report.dimension}}},
-      {"plan",
-       {{"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}}},
-      {"settings", MakeSettings(report)}};
+  Json json = {{"format", "regrasp-report"},
+               {"version", 1},
+               {"verdict", report.passed() ? "pass" : "fail"},
+               {"object",
+                {{"file", report.object_file},
+                 {"sha256", report.object_sha256},
+                 {"scale", report.scale},
+                 {"dimension", report.dimension}}},
+               {"plan", MakePlan(report)},
+               {"settings", MakeSettings(report)}};
+  if (report.grasp) json["grasp"] = MakeGrasp(report);
   const int weakest = report.weakest_step();
   json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
   json["steps"] = Json::array();

@@ -64,6 +64,22 @@ std::string FormatWeakest(const Report& report) {
          FormatFixed(Degrees(report.half_angle), kAngleDecimals) + " degrees\n";
 }
 
+/// Quality and weakest finger of a single grasp.
+std::string FormatGraspLines(const Report& report) {
+  const int weakest = WeakestFinger(report.grasp->fingers);
+  if (weakest < 0) return "";
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  const FingerFriction& finger = report.grasp->fingers[weakest];
+  std::string text = "quality: " + FormatShort(report.grasp->quality) + "\nweakest: finger " +
+                     std::to_string(weakest);
+  if (finger.needed) {
+    text += ", which alone needs a friction half-angle of " + degrees(finger.required);
+  } else {
+    text += ", without which the others need a friction half-angle of " + degrees(*finger.without);
+  }
+  return text + " of " + degrees(report.half_angle) + " degrees\n";
+}
+
 std::string FormatFailure(const Report& report) {
   for (const ReportStep& step : report.steps) {
     if (step.verdict() == Verdict::kFail && !step.detail().empty()) {
@@ -91,7 +107,8 @@ std::string FormatReportTable(const Report& report) {
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, regions));
   return FormatRows(rows) + FormatFailure(report) + FormatUndecided(report) +
-         FormatWeakest(report) + "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
+         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) +
+         "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
 }
 
 }  // namespace regrasp

@@ -8,6 +8,8 @@ import math
 import os
 import shutil
 import struct
+import subprocess
+import zlib
 import xml.etree.ElementTree as ElementTree
 
 import jsonschema
@@ -20,6 +22,34 @@ def png_size(data):
     """Width and height in the header of a PNG file."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     return struct.unpack(">II", data[16:24])
+
+
+XHTML = "{http://www.w3.org/1999/xhtml}"
+SVG = "{http://www.w3.org/2000/svg}"
+
+# Far above what the browser needs for a page.
+BROWSER_SECONDS = 120
+
+
+def png_rows(data):
+    """The pixel rows of a PNG of 8 bits a channel, as the filtered bytes that stand in it."""
+    width, height = png_size(data)
+    assert data[24] == 8 and data[25] in (2, 6), "RGB or RGBA"
+    packed, at = b"", 8
+    while at < len(data):
+        length = struct.unpack(">I", data[at:at + 4])[0]
+        if data[at + 4:at + 8] == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += length + 12
+    stride = 1 + width * (3 if data[25] == 2 else 4)
+    raw = zlib.decompress(packed)
+    assert len(raw) == stride * height
+    return [raw[y * stride:(y + 1) * stride] for y in range(height)]
+
+
+def inked_rows(data):
+    """How many rows of a PNG are not of one colour: those have more than a first pixel filtered."""
+    return sum(len(set(row[5:])) > 2 for row in png_rows(data))
 
 
 class Validate(ProgramCase):
@@ -55,7 +85,30 @@ class Validate(ProgramCase):
         return report
 
     def frames(self):
-        return sorted(name for name in os.listdir(self.path("result")) if name.endswith(".png"))
+        return sorted(name for name in os.listdir(self.path("result"))
+                      if name.endswith(".png") and name != "overview.png")
+
+    def page(self, folder="result"):
+        """The report page as a tree of elements: it is well-formed XML too."""
+        text = self.read(folder + "/report.html").decode("utf-8")
+        return ElementTree.fromstring(text.replace("<!DOCTYPE html>", "", 1))
+
+    def page_text(self, folder="result"):
+        return " ".join("".join(self.page(folder).find(f"{XHTML}body").itertext()).split())
+
+    def screenshot(self, name):
+        """What headless Chromium shows of a page. Fails where there is no Chromium."""
+        browser = shutil.which("chromium")
+        self.assertIsNotNone(browser, "chromium is not installed: run scripts/setup")
+        picture = self.path("page.png")
+        done = subprocess.run(
+            [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+             "--user-data-dir=" + self.path("browser"), "--window-size=1000,1400",
+             "--screenshot=" + picture, "file://" + self.path(name)],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            timeout=BROWSER_SECONDS, check=False)
+        self.assertTrue(os.path.exists(picture), done.stdout)
+        return self.read("page.png")
 
     def assert_passes(self, *more, **changes):
         done = self.assert_done(*self.arguments(*more, **changes))
@@ -278,6 +331,177 @@ class Validate(ProgramCase):
         times = [float(row["time_s"]) for row in rows]
         self.assertEqual(times, sorted(times))
         self.assertTrue(any(abs(float(row["force_x_N"])) > 0 for row in rows))
+
+    # The report page and pictures of the whole.
+
+    def test_the_report_page_is_one_file_with_a_line_and_a_picture_for_each_step(self):
+        _, report = self.assert_passes(size="320x240")
+        page = self.page()
+        rows = page.findall(f".//{XHTML}tbody/{XHTML}tr")
+        self.assertEqual(len(rows), len(report["steps"]))
+        self.assertEqual({row.get("class") for row in rows}, {"pass"})
+        images = page.findall(f".//{XHTML}img")
+        self.assertEqual(len(images), len(report["steps"]))
+        for image in images:
+            self.assertTrue(image.get("src").startswith("data:image/webp;base64,UklGR"))
+        self.assertEqual(len(page.findall(f".//{SVG}svg")), 2)
+        text = self.page_text()
+        for words in ["Pass", "plan.json", "cube.obj", "20.00°", report["plan"]["sha256"]]:
+            self.assertIn(words, text)
+        for tag in ["script", "link", "iframe", "object"]:
+            self.assertEqual(page.findall(f".//{XHTML}{tag}"), [], tag)
+
+    def test_the_report_page_of_a_long_plan_can_be_mailed(self):
+        # Twenty steps: the plan and its way back and forth, at the size that frames usually have.
+        forth = self.plan["steps"][0]
+        released = next(contact for contact in self.plan["initial"]["contacts"]
+                        if contact["finger"] == forth["release"][0])
+        back = {"kind": "switch", "place": [released],
+                "release": [contact["finger"] for contact in forth["place"]]}
+        self.plan["steps"] = [forth, back] * 10
+        self.plan["goal"] = {"contacts": self.plan["initial"]["contacts"]}
+        self.write_plan()
+        _, report = self.assert_passes()
+        self.assertEqual(len(report["steps"]), 21)
+        self.assertLess(len(self.read("result/report.html")), 3e6)
+
+    def test_the_report_page_of_a_failed_plan_says_why_and_needs_no_frames(self):
+        self.assert_fails(0, "slipped", tolerance="1e-12")
+        page = self.page()
+        self.assertEqual(page.findall(f".//{XHTML}img"), [])
+        rows = page.findall(f".//{XHTML}tbody/{XHTML}tr")
+        self.assertEqual([row.get("class") for row in rows],
+                         ["fail"] + ["skipped"] * len(self.plan["steps"]))
+        self.assertIn("Fail At the hold: slipped.", self.page_text())
+
+    def test_file_names_cannot_break_the_report_page(self):
+        name = "<b>&\"'</b><script>alert(1)</script>"  # no slash would be a folder
+        name = name.replace("/", "")
+        os.rename(self.path("plan.json"), self.path(name + ".json"))
+        self.assert_passes("--no-frames", plan=name + ".json")
+        page = self.page()
+        self.assertEqual(page.find(f".//{XHTML}h1").text, name + ".json")
+        self.assertEqual(page.findall(f".//{XHTML}script"), [])
+        raw = os.fsencode(self.path("")) + b"\xff<.json"
+        os.rename(self.path(name + ".json"), raw)
+        self.assert_passes("--no-frames", plan=os.fsdecode(raw))
+        self.assertEqual(self.page().find(f".//{XHTML}h1").text, "\ufffd<.json")
+
+    def test_a_browser_shows_the_report_page(self):
+        self.assert_passes(size="320x240")
+        shown = self.screenshot("result/report.html")
+        self.assertEqual(png_size(shown)[0], 1000)
+        self.assertGreater(inked_rows(shown), 500)
+        self.write("blank.html", "<!DOCTYPE html><title>nothing</title>")
+        self.assertLess(inked_rows(self.screenshot("blank.html")), 10)
+
+    def test_the_contact_sheet_shows_all_frames(self):
+        self.assert_passes(size="320x240")
+        sheet = self.read("result/overview.png")
+        width, height = png_size(sheet)
+        self.assertGreater(width, 2 * 320)
+        self.assertGreater(height, 240)
+        self.assertGreater(inked_rows(sheet), height // 2)
+        self.assert_passes("--no-frames")
+        self.assertFalse(os.path.exists(self.path("result/overview.png")))
+
+    def test_the_replay_is_animated_where_asked(self):
+        self.assert_passes("--animate", size="64x48", animate_size="96x64")
+        webp = self.read("result/replay.webp")
+        self.assertEqual((webp[:4], webp[8:16]), (b"RIFF", b"WEBPVP8X"))
+        sides = [1 + int.from_bytes(webp[at:at + 3], "little") for at in (24, 27)]
+        self.assertEqual(sides, [96, 64])
+        self.assertGreater(webp.count(b"ANMF"), 2 * len(self.plan["steps"]))
+        self.assert_passes("--no-frames")
+        self.assertFalse(os.path.exists(self.path("result/replay.webp")))
+        self.refuse("--animate", "--animate", "--no-frames")
+        self.refuse("--animate-size", animate_size="96x64")
+        self.refuse("--animate-size", "--animate", animate_size="1x1")
+
+    def test_the_trajectory_is_the_same_with_an_animation(self):
+        self.assert_passes("--no-frames", trajectory="alone.csv")
+        self.assert_passes("--animate", size="64x48", animate_size="64x48",
+                           trajectory="beside.csv")
+        self.assertEqual(self.read("alone.csv"), self.read("beside.csv"))
+
+    # A single grasp.
+
+    def grasp_arguments(self, **changes):
+        options = {"plan": None, "grasp": self.model("cube.start.json"), "friction_angle": "20"}
+        return {**options, **changes}
+
+    def test_answers_for_a_single_grasp(self):
+        done, report = self.assert_passes(size="320x240", **self.grasp_arguments())
+        self.assertIsNone(report["plan"])
+        self.assertEqual([step["kind"] for step in report["steps"]], ["hold"])
+        self.assertEqual(self.frames(), ["000_hold.png"])
+        grasp = report["grasp"]
+        self.assertEqual(grasp["file"], "cube.start.json")
+        self.assertGreater(grasp["quality"], 0.01)
+        self.assertEqual([finger["finger"] for finger in grasp["fingers"]], [0, 1, 2, 3])
+        for finger in grasp["fingers"]:
+            self.assertAlmostEqual(finger["required_half_angle_deg"] + finger["margin_deg"], 20)
+        self.assertIn(grasp["weakest_finger"], range(4))
+        for words in ["quality: ", "weakest: finger", "verdict: pass"]:
+            self.assertIn(words, done.stdout)
+        self.assertIn("Validation of a grasp", self.page_text())
+
+    def test_the_weakest_finger_needs_most_of_its_own_friction(self):
+        # Two fingers on the square, of which only the second's normal leans.
+        grasp = {"format": "regrasp-grasp", "version": 1, "contacts": [
+            {"point": [0.03, 0.004], "normal": [-1, 0]},
+            {"point": [-0.03, 0.0], "normal": [1, 0]}]}
+        self.write_json("grasp.json", grasp)
+        angle = math.degrees(math.atan2(0.004, 0.06))
+        _, report = self.assert_passes("--no-frames", object=self.model("square.wkt"), plan=None,
+                                       grasp="grasp.json", mu="0.3")
+        fingers = report["grasp"]["fingers"]
+        self.assertEqual(len(fingers), 2)
+        for finger in fingers:
+            self.assertTrue(finger["needed"])
+            self.assertIsNone(finger["without_half_angle_deg"])
+            self.assertAlmostEqual(finger["required_half_angle_deg"], angle, places=5)
+        self.assertEqual(report["grasp"]["weakest_finger"], 0)
+        self.assertAlmostEqual(report["settings"]["mu"], 0.3)
+
+    def test_fails_a_single_grasp_that_is_not_force_closure(self):
+        done = self.run_program(*self.arguments("--no-frames",
+                                                **self.grasp_arguments(friction_angle="4")))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        report = self.report()
+        self.assertEqual(report["verdict"], "fail")
+        self.assertEqual([step["reason"] for step in report["steps"]], ["not-force-closure"])
+        self.assertGreater(report["steps"][0]["force_closure"]["required_half_angle_deg"], 4)
+        self.assertEqual((report["grasp"]["quality"], report["grasp"]["weakest_finger"]), (0, None))
+        self.assertEqual(report["grasp"]["fingers"], [])
+
+    def test_fails_a_single_grasp_whose_fingers_coincide(self):
+        grasp = json.loads(self.read(self.model("cube.start.json")))
+        grasp["contacts"].append(grasp["contacts"][0])
+        self.write_json("grasp.json", grasp)
+        self.assert_fails(0, "coincident-fingers", **self.grasp_arguments(grasp="grasp.json"))
+
+    def test_refuses_a_single_grasp_that_cannot_be_read(self):
+        good = json.loads(self.read(self.model("cube.start.json")))
+        off = copy.deepcopy(good)
+        off["contacts"][1]["point"] = [0.0, 0.0, 0.0]
+        cases = {"off the surface": (off, "/contacts/1"),
+                 "no contacts": ({**good, "contacts": []}, "contacts"),
+                 "a plan": (self.plan, "grasp.json"),
+                 "no object": ([], "grasp.json")}
+        for name, (content, word) in cases.items():
+            with self.subTest(name):
+                self.write_json("grasp.json", content)
+                self.refuse(["grasp.json", word], **self.grasp_arguments(grasp="grasp.json"))
+        self.refuse("missing.json", **self.grasp_arguments(grasp="missing.json"))
+
+    def test_refuses_a_single_grasp_beside_what_belongs_to_a_plan(self):
+        self.refuse("--grasp", **self.grasp_arguments(plan="plan.json"))
+        self.refuse("--friction-angle", **self.grasp_arguments(friction_angle=None))
+        self.refuse("--start", **self.grasp_arguments(start=self.model("cube.start.json")))
+        self.refuse("--goal", **self.grasp_arguments(goal=self.model("cube.start.json")))
+        self.refuse("--allow-object-change", "--allow-object-change", **self.grasp_arguments())
+        self.refuse("--grasp", plan=None)
 
     # Plans that fail.
 

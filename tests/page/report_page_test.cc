@@ -98,10 +98,11 @@ TEST(ReportPageTest, APlanThatFailsTheAnalysisHasNoPlotOfWhatWasNotReplayed) {
   scene.report.steps[0].check.reason = Reason::kNotForceClosure;
   scene.report.steps[0].check.required.reset();
   scene.report.steps[1].skipped = true;
+  for (int index : {1, 2}) scene.report.steps[index].check.skipped = true;
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});
-  EXPECT_EQ(Count(page, "<svg"), 1);
-  EXPECT_THAT(page, HasSubstr("not-force-closure"));
-  EXPECT_THAT(page, HasSubstr("<td class=\"number\">none</td>"));
+  EXPECT_EQ(Count(page, "<svg"), 0);
+  EXPECT_THAT(page, HasSubstr("At the hold: not-force-closure"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"number minor\">none</td>"));
 }
 
 TEST(ReportPageTest, NothingFromOutsideCanBecomeMarkup) {
@@ -114,6 +115,21 @@ TEST(ReportPageTest, NothingFromOutsideCanBecomeMarkup) {
   EXPECT_EQ(Count(page, "<script"), 0);
   EXPECT_EQ(Count(page, "</title>"), 3);  // of the page and of two plots
   EXPECT_GE(Count(page, "&lt;script&gt;"), 6);
+}
+
+TEST(ReportPageTest, ASingleGraspHasALineForEachFingerAndNoPlots) {
+  Scene scene(/*fails=*/false);
+  scene.plan.steps.clear();
+  scene.report.steps.resize(1);
+  scene.report.grasp =
+      GraspReport{0.1234, {{Radians(3), true, std::nullopt}, {Radians(11), true, Radians(30)}}};
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("Validation of a grasp"));
+  EXPECT_THAT(page, HasSubstr("<dd>finger 1</dd>"));
+  EXPECT_THAT(page, HasSubstr("<dd>0.123</dd>"));
+  EXPECT_THAT(page, HasSubstr("9.00°"));
+  EXPECT_EQ(Count(page, "<svg"), 0);
+  EXPECT_EQ(Count(page, "<table"), 2);
 }
 
 TEST(ReportPageTest, PicturesStandInThePage) {

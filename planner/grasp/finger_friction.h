@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+
+namespace regrasp {
+
+/// What one finger of a grasp needs of its own friction.
+struct FingerFriction {
+  /// The smallest friction half-angle of this finger alone, all others keeping theirs, at which the
+  /// grasp is force closure, radians, from above; 0 where the grasp is force closure without it.
+  double required = 0;
+  bool needed = true;  ///< the grasp is not force closure without this finger
+  /// The smallest half-angle of all the others at which the grasp is force closure without this
+  /// finger, radians; nullopt where none below π/2 serves.
+  std::optional<double> without;
+};
+
+/// For each contact of a force-closure grasp, how far the friction of that finger alone may fall.
+///
+/// Laws: `required` is at most the half-angle, and never grows when the half-angle does;
+/// independent of rigid motion and of the unit of length.
+/// @returns empty where the grasp is not force closure at `half_angle`.
+/// @throws std::invalid_argument  as TestForceClosure.
+[[nodiscard]] std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> contacts,
+                                                                const WrenchFrame& frame,
+                                                                double half_angle);
+
+/// The finger with the least of its own friction to spare; of equal ones, as where no finger is
+/// needed, that without which the others need the largest half-angle; of those the first. −1 for
+/// none.
+[[nodiscard]] int WeakestFinger(const std::vector<FingerFriction>& fingers);
+
+}  // namespace regrasp

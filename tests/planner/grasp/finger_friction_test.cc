@@ -1,0 +1,106 @@
+#include "planner/grasp/finger_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/random.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+const WrenchFrame kPlane = {{0, 0, 0}, 1, 2};
+
+Vector3d Direction(double degrees) {
+  return {std::cos(Radians(degrees)), std::sin(Radians(degrees)), 0};
+}
+
+TEST(FingerFrictionTest, EachOfTwoFingersNeedsTheAngleToTheLineBetweenThem) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(12)}, {{1, 0, 0}, Direction(180 - 4)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 2u);
+  EXPECT_NEAR(Degrees(fingers[0].required), 12, 1e-6);
+  EXPECT_NEAR(Degrees(fingers[1].required), 4, 1e-6);
+  EXPECT_TRUE(fingers[0].needed && fingers[1].needed);
+  EXPECT_EQ(WeakestFinger(fingers), 0);
+}
+
+TEST(FingerFrictionTest, AFingerThatIsNotNeededNeedsNoFriction) {
+  const Grasp grasp = {
+      {{-1, 0, 0}, Direction(3)}, {{1, 0, 0}, Direction(180)}, {{0.2, -1, 0}, Direction(90)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 3u);
+  EXPECT_FALSE(fingers[2].needed);
+  EXPECT_EQ(fingers[2].required, 0);
+  EXPECT_TRUE(fingers[0].needed && fingers[1].needed);
+  EXPECT_NE(WeakestFinger(fingers), 2);
+}
+
+TEST(FingerFrictionTest, WhereNoFingerIsNeededTheOneWhoseLossCostsMostIsTheWeakest) {
+  // Two pairs, of which the second leans more; without a finger of the first the second must hold.
+  const Grasp grasp = {{{-1, 0, 0}, Direction(3)},
+                       {{1, 0, 0}, Direction(180)},
+                       {{0, -1, 0}, Direction(90 + 9)},
+                       {{0, 1, 0}, Direction(270)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 4u);
+  for (const FingerFriction& finger : fingers) EXPECT_FALSE(finger.needed);
+  ASSERT_TRUE(fingers[0].without && fingers[2].without);
+  EXPECT_GT(*fingers[0].without, *fingers[2].without);
+  EXPECT_LT(WeakestFinger(fingers), 2);
+}
+
+TEST(FingerFrictionTest, AGraspThatIsNotForceClosureHasNoWeakestFinger) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(12)}, {{1, 0, 0}, Direction(180 - 4)}};
+  EXPECT_TRUE(MeasureFingerFriction(grasp, kPlane, Radians(11)).empty());
+  EXPECT_EQ(WeakestFinger({}), -1);
+}
+
+TEST(FingerFrictionTest, TheFirstOfEqualFingersIsTheWeakest) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(5)}, {{1, 0, 0}, Direction(180 + 5)}};
+  EXPECT_EQ(WeakestFinger(MeasureFingerFriction(grasp, kPlane, Radians(20))), 0);
+}
+
+TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
+  RandomStream random(5, RandomUse::kStart);
+  const WrenchFrame frame = {{0, 0, 0}, 1, 3};
+  const Eigen::Isometry3d motion =
+      Eigen::Translation3d(1, -2, 3) * Eigen::AngleAxisd(1.1, Vector3d(1, 2, 2).normalized());
+  int checked = 0;
+  for (int i = 0; i < 60; ++i) {
+    Grasp grasp, moved;
+    for (int finger = 0; finger < 4; ++finger) {
+      const auto draw = [&] { return 2 * random.Uniform() - 1; };
+      const Vector3d n = Vector3d(draw(), draw(), draw()).normalized();
+      grasp.push_back({-n, n});
+      moved.push_back({motion * Vector3d(-n), motion.linear() * n});
+    }
+    const auto required = ComputeRequiredHalfAngle(grasp, frame);
+    if (!required || required->upper > Radians(60)) continue;
+    ++checked;
+    const double angle = required->upper + Radians(2);
+    const auto fingers = MeasureFingerFriction(grasp, frame, angle);
+    const auto wider = MeasureFingerFriction(grasp, frame, angle + Radians(2));
+    const auto turned = MeasureFingerFriction(moved, frame, angle);
+    ASSERT_EQ(fingers.size(), 4u);
+    for (int finger = 0; finger < 4; ++finger) {
+      EXPECT_LE(fingers[finger].required, angle);
+      EXPECT_LE(wider[finger].required, fingers[finger].required + 1e-8);
+      EXPECT_NEAR(turned[finger].required, fingers[finger].required, 1e-6);
+    }
+    // At the critical friction some finger has nothing to spare.
+    const auto critical = MeasureFingerFriction(grasp, frame, required->upper);
+    ASSERT_EQ(critical.size(), 4u);
+    EXPECT_NEAR(critical[WeakestFinger(critical)].required, required->upper, 1e-5);
+  }
+  EXPECT_GT(checked, 10);
+}
+
+}  // namespace
+}  // namespace regrasp
