@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "planner/base/angle.h"
@@ -259,6 +259,22 @@ TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)plan(40, kFewestClusters - 1), std::invalid_argument);
   EXPECT_THROW((void)plan(40, kMostClusters + 1), std::invalid_argument);
   EXPECT_EQ(plan(40, 10).status, Status::kFound);
+}
+
+TEST(ChooseRoadmapSize, ClustersMeshesAndManyContacts) {
+  const auto sizes = [](const Polyhedron& solid, std::optional<int> contacts,
+                        std::optional<int> clusters) {
+    const RoadmapSize size = ChooseRoadmapSize(solid, contacts, clusters);
+    return std::pair(size.contacts, size.clusters);
+  };
+  const Polyhedron few = MakeConvexBody(22, 1);
+  const Polyhedron many = ReadMesh("mug500");
+  EXPECT_EQ(sizes(few, {}, {}), std::pair(60, 0));
+  EXPECT_EQ(sizes(many, {}, {}), std::pair(1000, 50));
+  EXPECT_EQ(sizes(few, {}, 20), std::pair(1000, 20));
+  EXPECT_EQ(sizes(many, kMaxRoadmapContacts, {}), std::pair(kMaxRoadmapContacts, 0));
+  EXPECT_EQ(sizes(few, kMaxRoadmapContacts + 1, {}), std::pair(kMaxRoadmapContacts + 1, 50));
+  EXPECT_EQ(sizes(few, 40, 10), std::pair(40, 10));
 }
 
 TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {

@@ -1,0 +1,24 @@
+#include "planner/roadmap/find_contact.h"
+
+#include <gtest/gtest.h>
+
+namespace regrasp {
+namespace {
+
+TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
+  const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
+  const std::vector<Contact> points = {
+      {{0, 0, 0}, n, 4}, {{0, 0, 0}, n, 5}, {{1e-3, 0, 0}, n, 5}, {{1e-3, 1e-4, 0}, n, 5}};
+  const auto find = [&](const Eigen::Vector3d& p, int face, double tolerance) {
+    return FindContact(points, {p, n, face}, tolerance);
+  };
+  EXPECT_EQ(find({0, 0, 0}, 4, 0), 0);
+  EXPECT_EQ(find({0, 0, 0}, 5, 0), 1);
+  EXPECT_EQ(find({1e-3, 1e-4, 0}, 5, 2e-4), 2);
+  EXPECT_EQ(find({1e-3, 1e-4, 0}, 5, 1e-5), 3);
+  EXPECT_EQ(find({0, 0, 0}, 6, 1), std::nullopt);
+  EXPECT_EQ(find({0, 0, 1e-3}, 4, 1e-4), std::nullopt);
+}
+
+}  // namespace
+}  // namespace regrasp
