@@ -25,12 +25,11 @@ struct ContactPatch {
 /// The surface of the site's face within `size` of its path, as few convex pieces.
 ///
 /// A rectangle where one fits between the borders, cut short towards them and as small as size / 64
-/// in sharp corners of the face, since the engine finds contacts with boxes
-/// exactly and misses some of those with other shapes; otherwise the part of the face inside the
-/// square of half-side `size` about the path, in one piece where that is convex, else one per
-/// triangle. A finger that leaves its patch has left the face or slipped that far. MuJoCo collides
-/// convex shapes only, so a body that is not convex is touched through these and never through its
-/// hull.
+/// in sharp corners of the face, since the engine finds contacts with boxes exactly and misses some
+/// of those with other shapes; otherwise the part of the face inside the square of half-side `size`
+/// about the path, in one piece where that is convex, else one per triangle. A finger that leaves
+/// its patch has left the face or slipped that far. MuJoCo collides convex shapes only, so a body
+/// that is not convex is touched through these and never through its hull.
 [[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,
                                                            const ContactSite& site, double size);
 
