@@ -55,7 +55,8 @@ struct Header {
 bool IsFloat(Type type) { return type == Type::kFloat32 || type == Type::kFloat64; }
 
 std::string Name(const Element& element, long long index) {
-  return (element.name == "face" ? "facet" : element.name) + " " + std::to_string(index);
+  if (element.name == "face") return "facet " + std::to_string(index);
+  return (element.name == "vertex" ? "vertex" : Quoted(element.name)) + " " + std::to_string(index);
 }
 
 /// Reads the header line by line: it ends with a line end, and binary values follow at once.

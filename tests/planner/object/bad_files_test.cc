@@ -33,6 +33,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"beside.obj", "facet 4: several solids"},
     {"bow_tie.obj", "facet 0: self-intersecting"},
     {"comma.obj", "line 3: vertex 2: \"1,5\" is not a finite number"},
+    {"control_character.ply", "the file ends inside \"a?b\" 0"},
     {"corner_twice.obj", "facet 0: degenerate: two of its corners are vertex 1"},
     {"crossing.obj", "self-intersecting: meets facet"},
     {"edge_of_three.obj", "not manifold: 3 facets meet"},
