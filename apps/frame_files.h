@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "page/report_page.h"
+#include "apps/page/report_page.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "render/frame.h"

@@ -89,6 +89,9 @@ struct GraphProgram {
     ProgressLine progress(common.quiet);
     GraphSummary summary;
     const bool planar = object.object->dimension() == 2;
+    if (queries > 0 && planar) {
+      throw InputError("--queries: " + common.object + " is planar; only a roadmap answers them");
+    }
     if (common.planner == "polyhedron") {
       progress.Report("building the switching graph");
       summary = SummarizePolyhedron(SolidOf(object, common), common.friction.required_half_angle(),

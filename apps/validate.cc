@@ -10,10 +10,11 @@
 
 #include "apps/frame_files.h"
 #include "apps/options.h"
+#include "apps/page/report_page.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "page/report_page.h"
+#include "apps/verify_report.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
@@ -75,6 +76,8 @@ struct ValidateProgram {
   bool no_frames = false;
   bool animate = false;
   bool show_clusters = false;
+  bool certificates = false;
+  std::string verify;
   bool allow_object_change = false;
   bool quiet = false;
 
@@ -102,7 +105,9 @@ struct ValidateProgram {
   [[nodiscard]] const std::string& InputPath() const;
   [[nodiscard]] Task ReadTask() const;
   [[nodiscard]] ReplayObserver MakeObserver(ProgressLine& progress, Samples& samples) const;
+  [[nodiscard]] ClusterView ClustersOf(const Task& task) const;
   [[nodiscard]] Report Check(const Task& task, Samples& samples) const;
+  [[nodiscard]] int Verify(const Task& task) const;
   void WritePictures(const Task& task, const Samples& samples, const std::filesystem::path& folder,
                      Report& report) const;
   void WriteResults(const Task& task, const Samples& samples, Report& report) const;
@@ -151,6 +156,13 @@ void ValidateProgram::AddFiles(CLI::App& app) {
       ->type_name("DIR");
   add("--start", start, "Grasp file that the plan's initial grasp must be")->excludes(grasp);
   add("--goal", goal, "Grasp file that the plan's goal must be")->excludes(grasp);
+  app.add_flag("--certificates", certificates,
+               "The report also holds, for every grasp and all along every align, contact forces "
+               "that prove force closure, or a twist that refutes it");
+  add("--verify", verify,
+      "Checks the proofs of a report that --certificates wrote, in exact rational arithmetic, "
+      "against this plan and object; nothing is replayed or written")
+      ->excludes(grasp);
   add("--junit", junit, "Write the verdicts as JUnit XML");
   add("--export-mjcf", mjcf, "Write the scene of the replay as MJCF for any MuJoCo");
   add("--trajectory", trajectory,
@@ -255,6 +267,22 @@ Report ValidateProgram::Check(const Task& task, Samples& samples) const {
   return ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale, replay, observer);
 }
 
+ClusterView ValidateProgram::ClustersOf(const Task& task) const {
+  const auto* solid = dynamic_cast<const Polyhedron*>(task.object.object.get());
+  if (solid == nullptr || !task.plan.roadmap) {
+    throw InputError("--show-clusters: " + InputPath() +
+                     " was not made on a roadmap of clustered contact points");
+  }
+  return DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
+}
+
+int ValidateProgram::Verify(const Task& task) const {
+  const ReportVerification found =
+      VerifyReport(verify, task.object, task.plan, Sha256(task.file_text));
+  if (!quiet) std::cout << found.text;
+  return found.proved ? kExitDone : kExitNegative;
+}
+
 std::filesystem::path ValidateProgram::Folder() const {
   if (!out.empty()) return out;
   return std::filesystem::path("out") / std::filesystem::path(InputPath()).stem();
@@ -291,6 +319,8 @@ void ValidateProgram::WriteResults(const Task& task, const Samples& samples, Rep
 int ValidateProgram::Run() {
   CheckUsage();
   const Task task = ReadTask();
+  if (!verify.empty()) return Verify(task);
+  if (show_clusters) frame.clusters = ClustersOf(task);
   const Object& object = *task.object.object;
   replay.half_angle = friction.half_angle();
   Samples samples;
@@ -299,6 +329,7 @@ int ValidateProgram::Run() {
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
+  if (certificates) AddProofs(LocatePlan(object, task.plan), report);
   WriteResults(task, samples, report);
   if (!mjcf.empty()) WriteFile(mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
   for (const std::string& warning : report.warnings()) {

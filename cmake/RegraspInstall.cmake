@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 get_property(regrasp_libraries GLOBAL PROPERTY REGRASP_LIBRARIES)
 install(TARGETS regrasp_options regrasp_planner ${regrasp_libraries} EXPORT regraspTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY planner sim render page DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp
+install(DIRECTORY planner sim render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY models scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/regrasp)
 install(EXPORT regraspTargets NAMESPACE regrasp::

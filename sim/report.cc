@@ -133,6 +133,18 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   return report;
 }
 
+void AddProofs(const Plan& located, Report& report) {
+  int entries = 0;
+  for (const ReportStep& step : report.steps) {
+    const Reason reason = step.check.reason;
+    const bool judged = reason == Reason::kNone || reason == Reason::kNotForceClosure;
+    if (step.check.skipped || !judged) break;
+    ++entries;
+  }
+  const std::vector<EntryProof> proofs = FindPlanProofs(located, report.half_angle, entries);
+  for (std::size_t i = 0; i < proofs.size(); ++i) report.steps[i].proof = proofs[i];
+}
+
 Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, double scale) {
   Plan plan;
   plan.scale = scale;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/certificate/plan_proof.h"
 #include "planner/grasp/finger_friction.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
@@ -25,6 +26,7 @@ struct ReportStep {
   std::optional<SwitchRegion> region;
   std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
   bool skipped = false;              ///< a step before it failed, in the analysis or the replay
+  std::optional<EntryProof> proof;   ///< where AddProofs was asked
   std::string frame;                 ///< file name of the picture, empty where there is none
 
   /// The analytic reason, or else that of the replay; kNone for a skipped step.
@@ -82,6 +84,11 @@ struct Report {
 [[nodiscard]] Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle,
                                    double scale, const ReplayOptions& replay,
                                    const ReplayObserver& observer = {});
+
+/// Adds the proofs of force closure, or of its loss, of every entry that the analytic check came to
+/// and that has no fault but the loss.
+/// @param located  the plan that the report is about (LocatePlan).
+void AddProofs(const Plan& located, Report& report);
 
 /// The plan without steps that a grasp makes: fingers are numbered in its order.
 [[nodiscard]] Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle,

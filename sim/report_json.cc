@@ -62,7 +62,7 @@ Json MakeText(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
-Json MakeStep(const ReportStep& step) {
+Json MakeStep(const ReportStep& step, int dimension) {
   Json json = {{"index", step.check.index},
                {"kind", step.check.kind},
                {"verdict", std::string(VerdictName(step.verdict()))},
@@ -74,6 +74,7 @@ Json MakeStep(const ReportStep& step) {
                {"simulation", MakeSimulation(step.replay)},
                {"frame", MakeText(step.frame)}};
   AddRegion(step.region, json);
+  if (step.proof) json["proof"] = EntryProofJson(*step.proof, dimension);
   return json;
 }
 
@@ -120,7 +121,8 @@ std::string FormatReportJson(const Report& report) {
   const int weakest = report.weakest_step();
   json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
   json["steps"] = Json::array();
-  for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step));
+  for (const ReportStep& step : report.steps)
+    json["steps"].push_back(MakeStep(step, report.dimension));
   // File names may be any bytes; JSON must be UTF-8.
   return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }

@@ -503,6 +503,48 @@ class Validate(ProgramCase):
         self.refuse("--allow-object-change", "--allow-object-change", **self.grasp_arguments())
         self.refuse("--grasp", plan=None)
 
+    # Proofs.
+
+    def test_proofs_in_the_report_hold_exactly(self):
+        _, report = self.assert_passes("--certificates", "--no-frames")
+        self.assertEqual(len(report["steps"]), len(self.plan["steps"]) + 1)
+        self.assertTrue(all("forces" in step["proof"]["rest"] for step in report["steps"]))
+        done = self.assert_done(*self.arguments(verify="result/report.json", out=None))
+        entries = len(report["steps"])
+        self.assertIn(f"{entries} of {entries} entries proved", done.stdout)
+
+    def test_proofs_that_were_tampered_with_prove_nothing(self):
+        _, report = self.assert_passes("--certificates", "--no-frames")
+        forces = report["steps"][1]["proof"]["rest"]["forces"]
+        forces[0] = [-x for x in forces[0]]
+        self.write_json("tampered.json", report)
+        done = self.run_program(*self.arguments(verify="tampered.json", out=None))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("1 switch  not proved", done.stdout)
+        report["settings"]["friction_half_angle_deg"] = 1
+        self.write_json("tampered.json", report)
+        done = self.run_program(*self.arguments(verify="tampered.json", out=None))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("0 of", done.stdout)
+
+    def test_a_lost_object_is_refuted(self):
+        report = self.assert_fails(0, "not-force-closure", "--certificates", friction_angle="2")
+        self.assertTrue(set(report["steps"][0]["proof"]["rest"]) & {"twist", "line"})
+        self.assertNotIn("proof", report["steps"][1])
+        done = self.run_program(*self.arguments(verify="result/report.json", out=None))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("0 hold  refuted", done.stdout)
+
+    def test_refuses_reports_that_cannot_be_verified(self):
+        _, report = self.assert_passes("--no-frames")
+        self.refuse("holds no proofs", verify="result/report.json")
+        self.refuse("no such file", verify="nothing.json")
+        report["plan"]["sha256"] = "0" * 64
+        self.write_json("other.json", report)
+        self.refuse("another plan", verify="other.json")
+        self.write_json("broken.json", {"format": "regrasp-report"})
+        self.refuse("version", verify="broken.json")
+
     # Plans that fail.
 
     def test_fails_a_contact_off_the_surface(self):

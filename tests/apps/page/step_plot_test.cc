@@ -1,4 +1,4 @@
-#include "page/step_plot.h"
+#include "apps/page/step_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

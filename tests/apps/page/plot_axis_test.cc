@@ -1,4 +1,4 @@
-#include "page/plot_axis.h"
+#include "apps/page/plot_axis.h"
 
 #include <gtest/gtest.h>
 

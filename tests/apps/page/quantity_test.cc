@@ -1,4 +1,4 @@
-#include "page/quantity.h"
+#include "apps/page/quantity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "page/step_measures.h"
+#include "apps/page/step_measures.h"
 
 #include <algorithm>
 #include <cmath>

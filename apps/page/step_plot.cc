@@ -1,11 +1,11 @@
-#include "page/step_plot.h"
+#include "apps/page/step_plot.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "page/html.h"
-#include "page/plot_axis.h"
+#include "apps/page/html.h"
+#include "apps/page/plot_axis.h"
 #include "planner/base/number.h"
 
 namespace regrasp {

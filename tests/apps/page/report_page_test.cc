@@ -1,4 +1,4 @@
-#include "page/report_page.h"
+#include "apps/page/report_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "page/step_measures.h"
+#include "apps/page/step_measures.h"
 #include "planner/base/angle.h"
 
 namespace regrasp {

@@ -1,14 +1,14 @@
-#include "page/report_page.h"
+#include "apps/page/report_page.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "page/html.h"
-#include "page/quantity.h"
-#include "page/step_measures.h"
-#include "page/step_plot.h"
+#include "apps/page/html.h"
+#include "apps/page/quantity.h"
+#include "apps/page/step_measures.h"
+#include "apps/page/step_plot.h"
 #include "page_style.h"
 #include "planner/base/angle.h"
 #include "render/caption.h"

@@ -1,10 +1,10 @@
-#include "page/quantity.h"
+#include "apps/page/quantity.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "page/plot_axis.h"
+#include "apps/page/plot_axis.h"
 #include "planner/base/number.h"
 
 namespace regrasp {

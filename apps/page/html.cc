@@ -1,4 +1,4 @@
-#include "page/html.h"
+#include "apps/page/html.h"
 
 #include <openssl/evp.h>
 
