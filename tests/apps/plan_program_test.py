@@ -380,7 +380,7 @@ class Plan(ProgramCase):
         cases = {
             "friction_angle": ("0", "90", "-5", "nan", "inf", "20x", "", "1e999", "2,5", "1e-323"),
             "seed": ("-1", "1.5", "18446744073709551616", "x"),
-            "contacts": ("3", "201", "4.5", "-60"),
+            "contacts": ("3", "4001", "4.5", "-60"), "clusters": ("3", "201", "4.5"),
             "min_quality": ("-0.1", "nan", "inf"),
             "scale": ("0", "-1", "nan", "inf"),
         }

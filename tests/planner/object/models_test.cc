@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -54,6 +55,10 @@ const Model kLargeModels[] = {
     {"gear128.wkt", 128, 0, 0}, {"bottle200.wkt", 200, 0, 0},      {"wrench256.wkt", 256, 0, 0},
     {"leaf300.wkt", 300, 0, 0}, {"plate_holes160.wkt", 160, 0, 0},
 };
+
+/// Meshes of smooth bodies; the names end in the number of triangles.
+const std::array kMeshes = {"ellipsoid", "flask", "mug", "spanner", "star", "duck"};
+const std::array kMeshTriangles = {500, 1000};
 
 bool IsSolid(const Model& model) { return model.file.ends_with(".obj"); }
 
@@ -110,6 +115,22 @@ TEST(Models, LargeOnesHaveAsManyFacesAsTheirNamesSay) {
   EXPECT_EQ(checked, 9 + 5);
 }
 
+TEST(Models, MeshesHaveAsManyTrianglesAsTheirNamesSay) {
+  for (const std::string name : kMeshes) {
+    for (const int triangles : kMeshTriangles) {
+      const std::string file = name + std::to_string(triangles) + ".obj";
+      SCOPED_TRACE(file);
+      const ObjectFile read = ReadObject(ModelPath(file));
+      const auto& solid = dynamic_cast<const Polyhedron&>(*read.object);
+      EXPECT_EQ(std::ssize(solid.triangles()), triangles);
+      // Hardly any neighbours are coplanar.
+      EXPECT_GE(solid.face_count(), triangles - 5);
+      EXPECT_GE(solid.diameter(), 0.08);
+      EXPECT_LE(solid.diameter(), 0.16);
+    }
+  }
+}
+
 TEST(Models, EachSolidHasALineThatSaysWhatItIs) {
   int checked = 0;
   for (const Model& model : kModels) {
@@ -126,7 +147,8 @@ TEST(Models, EveryModelIsInOneOfTheTables) {
     const auto ending = entry.path().extension();
     found += ending != ".json" && ending != ".md";
   }
-  EXPECT_EQ(found, std::ssize(kModels) + std::ssize(kLargeModels));
+  EXPECT_EQ(found, std::ssize(kModels) + std::ssize(kLargeModels) +
+                       std::ssize(kMeshes) * std::ssize(kMeshTriangles));
 }
 
 TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
