@@ -195,6 +195,27 @@ class PlansOnMeshes(ProgramCase):
                     passed += 1
         self.assertEqual(passed, 6)
 
+    def test_frames_show_the_clusters_where_asked(self):
+        self.plan("mug500", seed="1")
+        frames = []
+        for shown in ((), ("--show-clusters",)):
+            self.assert_done("--object", self.model("mug500.obj"), "--plan", "plan.json", "--out",
+                             "out", "--size", "320x240", *shown, program="validate")
+            frames.append(self.read("out/000_hold.png"))
+        # The same picture but for the colours of the surface.
+        self.assertNotEqual(frames[0], frames[1])
+        self.assertGreater(len(frames[1]), 10_000)
+
+    def test_plans_without_clusters_have_none_to_show(self):
+        self.assert_done("--object", self.model("cube.obj"), "--start", "random", "--goal", "random",
+                         "--output", "plan.json", "--friction-angle", "20", "--planner", "roadmap")
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
+                                "--show-clusters", "--out", "out", program="validate")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--show-clusters", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse(os.path.exists(self.path("out")))
+
     def test_a_plan_with_a_finger_elsewhere_fails(self):
         plan = self.plan("ellipsoid500", seed="1")
         place = plan["steps"][0]["place"][0]
