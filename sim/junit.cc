@@ -1,74 +1,76 @@
+#include "sim/junit.h"
+
 #include <algorithm>
 
-#include "sim/report.h"
+#include "planner/base/markup.h"
 
 namespace regrasp {
 
 namespace {
 
-/// Text as XML 1.0 can hold it; control characters, which it cannot, become question marks.
-std::string Escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default: {
-        const bool control = static_cast<unsigned char>(c) < 0x20;
-        out += control ? '?' : c;
-      }
-    }
-  }
-  return out;
-}
-
-std::string Attribute(const std::string& name, std::string_view value) {
-  return " " + name + "=\"" + Escape(value) + "\"";
-}
-
-std::string FormatCase(const Report& report, const ReportStep& step) {
-  const std::string name = "step " + std::to_string(step.check.index) + " " + step.check.kind;
-  const std::string head =
-      "  <testcase" + Attribute("classname", report.plan_file) + Attribute("name", name);
-  switch (step.verdict()) {
+JunitOutcome OutcomeOf(Verdict verdict) {
+  switch (verdict) {
     case Verdict::kPass:
-      return head + "/>\n";
-    case Verdict::kSkipped:
-      return head + "><skipped/></testcase>\n";
+      return JunitOutcome::kPassed;
     case Verdict::kFail:
-      return head + "><failure" + Attribute("message", ReasonName(step.reason())) + ">" +
-             Escape(step.detail()) + "</failure></testcase>\n";
+      return JunitOutcome::kFailed;
+    case Verdict::kSkipped:
+      return JunitOutcome::kSkipped;
+  }
+  return JunitOutcome::kError;
+}
+
+std::string FormatOutcome(const JunitCase& result) {
+  const std::string message = Attribute("message", result.message);
+  switch (result.outcome) {
+    case JunitOutcome::kPassed:
+      return "";
+    case JunitOutcome::kFailed:
+      return Element("failure", message, EscapeMarkup(result.text));
+    case JunitOutcome::kError:
+      return Element("error", message, EscapeMarkup(result.text));
+    case JunitOutcome::kSkipped:
+      return "<skipped/>";
   }
   return "";
 }
 
-std::string Count(const Report& report, Verdict verdict) {
-  return std::to_string(
-      std::count_if(report.steps.begin(), report.steps.end(),
-                    [verdict](const ReportStep& step) { return step.verdict() == verdict; }));
+std::string FormatCase(const std::string& suite, const JunitCase& result) {
+  const std::string head =
+      "  <testcase " + Attribute("classname", suite) + " " + Attribute("name", result.name);
+  const std::string outcome = FormatOutcome(result);
+  return outcome.empty() ? head + "/>\n" : head + ">" + outcome + "</testcase>\n";
+}
+
+std::string FormatSuite(const JunitSuite& suite) {
+  const auto count = [&](JunitOutcome outcome) {
+    return std::to_string(std::ranges::count(suite.cases, outcome, &JunitCase::outcome));
+  };
+  std::string xml = " <testsuite " + Attribute("name", suite.name) + " " +
+                    Attribute("tests", std::to_string(suite.cases.size())) + " " +
+                    Attribute("failures", count(JunitOutcome::kFailed)) + " " +
+                    Attribute("errors", count(JunitOutcome::kError)) + " " +
+                    Attribute("skipped", count(JunitOutcome::kSkipped)) + ">\n";
+  for (const JunitCase& result : suite.cases) xml += FormatCase(suite.name, result);
+  return xml + " </testsuite>\n";
 }
 
 }  // namespace
 
-std::string FormatReportJunit(const Report& report) {
-  const std::string counts = Attribute("tests", std::to_string(report.steps.size())) +
-                             Attribute("failures", Count(report, Verdict::kFail)) +
-                             Attribute("errors", "0") +
-                             Attribute("skipped", Count(report, Verdict::kSkipped));
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite" +
-                    Attribute("name", report.plan_file) + counts + ">\n";
-  for (const ReportStep& step : report.steps) xml += FormatCase(report, step);
-  return xml + " </testsuite>\n</testsuites>\n";
+JunitSuite MakeJunitSuite(const Report& report) {
+  JunitSuite suite{report.plan_file, {}};
+  for (const ReportStep& step : report.steps) {
+    suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
+                           OutcomeOf(step.verdict()), std::string(ReasonName(step.reason())),
+                           step.detail()});
+  }
+  return suite;
+}
+
+std::string FormatJunit(const std::vector<JunitSuite>& suites) {
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  for (const JunitSuite& suite : suites) xml += FormatSuite(suite);
+  return xml + "</testsuites>\n";
 }
 
 }  // namespace regrasp

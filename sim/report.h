@@ -99,9 +99,6 @@ void AddProofs(const Plan& located, Report& report);
 /// not UTF-8 are replaced.
 [[nodiscard]] std::string FormatReportJson(const Report& report);
 
-/// JUnit XML for CI servers: a suite for the plan, a case for each entry.
-[[nodiscard]] std::string FormatReportJunit(const Report& report);
-
 /// A readable table: a line per step with required half-angle, displacement, slip and verdict, and
 /// the contact region in plans where a step has one; then why a step failed, the weakest step, and
 /// the verdict.

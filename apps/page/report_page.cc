@@ -5,12 +5,13 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/page/html.h"
+#include "apps/page/data_uri.h"
 #include "apps/page/quantity.h"
 #include "apps/page/step_measures.h"
 #include "apps/page/step_plot.h"
 #include "page_style.h"
 #include "planner/base/angle.h"
+#include "planner/base/markup.h"
 #include "render/caption.h"
 
 namespace regrasp {
@@ -63,7 +64,7 @@ class Page {
         Attribute("content", kPolicy) +
         " />\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n";
     return Element("head", "",
-                   "\n" + meta + Element("title", "", EscapeHtml(Verdict() + ": " + Subject())) +
+                   "\n" + meta + Element("title", "", EscapeMarkup(Verdict() + ": " + Subject())) +
                        "\n" + Element("style", "", kPageStyle) + "\n");
   }
 
@@ -76,9 +77,9 @@ class Page {
                "header", "",
                Element("p", "class=\"kicker\"",
                        report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan") +
-                   "\n" + Element("h1", "", EscapeHtml(Subject())) + "\n" +
+                   "\n" + Element("h1", "", EscapeMarkup(Subject())) + "\n" +
                    Element("p", Attribute("class", style),
-                           Element("strong", "", Verdict()) + " " + EscapeHtml(Statement()))) +
+                           Element("strong", "", Verdict()) + " " + EscapeMarkup(Statement()))) +
            "\n";
   }
 
@@ -119,9 +120,10 @@ class Page {
   [[nodiscard]] std::string Facts() const {
     std::string list;
     const auto add = [&](std::string_view name, const std::string& value) {
-      list += Element("div", "",
-                      Element("dt", "", EscapeHtml(name)) + Element("dd", "", EscapeHtml(value))) +
-              "\n";
+      list +=
+          Element("div", "",
+                  Element("dt", "", EscapeMarkup(name)) + Element("dd", "", EscapeMarkup(value))) +
+          "\n";
     };
     add("Object", report_.object_file + (report_.dimension == 2 ? ", planar" : ", a solid"));
     if (!report_.planner.empty()) add("Planner", report_.planner);
@@ -160,8 +162,9 @@ class Page {
   }
 
   static std::string Digest(std::string_view name, const std::string& digest) {
-    return Element("div", "class=\"digest\"",
-                   Element("dt", "", EscapeHtml(name)) + Element("dd", "", EscapeHtml(digest))) +
+    return Element(
+               "div", "class=\"digest\"",
+               Element("dt", "", EscapeMarkup(name)) + Element("dd", "", EscapeMarkup(digest))) +
            "\n";
   }
 
@@ -189,7 +192,7 @@ class Page {
     for (std::size_t i = 0; i < fingers.size(); ++i) {
       const std::optional<double>& without = fingers[i].without;
       const auto cell = [](const std::string& text) {
-        return Element("td", "class=\"number\"", EscapeHtml(text));
+        return Element("td", "class=\"number\"", EscapeMarkup(text));
       };
       rows += Element("tr", "",
                       cell(std::to_string(i)) + cell(DegreesText(Degrees(fingers[i].required))) +
@@ -225,9 +228,10 @@ class Page {
 
   static std::string Figure(const std::string& picture, std::string_view name,
                             std::string_view text) {
-    return Element("figure", "",
-                   picture + Element("figcaption", "",
-                                     Element("b", "", EscapeHtml(name)) + " " + EscapeHtml(text))) +
+    return Element(
+               "figure", "",
+               picture + Element("figcaption", "",
+                                 Element("b", "", EscapeMarkup(name)) + " " + EscapeMarkup(text))) +
            "\n";
   }
 
@@ -296,10 +300,10 @@ class Page {
     const StepMeasures& measures = measures_[index];
     std::string cells;
     const auto number = [&](const std::string& text, std::string_view style = "number") {
-      cells += Element("td", Attribute("class", style), EscapeHtml(text));
+      cells += Element("td", Attribute("class", style), EscapeMarkup(text));
     };
     number(std::to_string(index));
-    const std::string title = EscapeHtml(Capitalized(EntryTitle(plan_, index)));
+    const std::string title = EscapeMarkup(Capitalized(EntryTitle(plan_, index)));
     cells += Element(
         "td", "",
         HasPicture(index) ? Element("a", Attribute("href", "#" + Anchor(index)), title) : title);
@@ -309,7 +313,7 @@ class Page {
     number(replay ? LengthText(replay->displacement_m) : kNothing);
     number(replay ? NumberText(replay->rotation_deg) + "°" : kNothing, "number minor");
     number(replay ? LengthText(replay->slip_m) : kNothing);
-    cells += Element("td", "", EscapeHtml(VerdictText(step)));
+    cells += Element("td", "", EscapeMarkup(VerdictText(step)));
     return Element("tr", Attribute("class", VerdictName(step.verdict())), cells);
   }
 
@@ -364,8 +368,8 @@ class Page {
                    Attribute("id", Anchor(index)) + " " +
                        Attribute("class", VerdictName(step.verdict())),
                    image + Element("figcaption", "",
-                                   Element("b", "", EscapeHtml(name + ".")) + " " +
-                                       EscapeHtml(Capitalized(text) + "."))) +
+                                   Element("b", "", EscapeMarkup(name + ".")) + " " +
+                                       EscapeMarkup(Capitalized(text) + "."))) +
            "\n";
   }
 

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "apps/page/html.h"
+#include "apps/page/data_uri.h"
 #include "apps/page/plot_axis.h"
+#include "planner/base/markup.h"
 #include "planner/base/number.h"
 
 namespace regrasp {
@@ -56,7 +57,7 @@ std::string Text(std::string_view anchor, double x, double y, std::string_view t
   return Element("text",
                  Numbered("x", x) + Numbered("y", y) + Attribute("text-anchor", anchor) + " " +
                      std::string(more),
-                 EscapeHtml(text));
+                 EscapeMarkup(text));
 }
 
 class Drawing {
@@ -65,7 +66,7 @@ class Drawing {
       : plot_(plot), steps_(plot.series.front().values.size()), axis_(MakeAxis(plot)) {}
 
   [[nodiscard]] std::string Format() const {
-    std::string svg = Element("title", "", EscapeHtml(plot_.title));
+    std::string svg = Element("title", "", EscapeMarkup(plot_.title));
     svg += Skipped() + Beyond() + VerticalAxis() + StepAxis() + Limit();
     for (std::size_t i = 0; i < plot_.series.size(); ++i) svg += Series(i);
     svg += Legend();
@@ -189,7 +190,7 @@ class Drawing {
       if (i > 0) names += "\u2003";
       names += Element("tspan", Attribute("class", StyleOf(i)),
                        series.mark == PlotMark::kDisc ? "●" : "○");
-      names += "\u2009" + EscapeHtml(series.name);
+      names += "\u2009" + EscapeMarkup(series.name);
     }
     return Element("text", Numbered("x", kLeft) + Numbered("y", kBase), names);
   }

@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
+#include "sim/junit.h"
 
 namespace regrasp {
 namespace {
@@ -144,12 +145,12 @@ TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {
 }
 
 TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
-  const std::string xml = FormatReportJunit(MakeFailedReport());
+  const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport())});
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger 2 slid by 1 mm &lt;under&gt; "
                              "&quot;shake&quot; &amp; push</failure>"));
   EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\"><skipped/>"));
-  EXPECT_THAT(FormatReportJunit(MakeReport()), Not(HasSubstr("<failure")));
+  EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport())}), Not(HasSubstr("<failure")));
 }
 
 TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {

@@ -1,6 +1,4 @@
-#include "apps/page/html.h"
-
-#include <openssl/evp.h>
+#include "planner/base/markup.h"
 
 #include "planner/base/json.h"
 
@@ -25,7 +23,7 @@ bool IsControl(char c) {
 
 }  // namespace
 
-std::string EscapeHtml(std::string_view text) {
+std::string EscapeMarkup(std::string_view text) {
   std::string out;
   for (const char c : RepairUtf8(text)) {
     switch (c) {
@@ -58,17 +56,7 @@ std::string Element(std::string_view name, std::string_view attributes, std::str
 }
 
 std::string Attribute(std::string_view name, std::string_view value) {
-  return std::string(name) + "=\"" + EscapeHtml(value) + "\"";
-}
-
-std::string DataUri(std::string_view media_type, std::string_view bytes) {
-  // Three bytes become four characters; the encoder adds a zero.
-  std::string base64((bytes.size() + 2) / 3 * 4 + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()),
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   static_cast<int>(bytes.size()));
-  base64.resize(size);
-  return "data:" + std::string(media_type) + ";base64," + base64;
+  return std::string(name) + "=\"" + EscapeMarkup(value) + "\"";
 }
 
 }  // namespace regrasp

@@ -1,0 +1,189 @@
+#include "apps/validate_run.h"
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "apps/frame_files.h"
+#include "apps/page/report_page.h"
+#include "apps/plan_object.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "apps/verify_report.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/plan/plan_io.h"
+#include "sim/junit.h"
+#include "sim/report.h"
+#include "sim/trajectory.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Between two rows of a finger in the trajectory: a switch takes some hundredths of a second.
+constexpr double kSampleInterval_s = 5e-4;
+
+/// What the files on the command line ask for.
+struct Task {
+  ObjectFile object;
+  std::string file_text;  ///< of the plan or of the grasp
+  Plan plan;              ///< of a grasp: without steps
+  Grasp grasp;            ///< empty for a plan
+};
+
+/// States of the replay, as far as someone asked for them.
+struct Samples {
+  std::vector<Snapshot> trajectory;
+  std::vector<Snapshot> animation;
+};
+
+Task ReadTask(const ValidateOptions& options) {
+  Task task;
+  task.object = ReadObject(options.object_path);
+  const Object& object = *task.object.object;
+  task.file_text = ReadFile(options.InputPath());
+  if (options.for_grasp()) {
+    task.grasp = ParseGrasp(task.file_text, options.grasp_path, object);
+    task.plan = MakeHoldPlan(object, task.grasp, options.friction.required_half_angle(),
+                             options.scale.value_or(1));
+  } else {
+    task.plan = ParsePlan(task.file_text, options.plan_path);
+    CheckPlanFits(
+        task.plan, task.object,
+        {options.plan_path, options.object_path, options.allow_object_change, options.scale});
+  }
+  if (options.replay.thickness && task.plan.dimension == 3) {
+    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
+  }
+  return task;
+}
+
+ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progress,
+                            Samples& samples) {
+  ReplayObserver observer;
+  observer.on_progress = [&progress](int done, int total) {
+    progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
+  };
+  const bool trajectory = !options.trajectory.empty();
+  const bool animate = options.animate;
+  if (!trajectory && !animate) return observer;
+  // How long a replay takes depends on the body: a moving picture is cut from all of its states.
+  observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
+  observer.on_sample = [trajectory, animate, &samples](const Snapshot& snapshot) {
+    std::vector<Snapshot>& rows = samples.trajectory;
+    const bool due = rows.empty() || snapshot.time_s >= rows.back().time_s + kSampleInterval_s;
+    if (trajectory && due) rows.push_back(snapshot);
+    if (animate) samples.animation.push_back(snapshot);
+  };
+  return observer;
+}
+
+Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
+  const Object& object = *task.object.object;
+  CheckOptions check;
+  check.half_angle = options.friction.half_angle();
+  Grasp start;
+  Grasp goal;
+  if (!options.start.empty()) {
+    start = ReadGrasp(options.start, object);
+    check.start = &start;
+  }
+  if (!options.goal.empty()) {
+    goal = ReadGrasp(options.goal, object);
+    check.goal = &goal;
+  }
+  ProgressLine progress(options.quiet);
+  progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
+  const ReplayObserver observer = MakeObserver(options, progress, samples);
+  if (!options.for_grasp()) return Validate(object, task.plan, check, options.replay, observer);
+  return ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale, options.replay,
+                       observer);
+}
+
+FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
+  FrameOptions frame = options.frame;
+  if (!options.show_clusters) return frame;
+  const auto* solid = dynamic_cast<const Polyhedron*>(task.object.object.get());
+  if (solid == nullptr || !task.plan.roadmap) {
+    throw InputError("--show-clusters: " + options.InputPath() +
+                     " was not made on a roadmap of clustered contact points");
+  }
+  frame.clusters = DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
+  return frame;
+}
+
+int Verify(const ValidateOptions& options, const Task& task) {
+  const ReportVerification found =
+      VerifyReport(options.verify, task.object, task.plan, Sha256(task.file_text));
+  if (!options.quiet) std::cout << found.text;
+  return found.proved ? kExitDone : kExitNegative;
+}
+
+void WritePictures(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
+                   const Samples& samples, const std::filesystem::path& folder, Report& report) {
+  const Object& object = *task.object.object;
+  std::vector<PagePicture> pictures;
+  if (!options.no_frames) {
+    ProgressLine progress(options.quiet);
+    progress.Report("drawing frames");
+    pictures = WriteFrames(object, task.plan, frame, folder, report);
+  }
+  if (options.animate) {
+    ProgressLine progress(options.quiet);
+    progress.Report("drawing the moving picture");
+    WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report);
+  }
+  WriteFile(folder / "report.html", FormatReportHtml(report, task.plan, pictures));
+}
+
+void WriteResults(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
+                  const Samples& samples, Report& report) {
+  const std::filesystem::path folder = options.Folder();
+  const std::filesystem::path report_path = folder / "report.json";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  // A report never stands beside the pictures of another run.
+  if (!error) std::filesystem::remove(report_path, error);
+  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+  RemoveFrames(folder);
+  WritePictures(options, frame, task, samples, folder, report);
+  if (!options.junit.empty()) WriteFile(options.junit, FormatJunit({MakeJunitSuite(report)}));
+  if (!options.trajectory.empty()) {
+    WriteFile(options.trajectory, FormatTrajectory(samples.trajectory));
+  }
+  if (!options.mjcf.empty()) {
+    const Object& object = *task.object.object;
+    ReplayOptions replay = options.replay;
+    replay.half_angle = options.friction.half_angle();
+    WriteFile(options.mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
+  }
+  WriteFile(report_path, FormatReportJson(report));
+}
+
+}  // namespace
+
+int RunValidation(const ValidateOptions& options) {
+  options.CheckUsage();
+  const Task task = ReadTask(options);
+  if (!options.verify.empty()) return Verify(options, task);
+  const FrameOptions frame = FrameOptionsFor(options, task);
+  const Object& object = *task.object.object;
+  Samples samples;
+  Report report = Check(options, task, samples);
+  report.object_file = task.object.file;
+  report.object_sha256 = task.object.sha256;
+  report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
+  report.plan_sha256 = Sha256(task.file_text);
+  if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);
+  WriteResults(options, frame, task, samples, report);
+  for (const std::string& warning : report.warnings()) {
+    PrintMessage(kValidateName, "warning: " + warning);
+  }
+  if (!options.quiet) std::cout << FormatReportTable(report);
+  return report.passed() ? kExitDone : kExitNegative;
+}
+
+}  // namespace regrasp
