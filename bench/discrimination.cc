@@ -22,7 +22,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"

@@ -8,7 +8,7 @@
 
 #include "planner/grasp/force_closure.h"
 #include "sim/align_path.h"
-#include "sim/clearance.h"
+#include "planner/plan/clearance.h"
 
 namespace regrasp {
 

@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "sim/clearance.h"
+#include "planner/plan/clearance.h"
 #include "sim/scaling.h"
 
 namespace regrasp {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/graph/grasp_choice.h"
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "planner/object/segment_coverage.h"
 
@@ -30,6 +31,9 @@ constexpr std::ptrdiff_t kFew = 16;
 /// Distances are rounded: within this times the diameter two triangles that share an edge leave no
 /// gap, however a segment crosses it.
 constexpr double kRounding = 1e-12;
+
+/// A segment is sought in so many pieces: the box around an oblique one is mostly far from it.
+constexpr int kSegmentPieces = 16;
 
 Point ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -92,6 +96,17 @@ using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive
 double DistanceTo(const Triangle& triangle, const Vector3d& point) {
   const Point closest = Kernel().construct_projected_point_3_object()(triangle, ToPoint(point));
   return (ToVector(closest) - point).norm();
+}
+
+double DistanceTo(const Triangle& triangle, const Segment& segment) {
+  if (CGAL::do_intersect(triangle, segment)) return 0;
+  double least = std::min(CGAL::squared_distance(segment.source(), triangle),
+                          CGAL::squared_distance(segment.target(), triangle));
+  for (int i = 0; i < 3; ++i) {
+    const Segment side(triangle.vertex(i), triangle.vertex(i + 1));
+    least = std::min(least, CGAL::squared_distance(segment, side));
+  }
+  return std::sqrt(least);
 }
 
 CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
@@ -168,6 +183,26 @@ std::vector<int> FaceIndex::FacesNear(const Vector3d& point, double tolerance) c
   for (const auto& [face, distance] : distance_to) faces.push_back(face);
   std::ranges::stable_sort(faces, {}, [&](int face) { return distance_to.at(face); });
   return faces;
+}
+
+std::vector<int> FaceIndex::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                             double tolerance) const {
+  const Segment segment(ToPoint(a), ToPoint(b));
+  const double within = tolerance + kRounding * impl_->diameter;
+  std::set<int> faces;
+  std::vector<TriangleIterator> candidates;
+  for (int piece = 0; piece < kSegmentPieces; ++piece) {
+    const auto at = [&](int k) -> Vector3d { return a + k * (b - a) / kSegmentPieces; };
+    candidates.clear();
+    impl_->tree.all_intersected_primitives(Around(at(piece), at(piece + 1), within),
+                                           std::back_inserter(candidates));
+    for (const TriangleIterator& candidate : candidates) {
+      const int face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
+      if (faces.contains(face)) continue;
+      if (DistanceTo(*candidate, segment) <= tolerance) faces.insert(face);
+    }
+  }
+  return {faces.begin(), faces.end()};
 }
 
 double FaceIndex::DistanceToBorder(int face, const Vector3d& point) const {

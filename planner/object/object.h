@@ -41,6 +41,11 @@ class Object {
   [[nodiscard]] virtual std::vector<int> FacesNear(const Eigen::Vector3d& point,
                                                    double tolerance) const = 0;
 
+  /// The faces within `tolerance` of some point of the segment ab, by index.
+  [[nodiscard]] virtual std::vector<int> FacesNearSegment(const Eigen::Vector3d& a,
+                                                          const Eigen::Vector3d& b,
+                                                          double tolerance) const = 0;
+
   /// Distance from `point` to the face's border (its outline and the outlines of its holes).
   [[nodiscard]] virtual double DistanceToBorder(int face, const Eigen::Vector3d& point) const = 0;
 

@@ -1,5 +1,7 @@
 #include "planner/object/polygon.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +17,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Segment = Kernel::Segment_2;
+
+Kernel::Point_2 ToPoint(const Vector2d& p) { return {p.x(), p.y()}; }
 
 Vector3d InSpace(const Vector2d& p) { return {p.x(), p.y(), 0}; }
 
@@ -87,6 +94,18 @@ std::vector<int> Polygon::FacesNear(const Vector3d& point, double tolerance) con
   std::ranges::sort(near);
   std::vector<int> faces;
   for (const auto& [distance, face] : near) faces.push_back(face);
+  return faces;
+}
+
+std::vector<int> Polygon::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                           double tolerance) const {
+  const Segment segment(ToPoint(a.head<2>()), ToPoint(b.head<2>()));
+  std::vector<int> faces;
+  for (int face = 0; face < face_count(); ++face) {
+    const auto& [from, to] = edges_[face];
+    const double squared = CGAL::squared_distance(segment, Segment(ToPoint(from), ToPoint(to)));
+    if (std::sqrt(squared) <= tolerance) faces.push_back(face);
+  }
   return faces;
 }
 

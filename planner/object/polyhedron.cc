@@ -106,6 +106,11 @@ std::vector<int> Polyhedron::FacesNear(const Vector3d& point, double tolerance) 
   return index_->FacesNear(point, tolerance);
 }
 
+std::vector<int> Polyhedron::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                              double tolerance) const {
+  return index_->FacesNearSegment(a, b, tolerance);
+}
+
 double Polyhedron::DistanceToBorder(int face, const Vector3d& point) const {
   return index_->DistanceToBorder(face, point);
 }

@@ -48,6 +48,9 @@ class Polyhedron final : public Object {
   [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const override;
   [[nodiscard]] std::vector<int> FacesNear(const Eigen::Vector3d& point,
                                            double tolerance) const override;
+  [[nodiscard]] std::vector<int> FacesNearSegment(const Eigen::Vector3d& a,
+                                                  const Eigen::Vector3d& b,
+                                                  double tolerance) const override;
   [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      double tolerance) const override;

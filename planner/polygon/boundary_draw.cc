@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 #include "planner/polygon/set_cells.h"
 
 namespace regrasp {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "planner/graph/grasp_choice.h"
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 #include "planner/roadmap/contact_points.h"
 
 namespace regrasp {

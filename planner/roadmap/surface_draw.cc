@@ -3,7 +3,7 @@
 #include "planner/base/number.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_search.h"
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 #include "planner/roadmap/surface_sample.h"
 
 namespace regrasp {

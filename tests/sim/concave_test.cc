@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "replay_cases.h"
-#include "sim/clearance.h"
+#include "planner/plan/clearance.h"
 #include "sim/contact_patches.h"
 
 namespace regrasp {

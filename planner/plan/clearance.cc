@@ -1,4 +1,4 @@
-#include "sim/clearance.h"
+#include "planner/plan/clearance.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,6 +13,10 @@ constexpr double kInside = 1 - 1e-9;
 /// The radius falls by at least the relative kInside in each round and in practice halves; the
 /// bound only guards against rounding that never settles.
 constexpr int kMostRounds = 100;
+
+/// Faces farther from the centre of a ball than this share of its radius don't meet it: those that
+/// the contact lies on are at the radius.
+constexpr double kTouches = 1 - 1e-6;
 
 }  // namespace
 
@@ -32,6 +36,12 @@ double ComputeClearance(const Object& object, const Contact& contact, double lim
     radius = shrunk;
   }
   return radius;
+}
+
+bool HasStandingRoom(const Object& object, const Contact& contact) {
+  const double radius = kStandingRoom * object.diameter();
+  const auto near = object.FacesNear(contact.p - radius * contact.n, kTouches * radius);
+  return std::ranges::all_of(near, [&](int face) { return face == contact.face; });
 }
 
 }  // namespace regrasp

@@ -1,4 +1,4 @@
-#include "planner/graph/standing_room.h"
+#include "planner/plan/clearance.h"
 
 #include <gtest/gtest.h>
 

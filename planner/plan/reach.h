@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// A finger that is not a point: a straight rod of some radius with a round end, along the outward
+/// normal of its contact. Where it rests it is the ball that touches at the contact, with centre
+/// p − r n; it comes and goes straight along the normal, from beyond the object's far side. What it
+/// sweeps is the capsule about the segment from p − r n to p − (r + D) n: no point of the object is
+/// farther than the diameter D from p, so that nothing is in the way after that.
+///
+/// In the plane all this holds for discs. Lengths are the object's own units; contacts know their
+/// faces. A radius of 0 is a finger that is a point, and reaches everything.
+
+/// True iff the finger can come to the contact and stand there: the object does not enter the
+/// capsule. Touching is allowed, up to rounding.
+/// Laws: independent of rigid motion and of the unit of length; a thicker finger reaches no contact
+/// that a thinner one (of positive radius) does not reach.
+[[nodiscard]] bool CanReach(const Object& object, const Contact& contact, double radius);
+
+/// True iff no two of the fingers overlap: the centres of their balls are 2 r apart or more, up to
+/// rounding. Law: independent of the order of the contacts.
+[[nodiscard]] bool KeepApart(std::span<const Contact> contacts, double radius);
+
+/// Both, for all contacts of a grasp.
+[[nodiscard]] bool CanHold(const Object& object, std::span<const Contact> grasp, double radius);
+
+/// The centre of the ball at rest.
+[[nodiscard]] Eigen::Vector3d BallCentre(const Contact& contact, double radius);
+
+/// Why a finger cannot reach a contact, for people: what fits there, or how far from the contact
+/// its way is blocked. Nullopt where it can.
+[[nodiscard]] std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,
+                                                      double radius);
+
+}  // namespace regrasp
