@@ -17,6 +17,8 @@ class ContactMotion {
   ContactMotion(const Contact& from, const Contact& to);
 
   [[nodiscard]] Contact At(double t) const;
+  [[nodiscard]] const Contact& from() const { return from_; }
+  [[nodiscard]] const Contact& to() const { return to_; }
   /// dp/dt.
   [[nodiscard]] Eigen::Vector3d velocity() const { return to_.p - from_.p; }
   /// The angle by which the normal turns from t = 0 to 1, radians.

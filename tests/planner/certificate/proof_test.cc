@@ -6,6 +6,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/certificate/check_proof.h"
+#include "planner/certificate/find_motion_proof.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"

@@ -1,0 +1,174 @@
+#include "planner/certificate/find_motion_proof.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/certificate/moving_forces.h"
+#include "planner/grasp/force_closure_core.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Forces stay this much of the largest one away from the cone's border, so that the exact
+/// correction of their rounding, and that of decimals, does not bring them out.
+constexpr double kSlack = 1e-9;
+
+/// So much narrower, in radians, are the cones of normals that turn: the exact check takes a little
+/// off their half-angle for the rounding of normals between two faces.
+constexpr double kTurnRoom = 4e-9;
+
+/// Three contacts span a plane if the cross product of two sides keeps at least this far on one
+/// side, in the frame of the piece.
+constexpr double kSpread = 1e-9;
+
+/// The part of a motion from t = from to t = to.
+struct Piece {
+  double from;
+  double to;
+
+  [[nodiscard]] double middle() const { return from + (to - from) / 2; }
+};
+
+template <int kSpace>
+class MotionProofSearch {
+ public:
+  MotionProofSearch(const GraspMotion& motion, double half_angle, double shortest)
+      : motion_(motion), half_angle_(half_angle), shortest_(shortest) {}
+
+  std::optional<std::vector<MotionPiece>> Find() {
+    if (!Cover({0, 1})) return std::nullopt;
+    return std::move(pieces_);
+  }
+
+ private:
+  static constexpr int kDim = kSpace == 3 ? 6 : 3;
+
+  bool Cover(const Piece& piece) {
+    if (!IsForceClosureAt(piece.middle())) return false;
+    if (Prove(piece)) return true;
+    const bool whole = piece.to - piece.from == 1;
+    if (whole && !(IsForceClosureAt(0) && IsForceClosureAt(1))) return false;
+    if (piece.to - piece.from < 2 * shortest_) return false;
+    return Cover({piece.from, piece.middle()}) && Cover({piece.middle(), piece.to});
+  }
+
+  [[nodiscard]] static Vector3d PointAt(const ContactMotion& contact, double t) {
+    return (1 - t) * contact.from().p + t * contact.to().p;
+  }
+  [[nodiscard]] static Vector3d NormalAt(const ContactMotion& contact, double t) {
+    return contact.turn() > 0 ? contact.At(t).n : contact.from().n;
+  }
+
+  [[nodiscard]] bool IsForceClosureAt(double t) const {
+    UnitContacts contacts;
+    for (const ContactMotion& contact : motion_) {
+      contacts.push_back({PointAt(contact, t), NormalAt(contact, t), 0, 0});
+    }
+    Recentre(contacts);
+    SetUnitForces(contacts, half_angle_);
+    return DecideForceClosure<kDim>(contacts).decision == Decision::kYes;
+  }
+
+  /// The contacts on a piece; empty where a normal turns too far on it for its cones to meet.
+  [[nodiscard]] MovingContacts ContactsOn(const Piece& piece) const {
+    Vector3d start_centre = Vector3d::Zero();
+    Vector3d end_centre = Vector3d::Zero();
+    MovingContacts contacts;
+    for (const ContactMotion& contact : motion_) {
+      double angle = half_angle_;
+      if (contact.turn() > 0) angle -= contact.turn() * (piece.to - piece.from) / 2 + kTurnRoom;
+      if (!(angle > 0)) return {};
+      contacts.push_back({PointAt(contact, piece.from), PointAt(contact, piece.to),
+                          NormalAt(contact, piece.middle()), std::cos(angle), std::sin(angle)});
+      start_centre += contacts.back().start;
+      end_centre += contacts.back().end;
+    }
+    // Torques of balanced forces are the same about every point, so about one that moves along.
+    const double share = 1 / static_cast<double>(motion_.size());
+    double radius = 0;
+    for (MovingContact& contact : contacts) {
+      contact.start -= share * start_centre;
+      contact.end -= share * end_centre;
+      radius = std::max({radius, contact.start.norm(), contact.end.norm()});
+    }
+    if (!(radius > 0)) return {};
+    for (MovingContact& contact : contacts) {
+      contact.start /= radius;
+      contact.end /= radius;
+    }
+    return contacts;
+  }
+
+  [[nodiscard]] static bool IsInside(const Vector3d& force, const MovingContact& contact) {
+    const double normal = force.dot(contact.n);
+    return normal * contact.tangential - (force - normal * contact.n).norm() * contact.axial >
+           kSlack;
+  }
+
+  /// Whether some three contacts (two in the plane) keep apart all along.
+  [[nodiscard]] static bool Span(const MovingContacts& contacts) {
+    const std::size_t count = contacts.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = i + 1; j < count; ++j) {
+        const Vector3d a0 = contacts[j].start - contacts[i].start;
+        const Vector3d a1 = contacts[j].end - contacts[i].end;
+        if constexpr (kSpace == 2) {
+          if (std::min(a0.dot(a0 + a1), a1.dot(a0 + a1)) > kSpread) return true;
+        }
+        for (std::size_t k = j + 1; kSpace == 3 && k < count; ++k) {
+          const Vector3d b0 = contacts[k].start - contacts[i].start;
+          const Vector3d b1 = contacts[k].end - contacts[i].end;
+          const Vector3d first = a0.cross(b0);
+          const Vector3d middle = a0.cross(b1) + a1.cross(b0);
+          const Vector3d last = a1.cross(b1);
+          const Vector3d side = first + middle + last;
+          if (std::min({first.dot(side), middle.dot(side), last.dot(side)}) > kSpread) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool Prove(const Piece& piece) {
+    const MovingContacts contacts = ContactsOn(piece);
+    if (contacts.empty() || !Span(contacts)) return false;
+    MovingForces<1> forces;
+    if (!FindMovingForces<kSpace, 1>(contacts, forces)) return false;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
+        return false;
+      }
+    }
+    MotionPiece& proved = pieces_.emplace_back(MotionPiece{piece.from, piece.to, {}, {}});
+    proved.start.reserve(forces.size());
+    proved.end.reserve(forces.size());
+    for (const ForceCoefficients<1>& coefficients : forces) {
+      proved.start.push_back(coefficients[0]);
+      proved.end.push_back(coefficients[1]);
+    }
+    return true;
+  }
+
+  const GraspMotion& motion_;
+  double half_angle_;
+  double shortest_;
+  std::vector<MotionPiece> pieces_;
+};
+
+}  // namespace
+
+std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,
+                                                        double half_angle, double shortest) {
+  CheckHalfAngle(half_angle);
+  const auto turns = [](const ContactMotion& contact) { return contact.turn() > 0; };
+  if (std::any_of(motion.begin(), motion.end(), turns)) return std::nullopt;
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, shortest).Find()
+                        : MotionProofSearch<2>(motion, half_angle, shortest).Find();
+}
+
+}  // namespace regrasp

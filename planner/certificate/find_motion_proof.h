@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/certificate/force_proof.h"
+#include "planner/plan/contact_motion.h"
+
+namespace regrasp {
+
+/// Of a motion of length 1: pieces are not halved below this.
+inline constexpr double kShortestPiece = 1.0 / 4096;
+
+/// Looks for proofs of force closure all along a motion: pieces from 0 to 1, each with forces of
+/// degree 1 that balance at every instant and keep strictly inside the cones (FindMovingForces). A
+/// piece without such forces is halved; an instant that is not force closure, looked for first in
+/// the middle of each piece, ends the search.
+///
+/// While a normal turns, forces must be inside the cones of all its directions. They are looked for
+/// in the largest circular cone inside those of both ends of the piece: about the direction between
+/// them, narrower by half of the turn. (A force inside both is inside all cones between, as the
+/// directions within θ of a force are a convex part of the sphere.)
+///
+/// Takes about 10 µs for four contacts in space where one piece is enough.
+/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
+/// @param shortest    pieces shorter than this are not looked at.
+/// @returns nullopt where none was found; that is no proof of the opposite.
+/// @throws std::invalid_argument  half_angle out of range.
+[[nodiscard]] std::optional<std::vector<MotionPiece>> FindMotionProof(
+    const GraspMotion& motion, int dimension, double half_angle, double shortest = kShortestPiece);
+
+}  // namespace regrasp

@@ -1,0 +1,319 @@
+#include "planner/certificate/moving_forces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/grasp/cone_support.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Entries below this (the tableau's are of the order of 1) are no pivots: the inverse would lose
+/// more than half of its digits.
+constexpr double kPivot = 1e-9;
+
+/// Basic weights are allowed to be this much below zero in the ratio test (Harris 1973), so that a
+/// larger pivot can be taken among nearly equal ratios.
+constexpr double kRatioSlack = 1e-13;
+
+/// A column improves only if its reduced cost exceeds this, relative to the dual's size.
+constexpr double kImprovement = 1e-13;
+
+/// Proofs take 15 to 40 pivots in space; what takes more is close to the limit, and is halved.
+constexpr int kMaxPivots = 100;
+
+/// Forces with more weight than this beside the fixed part of 1 to 1.5 along each normal are not
+/// looked for: hardly any proof needs them, and to rule them out takes twice the pivots.
+constexpr double kLargestWeights = 1e4;
+
+/// What the balance may leave of forces of size 1: some roundings of each of their sums.
+constexpr double kUnbalanced = 1e-12;
+
+/// Multiples of the golden ratio, modulo 1, never repeat: no two coefficients weigh the same, and
+/// symmetric grasps cause no degenerate pivots.
+double UnevenWeight(int i) {
+  const double turns = i * 0.6180339887498949;
+  return 1 + 0.5 * (turns - std::floor(turns));
+}
+
+/// Where the torque of a coefficient enters: `factor` times its cross product with an arm in the
+/// block of rows.
+struct Arm {
+  int block;
+  enum class Kind { kStart, kMiddle, kEnd, kVelocity } kind;
+  double factor;
+};
+
+template <int kDegree>
+struct Arms;
+
+template <>
+struct Arms<1> {
+  static constexpr int kCount = 2;
+  static constexpr std::array<std::array<Arm, kCount>, 2> kOf = {
+      {{{{0, Arm::Kind::kStart, 1}, {2, Arm::Kind::kVelocity, -1}}},
+       {{{1, Arm::Kind::kEnd, 1}, {2, Arm::Kind::kVelocity, 1}}}}};
+};
+
+template <>
+struct Arms<2> {
+  static constexpr int kCount = 3;
+  static constexpr std::array<std::array<Arm, kCount>, 3> kOf = {
+      {{{{0, Arm::Kind::kStart, 1}, {1, Arm::Kind::kMiddle, 0.25}, {3, Arm::Kind::kVelocity, 1}}},
+       {{{1, Arm::Kind::kMiddle, 0.5}, {3, Arm::Kind::kVelocity, -2}, {0, Arm::Kind::kStart, 0}}},
+       {{{1, Arm::Kind::kMiddle, 0.25}, {2, Arm::Kind::kEnd, 1}, {3, Arm::Kind::kVelocity, 1}}}}};
+};
+
+template <int kSpace, int kDegree>
+class ForceProgram {
+ public:
+  explicit ForceProgram(std::span<const MovingContact> contacts) : contacts_(contacts) {
+    double fastest = 0;
+    for (const MovingContact& contact : contacts) {
+      fastest = std::max(fastest, (contact.end - contact.start).norm());
+    }
+    const double per_speed = fastest > 0 ? 1 / fastest : 0;
+    Row right = Row::Zero();
+    for (const MovingContact& contact : contacts) {
+      for (int k = 0; k <= kDegree; ++k) {
+        Source& source = sources_.emplace_back();
+        source.contact = {contact.start, contact.n, contact.axial, contact.tangential};
+        source.coefficient = k;
+        for (int a = 0; a < kArms; ++a) {
+          source.arms[a] = Arms<kDegree>::kOf[k][a].factor *
+                           ArmOf(contact, Arms<kDegree>::kOf[k][a].kind, per_speed);
+        }
+        const double weight = UnevenWeight(static_cast<int>(sources_.size()) - 1);
+        right -= ColumnOf({static_cast<int>(sources_.size()) - 1, weight * contact.n});
+      }
+    }
+    Start(right);
+  }
+
+  bool Solve(MovingForces<kDegree>& forces) {
+    for (int pivot = 0; Unbalanced() > kUnbalanced; ++pivot) {
+      if (pivot == kMaxPivots || !Improve()) return false;
+    }
+    return ReadForces(forces);
+  }
+
+ private:
+  static constexpr int kTorques = kSpace == 3 ? 3 : 1;
+  static constexpr int kForceRows = kSpace * (kDegree + 1);
+  static constexpr int kRows = kForceRows + kTorques * (kDegree + 2);
+  static constexpr int kTableau = kRows + 1;  // and the objective
+  static constexpr int kArms = Arms<kDegree>::kCount;
+  static constexpr int kArtificial = -1;
+
+  using Row = Eigen::Matrix<double, kRows, 1>;
+  using TableauColumn = Eigen::Matrix<double, kTableau, 1>;
+
+  /// A contact's coefficient as a family of columns.
+  struct Source {
+    UnitContact contact;
+    int coefficient;
+    std::array<Vector3d, kArms> arms;
+  };
+  struct Column {
+    int source;
+    Vector3d force;
+  };
+
+  static Vector3d ArmOf(const MovingContact& contact, Arm::Kind kind, double per_speed) {
+    switch (kind) {
+      case Arm::Kind::kStart:
+        return contact.start;
+      case Arm::Kind::kEnd:
+        return contact.end;
+      case Arm::Kind::kMiddle:
+        return (contact.start + contact.end) / 2;
+      case Arm::Kind::kVelocity:
+        break;
+    }
+    return per_speed * (contact.end - contact.start);
+  }
+
+  static int TorqueRow(int block) { return kForceRows + kTorques * block; }
+
+  /// Calls visit(row, value) on the entries of a column that can differ from 0.
+  Row ColumnOf(const Column& column) const {
+    Row row = Row::Zero();
+    const Source& source = sources_[column.source];
+    row.template segment<kSpace>(kSpace * source.coefficient) =
+        column.force.template head<kSpace>();
+    for (int a = 0; a < kArms; ++a) {
+      const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
+      const Vector3d torque = source.arms[a].cross(column.force);
+      if constexpr (kSpace == 3) {
+        row.template segment<3>(at) += torque;
+      } else {
+        row[at] += torque.z();
+      }
+    }
+    return row;
+  }
+
+  void Start(const Row& right) {
+    tableau_.setZero();
+    basis_.fill({kArtificial, Vector3d::Zero()});
+    for (int r = 0; r < kRows; ++r) {
+      const double sign = right[r] < 0 ? -1 : 1;
+      tableau_(r, r) = sign;
+      tableau_(r, kRows) = sign * right[r];
+      tableau_(kRows, r) = sign;
+      tableau_(kRows, kRows) += sign * right[r];
+    }
+    right_ = right;
+  }
+
+  [[nodiscard]] Vector3d VelocityOf(const Source& source) const {
+    const auto dual = [this](int row, int size) {
+      Vector3d y = Vector3d::Zero();
+      for (int i = 0; i < size; ++i) y[i] = tableau_(kRows, row + i);
+      return y;
+    };
+    Vector3d u = dual(kSpace * source.coefficient, kSpace);
+    for (int a = 0; a < kArms; ++a) {
+      const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
+      if constexpr (kSpace == 3) {
+        u += dual(at, 3).cross(source.arms[a]);
+      } else {
+        u += tableau_(kRows, at) * Vector3d(-source.arms[a].y(), source.arms[a].x(), 0);
+      }
+    }
+    return u;
+  }
+
+  /// Brings the column with the largest reduced cost into the basis. @returns false at the optimum.
+  bool Improve() {
+    double best = -kInfinity;
+    int chosen = 0;
+    Vector3d velocity = Vector3d::Zero();
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const Vector3d u = VelocityOf(sources_[s]);
+      const double value = ConeSupport(sources_[s].contact, u);
+      if (value > best) {
+        best = value;
+        chosen = static_cast<int>(s);
+        velocity = u;
+      }
+    }
+    double size = 0;
+    for (int r = 0; r < kRows; ++r) size += std::abs(tableau_(kRows, r));
+    if (!(best > kImprovement * size)) return false;
+    // Weights λ ≥ 0 with Σ λ w = b give y·b = Σ λ (y·w) ≤ best Σ λ for the dual y at hand.
+    if (best * kLargestWeights < tableau_(kRows, kRows)) return false;
+    const Source& source = sources_[chosen];
+    return Enter({chosen, SupportForce < kSpace == 3 ? 6 : 3 > (source.contact, velocity)});
+  }
+
+  bool Enter(const Column& column) {
+    const Row entries = ColumnOf(column);
+    TableauColumn alpha = TableauColumn::Zero();
+    for (int r = 0; r < kRows; ++r) {
+      if (entries[r] != 0) alpha += entries[r] * tableau_.col(r);
+    }
+    const int leaving = ChooseLeaving(alpha);
+    if (leaving < 0) return false;
+    Pivot(leaving, alpha);
+    basis_[leaving] = column;
+    return true;
+  }
+
+  int ChooseLeaving(const TableauColumn& alpha) const {
+    std::array<double, kRows> ratios;
+    double bound = kInfinity;
+    for (int r = 0; r < kRows; ++r) {
+      ratios[r] = kInfinity;
+      if (!(alpha[r] > kPivot)) continue;
+      const double inverse = 1 / alpha[r];
+      ratios[r] = std::max(tableau_(r, kRows), 0.0) * inverse;
+      bound = std::min(bound, ratios[r] + kRatioSlack * inverse);
+    }
+    int leaving = -1;
+    double largest = 0;
+    for (int r = 0; r < kRows; ++r) {
+      if (!(ratios[r] <= bound) || ratios[r] == kInfinity) continue;
+      const double preference = basis_[r].source == kArtificial ? 2 * alpha[r] : alpha[r];
+      if (preference > largest) {
+        largest = preference;
+        leaving = r;
+      }
+    }
+    return leaving;
+  }
+
+  void Pivot(int leaving, TableauColumn alpha) {
+    const Eigen::Matrix<double, 1, kTableau> row = tableau_.row(leaving) * (1 / alpha[leaving]);
+    alpha[leaving] = 0;
+    tableau_.noalias() -= alpha * row;
+    tableau_.row(leaving) = row;
+  }
+
+  /// What artificial columns still carry.
+  [[nodiscard]] double Unbalanced() const {
+    double sum = 0;
+    for (int r = 0; r < kRows; ++r) {
+      if (basis_[r].source == kArtificial) sum += std::max(tableau_(r, kRows), 0.0);
+    }
+    return sum;
+  }
+
+  /// The forces a n + g of the basic solution, refined by the inverse basis.
+  bool ReadForces(MovingForces<kDegree>& forces) const {
+    Row weights = tableau_.col(kRows).template head<kRows>();
+    Row left = right_;
+    for (int r = 0; r < kRows; ++r) {
+      if (basis_[r].source != kArtificial) left -= weights[r] * ColumnOf(basis_[r]);
+    }
+    weights += tableau_.template topLeftCorner<kRows, kRows>() * left;
+    forces.resize(contacts_.size());
+    double largest = 0;
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      const UnitContact& contact = sources_[s].contact;
+      forces[s / (kDegree + 1)][sources_[s].coefficient] =
+          UnevenWeight(static_cast<int>(s)) * contact.n;
+    }
+    for (int r = 0; r < kRows; ++r) {
+      if (basis_[r].source == kArtificial) continue;
+      const Source& source = sources_[basis_[r].source];
+      forces[basis_[r].source / (kDegree + 1)][source.coefficient] += weights[r] * basis_[r].force;
+    }
+    for (auto& of_contact : forces) {
+      for (const Vector3d& force : of_contact) largest = std::max(largest, force.norm());
+    }
+    for (auto& of_contact : forces) {
+      for (Vector3d& force : of_contact) force /= largest;
+    }
+    return true;
+  }
+
+  std::span<const MovingContact> contacts_;
+  boost::container::small_vector<Source, kInlineContacts*(kDegree + 1)> sources_;
+  std::array<Column, kRows> basis_;
+  Row right_;
+  // Row r: the inverse basis's row and the weight of basis_[r]; the last row: the dual and the
+  // objective's value.
+  Eigen::Matrix<double, kTableau, kTableau> tableau_;
+};
+
+}  // namespace
+
+template <int kSpace, int kDegree>
+bool FindMovingForces(std::span<const MovingContact> contacts, MovingForces<kDegree>& forces) {
+  return ForceProgram<kSpace, kDegree>(contacts).Solve(forces);
+}
+
+template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&);
+template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&);
+template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&);
+template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&);
+
+}  // namespace regrasp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <span>
+
+#include "planner/grasp/unit_contacts.h"
+
+namespace regrasp {
+
+/// A contact on a straight piece of its way, in a frame in which the grasp is centred and of about
+/// radius 1 at both ends, with the friction cone that its forces keep to all along.
+struct MovingContact {
+  Eigen::Vector3d start;
+  Eigen::Vector3d end;
+  Eigen::Vector3d n;
+  /// The rim of the cone, axial · n + tangential · t, of unit length.
+  double axial;
+  double tangential;
+};
+
+struct MovingContacts : boost::container::small_vector<MovingContact, kInlineContacts> {
+  // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
+  operator std::span<const MovingContact>() const { return {data(), size()}; }  // NOLINT
+};
+
+/// Bernstein coefficients f_0 … f_d of the force of one contact, f(t) = Σ_k B_k(t) f_k.
+template <int kDegree>
+using ForceCoefficients = std::array<Eigen::Vector3d, kDegree + 1>;
+
+template <int kDegree>
+using MovingForces = boost::container::small_vector<ForceCoefficients<kDegree>, kInlineContacts>;
+
+/// Looks for forces of degree d in t that balance at every instant of a piece, all coefficients
+/// strictly inside their contacts' cones.
+///
+/// With p_i(t) = (1 − t) p_i + t p'_i, forces and torques of Σ f_i(t) are polynomials of degree d
+/// and d + 1: 6 d + 9 linear equations in space, 3 d + 4 in the plane. The forces are f = a n + g
+/// with fixed weights a > 0 and g inside the cone, so that Σ W(g) = −Σ a W(n) over all contacts and
+/// coefficients: a cone program without bounds, solved by the simplex method with the rim forces g
+/// as columns. The best column for a dual solution is closed form, as in WrenchSimplex; here each
+/// coefficient has a velocity of its own, u_ik, the sum of the blocks' twists at its arms.
+///
+/// The torques are written as values at the ends (and in the middle for degree 2) and as their
+/// leading coefficient, Σ v × Δ^d f over the largest |v| of the velocities, so that short pieces
+/// are as well conditioned as long ones.
+///
+/// Source of the idea: force closure by balanced forces inside the cones, Murray, Li and Sastry
+/// 1994, Prop. 5.3; column generation, Dantzig and Wolfe 1960.
+/// @tparam kSpace  3, or 2 for planar contacts. @tparam kDegree  1 or 2.
+/// @param forces  set where true is returned: of largest length 1.
+/// @returns false where there are none, or none was found within the limit on pivots.
+template <int kSpace, int kDegree>
+[[nodiscard]] bool FindMovingForces(std::span<const MovingContact> contacts,
+                                    MovingForces<kDegree>& forces);
+
+}  // namespace regrasp
