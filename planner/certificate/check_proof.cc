@@ -1,167 +1,16 @@
 #include "planner/certificate/check_proof.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
+
+#include "planner/certificate/exact_balance.h"
 
 namespace regrasp {
 
 namespace {
 
-using Rational = mpq_class;
-using Vector = std::array<Rational, 3>;
+using namespace exact;
 using Kind = ProofVerdict::Kind;
-
-Vector Exact(const Eigen::Vector3d& v) {
-  return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
-}
-
-Vector operator+(const Vector& a, const Vector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector operator*(const Rational& s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Rational Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector Cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-bool IsZero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
-
-struct ExactContact {
-  Vector p;
-  Vector n;
-};
-
-std::vector<ExactContact> Exact(std::span<const Contact> contacts) {
-  std::vector<ExactContact> exact;
-  for (const Contact& contact : contacts) exact.push_back({Exact(contact.p), Exact(contact.n)});
-  return exact;
-}
-
-bool AllFinite(std::span<const Eigen::Vector3d> vectors) {
-  for (const Eigen::Vector3d& vector : vectors) {
-    if (!vector.allFinite()) return false;
-  }
-  return true;
-}
-
-/// Strictly inside the cone of friction μ about n.
-bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu) {
-  const Rational normal = Dot(force, n);
-  return normal > 0 && normal * normal * (1 + mu * mu) > Dot(force, force) * Dot(n, n);
-}
-
-/// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
-class Balance {
- public:
-  Balance(int rows, int columns) : rows_(rows), columns_(columns), a_(rows * columns) {}
-
-  Rational& At(int row, int column) { return a_[row * columns_ + column]; }
-
-  /// x with some of its numbers changed so that A x = 0 holds exactly.
-  [[nodiscard]] std::vector<Rational> Corrected(std::vector<Rational> x) const {
-    std::vector<Rational> a = a_;
-    std::vector<Rational> right(rows_);
-    for (int r = 0; r < rows_; ++r) {
-      for (int c = 0; c < columns_; ++c) right[r] -= a[r * columns_ + c] * x[c];
-    }
-    std::vector<int> column_of_row;
-    for (int step = 0; step < rows_; ++step) {
-      const auto pivot = Pivot(a, step);
-      if (!pivot) break;  // the rows that are left are zero, and so is what they must give
-      const auto [row, column] = *pivot;
-      for (int c = 0; c < columns_; ++c) {
-        std::swap(a[row * columns_ + c], a[step * columns_ + c]);
-      }
-      std::swap(right[row], right[step]);
-      Eliminate(a, right, step, column);
-      column_of_row.push_back(column);
-    }
-    for (std::size_t r = 0; r < column_of_row.size(); ++r) x[column_of_row[r]] += right[r];
-    return x;
-  }
-
- private:
-  struct Place {
-    int row;
-    int column;
-  };
-
-  /// The largest entry from row `step` on.
-  [[nodiscard]] std::optional<Place> Pivot(const std::vector<Rational>& a, int step) const {
-    std::optional<Place> best;
-    double largest = 0;
-    for (int r = step; r < rows_; ++r) {
-      for (int c = 0; c < columns_; ++c) {
-        const Rational& entry = a[r * columns_ + c];
-        if (entry == 0) continue;
-        const double size = std::abs(entry.get_d());
-        if (best && size <= largest) continue;
-        largest = size;
-        best = Place{r, c};
-      }
-    }
-    return best;
-  }
-
-  /// Makes the pivot 1 and the rest of its column 0.
-  void Eliminate(std::vector<Rational>& a, std::vector<Rational>& right, int step,
-                 int column) const {
-    const Rational inverse = 1 / a[step * columns_ + column];
-    for (int c = 0; c < columns_; ++c) a[step * columns_ + c] *= inverse;
-    right[step] *= inverse;
-    for (int r = 0; r < rows_; ++r) {
-      const Rational factor = a[r * columns_ + column];
-      if (r == step || factor == 0) continue;
-      for (int c = 0; c < columns_; ++c) {
-        if (a[step * columns_ + c] != 0) a[r * columns_ + c] -= factor * a[step * columns_ + c];
-      }
-      right[r] -= factor * right[step];
-    }
-  }
-
-  int rows_;
-  int columns_;
-  std::vector<Rational> a_;
-};
-
-/// The rows and columns that forces have in space or in the plane.
-struct Layout {
-  explicit Layout(int space) : dimension(space), torques(space == 3 ? 3 : 1) {}
-
-  int dimension;
-  int torques;
-
-  /// Adds the torques of unit forces at p, as columns from `column` on and rows from `row` on.
-  void AddTorques(const Vector& p, int row, int column, Balance& balance) const {
-    for (int axis = 0; axis < dimension; ++axis) {
-      Vector unit;
-      unit[axis] = 1;
-      const Vector torque = Cross(p, unit);
-      for (int k = 0; k < torques; ++k) {
-        balance.At(row + k, column + axis) += torque[torques == 3 ? k : 2];
-      }
-    }
-  }
-  void AddForces(int row, int column, Balance& balance) const {
-    for (int axis = 0; axis < dimension; ++axis) balance.At(row + axis, column + axis) = 1;
-  }
-  [[nodiscard]] Vector Force(const std::vector<Rational>& x, int column) const {
-    Vector force;
-    for (int axis = 0; axis < dimension; ++axis) force[axis] = x[column + axis];
-    return force;
-  }
-  void Append(std::span<const Eigen::Vector3d> forces, std::vector<Rational>& x) const {
-    for (const Eigen::Vector3d& force : forces) {
-      for (int axis = 0; axis < dimension; ++axis) x.emplace_back(force[axis]);
-    }
-  }
-};
 
 /// Whether contacts span: three not on one line, in the plane two not at one point.
 bool Span(const std::vector<ExactContact>& contacts, int dimension) {
@@ -243,89 +92,6 @@ ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational
                  std::to_string(line[1]) + " the others turn the object both ways");
 }
 
-/// Contacts at both ends of a piece.
-struct MovingContacts {
-  std::vector<ExactContact> start;
-  std::vector<ExactContact> end;
-};
-
-/// The cross product of two directions that go linearly stays on one side: its three Bernstein
-/// coefficients do.
-bool StaysTurned(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
-  const std::array coefficients = {Cross(a0, b0), Cross(a0, b1) + Cross(a1, b0), Cross(a1, b1)};
-  const Vector side = coefficients[0] + coefficients[1] + coefficients[2];
-  return std::all_of(coefficients.begin(), coefficients.end(),
-                     [&](const Vector& c) { return Dot(c, side) > 0; });
-}
-
-/// Contacts that span all along the piece.
-bool SpanAllAlong(const MovingContacts& moving, int dimension) {
-  const std::size_t count = moving.start.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const Vector a0 = moving.start[j].p - moving.start[i].p;
-      const Vector a1 = moving.end[j].p - moving.end[i].p;
-      if (dimension == 2) {
-        const Vector side = a0 + a1;
-        if (Dot(a0, side) > 0 && Dot(a1, side) > 0) return true;
-        continue;
-      }
-      for (std::size_t k = j + 1; k < count; ++k) {
-        if (StaysTurned(a0, a1, moving.start[k].p - moving.start[i].p,
-                        moving.end[k].p - moving.end[i].p)) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Rational& mu,
-                        const MotionPiece& piece) {
-  const int count = static_cast<int>(moving.start.size());
-  if (piece.start.size() != moving.start.size() || piece.end.size() != moving.start.size()) {
-    return Nothing("not one force a contact");
-  }
-  if (!AllFinite(piece.start) || !AllFinite(piece.end)) return Nothing("a force is not finite");
-  if (!SpanAllAlong(moving, dimension)) return Nothing("the contacts may come to be on one line");
-  const Layout layout(dimension);
-  // Rows: forces at the start and at the end, torques at the start, at the end, and between.
-  const int torque_row = 2 * dimension;
-  Balance balance(2 * dimension + 3 * layout.torques, 2 * dimension * count);
-  std::vector<Rational> x;
-  layout.Append(piece.start, x);
-  layout.Append(piece.end, x);
-  for (int i = 0; i < count; ++i) {
-    const int start = i * dimension;
-    const int end = (count + i) * dimension;
-    layout.AddForces(0, start, balance);
-    layout.AddForces(dimension, end, balance);
-    layout.AddTorques(moving.start[i].p, torque_row, start, balance);
-    layout.AddTorques(moving.end[i].p, torque_row + layout.torques, end, balance);
-    layout.AddTorques(moving.start[i].p, torque_row + 2 * layout.torques, end, balance);
-    layout.AddTorques(moving.end[i].p, torque_row + 2 * layout.torques, start, balance);
-  }
-  x = balance.Corrected(std::move(x));
-  for (int i = 0; i < count; ++i) {
-    if (!IsInsideCone(layout.Force(x, i * dimension), moving.start[i].n, mu) ||
-        !IsInsideCone(layout.Force(x, (count + i) * dimension), moving.start[i].n, mu)) {
-      return Nothing("the force at contact " + std::to_string(i) +
-                     ", balanced exactly, is not inside its cone");
-    }
-  }
-  return {Kind::kForceClosure, ""};
-}
-
-std::vector<ExactContact> Between(const std::vector<ExactContact>& from,
-                                  const std::vector<ExactContact>& to, const Rational& t) {
-  std::vector<ExactContact> contacts = from;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    contacts[i].p = from[i].p + t * (to[i].p - from[i].p);
-  }
-  return contacts;
-}
-
 }  // namespace
 
 ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension, double mu,
@@ -344,28 +110,6 @@ ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension, d
       break;
   }
   return Nothing("there is no proof");
-}
-
-ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Contact> to,
-                              int dimension, double mu, std::span<const MotionPiece> pieces) {
-  if (from.size() != to.size()) return Nothing("not as many contacts after as before");
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (from[i].n != to[i].n) return Nothing("a normal turns");
-  }
-  const std::vector<ExactContact> begin = Exact(from);
-  const std::vector<ExactContact> end = Exact(to);
-  double reached = 0;
-  for (const MotionPiece& piece : pieces) {
-    if (piece.from != reached || !(piece.to > piece.from) || !(piece.to <= 1)) {
-      return Nothing("the pieces do not follow each other");
-    }
-    const MovingContacts moving = {Between(begin, end, piece.from), Between(begin, end, piece.to)};
-    ProofVerdict verdict = CheckPiece(moving, dimension, mu, piece);
-    if (verdict.kind != Kind::kForceClosure) return verdict;
-    reached = piece.to;
-  }
-  if (reached != 1) return Nothing("the pieces do not cover the whole way");
-  return {Kind::kForceClosure, ""};
 }
 
 }  // namespace regrasp

@@ -38,12 +38,4 @@ struct ProofVerdict {
 [[nodiscard]] ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension,
                                            double mu, const GraspProof& proof);
 
-/// The same for a whole motion: contacts move straight from `from` to `to` and keep their normals.
-/// The pieces must follow each other from 0 to 1. With forces f₀ and f₁ at the ends of a piece, p
-/// and p' the points there, balance for all t is Σ f₀ = Σ f₁ = 0, Σ p × f₀ = Σ p' × f₁ = 0 and Σ (p
-/// × f₁ + p' × f₀) = 0, again made exact by elimination.
-[[nodiscard]] ProofVerdict CheckMotionProof(std::span<const Contact> from,
-                                            std::span<const Contact> to, int dimension, double mu,
-                                            std::span<const MotionPiece> pieces);
-
 }  // namespace regrasp

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/certificate/check_motion_proof.h"
 #include "planner/certificate/moving_forces.h"
 #include "planner/grasp/force_closure_core.h"
 
@@ -18,9 +19,9 @@ using Eigen::Vector3d;
 /// correction of their rounding, and that of decimals, does not bring them out.
 constexpr double kSlack = 1e-9;
 
-/// So much narrower, in radians, are the cones of normals that turn: the exact check takes a little
-/// off their half-angle for the rounding of normals between two faces.
-constexpr double kTurnRoom = 4e-9;
+/// So much narrower, in radians, are the cones of normals that turn: more than the exact check
+/// takes off them.
+constexpr double kTurnRoom = 4 * kTurnedNormalBound;
 
 /// Three contacts span a plane if the cross product of two sides keeps at least this far on one
 /// side, in the frame of the piece.
@@ -60,8 +61,11 @@ class MotionProofSearch {
   [[nodiscard]] static Vector3d PointAt(const ContactMotion& contact, double t) {
     return (1 - t) * contact.from().p + t * contact.to().p;
   }
+  [[nodiscard]] static bool Turns(const ContactMotion& contact) {
+    return contact.from().n != contact.to().n;
+  }
   [[nodiscard]] static Vector3d NormalAt(const ContactMotion& contact, double t) {
-    return contact.turn() > 0 ? contact.At(t).n : contact.from().n;
+    return Turns(contact) ? contact.At(t).n : contact.from().n;
   }
 
   [[nodiscard]] bool IsForceClosureAt(double t) const {
@@ -81,7 +85,7 @@ class MotionProofSearch {
     MovingContacts contacts;
     for (const ContactMotion& contact : motion_) {
       double angle = half_angle_;
-      if (contact.turn() > 0) angle -= contact.turn() * (piece.to - piece.from) / 2 + kTurnRoom;
+      if (Turns(contact)) angle -= contact.turn() * (piece.to - piece.from) / 2 + kTurnRoom;
       if (!(angle > 0)) return {};
       contacts.push_back({PointAt(contact, piece.from), PointAt(contact, piece.to),
                           NormalAt(contact, piece.middle()), std::cos(angle), std::sin(angle)});
@@ -165,8 +169,8 @@ class MotionProofSearch {
 std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,
                                                         double half_angle, double shortest) {
   CheckHalfAngle(half_angle);
-  const auto turns = [](const ContactMotion& contact) { return contact.turn() > 0; };
-  if (std::any_of(motion.begin(), motion.end(), turns)) return std::nullopt;
+  const auto flips = [](const ContactMotion& contact) { return contact.turn() > kMostTurn; };
+  if (motion.empty() || std::any_of(motion.begin(), motion.end(), flips)) return std::nullopt;
   return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, shortest).Find()
                         : MotionProofSearch<2>(motion, half_angle, shortest).Find();
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "planner/certificate/check_motion_proof.h"
 #include "planner/certificate/find_motion_proof.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/plan/contact_motion.h"

@@ -2,15 +2,13 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "planner/base/angle.h"
 #include "planner/certificate/check_proof.h"
-#include "planner/certificate/find_motion_proof.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/plan/path_force_closure.h"
+#include "tests/planner/certificate/random_boxes.h"
 
 namespace regrasp {
 namespace {
@@ -20,45 +18,6 @@ using Kind = ProofVerdict::Kind;
 
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
-
-/// Random grasps of a box away from the origin; planar ones of a square.
-class RandomBoxes {
- public:
-  explicit RandomBoxes(int dimension) : dimension_(dimension) {}
-
-  Grasp Draw(int count) {
-    Grasp grasp;
-    for (int i = 0; i < count; ++i) grasp.push_back(DrawContact());
-    return grasp;
-  }
-  Contact DrawContact() {
-    Contact contact;
-    for (int axis = 0; axis < dimension_; ++axis) contact.p[axis] = uniform_(engine_);
-    const int axis = std::uniform_int_distribution<int>(0, dimension_ - 1)(engine_);
-    const double side = uniform_(engine_) < 0 ? -1 : 1;
-    contact.p[axis] = side;
-    contact.n[axis] = -side;
-    contact.p += dimension_ == 3 ? Vector3d(5, -3, 2) : Vector3d(5, -3, 0);
-    return contact;
-  }
-  /// Elsewhere on the same sides.
-  Grasp Moved(const Grasp& grasp, double reach) {
-    Grasp moved = grasp;
-    for (Contact& contact : moved) {
-      for (int axis = 0; axis < dimension_; ++axis) {
-        if (contact.n[axis] == 0) contact.p[axis] += reach * uniform_(engine_);
-      }
-    }
-    return moved;
-  }
-
- private:
-  int dimension_;
-  std::mt19937_64 engine_{7};
-  std::uniform_real_distribution<double> uniform_{-1, 1};
-};
-
-WrenchFrame FrameOf(int dimension) { return {Vector3d(5, -3, 0), 1.5, dimension}; }
 
 void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
   RandomBoxes random(dimension);
@@ -89,14 +48,6 @@ TEST(ProofTest, ProofsOfRandomGraspsHoldExactlyAndAgreeWithTheTest) {
   ExpectProofsAgreeWithTheTest(3, 4);
   ExpectProofsAgreeWithTheTest(3, 5);
   ExpectProofsAgreeWithTheTest(2, 3);
-}
-
-/// Two pairs of opposite fingers on the sides of a cube.
-Grasp CrossedGrasp() {
-  return {{Vector3d(1, 0.1, 0), -Vector3d::UnitX()},
-          {Vector3d(-1, 0, 0.1), Vector3d::UnitX()},
-          {Vector3d(0, 1, -0.1), -Vector3d::UnitY()},
-          {Vector3d(0.1, -1, 0), Vector3d::UnitY()}};
 }
 
 TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
@@ -174,68 +125,6 @@ TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
     proof.line = line;
     EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kNothing);
   }
-}
-
-GraspMotion MotionOf(const Grasp& from, const Grasp& to) {
-  GraspMotion motion;
-  for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
-  return motion;
-}
-
-void ExpectMotionsProved(int dimension, int contacts, double reach) {
-  RandomBoxes random(dimension);
-  int held = 0;
-  int proved = 0;
-  int lost = 0;
-  for (int i = 0; i < 150; ++i) {
-    const Grasp from = random.Draw(contacts);
-    const Grasp to = random.Moved(from, reach);
-    const GraspMotion motion = MotionOf(from, to);
-    const bool holds = DecidePathForceClosure(motion, FrameOf(dimension), kHalfAngle).holds;
-    const auto pieces = FindMotionProof(motion, dimension, kHalfAngle);
-    held += holds ? 1 : 0;
-    if (!pieces) {
-      lost += holds ? 0 : 1;
-      continue;
-    }
-    const ProofVerdict verdict = CheckMotionProof(from, to, dimension, kMu, *pieces);
-    EXPECT_EQ(verdict.kind, Kind::kForceClosure) << verdict.why;
-    EXPECT_TRUE(holds) << "a proof of what is not so";
-    ++proved;
-  }
-  EXPECT_GT(proved, 10);
-  EXPECT_GE(proved, held * 9 / 10);
-  EXPECT_GT(lost, 10);
-}
-
-TEST(ProofTest, StraightMotionsAreProvedAllAlong) {
-  ExpectMotionsProved(3, 4, 0.3);
-  ExpectMotionsProved(3, 5, 0.3);
-  ExpectMotionsProved(2, 3, 0.3);
-}
-
-TEST(ProofTest, MotionPiecesMustCoverTheWayAndFit) {
-  const Grasp from = CrossedGrasp();
-  Grasp to = from;
-  to[0].p.y() -= 0.1;
-  to[2].p.z() += 0.1;
-  const auto pieces = FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
-  ASSERT_TRUE(pieces);
-  EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, *pieces).kind, Kind::kForceClosure);
-  EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, {}).kind, Kind::kNothing);
-  auto wrong = *pieces;
-  wrong.back().to = 0.999;
-  EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, wrong).kind, Kind::kNothing);
-  wrong = *pieces;
-  wrong.front().start[1] *= 2;
-  EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, wrong).kind, Kind::kNothing);
-  Grasp farther = to;
-  farther[0].p.y() += 3;
-  EXPECT_EQ(CheckMotionProof(from, farther, 3, kMu, *pieces).kind, Kind::kNothing);
-  Grasp turned = to;
-  turned[0].n = Vector3d(-1, 0.1, 0).normalized();
-  EXPECT_EQ(CheckMotionProof(from, turned, 3, kMu, *pieces).kind, Kind::kNothing);
-  EXPECT_FALSE(FindMotionProof(MotionOf(from, turned), 3, kHalfAngle));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <numbers>
+#include <span>
+
+#include "planner/certificate/check_proof.h"
+#include "planner/certificate/force_proof.h"
+#include "planner/grasp/contact.h"
+
+namespace regrasp {
+
+/// Checks in exact rational arithmetic, as CheckGraspProof, that a grasp is force closure all along
+/// a motion: contacts move straight from `from` to `to`, and normals turn evenly on great circles.
+///
+/// The pieces must follow each other from 0 to 1. With forces f₀ and f₁ at the ends of a piece, p
+/// and p' the points there, balance for all t is Σ f₀ = Σ f₁ = 0, Σ p × f₀ = Σ p' × f₁ = 0 and Σ (p
+/// × f₁ + p' × f₀) = 0, again made exact by elimination.
+///
+/// Where a normal turns, f₀ and f₁ must both lie inside the cones of the normals at both ends of
+/// the piece. The directions within θ of a force are a convex part of the sphere for θ < π/2, so
+/// every normal between is within θ of it too. Normals between two faces are irrational: they are
+/// taken as doubles, and their cones kTurnedNormalBound narrower, which covers the rounding.
+[[nodiscard]] ProofVerdict CheckMotionProof(std::span<const Contact> from,
+                                            std::span<const Contact> to, int dimension, double mu,
+                                            std::span<const MotionPiece> pieces);
+
+/// Radians. Normals that turn farther, almost to the opposite, have no great circle to speak of:
+/// nothing is proved of them.
+inline constexpr double kMostTurn = std::numbers::pi - 1e-3;
+
+/// Radians. The normal at t of a turn by α is the direction of sin((1−t) α) n + sin(t α) n'. Up to
+/// kMostTurn its rounding is some 1e3 roundings of a double at most, 1e-12.
+inline constexpr double kTurnedNormalBound = 1e-9;
+
+}  // namespace regrasp

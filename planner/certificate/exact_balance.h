@@ -1,0 +1,80 @@
+#pragma once
+
+#include <gmpxx.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/grasp/contact.h"
+
+/// Vectors, cones and the balance of forces in rational arithmetic, without rounding.
+namespace regrasp::exact {
+
+using Rational = mpq_class;
+using Vector = std::array<Rational, 3>;
+
+/// The values of doubles, which must be finite.
+[[nodiscard]] Vector Exact(const Eigen::Vector3d& v);
+
+[[nodiscard]] Vector operator+(const Vector& a, const Vector& b);
+[[nodiscard]] Vector operator-(const Vector& a, const Vector& b);
+[[nodiscard]] Vector operator*(const Rational& s, const Vector& a);
+[[nodiscard]] Rational Dot(const Vector& a, const Vector& b);
+[[nodiscard]] Vector Cross(const Vector& a, const Vector& b);
+[[nodiscard]] bool IsZero(const Vector& a);
+
+struct ExactContact {
+  Vector p;
+  Vector n;
+};
+[[nodiscard]] std::vector<ExactContact> Exact(std::span<const Contact> contacts);
+
+[[nodiscard]] bool AllFinite(std::span<const Eigen::Vector3d> vectors);
+
+/// Strictly inside the cone of friction μ about n, which need not be unit.
+[[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu);
+
+/// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
+class Balance {
+ public:
+  Balance(int rows, int columns) : rows_(rows), columns_(columns), a_(rows * columns) {}
+
+  [[nodiscard]] Rational& At(int row, int column) { return a_[row * columns_ + column]; }
+
+  /// x with some of its numbers changed so that A x = 0 holds exactly: those of the columns that
+  /// Gaussian elimination picks as pivots.
+  [[nodiscard]] std::vector<Rational> Corrected(std::vector<Rational> x) const;
+
+ private:
+  struct Place {
+    int row;
+    int column;
+  };
+
+  [[nodiscard]] std::optional<Place> Pivot(const std::vector<Rational>& a, int step) const;
+  void Eliminate(std::vector<Rational>& a, std::vector<Rational>& right, int step,
+                 int column) const;
+
+  int rows_;
+  int columns_;
+  std::vector<Rational> a_;
+};
+
+/// The rows and columns that forces have in space or in the plane.
+struct Layout {
+  explicit Layout(int space) : dimension(space), torques(space == 3 ? 3 : 1) {}
+
+  int dimension;
+  int torques;
+
+  /// Adds the torques of unit forces at p, as columns from `column` on and rows from `row` on.
+  void AddTorques(const Vector& p, int row, int column, Balance& balance) const;
+  void AddForces(int row, int column, Balance& balance) const;
+  [[nodiscard]] Vector Force(const std::vector<Rational>& x, int column) const;
+  void Append(std::span<const Eigen::Vector3d> forces, std::vector<Rational>& x) const;
+};
+
+}  // namespace regrasp::exact

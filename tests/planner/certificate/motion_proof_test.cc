@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "planner/base/angle.h"
+#include "planner/certificate/check_motion_proof.h"
+#include "planner/certificate/find_motion_proof.h"
+#include "planner/plan/path_force_closure.h"
+#include "tests/planner/certificate/random_boxes.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using Kind = ProofVerdict::Kind;
+using Pieces = std::vector<MotionPiece>;
+
+constexpr double kHalfAngle = Radians(20);
+const double kMu = std::tan(kHalfAngle);
+
+/// What was seen of random motions.
+struct Counts {
+  int held = 0;
+  int proved = 0;
+  int lost = 0;
+  int in_one_piece = 0;
+};
+
+/// Proves one motion, and expects that only true ones are proved.
+void Count(const Grasp& from, const Grasp& to, int dimension, Counts& counts) {
+  const GraspMotion motion = MotionOf(from, to);
+  const bool holds = DecidePathForceClosure(motion, FrameOf(dimension), kHalfAngle).holds;
+  const auto pieces = FindMotionProof(motion, dimension, kHalfAngle);
+  counts.held += holds ? 1 : 0;
+  counts.lost += holds ? 0 : 1;
+  if (!pieces) return;
+  EXPECT_TRUE(holds) << "a proof of what is not so";
+  const ProofVerdict verdict = CheckMotionProof(from, to, dimension, kMu, *pieces);
+  EXPECT_EQ(verdict.kind, Kind::kForceClosure) << verdict.why;
+  ++counts.proved;
+  counts.in_one_piece += pieces->size() == 1 ? 1 : 0;
+}
+
+void ExpectMotionsProved(int dimension, int contacts, double reach) {
+  RandomBoxes random(dimension);
+  Counts counts;
+  for (int i = 0; i < 300; ++i) {
+    const Grasp from = random.Draw(contacts);
+    Count(from, random.Moved(from, reach), dimension, counts);
+  }
+  EXPECT_GT(counts.proved, 15);
+  EXPECT_GE(counts.proved, counts.held * 97 / 100);
+  EXPECT_GE(counts.in_one_piece, counts.proved / 2);
+  EXPECT_GT(counts.lost, 20);
+}
+
+TEST(MotionProofTest, StraightMotionsAreProvedAllAlong) {
+  ExpectMotionsProved(3, 4, 0.3);
+  ExpectMotionsProved(3, 5, 0.3);
+  ExpectMotionsProved(2, 3, 0.3);
+  ExpectMotionsProved(2, 2, 0.3);
+}
+
+TEST(MotionProofTest, MotionsOfNoLengthAreProvedInOnePiece) {
+  const Grasp grasp = CrossedGrasp();
+  const auto pieces = FindMotionProof(MotionOf(grasp, grasp), 3, kHalfAngle);
+  ASSERT_TRUE(pieces);
+  EXPECT_EQ(pieces->size(), 1U);
+  EXPECT_EQ(CheckMotionProof(grasp, grasp, 3, kMu, *pieces).kind, Kind::kForceClosure);
+}
+
+TEST(MotionProofTest, VeryShortMotionsAreProved) {
+  const Grasp from = CrossedGrasp();
+  for (const double length : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    Grasp to = from;
+    to[0].p.y() += length;
+    to[3].p.z() -= length;
+    const auto pieces = FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
+    ASSERT_TRUE(pieces) << length;
+    EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, *pieces).kind, Kind::kForceClosure) << length;
+  }
+}
+
+/// Every finger turns its normal by up to `most` radians, and some move too.
+Grasp Turned(const Grasp& grasp, int dimension, double most, RandomBoxes& random) {
+  Grasp turned = grasp;
+  for (Contact& contact : turned) {
+    const Vector3d axis = dimension == 3 ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
+    contact.n = Eigen::AngleAxisd(most * random.Uniform(), axis) * contact.n;
+  }
+  return turned;
+}
+
+TEST(MotionProofTest, TurningNormalsAreProvedAllAlong) {
+  for (const int dimension : {2, 3}) {
+    RandomBoxes random(dimension);
+    Counts counts;
+    for (int i = 0; i < 300; ++i) {
+      const Grasp from = random.Draw(dimension + 1);
+      const Grasp to = random.Moved(Turned(from, dimension, Radians(30), random), 0.1);
+      Count(from, to, dimension, counts);
+    }
+    EXPECT_GT(counts.proved, 15) << dimension;
+    EXPECT_GE(counts.proved, counts.held * 95 / 100) << dimension;
+    EXPECT_GT(counts.lost, 20) << dimension;
+  }
+}
+
+/// A finger that turns around the corner of a square by a right angle, at a friction at which every
+/// grasp on the way holds.
+struct Corner {
+  Grasp from = {{Vector3d(1, 1, 0), -Vector3d::UnitX()},
+                {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},
+                {Vector3d(-0.5, -1, 0), Vector3d::UnitY()}};
+  Grasp to = from;
+  double half_angle = Radians(50);
+  Corner() { to[0].n = -Vector3d::UnitY(); }
+};
+
+TEST(MotionProofTest, AFingerTurnsAroundACorner) {
+  const Corner corner;
+  const auto pieces = FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.half_angle);
+  ASSERT_TRUE(pieces);
+  const auto verdict = [&](double half_angle, const Pieces& some) {
+    return CheckMotionProof(corner.from, corner.to, 2, std::tan(half_angle), some).kind;
+  };
+  EXPECT_EQ(verdict(corner.half_angle, *pieces), Kind::kForceClosure);
+  EXPECT_EQ(verdict(corner.half_angle + Radians(10), *pieces), Kind::kForceClosure);
+  // No force is inside the cones of both edges at 45° or less.
+  EXPECT_EQ(verdict(Radians(44), *pieces), Kind::kNothing);
+}
+
+TEST(MotionProofTest, ConesOfTurningNormalsAreTakenNarrower) {
+  // Pressing along the bisector of two edges at 45° the forces are on the border of both cones.
+  const Corner corner;
+  const double half = std::sqrt(0.5);
+  const Pieces pieces = {{0,
+                          1,
+                          {Vector3d(-1, -1, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)},
+                          {Vector3d(-1, -1, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}}};
+  Grasp from = corner.from;
+  Grasp to = corner.to;
+  from[1].p = to[1].p = Vector3d(-1, 1, 0);
+  from[2].p = to[2].p = Vector3d(1, -1, 0);
+  const auto at = [&](double beyond) {
+    return CheckMotionProof(from, to, 2, std::tan(std::atan2(half, half) + beyond), pieces).kind;
+  };
+  EXPECT_EQ(at(10 * kTurnedNormalBound), Kind::kForceClosure);
+  EXPECT_EQ(at(0.1 * kTurnedNormalBound), Kind::kNothing);
+}
+
+TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
+  const Corner corner;
+  Pieces pieces = *FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.half_angle);
+  // Balanced at both ends as before, but for other pieces of the turn.
+  Pieces one = {pieces.front()};
+  one[0].to = 1;
+  const auto verdict = CheckMotionProof(corner.from, corner.to, 2, std::tan(Radians(46)), one);
+  EXPECT_EQ(verdict.kind, Kind::kNothing);
+  Grasp flipped = corner.to;
+  flipped[0].n = Vector3d::UnitX();
+  EXPECT_EQ(CheckMotionProof(corner.from, flipped, 2, kMu, pieces).kind, Kind::kNothing);
+  EXPECT_FALSE(FindMotionProof(MotionOf(corner.from, flipped), 2, corner.half_angle));
+}
+
+class PiecesTest : public testing::Test {
+ protected:
+  PiecesTest() {
+    to[0].p.y() -= 0.1;
+    to[2].p.z() += 0.1;
+    pieces = *FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
+  }
+  [[nodiscard]] Kind Verdict(const Pieces& some) const {
+    return CheckMotionProof(from, to, 3, kMu, some).kind;
+  }
+
+  Grasp from = CrossedGrasp();
+  Grasp to = from;
+  Pieces pieces;
+};
+
+TEST_F(PiecesTest, MustCoverTheWay) {
+  EXPECT_EQ(Verdict(pieces), Kind::kForceClosure);
+  EXPECT_EQ(Verdict({}), Kind::kNothing);
+  Pieces wrong = pieces;
+  wrong.back().to = 0.999;
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing);
+  wrong.push_back(wrong.back());
+  wrong.back().from = 0.9990001;
+  wrong.back().to = 1;
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing) << "a gap";
+  wrong = pieces;
+  wrong.front().from = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing);
+  wrong = pieces;
+  wrong.push_back(wrong.back());
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing) << "beyond the end";
+}
+
+TEST_F(PiecesTest, ForcesMustFit) {
+  Pieces wrong = pieces;
+  wrong.front().start[1] *= 2;
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing);
+  wrong = pieces;
+  wrong.front().end.pop_back();
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing);
+  wrong = pieces;
+  wrong.front().end[2].z() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Verdict(wrong), Kind::kNothing);
+}
+
+TEST_F(PiecesTest, BelongToOneMotion) {
+  Grasp farther = to;
+  farther[0].p.y() += 3;
+  EXPECT_EQ(CheckMotionProof(from, farther, 3, kMu, pieces).kind, Kind::kNothing);
+  Grasp turned = to;
+  turned[0].n = Vector3d(-1, 0.6, 0).normalized();
+  EXPECT_EQ(CheckMotionProof(from, turned, 3, kMu, pieces).kind, Kind::kNothing);
+  Grasp fewer = to;
+  fewer.pop_back();
+  EXPECT_EQ(CheckMotionProof(from, fewer, 3, kMu, pieces).kind, Kind::kNothing);
+  EXPECT_EQ(CheckMotionProof(from, to, 3, kMu / 10, pieces).kind, Kind::kNothing);
+}
+
+TEST_F(PiecesTest, WrittenAsShortDecimalsStillProve) {
+  for (MotionPiece& piece : pieces) {
+    for (auto* forces : {&piece.start, &piece.end}) {
+      for (Vector3d& force : *forces) force = (force * 1e6).array().round() / 1e6;
+    }
+  }
+  EXPECT_EQ(Verdict(pieces), Kind::kForceClosure);
+}
+
+}  // namespace
+}  // namespace regrasp

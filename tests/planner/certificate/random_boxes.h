@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+
+#include "planner/grasp/contact.h"
+#include "planner/object/wrench_frame.h"
+#include "planner/plan/contact_motion.h"
+
+namespace regrasp {
+
+/// Random grasps of a box away from the origin; planar ones of a square.
+class RandomBoxes {
+ public:
+  explicit RandomBoxes(int dimension) : dimension_(dimension) {}
+
+  Grasp Draw(int count) {
+    Grasp grasp;
+    for (int i = 0; i < count; ++i) grasp.push_back(DrawContact());
+    return grasp;
+  }
+  Contact DrawContact() {
+    Contact contact;
+    for (int axis = 0; axis < dimension_; ++axis) contact.p[axis] = uniform_(engine_);
+    const int axis = std::uniform_int_distribution<int>(0, dimension_ - 1)(engine_);
+    const double side = uniform_(engine_) < 0 ? -1 : 1;
+    contact.p[axis] = side;
+    contact.n[axis] = -side;
+    contact.p += dimension_ == 3 ? Eigen::Vector3d(5, -3, 2) : Eigen::Vector3d(5, -3, 0);
+    return contact;
+  }
+  /// Elsewhere on the same sides.
+  Grasp Moved(const Grasp& grasp, double reach) {
+    Grasp moved = grasp;
+    for (Contact& contact : moved) {
+      for (int axis = 0; axis < dimension_; ++axis) {
+        if (std::abs(contact.n[axis]) < 0.5) contact.p[axis] += reach * uniform_(engine_);
+      }
+    }
+    return moved;
+  }
+  /// In (−1, 1).
+  double Uniform() { return uniform_(engine_); }
+
+ private:
+  int dimension_;
+  std::mt19937_64 engine_{7};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+inline WrenchFrame FrameOf(int dimension) { return {Eigen::Vector3d(5, -3, 0), 1.5, dimension}; }
+
+/// Two pairs of opposite fingers on the sides of a cube.
+inline Grasp CrossedGrasp() {
+  return {{Eigen::Vector3d(1, 0.1, 0), -Eigen::Vector3d::UnitX()},
+          {Eigen::Vector3d(-1, 0, 0.1), Eigen::Vector3d::UnitX()},
+          {Eigen::Vector3d(0, 1, -0.1), -Eigen::Vector3d::UnitY()},
+          {Eigen::Vector3d(0.1, -1, 0), Eigen::Vector3d::UnitY()}};
+}
+
+inline GraspMotion MotionOf(const Grasp& from, const Grasp& to) {
+  GraspMotion motion;
+  for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
+  return motion;
+}
+
+}  // namespace regrasp
