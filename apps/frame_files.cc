@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "render/caption.h"
 #include "render/contact_sheet.h"
@@ -23,18 +21,6 @@ std::string FrameName(const ReportStep& step) {
   const std::string index = std::to_string(step.check.index);
   const std::size_t zeros = kDigits - std::min(kDigits, index.size());
   return std::string(zeros, '0') + index + "_" + step.check.kind + ".png";
-}
-
-constexpr char kOverviewName[] = "overview.png";
-constexpr char kAnimationName[] = "replay.webp";
-
-bool IsFrameName(const std::string& name) {
-  if (name == kOverviewName || name == kAnimationName) return true;
-  const auto digits = std::find_if_not(name.begin(), name.end(),
-                                       [](unsigned char c) { return std::isdigit(c) != 0; });
-  const std::string rest(digits, name.end());
-  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
-         (rest == "_hold.png" || rest == "_switch.png" || rest == "_align.png");
 }
 
 std::string Caption(const Plan& plan, const ReportStep& step) {
@@ -70,16 +56,13 @@ PagePicture MakePicture(const Image& image, int width) {
 
 }  // namespace
 
-void RemoveFrames(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> frames;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (IsFrameName(entry.path().filename().string())) frames.push_back(entry.path());
-  }
-  for (const std::filesystem::path& frame : frames) {
-    if (!error) std::filesystem::remove(frame, error);
-  }
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+bool IsPictureName(const std::string& name) {
+  if (name == kOverviewName || name == kAnimationName) return true;
+  const auto digits = std::find_if_not(name.begin(), name.end(),
+                                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string rest(digits, name.end());
+  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
+         (rest == "_hold.png" || rest == "_switch.png" || rest == "_align.png");
 }
 
 std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "apps/page/report_page.h"
@@ -12,10 +13,15 @@
 
 namespace regrasp {
 
-/// Removes from `folder` the pictures of an earlier run (000_hold.png, 001_switch.png, …, the
-/// contact sheet and the animation), so that it never mixes runs. Other files stay.
-/// @throws EnvironmentError  one of them cannot be removed.
-void RemoveFrames(const std::filesystem::path& folder);
+/// The files in the folder of a validation, besides a frame for each step.
+inline constexpr char kReportName[] = "report.json";
+inline constexpr char kPageName[] = "report.html";
+inline constexpr char kOverviewName[] = "overview.png";
+inline constexpr char kAnimationName[] = "replay.webp";
+
+/// Whether a file of this name is a picture that a validation writes (000_hold.png, 001_switch.png,
+/// …, the contact sheet, the animation).
+[[nodiscard]] bool IsPictureName(const std::string& name);
 
 /// Draws a frame of every replayed step into `folder` and names it in the report, and all of them,
 /// small, into the contact sheet overview.png. The frame of a step that failed in the replay shows

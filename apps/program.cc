@@ -5,21 +5,11 @@
 #include <new>
 
 #include "planner/base/error.h"
+#include "planner/base/text_table.h"
 
 namespace regrasp {
 
 namespace {
-
-/// File names and CLI11's messages may hold line breaks; scripts count on one line.
-std::string OneLine(std::string_view message) {
-  std::string line;
-  for (const char c : message) {
-    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    line += control ? ' ' : c;
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
 
 /// A full disk behind standard output must not look like success.
 int FlushResults(const std::string& program, int exit_code) {
@@ -50,12 +40,9 @@ void PrintMessage(const std::string& program, std::string_view message) {
   std::cerr << program + ": " + OneLine(message) + "\n";
 }
 
-int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  const std::string program = app.get_name();
-  app.set_version_flag("--version", program + " " REGRASP_VERSION, "Print the version and exit");
-  app.get_help_ptr()->description("Print this text and exit");
+int RunGuarded(const std::string& program, const std::function<int()>& run) {
   try {
-    return FlushResults(program, Run(app, argc, argv, run));
+    return FlushResults(program, run());
   } catch (const InputError& error) {
     PrintMessage(program, error.what());
     return kExitBadInput;
@@ -69,6 +56,15 @@ int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::func
     PrintMessage(program, std::string("internal error: ") + error.what());
     return kExitEnvironment;
   }
+}
+
+std::string ProgramVersion() { return REGRASP_VERSION; }
+
+int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  const std::string program = app.get_name();
+  app.set_version_flag("--version", program + " " + ProgramVersion(), "Print the version and exit");
+  app.get_help_ptr()->description("Print this text and exit");
+  return RunGuarded(program, [&] { return Run(app, argc, argv, run); });
 }
 
 }  // namespace regrasp

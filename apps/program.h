@@ -25,6 +25,13 @@ enum ExitCode : int {
 /// @param run  called after parsing; returns the exit code.
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
+/// The part of RunProgram after parsing: runs, and turns what is thrown into a line and an exit
+/// code.
+int RunGuarded(const std::string& program, const std::function<int()>& run);
+
+/// The project's version, as --version prints it.
+[[nodiscard]] std::string ProgramVersion();
+
 /// Prints "name: message" as exactly one line on standard error, whatever bytes the message has.
 void PrintMessage(const std::string& program, std::string_view message);
 

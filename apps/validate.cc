@@ -1,18 +1,23 @@
-// validate: checks a plan, or a single grasp, analytically, replays it in MuJoCo, draws a frame of
-// each step, and says pass or fail.
+// validate: checks a plan, a library of plans or a single grasp analytically, replays it in MuJoCo,
+// draws a frame of each step, and says pass or fail.
 
 #include "apps/program.h"
+#include "apps/validate_batch.h"
 #include "apps/validate_options.h"
 #include "apps/validate_run.h"
 
 int main(int argc, char** argv) {
   using namespace regrasp;
   CLI::App app(
-      "Checks a regrasp plan or a single grasp analytically, replays it in MuJoCo with frictional "
+      "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "
+      "MuJoCo with frictional "
       "point fingers, "
       "shakes the object at every rest state, and says pass or fail.",
       kValidateName);
   ValidateOptions options;
   options.AddTo(app);
-  return RunProgram(app, argc, argv, [&] { return RunValidation(options); });
+  return RunProgram(app, argc, argv, [&] {
+    options.Finish(app);
+    return options.for_batch() ? RunBatch(options) : RunValidation(options);
+  });
 }

@@ -1,6 +1,11 @@
 #include "apps/validate_options.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <initializer_list>
+#include <set>
+#include <system_error>
+#include <thread>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -40,8 +45,14 @@ void AddFiles(CLI::App& app, ValidateOptions& options) {
   const auto add = [&app](const std::string& name, std::string& value, const std::string& text) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
-  add("--object", options.object_path, "Object file")->required();
-  CLI::Option* plan = add("--plan", options.plan_path, "Plan file; or --grasp");
+  add("--object", options.object_path,
+      "Object file; or a folder, in which each plan's object is the file that it names")
+      ->required();
+  CLI::Option* plan =
+      app.add_option("--plan", options.plans,
+                     "Plan file; or several, or a folder of plans (every *.json), each of which is "
+                     "validated in a process of its own; or --grasp")
+          ->type_name("FILE...");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
@@ -49,7 +60,9 @@ void AddFiles(CLI::App& app, ValidateOptions& options) {
           "whose own friction may fall least while all others keep theirs; holds and shakes it")
           ->excludes(plan);
   app.add_option("--out", options.out,
-                 "Folder for report and frames (default out/<plan or grasp name>)")
+                 "Folder for report and frames (default out/<plan or grasp name>); of several "
+                 "plans a folder for each in it, and summary.json (default out/<folder name> or "
+                 "out/batch)")
       ->type_name("DIR");
   add("--start", options.start, "Grasp file that the plan's initial grasp must be")
       ->excludes(grasp);
@@ -116,31 +129,96 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
       ->needs(moving);
 }
 
+/// Longer than any plan takes, and still a number of seconds that clocks can add.
+constexpr double kLongestTime_s = 1e6;
+constexpr int kMostJobs = 1024;
+
+constexpr char kSeveralPlans[] = "goes with several plans or a folder of them";
+constexpr char kSinglePlan[] = "goes with a single plan or grasp";
+
+void AddBatch(CLI::App& app, ValidateOptions& options) {
+  AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
+             "How many of several plans are validated at a time (default: one a processor, here " +
+                 std::to_string(options.jobs) + ")");
+  AddNumber(app, "--time-limit", options.time_limit_s,
+            {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
+            "Longest time that one of several plans may take, seconds; it is then stopped and "
+            "counts as an error (default: none)")
+      ->type_name("S");
+  app.add_flag(
+      "--fresh", options.fresh,
+      "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
+      "run where plan, object, options and version are the same");
+}
+
+/// Options that say where things come from, where they go and how fast; --start and --goal count
+/// by what their files hold.
+bool ChangesResults(const std::string& name) {
+  static const std::set<std::string> kOthers = {
+      "--help",  "--version",     "--object",     "--plan",  "--grasp", "--out",
+      "--junit", "--export-mjcf", "--trajectory", "--start", "--goal",  "--verify",
+      "--jobs",  "--fresh",       "--time-limit", "--quiet"};
+  return !kOthers.contains(name);
+}
+
 }  // namespace
+
+ValidateOptions::ValidateOptions()
+    : jobs(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostJobs)) {}
 
 void ValidateOptions::AddTo(CLI::App& app) {
   AddFiles(app, *this);
   AddPhysics(app, *this);
   AddPictures(app, *this);
+  AddBatch(app, *this);
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   AddQuiet(app, quiet);
 }
 
-void ValidateOptions::CheckUsage() const {
-  if (plan_path.empty() && grasp_path.empty()) throw InputError("--plan or --grasp is required");
-  if (!grasp_path.empty() && allow_object_change) {
+void ValidateOptions::Finish(const CLI::App& app) {
+  if (plans.empty() && grasp_path.empty()) throw InputError("--plan or --grasp is required");
+  if (for_grasp() && allow_object_change) {
     throw InputError("--allow-object-change: a grasp file names no object");
+  }
+  const auto refuse = [&app](std::initializer_list<const char*> names, const std::string& why) {
+    for (const char* name : names) {
+      if (app.count(name) > 0) throw InputError(std::string(name) + " " + why);
+    }
+  };
+  if (for_batch()) {
+    refuse({"--trajectory", "--export-mjcf", "--verify"}, kSinglePlan);
+  } else {
+    refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
+    if (!for_grasp()) plan_path = plans.front();
+  }
+  given.clear();
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && ChangesResults(name)) given.emplace_back(name, option->results());
   }
 }
 
+bool ValidateOptions::for_batch() const {
+  std::error_code error;
+  return plans.size() > 1 ||
+         (!plans.empty() && std::filesystem::is_directory(plans.front(), error));
+}
+
 const std::string& ValidateOptions::InputPath() const {
-  return grasp_path.empty() ? plan_path : grasp_path;
+  return for_grasp() ? grasp_path : plan_path;
 }
 
 std::filesystem::path ValidateOptions::Folder() const {
+  namespace fs = std::filesystem;
   if (!out.empty()) return out;
-  return std::filesystem::path("out") / std::filesystem::path(InputPath()).stem();
+  const fs::path parent = "out";
+  if (plan_path.empty() && plans.size() > 1) return parent / "batch";
+  if (!for_batch()) return parent / fs::path(InputPath()).stem();
+  // "plans/" and "." have names too.
+  const fs::path folder = fs::absolute(plans.front()).lexically_normal();
+  const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+  return parent / (name.empty() ? fs::path("batch") : name);
 }
 
 }  // namespace regrasp

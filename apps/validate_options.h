@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/options.h"
 #include "render/frame.h"
@@ -17,9 +19,10 @@ inline constexpr char kValidateName[] = "validate";
 
 /// What the command line of `validate` asks for.
 struct ValidateOptions {
-  std::string object_path;
-  std::string plan_path;
-  std::string grasp_path;  ///< instead of a plan
+  std::string object_path;         ///< for plans also a folder, where each finds the file it names
+  std::vector<std::string> plans;  ///< files and folders
+  std::string plan_path;           ///< the one to validate now
+  std::string grasp_path;          ///< instead of a plan
   std::string out;
   std::string junit;
   std::string mjcf;
@@ -38,16 +41,25 @@ struct ValidateOptions {
   bool certificates = false;
   bool allow_object_change = false;
   bool quiet = false;
+  int jobs;  ///< plans at a time
+  std::optional<double> time_limit_s;
+  bool fresh = false;  ///< validates again what an earlier run did
+  /// Given options that change results, each with its values: what a run's digest is over.
+  std::vector<std::pair<std::string, std::vector<std::string>>> given;
 
+  ValidateOptions();
   /// Adds all options to the command line; they are set when it is parsed.
   void AddTo(CLI::App& app);
-  /// @throws InputError  options that do not go together.
-  void CheckUsage() const;
+  /// After parsing: finds out what is given and whether it goes together.
+  /// @throws InputError  it does not.
+  void Finish(const CLI::App& app);
 
+  /// Several plans, or a folder of them.
+  [[nodiscard]] bool for_batch() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
   /// The plan or the grasp.
   [[nodiscard]] const std::string& InputPath() const;
-  /// Where report and frames go: `out`, or out/<plan or grasp name>.
+  /// Where results go: `out`, or out/<plan, grasp or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;
 };
 

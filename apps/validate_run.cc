@@ -6,11 +6,13 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/earlier_run.h"
 #include "apps/frame_files.h"
 #include "apps/page/report_page.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/run_digest.h"
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -40,20 +42,29 @@ struct Samples {
   std::vector<Snapshot> animation;
 };
 
+/// The object is read first, where the plan is not needed to find it.
+void ReadPlanTask(const ValidateOptions& options, Task& task) {
+  std::error_code error;
+  const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
+  if (!named_by_plan) task.object = ReadObject(options.object_path);
+  task.file_text = ReadFile(options.plan_path);
+  task.plan = ParsePlan(task.file_text, options.plan_path);
+  const std::string object_path = ObjectPathOf(options, task.plan.object_file);
+  if (named_by_plan) task.object = ReadObject(object_path);
+  CheckPlanFits(task.plan, task.object,
+                {options.plan_path, object_path, options.allow_object_change, options.scale});
+}
+
 Task ReadTask(const ValidateOptions& options) {
   Task task;
-  task.object = ReadObject(options.object_path);
-  const Object& object = *task.object.object;
-  task.file_text = ReadFile(options.InputPath());
   if (options.for_grasp()) {
-    task.grasp = ParseGrasp(task.file_text, options.grasp_path, object);
-    task.plan = MakeHoldPlan(object, task.grasp, options.friction.required_half_angle(),
-                             options.scale.value_or(1));
+    task.object = ReadObject(options.object_path);
+    task.file_text = ReadFile(options.grasp_path);
+    task.grasp = ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
+    task.plan = MakeHoldPlan(*task.object.object, task.grasp,
+                             options.friction.required_half_angle(), options.scale.value_or(1));
   } else {
-    task.plan = ParsePlan(task.file_text, options.plan_path);
-    CheckPlanFits(
-        task.plan, task.object,
-        {options.plan_path, options.object_path, options.allow_object_change, options.scale});
+    ReadPlanTask(options, task);
   }
   if (options.replay.thickness && task.plan.dimension == 3) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
@@ -136,19 +147,16 @@ void WritePictures(const ValidateOptions& options, const FrameOptions& frame, co
     progress.Report("drawing the moving picture");
     WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report);
   }
-  WriteFile(folder / "report.html", FormatReportHtml(report, task.plan, pictures));
+  WriteFile(folder / kPageName, FormatReportHtml(report, task.plan, pictures));
 }
 
 void WriteResults(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
                   const Samples& samples, Report& report) {
   const std::filesystem::path folder = options.Folder();
-  const std::filesystem::path report_path = folder / "report.json";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  // A report never stands beside the pictures of another run.
-  if (!error) std::filesystem::remove(report_path, error);
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
-  RemoveFrames(folder);
+  RemoveEarlierRun(folder);
   WritePictures(options, frame, task, samples, folder, report);
   if (!options.junit.empty()) WriteFile(options.junit, FormatJunit({MakeJunitSuite(report)}));
   if (!options.trajectory.empty()) {
@@ -160,13 +168,12 @@ void WriteResults(const ValidateOptions& options, const FrameOptions& frame, con
     replay.half_angle = options.friction.half_angle();
     WriteFile(options.mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
   }
-  WriteFile(report_path, FormatReportJson(report));
+  WriteFile(folder / kReportName, FormatReportJson(report));
 }
 
 }  // namespace
 
 int RunValidation(const ValidateOptions& options) {
-  options.CheckUsage();
   const Task task = ReadTask(options);
   if (!options.verify.empty()) return Verify(options, task);
   const FrameOptions frame = FrameOptionsFor(options, task);
@@ -177,6 +184,8 @@ int RunValidation(const ValidateOptions& options) {
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
+  report.run_sha256 = RunDigest(options, {report.plan_file, report.plan_sha256},
+                                {report.object_file, report.object_sha256});
   if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, report);
   for (const std::string& warning : report.warnings()) {

@@ -4,12 +4,12 @@
 
 namespace regrasp {
 
-/// Validates one plan or grasp as the options say: reads, checks, replays, draws, writes the files,
-/// and prints the table.
+/// Validates one plan (`plan_path`) or grasp as the options say: reads, checks, replays, draws,
+/// writes the files, and prints the table.
 ///
 /// The report is written last: where there is one, the files beside it are complete.
 /// @returns the exit code.
-/// @throws InputError        options that do not go together, or a broken file.
+/// @throws InputError        a broken file, or one that does not go with the options.
 /// @throws EnvironmentError  no rendering context, a folder that cannot be written.
 [[nodiscard]] int RunValidation(const ValidateOptions& options);
 

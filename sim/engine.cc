@@ -81,6 +81,8 @@ constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWAR
 
 }  // namespace
 
+std::string EngineVersion() { return mj_versionString(); }
+
 struct Engine::Impl {
   EngineHooks hooks;
   ModelPtr model;

@@ -14,6 +14,9 @@ class UnstableError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The version of MuJoCo that is linked, "2.2.2".
+[[nodiscard]] std::string EngineVersion();
+
 /// MuJoCo's model and data of one scene (sim/scene.h): a body "object" whose centre of mass is its
 /// origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide along
 /// each axis of space or of the plane.

@@ -48,6 +48,7 @@ struct GraspReport {
 struct Report {
   std::string object_file, object_sha256;
   std::string plan_file, plan_sha256;  ///< or those of the grasp
+  std::string run_sha256;              ///< of all that the report comes from; empty: not told
   std::string planner;
   double scale = 1;
   int dimension = 3;

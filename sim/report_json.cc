@@ -117,6 +117,7 @@ std::string FormatReportJson(const Report& report) {
                  {"dimension", report.dimension}}},
                {"plan", MakePlan(report)},
                {"settings", MakeSettings(report)}};
+  if (!report.run_sha256.empty()) json["run"] = {{"sha256", report.run_sha256}};
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   const int weakest = report.weakest_step();
   json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);

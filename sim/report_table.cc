@@ -4,13 +4,12 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/text_table.h"
 #include "sim/report.h"
 
 namespace regrasp {
 
 namespace {
-
-using Row = std::vector<std::string>;
 
 /// Angles to a hundredth of a degree, lengths to two significant digits.
 constexpr int kAngleDecimals = 2;
@@ -24,35 +23,19 @@ std::string RequiredAngle(const ReportStep& step) {
   return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
 }
 
-Row MakeRow(const ReportStep& step, bool regions) {
+TextRow MakeRow(const ReportStep& step, bool regions) {
   const auto length = [&](double StepReplay::*member) -> std::string {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
   std::string verdict(VerdictName(step.verdict()));
   if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
-  Row row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
-             length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
+  TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
+                 length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
   if (regions) {
     row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
   }
   row.push_back(verdict);
   return row;
-}
-
-/// All columns but the last are filled up to their widest entry.
-std::string FormatRows(const std::vector<Row>& rows) {
-  std::vector<std::size_t> width(rows.front().size());
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-      text += row[i] + std::string(width[i] - row[i].size() + 2, ' ');
-    }
-    text += row.back() + "\n";
-  }
-  return text;
 }
 
 std::string FormatWeakest(const Report& report) {
@@ -102,7 +85,7 @@ std::string FormatUndecided(const Report& report) {
 std::string FormatReportTable(const Report& report) {
   const bool regions = std::ranges::any_of(
       report.steps, [](const ReportStep& step) { return step.region.has_value(); });
-  std::vector<Row> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
+  std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
   if (regions) rows.front().push_back("region");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, regions));

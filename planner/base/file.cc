@@ -15,6 +15,13 @@ namespace regrasp {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Before the number of the process that writes.
+constexpr char kAsideMark[] = ".tmp";
+
+}  // namespace
+
 std::string ReadFile(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -41,7 +48,7 @@ std::string ReadFile(const fs::path& path) {
 
 void WriteFile(const fs::path& path, std::string_view bytes) {
   fs::path aside = path;
-  aside += ".tmp" + std::to_string(getpid());
+  aside += kAsideMark + std::to_string(getpid());
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     fs::remove(aside, ignored);
@@ -57,6 +64,15 @@ void WriteFile(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   fs::rename(aside, path, error);
   if (error) fail(error.message());
+}
+
+std::string NameBesideAside(const std::string& name) {
+  const std::size_t mark = name.rfind(kAsideMark);
+  if (mark == std::string::npos) return "";
+  const std::size_t digits = mark + std::strlen(kAsideMark);
+  const bool number =
+      digits < name.size() && name.find_first_not_of("0123456789", digits) == std::string::npos;
+  return number ? name.substr(0, mark) : "";
 }
 
 std::string Sha256(std::string_view bytes) {

@@ -19,6 +19,10 @@ inline constexpr std::size_t kMaxInputBytes = std::size_t{1} << 30;
 /// @throws EnvironmentError  the folder does not exist or cannot be written.
 void WriteFile(const std::filesystem::path& path, std::string_view bytes);
 
+/// The name of the file that WriteFile was writing when it left this one aside, killed before it
+/// could rename it; empty where `name` is not of such a file.
+[[nodiscard]] std::string NameBesideAside(const std::string& name);
+
 /// The SHA-256 digest of `bytes`, 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string Sha256(std::string_view bytes);
 

@@ -50,6 +50,7 @@ REPORT = {
     "object": {"file": "cube.obj"},
     "plan": {"file": "plan.json"},
     "settings": {"mu": 0.5},
+    "run": {"sha256": "0" * 64},
     "steps": [
         {
             "index": 0, "kind": "hold", "verdict": "pass", "reason": None,
@@ -70,6 +71,31 @@ REPORT = {
             "force_closure": None, "simulation": None, "frame": None,
         },
     ],
+}
+
+SUMMARY = {
+    "format": "regrasp-summary",
+    "version": 1,
+    "verdict": "bad-input",
+    "counts": {"plans": 3, "pass": 1, "fail": 1, "bad-input": 1, "error": 0},
+    "plans": [
+        {
+            "name": "good", "file": "good.json", "verdict": "pass", "steps": 4, "weakest_step": 2,
+            "required_half_angle_deg": 12.4, "failed_step": None, "reason": None, "message": None,
+            "report": "good/report.json",
+        },
+        {
+            "name": "weak", "file": "weak.json", "verdict": "fail", "steps": 4, "weakest_step": None,
+            "required_half_angle_deg": None, "failed_step": 0, "reason": "slipped",
+            "message": None, "report": "weak/report.json",
+        },
+        {
+            "name": "broken", "file": "broken.json", "verdict": "bad-input", "steps": None,
+            "weakest_step": None, "required_half_angle_deg": None, "failed_step": None,
+            "reason": None, "message": "broken.json: is empty", "report": None,
+        },
+    ],
+    "skipped": [{"file": "grasp.json", "why": "is a regrasp-grasp file"}],
 }
 
 GRAPH = {
@@ -216,7 +242,9 @@ class SchemaTest(unittest.TestCase):
 
     def test_wrong_reports_are_refused(self):
         self.expect_refused("report", REPORT, [
-            *[([key], REMOVED) for key in REPORT],
+            *[([key], REMOVED) for key in REPORT if key != "run"],
+            (["run"], "0" * 64),
+            (["run", "sha256"], "abc"),
             *[(["steps", 0, key], REMOVED) for key in REPORT["steps"][0]],
             (["verdict"], "maybe"),
             (["verdict"], "pass"),
@@ -230,6 +258,27 @@ class SchemaTest(unittest.TestCase):
             (["steps", 0, "force_closure", "holds"], "yes"),
             (["steps", 0, "force_closure", "required_half_angle_deg"], 90),
             (["steps", 0, "simulation", "slip_m"], -1),
+        ])
+
+    def test_wrong_summaries_are_refused(self):
+        self.expect_refused("summary", SUMMARY, [
+            *[([key], REMOVED) for key in SUMMARY],
+            *[(["plans", 0, key], REMOVED) for key in SUMMARY["plans"][0]],
+            *[(["counts", key], REMOVED) for key in SUMMARY["counts"]],
+            (["verdict"], "maybe"),
+            (["counts", "pass"], -1),
+            (["plans"], []),
+            (["plans", 0, "verdict"], "fail"),
+            (["plans", 0, "verdict"], "error"),
+            (["plans", 0, "message"], "no"),
+            (["plans", 0, "report"], None),
+            (["plans", 0, "required_half_angle_deg"], 90),
+            (["plans", 1, "reason"], None),
+            (["plans", 1, "failed_step"], None),
+            (["plans", 1, "verdict"], "pass"),
+            (["plans", 2, "message"], None),
+            (["plans", 2, "steps"], 3),
+            (["skipped", 0, "why"], REMOVED),
         ])
 
     def test_wrong_graphs_are_refused(self):

@@ -129,5 +129,13 @@ TEST(Sha256, IsThatOfThePublishedVectors) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST_F(FileTest, WhatAKilledWriterLeftIsKnownByItsName) {
+  EXPECT_EQ(NameBesideAside("report.json.tmp123"), "report.json");
+  EXPECT_EQ(NameBesideAside("a.tmp1.tmp22"), "a.tmp1");
+  for (const char* name : {"report.json", "report.json.tmp", "report.json.tmp1x", "tmp12", ""}) {
+    EXPECT_EQ(NameBesideAside(name), "") << name;
+  }
+}
+
 }  // namespace
 }  // namespace regrasp

@@ -1,0 +1,164 @@
+#include "apps/batch/batch_summary.h"
+
+#include <algorithm>
+
+#include "planner/base/number.h"
+#include "planner/base/text_table.h"
+#include "sim/junit.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr char kNothing[] = "-";
+constexpr int kAngleDecimals = 2;
+
+template <class Value>
+Json OrNull(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+long Count(const BatchSummary& summary, PlanVerdict verdict) {
+  return std::ranges::count(summary.plans, verdict, &PlanOutcome::verdict);
+}
+
+/// Why the plan did not pass, in a word.
+std::string ReasonOf(const PlanOutcome& plan) {
+  const std::optional<int> failed = plan.report ? plan.report->failed_step() : std::nullopt;
+  return failed ? plan.report->entries[*failed].reason : "";
+}
+
+Json PlanJson(const PlanOutcome& plan) {
+  Json json = {{"name", plan.name},
+               {"file", plan.file},
+               {"verdict", std::string(PlanVerdictName(plan.verdict))},
+               {"steps", nullptr},
+               {"weakest_step", nullptr},
+               {"required_half_angle_deg", nullptr},
+               {"failed_step", nullptr},
+               {"reason", TextOrNull(ReasonOf(plan))},
+               {"message", TextOrNull(plan.message)},
+               {"report", nullptr}};
+  if (!plan.report) return json;
+  json["steps"] = plan.report->entries.size() - 1;
+  json["weakest_step"] = OrNull(plan.report->weakest_step);
+  json["required_half_angle_deg"] = OrNull(plan.report->required_half_angle_deg);
+  json["failed_step"] = OrNull(plan.report->failed_step());
+  json["report"] = plan.name + "/report.json";
+  return json;
+}
+
+TextRow MakeRow(const PlanOutcome& plan) {
+  TextRow row = {plan.name, std::string(PlanVerdictName(plan.verdict)),
+                 kNothing,  kNothing,
+                 kNothing,  plan.message};
+  if (plan.report) {
+    const ReportSummary& report = *plan.report;
+    row[2] = std::to_string(report.entries.size() - 1);
+    if (report.weakest_step) row[3] = std::to_string(*report.weakest_step);
+    if (report.required_half_angle_deg) {
+      row[4] = FormatFixed(*report.required_half_angle_deg, kAngleDecimals);
+    }
+    const std::optional<int> failed = report.failed_step();
+    if (failed) row[5] = ReasonOf(plan) + " in step " + std::to_string(*failed);
+  }
+  if (row.back().empty()) row.back() = kNothing;
+  return row;
+}
+
+std::string FormatCounts(const BatchSummary& summary) {
+  std::string text =
+      std::to_string(summary.plans.size()) + (summary.plans.size() == 1 ? " plan:" : " plans:");
+  std::string separator = " ";
+  for (const PlanVerdict verdict :
+       {PlanVerdict::kPass, PlanVerdict::kFail, PlanVerdict::kBadInput, PlanVerdict::kError}) {
+    text += separator + std::to_string(Count(summary, verdict)) + " " +
+            std::string(PlanVerdictName(verdict));
+    separator = ", ";
+  }
+  const long kept = std::ranges::count(summary.plans, true, &PlanOutcome::kept);
+  if (kept > 0) text += "; " + std::to_string(kept) + " kept from an earlier run";
+  return text + "\n";
+}
+
+JunitOutcome OutcomeOf(const std::string& verdict) {
+  if (verdict == "pass") return JunitOutcome::kPassed;
+  return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
+}
+
+JunitSuite MakeSuite(const PlanOutcome& plan) {
+  JunitSuite suite{plan.file, {}};
+  if (!plan.report) {
+    suite.cases.push_back(
+        {"plan", JunitOutcome::kError, std::string(PlanVerdictName(plan.verdict)), plan.message});
+    return suite;
+  }
+  for (std::size_t i = 0; i < plan.report->entries.size(); ++i) {
+    const ReportSummary::Entry& entry = plan.report->entries[i];
+    suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind, OutcomeOf(entry.verdict),
+                           entry.reason, entry.detail});
+  }
+  return suite;
+}
+
+}  // namespace
+
+std::string_view PlanVerdictName(PlanVerdict verdict) {
+  switch (verdict) {
+    case PlanVerdict::kPass:
+      return "pass";
+    case PlanVerdict::kFail:
+      return "fail";
+    case PlanVerdict::kBadInput:
+      return "bad-input";
+    case PlanVerdict::kError:
+      return "error";
+  }
+  return "";
+}
+
+PlanVerdict BatchSummary::verdict() const {
+  PlanVerdict worst = PlanVerdict::kPass;
+  for (const PlanOutcome& plan : plans) worst = std::max(worst, plan.verdict);
+  return worst;
+}
+
+std::string FormatSummaryJson(const BatchSummary& summary) {
+  Json json = {{"format", "regrasp-summary"},
+               {"version", 1},
+               {"verdict", std::string(PlanVerdictName(summary.verdict()))},
+               {"counts",
+                {{"plans", summary.plans.size()},
+                 {"pass", Count(summary, PlanVerdict::kPass)},
+                 {"fail", Count(summary, PlanVerdict::kFail)},
+                 {"bad-input", Count(summary, PlanVerdict::kBadInput)},
+                 {"error", Count(summary, PlanVerdict::kError)}}},
+               {"plans", Json::array()},
+               {"skipped", Json::array()}};
+  for (const PlanOutcome& plan : summary.plans) json["plans"].push_back(PlanJson(plan));
+  for (const SkippedFile& file : summary.skipped) {
+    json["skipped"].push_back({{"file", file.file}, {"why", file.why}});
+  }
+  // File names may be any bytes; JSON must be UTF-8.
+  return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string FormatSummaryTable(const BatchSummary& summary) {
+  std::vector<TextRow> rows = {{"plan", "verdict", "steps", "weakest", "required_deg", "reason"}};
+  for (const PlanOutcome& plan : summary.plans) rows.push_back(MakeRow(plan));
+  std::string text = FormatRows(rows);
+  for (const SkippedFile& file : summary.skipped) {
+    text += OneLine("skipped: " + file.file + " " + file.why) + "\n";
+  }
+  return text + FormatCounts(summary);
+}
+
+std::string FormatSummaryJunit(const BatchSummary& summary) {
+  std::vector<JunitSuite> suites;
+  for (const PlanOutcome& plan : summary.plans) suites.push_back(MakeSuite(plan));
+  return FormatJunit(suites);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,91 @@
+#include "apps/batch/plan_library.h"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
+
+namespace regrasp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kSuffix[] = ".json";
+constexpr char kPlanFormat[] = "regrasp-plan";
+
+/// Why a file is not a plan; empty where it may be one.
+std::string WhyNoPlan(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return "is a folder";
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostLookedAtBytes) {
+    return "";
+  }
+  try {
+    const Json json = ParseJson(ReadFile(path), path.string());
+    const auto format = json.find("format");
+    if (!json.is_object() || format == json.end() || !format->is_string()) {
+      return "says no format";
+    }
+    if (*format == kPlanFormat) return "";
+    return "is a " + format->get<std::string>().substr(0, sizeof "regrasp-12345678") + " file";
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+void AddFolder(const fs::path& folder, PlanLibrary& library) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == kSuffix) files.push_back(entry->path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::ranges::sort(files);
+  const std::size_t before = library.plans.size();
+  for (const fs::path& file : files) {
+    const std::string why = WhyNoPlan(file);
+    if (why.empty()) {
+      library.plans.push_back({file.stem().string(), file});
+    } else {
+      library.skipped.push_back({file.filename().string(), why});
+    }
+  }
+  if (library.plans.size() == before) throw InputError(folder.string() + ": holds no plan");
+}
+
+void CheckNames(const PlanLibrary& library) {
+  std::map<std::string, fs::path> seen;
+  for (const LibraryPlan& plan : library.plans) {
+    // "summary.json" is the file beside the folders.
+    if (plan.name.empty() || plan.name == "." || plan.name == ".." || plan.name == "summary.json") {
+      throw InputError(plan.path.string() + ": the name of a plan names the folder of its results");
+    }
+    const auto [other, fresh] = seen.emplace(plan.name, plan.path);
+    if (fresh) continue;
+    throw InputError("--plan: " + other->second.string() + " and " + plan.path.string() +
+                     " have the same name, \"" + plan.name + "\", and so the same folder");
+  }
+}
+
+}  // namespace
+
+PlanLibrary FindPlans(const std::vector<std::string>& paths) {
+  PlanLibrary library;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      AddFolder(path, library);
+    } else {
+      library.plans.push_back({fs::path(path).stem().string(), path});
+    }
+  }
+  CheckNames(library);
+  return library;
+}
+
+}  // namespace regrasp

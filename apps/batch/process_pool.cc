@@ -1,0 +1,269 @@
+#include "apps/batch/process_pool.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void FailWith(const std::string& what) {
+  throw EnvironmentError(what + ": " + std::strerror(errno));
+}
+
+/// A file descriptor that is closed when it goes.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  [[nodiscard]] int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// Signals become readable events while this lives: children that ended, and wishes to stop that
+/// nobody has set to be ignored.
+class SignalEvents {
+ public:
+  SignalEvents() : events_(-1) {
+    sigset_t waited;
+    sigemptyset(&waited);
+    sigaddset(&waited, SIGCHLD);
+    for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction action {};
+      sigaction(stop, nullptr, &action);
+      if (action.sa_handler != SIG_IGN) sigaddset(&waited, stop);
+    }
+    sigprocmask(SIG_BLOCK, &waited, &before_);
+    // Where the parent set this to be ignored, children would vanish without an exit code.
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;
+    sigaction(SIGCHLD, &usual, &child_action_);
+    events_ = Descriptor(signalfd(-1, &waited, SFD_CLOEXEC | SFD_NONBLOCK));
+    if (events_.get() >= 0) return;
+    const int error = errno;
+    Restore();
+    errno = error;
+    FailWith("signals cannot be waited for");
+  }
+  ~SignalEvents() { Restore(); }
+  SignalEvents(const SignalEvents&) = delete;
+  SignalEvents& operator=(const SignalEvents&) = delete;
+
+  [[nodiscard]] int descriptor() const { return events_.get(); }
+  void Restore() const {
+    sigaction(SIGCHLD, &child_action_, nullptr);
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+  /// Forgets children that ended. @returns the signal that wishes to stop, 0 where there is none.
+  [[nodiscard]] int TakeStop() const {
+    int stop = 0;
+    signalfd_siginfo info;
+    while (read(events_.get(), &info, sizeof info) == sizeof info) {
+      if (info.ssi_signo != SIGCHLD) stop = static_cast<int>(info.ssi_signo);
+    }
+    return stop;
+  }
+
+ private:
+  sigset_t before_;
+  struct sigaction child_action_;
+  Descriptor events_;
+};
+
+struct Child {
+  int index;
+  pid_t process;
+  Descriptor errors;
+  Clock::time_point deadline;
+  bool timed_out = false;
+  std::string text;
+};
+
+class Pool {
+ public:
+  Pool(const PoolOptions& options, const std::function<int(int)>& work,
+       const std::function<void(int, ChildExit)>& on_exit)
+      : options_(options), work_(work), on_exit_(on_exit) {}
+  ~Pool() { KillAll(); }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  /// @returns the signal that stopped it, 0 where all were run.
+  int Run(int count) {
+    int next = 0;
+    while (next < count || !children_.empty()) {
+      while (next < count && static_cast<int>(children_.size()) < options_.jobs) Start(next++);
+      Wait();
+      if (const int stop = signals_.TakeStop(); stop != 0) return stop;
+      KillLate();
+      Reap();
+    }
+    return 0;
+  }
+
+ private:
+  void Start(int index);
+  [[noreturn]] void RunChild(int index, pid_t parent, int errors);
+  void Wait();
+  void KillLate();
+  void Reap();
+  void KillAll();
+  static void Drain(Child& child);
+
+  const PoolOptions& options_;
+  const std::function<int(int)>& work_;
+  const std::function<void(int, ChildExit)>& on_exit_;
+  SignalEvents signals_;
+  std::vector<Child> children_;
+};
+
+void Pool::Start(int index) {
+  std::array<int, 2> ends;
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) FailWith("no pipe to a child process");
+  Descriptor in(ends[0]);
+  Descriptor out(ends[1]);
+  fcntl(in.get(), F_SETFL, O_NONBLOCK);
+  // What is buffered would be written twice.
+  std::cout.flush();
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t process = fork();
+  if (process < 0) FailWith("no child process");
+  if (process == 0) RunChild(index, parent, out.get());
+  auto deadline = Clock::time_point::max();
+  if (options_.time_limit) {
+    deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*options_.time_limit);
+  }
+  children_.push_back({index, process, std::move(in), deadline, false, {}});
+}
+
+void Pool::RunChild(int index, pid_t parent, int errors) {
+  signals_.Restore();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could have told
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nowhere, STDIN_FILENO);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+  close(errors);
+  int code = 0;
+  // Nothing is caught that the code before the fork would catch: it is no longer in charge.
+  [&]() noexcept { code = work_(index); }();
+  std::cerr.flush();
+  // Exit handlers and buffers belong to the parent.
+  _exit(code);
+}
+
+void Pool::Wait() {
+  std::vector<pollfd> waited = {{signals_.descriptor(), POLLIN, 0}};
+  auto deadline = Clock::time_point::max();
+  for (const Child& child : children_) {
+    // A closed pipe is always ready; its child is then waited for by signal.
+    if (child.errors.get() >= 0) waited.push_back({child.errors.get(), POLLIN, 0});
+    if (!child.timed_out) deadline = std::min(deadline, child.deadline);
+  }
+  int milliseconds = -1;
+  if (deadline != Clock::time_point::max()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    milliseconds = static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(
+        left.count(), 0, std::numeric_limits<int>::max()));
+  }
+  poll(waited.data(), waited.size(), milliseconds);
+  for (Child& child : children_) Drain(child);
+}
+
+void Pool::Drain(Child& child) {
+  std::array<char, 1 << 12> piece;
+  while (child.errors.get() >= 0) {
+    const ssize_t count = read(child.errors.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return;
+    if (count == 0) {
+      child.errors = Descriptor(-1);
+      return;
+    }
+    const std::size_t room = kLongestErrors - child.text.size();
+    child.text.append(piece.data(), std::min(room, static_cast<std::size_t>(count)));
+  }
+}
+
+void Pool::KillLate() {
+  const auto now = Clock::now();
+  for (Child& child : children_) {
+    if (child.timed_out || now < child.deadline) continue;
+    child.timed_out = true;
+    kill(child.process, SIGKILL);
+  }
+}
+
+void Pool::Reap() {
+  for (std::size_t i = 0; i < children_.size();) {
+    int status = 0;
+    if (waitpid(children_[i].process, &status, WNOHANG) <= 0) {
+      ++i;
+      continue;
+    }
+    Child child = std::move(children_[i]);
+    children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
+    Drain(child);
+    ChildExit exit;
+    exit.kind = WIFEXITED(status) ? ChildExit::Kind::kExited : ChildExit::Kind::kSignalled;
+    exit.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+    // One that was done at the last instant is done.
+    if (child.timed_out && exit.kind == ChildExit::Kind::kSignalled) {
+      exit.kind = ChildExit::Kind::kTimedOut;
+    }
+    exit.errors = std::move(child.text);
+    on_exit_(child.index, std::move(exit));
+  }
+}
+
+void Pool::KillAll() {
+  for (const Child& child : children_) kill(child.process, SIGKILL);
+  for (const Child& child : children_) {
+    while (waitpid(child.process, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+}
+
+}  // namespace
+
+void RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
+                   const std::function<void(int, ChildExit)>& on_exit) {
+  const int stop = Pool(options, work, on_exit).Run(count);
+  if (stop != 0) raise(stop);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace regrasp {
+
+/// How a child process of a pool ended.
+struct ChildExit {
+  enum class Kind {
+    kExited,
+    kSignalled,
+    kTimedOut,  ///< it was killed at the time limit
+  };
+  Kind kind = Kind::kExited;
+  int code = 0;        ///< exit code, or the signal that ended it
+  std::string errors;  ///< what it wrote on standard error, at most kLongestErrors bytes
+};
+
+/// More is read, so that the child can go on, and thrown away.
+inline constexpr std::size_t kLongestErrors = std::size_t{1} << 16;
+
+struct PoolOptions {
+  int jobs = 1;                                             ///< children at a time, ≥ 1
+  std::optional<std::chrono::duration<double>> time_limit;  ///< of each child, by the clock
+};
+
+/// Calls `work(0)` … `work(count − 1)`, each in a forked child of its own, in this order and at
+/// most `options.jobs` at a time, and `on_exit` in this process as each of them ends.
+///
+/// What a child does to itself (a crash, an endless loop, memory that runs out) ends with it. A
+/// child's exit code is what `work` returns; where an exception leaves `work`, it aborts. Children
+/// read nothing from standard input, print nothing on standard output, leave no core file and run
+/// no destructor or exit handler of this process. They die when this process does, however it dies.
+///
+/// SIGINT, SIGTERM and SIGHUP stop all children, then take their usual effect on this process.
+/// @throws EnvironmentError  no process or pipe can be made; no child is left then.
+void RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
+                   const std::function<void(int, ChildExit)>& on_exit);
+
+}  // namespace regrasp

@@ -1,0 +1,56 @@
+#include "apps/batch/report_summary.h"
+
+#include <algorithm>
+
+#include "planner/base/file.h"
+#include "planner/plan/json_reader.h"
+
+namespace regrasp {
+
+namespace {
+
+std::string TextOrNothing(const JsonReader& parent, const char* key) {
+  if (!parent.Has(key)) return "";
+  const JsonReader member = parent.Member(key);
+  return member.IsNull() ? "" : member.String();
+}
+
+ReportSummary::Entry ReadEntry(const JsonReader& step) {
+  return {step.Member("kind").OneOf({"hold", "switch", "align"}),
+          step.Member("verdict").OneOf({"pass", "fail", "skipped"}), TextOrNothing(step, "reason"),
+          TextOrNothing(step, "detail"), TextOrNothing(step, "frame")};
+}
+
+}  // namespace
+
+std::optional<int> ReportSummary::failed_step() const {
+  const auto failed = std::ranges::find(entries, "fail", &Entry::verdict);
+  if (failed == entries.end()) return std::nullopt;
+  return static_cast<int>(failed - entries.begin());
+}
+
+ReportSummary SummarizeReport(const Json& json, const std::string& name) {
+  const JsonReader root(json, name);
+  root.ExpectFormat("regrasp-report");
+  ReportSummary summary;
+  summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
+  if (root.Has("run")) summary.run = root.Member("run").Member("sha256").String();
+  const JsonReader list = root.Member("steps");
+  const std::vector<JsonReader> steps = list.Elements();
+  if (steps.empty()) list.Fail("is empty");
+  for (const JsonReader& step : steps) summary.entries.push_back(ReadEntry(step));
+  const JsonReader weakest = root.Member("weakest_step");
+  if (weakest.IsNull()) return summary;
+  summary.weakest_step = weakest.Integer(0, static_cast<int>(steps.size()) - 1);
+  const JsonReader closure = steps[*summary.weakest_step].Member("force_closure");
+  if (closure.IsNull()) return summary;
+  const JsonReader required = closure.Member("required_half_angle_deg");
+  if (!required.IsNull()) summary.required_half_angle_deg = required.Number();
+  return summary;
+}
+
+ReportSummary ReadReportSummary(const std::filesystem::path& path) {
+  return SummarizeReport(ParseJson(ReadFile(path), path.string()), path.string());
+}
+
+}  // namespace regrasp

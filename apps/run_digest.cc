@@ -1,0 +1,45 @@
+#include "apps/run_digest.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "apps/program.h"
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
+#include "sim/engine.h"
+
+namespace regrasp {
+
+namespace {
+
+Json FileJson(const RunFile& file) { return {{"file", file.name}, {"sha256", file.sha256}}; }
+
+Json DigestOf(const std::string& path) {
+  return path.empty() ? Json(nullptr) : Json(Sha256(ReadFile(path)));
+}
+
+}  // namespace
+
+std::string ObjectPathOf(const ValidateOptions& options, const std::string& named_by_plan) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_directory(options.object_path, error)) return options.object_path;
+  // Only the name counts: a plan must not lead out of the folder.
+  const fs::path name = fs::path(named_by_plan).filename();
+  const fs::path path = options.object_path / name;
+  if (!name.empty() && fs::is_regular_file(path, error)) return path.string();
+  throw InputError(options.plan_path + ": /object/file: there is no file \"" + name.string() +
+                   "\" in " + options.object_path);
+}
+
+std::string RunDigest(const ValidateOptions& options, const RunFile& input, const RunFile& object) {
+  const Json json = {{"version", ProgramVersion()},      {"engine", EngineVersion()},
+                     {"input", FileJson(input)},         {"object", FileJson(object)},
+                     {"start", DigestOf(options.start)}, {"goal", DigestOf(options.goal)},
+                     {"options", options.given}};
+  // File names and values may be any bytes.
+  return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
+}
+
+}  // namespace regrasp

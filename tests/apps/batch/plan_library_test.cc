@@ -1,0 +1,106 @@
+#include "apps/batch/plan_library.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+
+namespace regrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr char kPlan[] = R"({"format": "regrasp-plan", "version": 1})";
+
+/// A folder of its own for each test.
+class PlanLibraryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "regrasp_plans_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Write(const std::string& name, const std::string& text) const {
+    const fs::path path = folder_ / name;
+    fs::create_directories(path.parent_path());
+    WriteFile(path, text);
+    return path.string();
+  }
+
+  static std::vector<std::string> Names(const PlanLibrary& library) {
+    std::vector<std::string> names;
+    for (const LibraryPlan& plan : library.plans) names.push_back(plan.name);
+    return names;
+  }
+
+  static std::string Refusal(const std::vector<std::string>& paths) {
+    try {
+      (void)FindPlans(paths);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(PlanLibraryTest, AFolderGivesItsPlansByNameAndSaysWhatItSkips) {
+  Write("b.json", kPlan);
+  Write("a.json", kPlan);
+  Write("notes.txt", kPlan);
+  Write("c.json", R"({"format": "regrasp-grasp", "version": 1})");
+  Write("d.json", R"({"name": "package"})");
+  Write("e.json", "[1, 2]");
+  fs::create_directories(folder_ / "f.json");
+  const PlanLibrary library = FindPlans({folder_.string()});
+  EXPECT_THAT(Names(library), ElementsAre("a", "b"));
+  EXPECT_EQ(library.plans[0].path, folder_ / "a.json");
+  ASSERT_EQ(library.skipped.size(), 4u);
+  EXPECT_EQ(library.skipped[0].file, "c.json");
+  EXPECT_EQ(library.skipped[0].why, "is a regrasp-grasp file");
+  EXPECT_EQ(library.skipped[1].why, "says no format");
+  EXPECT_EQ(library.skipped[2].why, "says no format");
+  EXPECT_EQ(library.skipped[3].why, "is a folder");
+}
+
+TEST_F(PlanLibraryTest, WhatCannotBeParsedMayHaveBeenAPlan) {
+  Write("broken.json", R"({"format": "regrasp-plan", )");
+  Write("empty.json", "");
+  EXPECT_THAT(Names(FindPlans({folder_.string()})), ElementsAre("broken", "empty"));
+}
+
+TEST_F(PlanLibraryTest, FilesThatAreNamedArePlansInTheirOrder) {
+  const std::string second = Write("x/second.json", "{}");
+  const std::string first = Write("y/first.json", kPlan);
+  Write("z/third.json", kPlan);
+  const PlanLibrary library = FindPlans({second, first, (folder_ / "z").string(), "missing.json"});
+  EXPECT_THAT(Names(library), ElementsAre("second", "first", "third", "missing"));
+  EXPECT_TRUE(library.skipped.empty());
+}
+
+TEST_F(PlanLibraryTest, TwoPlansOfOneNameAreRefused) {
+  const std::string one = Write("x/same.json", kPlan);
+  const std::string other = Write("y/same.json", kPlan);
+  EXPECT_THAT(Refusal({one, other}), HasSubstr("have the same name, \"same\""));
+  EXPECT_THAT(Refusal({one, one}), HasSubstr("have the same name"));
+  EXPECT_THAT(Refusal({(folder_ / "x").string(), other}), HasSubstr("have the same name"));
+}
+
+TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
+  Write("x/grasp.json", R"({"format": "regrasp-grasp"})");
+  EXPECT_THAT(Refusal({(folder_ / "x").string()}), HasSubstr("holds no plan"));
+  for (const char* name : {"..json", "...json", "summary.json.json"}) {
+    EXPECT_THAT(Refusal({Write(name, kPlan), "other.json"}), HasSubstr("names the folder")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

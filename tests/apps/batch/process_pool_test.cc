@@ -1,0 +1,188 @@
+#include "apps/batch/process_pool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+namespace regrasp {
+namespace {
+
+/// Far above what any child here needs; one that hangs is ended by it and fails the test.
+constexpr std::chrono::seconds kHang{120};
+
+std::map<int, ChildExit> RunAll(int count, int jobs, const std::function<int(int)>& work) {
+  std::map<int, ChildExit> exits;
+  RunInChildren(count, {jobs, kHang}, work, [&](int index, ChildExit exit) {
+    EXPECT_FALSE(exits.contains(index));
+    exits[index] = std::move(exit);
+  });
+  EXPECT_EQ(static_cast<int>(exits.size()), count);
+  return exits;
+}
+
+TEST(ProcessPoolTest, EveryTaskRunsInAProcessOfItsOwnAndItsExitCodeComesBack) {
+  int changed_by_children = 0;
+  for (const int jobs : {1, 3, 100}) {
+    const auto exits = RunAll(10, jobs, [&](int index) {
+      ++changed_by_children;
+      return index;
+    });
+    for (const auto& [index, exit] : exits) {
+      EXPECT_EQ(exit.kind, ChildExit::Kind::kExited);
+      EXPECT_EQ(exit.code, index);
+      EXPECT_EQ(exit.errors, "");
+    }
+  }
+  EXPECT_EQ(changed_by_children, 0);
+  EXPECT_TRUE(RunAll(0, 2, [](int) { return 0; }).empty());
+}
+
+TEST(ProcessPoolTest, NoMoreThanTheJobsRunAtATime) {
+  struct Shared {
+    std::atomic<int> running{0}, most{0};
+  };
+  void* memory =
+      mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  for (const int jobs : {1, 3}) {
+    auto* shared = new (memory) Shared;
+    RunAll(12, jobs, [&](int) {
+      const int now = ++shared->running;
+      int most = shared->most;
+      while (most < now && !shared->most.compare_exchange_weak(most, now)) {
+      }
+      usleep(2000);
+      --shared->running;
+      return 0;
+    });
+    EXPECT_GE(shared->most, 1);
+    EXPECT_LE(shared->most, jobs);
+  }
+  munmap(memory, sizeof(Shared));
+}
+
+TEST(ProcessPoolTest, WhatAChildDoesToItselfStopsNoOther) {
+  const auto exits = RunAll(6, 2, [](int index) {
+    if (index == 1) raise(SIGSEGV);
+    if (index == 2) std::abort();
+    if (index == 3) throw std::runtime_error("nobody catches this");
+    if (index == 4) raise(SIGKILL);
+    return 0;
+  });
+  for (const int good : {0, 5}) {
+    EXPECT_EQ(exits.at(good).kind, ChildExit::Kind::kExited);
+    EXPECT_EQ(exits.at(good).code, 0);
+  }
+  for (const int bad : {1, 2, 3, 4}) {
+    // The address sanitizer turns a segmentation fault into an exit code.
+    EXPECT_TRUE(exits.at(bad).kind == ChildExit::Kind::kSignalled || exits.at(bad).code != 0)
+        << bad;
+  }
+  EXPECT_EQ(exits.at(2).kind, ChildExit::Kind::kSignalled);
+  EXPECT_EQ(exits.at(2).code, SIGABRT);
+  EXPECT_EQ(exits.at(4).code, SIGKILL);
+}
+
+TEST(ProcessPoolTest, MessagesComeBackCutWhereTheyNeverEnd) {
+  const auto exits = RunAll(2, 2, [](int index) {
+    if (index == 0) {
+      std::cerr << "one line\n";
+      std::cout << "and nothing of this\n";
+      return 0;
+    }
+    const std::string piece(1 << 12, 'x');
+    for (std::size_t sent = 0; sent < 4 * kLongestErrors; sent += piece.size()) std::cerr << piece;
+    return 7;
+  });
+  EXPECT_EQ(exits.at(0).errors, "one line\n");
+  EXPECT_EQ(exits.at(1).code, 7);
+  EXPECT_EQ(exits.at(1).errors.size(), kLongestErrors);
+}
+
+TEST(ProcessPoolTest, AChildThatNeverEndsIsStoppedAtTheLimit) {
+  std::map<int, ChildExit> exits;
+  const auto work = [](int) {
+    while (true) pause();
+    return 0;
+  };
+  const PoolOptions options{2, std::chrono::milliseconds(50)};
+  RunInChildren(3, options, work, [&](int index, ChildExit exit) { exits[index] = exit; });
+  ASSERT_EQ(exits.size(), 3u);
+  for (const auto& [index, exit] : exits) EXPECT_EQ(exit.kind, ChildExit::Kind::kTimedOut) << index;
+}
+
+TEST(ProcessPoolTest, AChildThatClosesItsMessagesIsStillWaitedFor) {
+  const auto exits = RunAll(1, 1, [](int) {
+    close(STDERR_FILENO);
+    usleep(50000);
+    return 5;
+  });
+  EXPECT_EQ(exits.at(0).code, 5);
+}
+
+TEST(ProcessPoolTest, NoChildIsLeftWhereTheCallerThrows) {
+  const auto run = [] {
+    RunInChildren(
+        4, {4, kHang},
+        [](int index) {
+          while (index != 0) pause();
+          return 0;
+        },
+        [](int, const ChildExit&) { throw std::runtime_error("enough"); });
+  };
+  EXPECT_THROW(run(), std::runtime_error);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(ProcessPoolTest, ASignalStopsTheChildrenAndThenThisProcess) {
+  const auto run = [] {
+    RunInChildren(
+        2, {2, kHang},
+        [parent = getpid()](int index) {
+          if (index == 0) kill(parent, SIGTERM);
+          while (true) pause();
+          return 0;
+        },
+        [](int, const ChildExit&) {});
+    std::exit(0);
+  };
+  EXPECT_EXIT(run(), testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(ProcessPoolTest, SignalsAreAsTheyWereAfterwards) {
+  sigset_t before, after;
+  sigprocmask(SIG_BLOCK, nullptr, &before);
+  RunAll(3, 2, [](int) {
+    sigset_t inside;
+    sigprocmask(SIG_BLOCK, nullptr, &inside);
+    return sigismember(&inside, SIGINT);
+  });
+  sigprocmask(SIG_BLOCK, nullptr, &after);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) {
+    EXPECT_EQ(sigismember(&before, signal), sigismember(&after, signal)) << signal;
+  }
+}
+
+TEST(ProcessPoolTest, ExitCodesArriveWhereThisProcessIgnoresItsChildren) {
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  struct sigaction before {};
+  sigaction(SIGCHLD, &ignore, &before);
+  EXPECT_EQ(RunAll(1, 1, [](int) { return 9; }).at(0).code, 9);
+  sigaction(SIGCHLD, &before, nullptr);
+}
+
+}  // namespace
+}  // namespace regrasp

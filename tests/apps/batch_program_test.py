@@ -1,0 +1,414 @@
+"""The program validate on a library of plans: results, isolation, resuming, bad input."""
+
+import errno
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree as ElementTree
+
+import jsonschema
+
+import program_case
+from program_case import HANG_SECONDS, ProgramCase
+
+# Quick to plan and to replay.
+MODELS = ["triangle.wkt", "square.wkt", "polygon15.wkt"]
+SEEDS = range(11)
+
+# Longer than validating one of these plans takes, under the sanitizers too.
+LIMIT_SECONDS = "20"
+
+
+def wait_until(what, seconds=HANG_SECONDS):
+    """Returns the first true value of `what()`; fails where there is none for that long."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = what()
+        if value:
+            return value
+        time.sleep(0.01)
+    raise AssertionError("it never came")
+
+
+def children_of(process):
+    try:
+        with open(f"/proc/{process}/task/{process}/children", encoding="ascii") as file:
+            return [int(word) for word in file.read().split()]
+    except FileNotFoundError:
+        return []
+
+
+def is_alive(process):
+    """Whether a process runs: one that has ended and was not waited for does not."""
+    try:
+        with open(f"/proc/{process}/stat", encoding="ascii") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+def tree(folder):
+    """All files of a folder, by their paths in it."""
+    found = {}
+    for parent, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(parent, name)
+            with open(path, "rb") as file:
+                found[os.path.relpath(path, folder)] = file.read()
+    return found
+
+
+class Batch(ProgramCase):
+    program = "validate"
+    plans = None  # file name to text
+
+    def setUp(self):
+        super().setUp()
+        if Batch.plans is None:
+            Batch.plans = self.make_plans()
+        os.mkdir(self.path("plans"))
+
+    def make_plans(self):
+        plans = {}
+        for model in MODELS:
+            for seed in SEEDS:
+                self.assert_done(
+                    "--object", self.model(model), "--friction-angle", "20", "--start", "random",
+                    "--goal", "random", "--seed", str(seed), "--output", "made.json", "--quiet",
+                    program="plan")
+                plans[f"{model[:-4]}_{seed:02}.json"] = self.read("made.json")
+                os.remove(self.path("made.json"))
+        self.assertGreaterEqual(len(plans), 30)
+        return plans
+
+    def use(self, names):
+        for name in names:
+            self.write("plans/" + name, Batch.plans[name])
+        return names
+
+    def use_few(self):
+        """One plan of each model, and one that fails for its friction."""
+        names = self.use(["polygon15_03.json", "square_01.json", "triangle_00.json"])
+        weak = json.loads(Batch.plans["square_02.json"])
+        weak["friction"]["half_angle_deg"] = 1.0
+        self.write_json("plans/weak.json", weak)
+        return names
+
+    def arguments(self, *more, out="result"):
+        return ["--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans", "--out",
+                out, "--no-frames", *more]
+
+    def run_batch(self, code, *more, out="result"):
+        done = self.run_program(*self.arguments(*more, out=out))
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def summary(self, out="result"):
+        """The summary, which always follows its schema; so do all reports that it names."""
+        docs = os.path.join(program_case.ARGUMENTS.source, "docs")
+        schemas = {}
+        for name in ("summary", "report"):
+            with open(f"{docs}/{name}.schema.json", encoding="utf-8") as file:
+                schemas[name] = json.load(file)
+        summary = json.loads(self.read(out + "/summary.json"))
+        jsonschema.validate(summary, schemas["summary"])
+        for plan in summary["plans"]:
+            if plan["report"]:
+                report = json.loads(self.read(f"{out}/{plan['report']}"))
+                jsonschema.validate(report, schemas["report"])
+        return summary
+
+    def verdicts(self, out="result"):
+        return {plan["name"]: plan["verdict"] for plan in self.summary(out)["plans"]}
+
+    def start_hanging(self, *more):
+        """Starts a batch whose plan square.json never ends; returns it and that plan's process."""
+        pipe = self.path("plans/square.json")
+        os.mkfifo(pipe)
+        batch = subprocess.Popen(
+            [os.path.join(program_case.ARGUMENTS.programs, "validate"),
+             *self.arguments("--jobs", "1", *more)],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            cwd=self.folder)
+        self.addCleanup(self.end, batch)
+
+        def opened():
+            """The end to write into: there is none before someone waits at the other."""
+            try:
+                return os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
+            except OSError as error:
+                self.assertEqual(error.errno, errno.ENXIO)
+                return None
+
+        self.addCleanup(os.close, wait_until(opened))
+        children = children_of(batch.pid)
+        self.assertEqual(len(children), 1)
+        return batch, children[0]
+
+    @staticmethod
+    def end(batch):
+        if batch.poll() is None:
+            batch.kill()
+        batch.communicate()
+
+    # Results.
+
+    def test_a_library_gives_the_same_bytes_with_any_number_of_jobs(self):
+        names = self.use(sorted(Batch.plans))
+        one = self.run_batch(0, "--jobs", "1", "--junit", "one.xml", out="one")
+        many = self.run_batch(0, "--jobs", "7", "--junit", "many.xml", out="many")
+        self.assertEqual(one.stdout, many.stdout)
+        self.assertEqual(self.read("one.xml"), self.read("many.xml"))
+        self.assertEqual(tree(self.path("one")), tree(self.path("many")))
+        lines = one.stdout.splitlines()
+        self.assertEqual(len(lines), len(names) + 2)
+        self.assertEqual([line.split()[0] for line in lines[1:-1]], [name[:-5] for name in names])
+        self.assertEqual(lines[-1],
+                         f"{len(names)} plans: {len(names)} pass, 0 fail, 0 bad-input, 0 error")
+        summary = self.summary("one")
+        self.assertEqual([plan["name"] for plan in summary["plans"]], [name[:-5] for name in names])
+
+    def test_each_plan_has_what_a_single_run_writes(self):
+        names = self.use_few()
+        self.run_program("--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans",
+                         "--out", "result", "--size", "160x120")
+        for name in names:
+            plan = "plans/" + name
+            model = self.model(name.split("_")[0] + ".wkt")
+            self.assert_done("--object", model, "--plan", plan, "--out", "single", "--size",
+                             "160x120")
+            single = tree(self.path("single"))
+            self.assertIn("000_hold.png", single)
+            self.assertEqual(single, tree(self.path("result/" + name[:-5])))
+            shutil.rmtree(self.path("single"))
+
+    def test_junit_has_a_suite_for_each_plan(self):
+        self.use_few()
+        self.write("plans/broken.json", "{")
+        self.run_batch(2, "--junit", "junit.xml")
+        suites = {suite.get("name"): suite
+                  for suite in ElementTree.parse(self.path("junit.xml")).getroot()}
+        self.assertEqual(len(suites), 5)
+        for plan in self.summary()["plans"]:
+            suite = suites[plan["file"]]
+            cases = 1 if plan["steps"] is None else plan["steps"] + 1
+            self.assertEqual(len(suite.findall("testcase")), cases)
+        self.assertEqual(suites["weak.json"].get("failures"), "1")
+        self.assertEqual(suites["broken.json"].get("errors"), "1")
+        self.assertEqual(suites["square_01.json"].get("failures"), "0")
+
+    def test_the_folder_is_named_after_the_plans_where_none_is_given(self):
+        self.use_few()
+        models = ["--object", program_case.ARGUMENTS.source + "/models", "--no-frames", "--quiet"]
+        self.run_program("--plan", "plans/", *models)
+        self.assertTrue(os.path.exists(self.path("out/plans/summary.json")))
+        self.run_program("--plan", "plans/weak.json", "plans/square_01.json", *models)
+        self.assertEqual(list(self.verdicts("out/batch")), ["weak", "square_01"])
+
+    def test_quiet_prints_nothing_and_one_object_serves_all_plans(self):
+        self.use(["square_01.json", "square_02.json"])
+        done = self.assert_done("--object", self.model("square.wkt"), "--plan", "plans", "--quiet",
+                                "--no-frames", "--out", "result")
+        self.assertEqual(done.stdout + done.stderr, "")
+        self.assertEqual(len(self.verdicts()), 2)
+
+    def test_files_of_a_folder_that_are_no_plans_are_skipped_and_named(self):
+        self.use_few()
+        shutil.copy(self.model("square.start.json"), self.path("plans"))
+        self.write("plans/readme.txt", "nothing")
+        done = self.run_batch(1)
+        self.assertIn("skipped: square.start.json is a regrasp-grasp file\n", done.stdout)
+        self.assertEqual(self.summary()["skipped"],
+                         [{"file": "square.start.json", "why": "is a regrasp-grasp file"}])
+
+    # What goes wrong with one plan.
+
+    def test_bad_plans_stop_no_other(self):
+        names = self.use_few()
+        other = json.loads(Batch.plans["square_02.json"])
+        other["object"]["sha256"] = "0" * 64
+        self.write_json("plans/other_object.json", other)
+        other["object"]["file"] = "../../../../etc/passwd"
+        self.write_json("plans/no_object.json", other)
+        other["object"]["file"] = ".."
+        self.write_json("plans/no_name.json", other)
+        self.write("plans/not_json.json", b"\xff\x00{")
+        self.write("plans/empty.json", "")
+        self.write("plans/deep.json", "[" * 100000)
+        self.write_json("plans/only_format.json", {"format": "regrasp-plan"})
+        done = self.run_batch(2)
+        verdicts = self.verdicts()
+        bad = ["deep", "empty", "no_name", "no_object", "not_json", "only_format", "other_object"]
+        self.assertEqual([name for name, verdict in verdicts.items() if verdict == "bad-input"], bad)
+        self.assertEqual(verdicts["weak"], "fail")
+        for name in names:
+            self.assertEqual(verdicts[name[:-5]], "pass")
+        messages = {plan["name"]: plan["message"] for plan in self.summary()["plans"]}
+        self.assertIn("/object/sha256", messages["other_object"])
+        self.assertIn('there is no file "passwd"', messages["no_object"])
+        for name in bad:
+            self.assertIn(f"validate: {name}: {messages[name]}\n", done.stderr)
+            self.assertFalse(os.path.exists(self.path("result/" + name)))
+        self.assertEqual(done.stderr.count("\n"), len(bad))
+
+    def test_the_exit_code_is_the_worst(self):
+        self.use(["square_01.json"])
+        self.run_batch(0)
+        self.use_few()
+        self.run_batch(1)
+        self.write("plans/broken.json", "{")
+        self.run_batch(2)
+        shutil.rmtree(self.path("result/weak"))
+        self.write("result/weak", "in the way of a folder")
+        self.run_batch(3)
+        self.assertEqual(self.verdicts()["weak"], "error")
+        self.assertEqual(self.verdicts()["square_01"], "pass")
+
+    def test_a_plan_without_end_is_stopped_at_the_time_limit(self):
+        names = self.use_few()
+        os.mkfifo(self.path("plans/square.json"))
+        done = self.run_batch(3, "--time-limit", LIMIT_SECONDS, "--jobs", "2")
+        verdicts = self.verdicts()
+        self.assertEqual(verdicts.pop("square"), "error")
+        self.assertEqual(verdicts.pop("weak"), "fail")
+        self.assertEqual(verdicts, {name[:-5]: "pass" for name in names})
+        self.assertIn(f"validate: square: took longer than --time-limit {LIMIT_SECONDS}\n",
+                      done.stderr)
+
+    def test_a_plan_whose_process_crashes_is_an_error_of_that_plan(self):
+        self.use_few()
+        batch, child = self.start_hanging()
+        os.kill(child, signal.SIGKILL)
+        _, errors = batch.communicate(timeout=HANG_SECONDS)
+        self.assertEqual(batch.returncode, 3, errors)
+        self.assertEqual(errors, "validate: square: crashed: Killed\n")
+        self.assertEqual(self.verdicts(), {"polygon15_03": "pass", "square": "error",
+                                           "square_01": "pass", "triangle_00": "pass",
+                                           "weak": "fail"})
+
+    # Stopping and resuming.
+
+    def test_a_killed_batch_goes_on_where_it_was_and_comes_to_the_same(self):
+        done_before = [f"polygon15_{seed:02}.json" for seed in range(4)]
+        self.use(done_before + [f"square_{seed:02}.json" for seed in range(4)])
+        self.run_batch(0, out="whole")
+        batch, child = self.start_hanging()
+        batch.kill()
+        batch.communicate()
+        wait_until(lambda: not is_alive(child))
+        os.remove(self.path("plans/square.json"))
+        self.assertEqual(sorted(os.listdir(self.path("result"))), [n[:-5] for n in done_before])
+        # As one is left that is killed while it writes.
+        os.rename(self.path("result/polygon15_01/report.json"),
+                  self.path("result/polygon15_01/report.json.tmp12345"))
+        self.write("result/polygon15_02/report.json", "{ half")
+        done = self.run_batch(0, "--jobs", "2")
+        self.assertIn("8 plans: 8 pass, 0 fail, 0 bad-input, 0 error; 2 kept from an earlier run",
+                      done.stdout)
+        self.assertEqual(tree(self.path("result")), tree(self.path("whole")))
+
+    def test_only_what_is_the_same_is_kept(self):
+        names = self.use_few()
+        kept = " kept from an earlier run"
+
+        def count(code, *more):
+            last = self.run_batch(code, *more).stdout.splitlines()[-1]
+            return int(last.split("; ")[1].split()[0]) if kept in last else 0
+
+        self.assertEqual(count(1), 0)
+        self.assertEqual(count(1), 4)
+        self.assertEqual(count(1, "--jobs", "3", "--time-limit", LIMIT_SECONDS), 4)
+        self.assertEqual(count(1, "--fresh"), 0)
+        # Another option that changes results, and back again: the last results count.
+        self.assertEqual(count(1, "--shake", "0.005"), 0)
+        self.assertEqual(count(1, "--shake", "0.005"), 4)
+        self.assertEqual(count(1), 0)
+        # The same plan in other bytes.
+        plan = json.loads(Batch.plans[names[0]])
+        self.write_json("plans/" + names[0], plan)
+        self.assertEqual(count(1), 3)
+        # A file that is missing, a report that is broken.
+        os.remove(self.path("result/weak/report.html"))
+        self.assertEqual(count(1), 3)
+        self.write("result/weak/report.json", "[]")
+        self.assertEqual(count(1), 3)
+        self.assertEqual(count(1), 4)
+
+    def test_pictures_are_part_of_what_is_kept(self):
+        self.use(["square_01.json"])
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+                     "--size", "160x120"]
+        self.run_batch(0)
+        self.assertNotIn("kept", self.assert_done(*arguments).stdout)
+        self.assertIn("1 kept", self.assert_done(*arguments).stdout)
+        for name in ("000_hold.png", "overview.png"):
+            os.remove(self.path("result/square_01/" + name))
+            self.assertNotIn("kept", self.assert_done(*arguments).stdout)
+            self.assertTrue(os.path.exists(self.path("result/square_01/" + name)))
+
+    def test_an_object_that_changed_is_validated_again(self):
+        self.use(["square_01.json", "square_02.json"])
+        shutil.copy(self.model("square.wkt"), self.path("square.wkt"))
+        arguments = ["--object", "square.wkt", "--plan", "plans", "--out", "result", "--no-frames",
+                     "--allow-object-change"]
+        self.assert_done(*arguments)
+        self.assertIn("2 kept", self.assert_done(*arguments).stdout)
+        with open(self.path("square.wkt"), "a", encoding="ascii") as file:
+            file.write("\n")
+        self.assertNotIn("kept", self.assert_done(*arguments).stdout)
+
+    def test_an_interrupt_stops_the_children(self):
+        self.use_few()
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            batch, child = self.start_hanging("--fresh")
+            batch.send_signal(stop)
+            batch.communicate(timeout=HANG_SECONDS)
+            self.assertEqual(batch.returncode, -stop)
+            wait_until(lambda: not is_alive(child))
+            os.remove(self.path("plans/square.json"))
+            shutil.rmtree(self.path("result"))
+
+    # Bad usage.
+
+    def test_refuses_what_makes_no_sense_for_a_library(self):
+        self.use_few()
+        os.mkdir(self.path("other"))
+        shutil.copy(self.path("plans/weak.json"), self.path("other"))
+        models = ["--object", program_case.ARGUMENTS.source + "/models"]
+        library = [*models, "--plan", "plans"]
+        refused = 0
+        for words, arguments in [
+                ("have the same name", [*models, "--plan", "plans", "other"]),
+                ("have the same name", [*models, "--plan", "plans/weak.json", "other/weak.json"]),
+                ("--trajectory goes with a single plan", [*library, "--trajectory", "t.csv"]),
+                ("--export-mjcf goes with a single plan", [*library, "--export-mjcf", "s.xml"]),
+                ("--verify goes with a single plan", [*library, "--verify", "report.json"]),
+                ("--grasp", [*library, "--grasp", self.model("square.start.json")]),
+                ("--jobs", [*library, "--jobs", "0"]),
+                ("--jobs", [*library, "--jobs", "two"]),
+                ("--time-limit", [*library, "--time-limit", "0"]),
+                ("--time-limit", [*library, "--time-limit", "1e9"]),
+                ("--jobs goes with several plans", [*models, "--plan", "plans/weak.json", "--jobs",
+                                                    "2"]),
+                ("--fresh goes with several plans", [*models, "--plan", "plans/weak.json",
+                                                     "--fresh"]),
+                ("is a folder", [*models, "--grasp", self.model("square.start.json"), "--mu", "1"]),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, words, *arguments)
+                refused += 1
+        os.mkdir(self.path("nothing"))
+        self.assert_refused(2, "holds no plan", *models, "--plan", "nothing")
+        self.assertGreater(refused, 10)
+
+    def test_says_when_the_folder_cannot_be_written(self):
+        self.use_few()
+        self.write("file", "")
+        self.assert_refused(3, "file", *self.arguments(out="file/result"))
+
+
+if __name__ == "__main__":
+    program_case.main()
