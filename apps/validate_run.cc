@@ -128,7 +128,8 @@ FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
 
 int Verify(const ValidateOptions& options, const Task& task) {
   const ReportVerification found =
-      VerifyReport(options.verify, task.object, task.plan, Sha256(task.file_text));
+      VerifyReport(ReadFile(options.verify), options.verify,
+                   {*task.object.object, task.object.sha256, task.plan, Sha256(task.file_text)});
   if (!options.quiet) std::cout << found.text;
   return found.proved ? kExitDone : kExitNegative;
 }

@@ -5,7 +5,6 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
@@ -51,13 +50,14 @@ std::string Line(const EntryVerdict& entry) {
 
 }  // namespace
 
-ReportVerification VerifyReport(const std::string& report_path, const ObjectFile& object,
-                                const Plan& plan, const std::string& plan_sha256) {
-  const Json json = ParseJson(ReadFile(report_path), report_path);
-  const JsonReader root(json, report_path);
+ReportVerification VerifyReport(std::string_view text, const std::string& name,
+                                const ReportSubject& subject) {
+  const Plan& plan = subject.plan;
+  const Json json = ParseJson(text, name);
+  const JsonReader root(json, name);
   root.ExpectFormat("regrasp-report");
-  ExpectDigest(root.Member("object"), object.sha256, "object");
-  ExpectDigest(root.Member("plan"), plan_sha256, "plan");
+  ExpectDigest(root.Member("object"), subject.object_sha256, "object");
+  ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
   const JsonReader angle = root.Member("settings").Member("friction_half_angle_deg");
   const double degrees = angle.Number();
   if (!(degrees > 0 && degrees < 90)) angle.Fail("must lie between 0 and 90");
@@ -69,7 +69,7 @@ ReportVerification VerifyReport(const std::string& report_path, const ObjectFile
   ReportVerification verification;
   const double mu = std::tan(Radians(degrees));
   std::size_t proved = 0;
-  for (const EntryVerdict& entry : CheckPlanProofs(LocatePlan(*object.object, plan), mu, proofs)) {
+  for (const EntryVerdict& entry : CheckPlanProofs(LocatePlan(subject.object, plan), mu, proofs)) {
     verification.text += Line(entry);
     proved += entry.proved() ? 1 : 0;
   }

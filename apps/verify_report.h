@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
@@ -13,10 +14,18 @@ struct ReportVerification {
   bool proved = false;  ///< every entry of the plan
 };
 
-/// @param plan_sha256  of the plan file's bytes.
+/// What a report must be about.
+struct ReportSubject {
+  const Object& object;
+  std::string object_sha256;  ///< of the object file's bytes
+  const Plan& plan;
+  std::string plan_sha256;  ///< of the plan file's bytes
+};
+
+/// @param text  of the report.
+/// @param name  how messages call it.
 /// @throws InputError  the report is broken, holds no proofs, or is about another plan or object.
-[[nodiscard]] ReportVerification VerifyReport(const std::string& report_path,
-                                              const ObjectFile& object, const Plan& plan,
-                                              const std::string& plan_sha256);
+[[nodiscard]] ReportVerification VerifyReport(std::string_view text, const std::string& name,
+                                              const ReportSubject& subject);
 
 }  // namespace regrasp

@@ -26,9 +26,12 @@ void Judge::Start(const Eigen::Isometry3d& X_SB) {
 }
 
 void Judge::AddPose(const Eigen::Isometry3d& X_SB) {
-  const double moved = MeasureMotion(start_, X_SB, settings_.diameter_m / 2);
-  displacement_ = std::max(displacement_, (X_SB.translation() - start_.translation()).norm());
-  rotation_ = std::max(rotation_, RotationAngle(start_, X_SB));
+  // As MeasureMotion; both parts are wanted after every step.
+  const double displacement = (X_SB.translation() - start_.translation()).norm();
+  const double rotation = RotationAngle(start_, X_SB);
+  const double moved = displacement + settings_.diameter_m / 2 * rotation;
+  displacement_ = std::max(displacement_, displacement);
+  rotation_ = std::max(rotation_, rotation);
   moved_ = std::max(moved_, moved);
   if (object_moved_.empty() && moved > settings_.tolerance * settings_.diameter_m) {
     object_moved_ = phase_ + ": the object moved";

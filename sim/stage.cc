@@ -50,8 +50,11 @@ std::vector<int> Stage::HoldingFingers() const {
 }
 
 Vector3d Stage::ContactPoint_B(int finger) const {
-  return X_SB().inverse() * engine_.tip(finger) +
-         settings().fingertip_radius_m * fingers_[finger].contact.n;
+  return ContactPoint_B(finger, X_SB().inverse());
+}
+
+Vector3d Stage::ContactPoint_B(int finger, const Isometry3d& X_BS) const {
+  return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
 Vector3d Stage::TipAt_S(const Contact& contact_B, double gap) const {
@@ -94,11 +97,13 @@ void Stage::StartJudging() {
 }
 
 void Stage::JudgeMotion() {
-  judge_.AddPose(X_SB());
-  for (const int f : HoldingFingers()) {
+  const Isometry3d X_SB = this->X_SB();
+  const Isometry3d X_BS = X_SB.inverse();
+  judge_.AddPose(X_SB);
+  for (int f = 0; f < static_cast<int>(fingers_.size()); ++f) {
     const StageFinger& finger = fingers_[f];
-    if (finger.sliding) continue;
-    const Vector3d slide = ContactPoint_B(f) - finger.touch_B;
+    if (!finger.holding || finger.sliding) continue;
+    const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
     judge_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
   }
 }

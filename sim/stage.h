@@ -69,6 +69,7 @@ class Stage {
   [[nodiscard]] Snapshot TakeSnapshot() const;
 
  private:
+  [[nodiscard]] Eigen::Vector3d ContactPoint_B(int finger, const Eigen::Isometry3d& X_BS) const;
   void JudgeMotion();
   void Sample();
 

@@ -1,0 +1,174 @@
+// Replays of whole plans: entries of the report (the hold and each step) per second, and the share
+// of the time that is spent inside mj_step. The baseline is the same number of bare steps of the
+// exported scene at rest.
+
+#include <benchmark/benchmark.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "planner/base/angle.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/check.h"
+#include "planner/polygon/plan_polygon.h"
+#include "planner/roadmap/plan_roadmap.h"
+#include "sim/replay.h"
+#include "sim/scene.h"
+#include "sim/stage.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the engine did since it was set to zero.
+struct EngineTime {
+  std::int64_t steps = 0;
+  Clock::duration inside{};
+};
+EngineTime engine_time;
+
+}  // namespace
+
+// The linker sends every call of mj_step here (--wrap), so that the program that is measured is the
+// one that is shipped.
+extern "C" {
+void __real_mj_step(const mjModel* model, mjData* data);
+void __wrap_mj_step(const mjModel* model, mjData* data) {
+  const auto start = Clock::now();
+  __real_mj_step(model, data);
+  engine_time.inside += Clock::now() - start;
+  ++engine_time.steps;
+}
+}
+
+namespace {
+
+using namespace regrasp;
+
+constexpr double kHalfAngleDegrees = 20;
+
+/// A block whose contact patches are boxes, bodies whose patches are meshes, convex and not, and a
+/// polygon.
+constexpr std::array<const char*, 4> kModels = {"cube.obj", "stone.obj", "l_block.obj",
+                                                "polygon15.wkt"};
+
+struct Case {
+  ObjectFile file;
+  Plan plan;  ///< located
+};
+
+Case MakeCase(const std::string& model) {
+  Case made{ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}};
+  const Object& object = *made.file.object;
+  GraspChoice choice;
+  choice.kind = GraspChoice::Kind::kRandom;
+  PlanResult result;
+  if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
+    RoadmapOptions options;
+    options.half_angle = Radians(kHalfAngleDegrees);
+    result = PlanOnRoadmap(*solid, choice, choice, options);
+  } else {
+    PolygonPlanOptions options;
+    options.half_angle = Radians(kHalfAngleDegrees);
+    options.seed = 2;  // a plan of three switches
+    result = PlanOnPolygon(dynamic_cast<const Polygon&>(object), choice, choice, options);
+  }
+  if (!result.plan) throw std::runtime_error(model + ": no plan to replay");
+  made.plan = CheckPlan(object, *result.plan).located;
+  return made;
+}
+
+const Case& GetCase(std::int64_t index) {
+  static std::array<std::unique_ptr<Case>, kModels.size()> cases;
+  if (!cases.at(index)) cases[index] = std::make_unique<Case>(MakeCase(kModels[index]));
+  return *cases[index];
+}
+
+double Seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
+
+void BM_Replay(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  const auto entries = static_cast<double>(made.plan.steps.size() + 1);
+  engine_time = {};
+  const auto start = Clock::now();
+  for (auto _ : state) {
+    const ReplayResult result = ReplayPlan(*made.file.object, made.plan, {});
+    if (result.steps.back().reason != Reason::kNone) {
+      state.SkipWithError("the plan failed");
+      return;
+    }
+  }
+  const double all = Seconds(Clock::now() - start);
+  const double rounds = static_cast<double>(state.iterations());
+  state.SetLabel(kModels.at(state.range(0)));
+  state.counters["entries"] = entries;
+  state.counters["entries_per_s"] = entries * rounds / all;
+  state.counters["ms_per_entry"] = 1e3 * all / (entries * rounds);
+  state.counters["mj_steps"] = static_cast<double>(engine_time.steps) / rounds;
+  state.counters["us_per_mj_step"] =
+      1e6 * Seconds(engine_time.inside) / static_cast<double>(engine_time.steps);
+  state.counters["inside_mj_step"] = Seconds(engine_time.inside) / all;
+}
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+/// As many steps as the replay of the plan takes, and nothing else.
+void BM_BareSteps(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  engine_time = {};
+  (void)ReplayPlan(*made.file.object, made.plan, {});
+  const std::int64_t steps = engine_time.steps;
+  const std::string mjcf = SceneMjcf(*made.file.object, made.plan, {});
+  const auto vfs = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs.get());
+  mj_makeEmptyFileVFS(vfs.get(), "scene.xml", static_cast<int>(mjcf.size()));
+  mjcf.copy(static_cast<char*>(vfs->filedata[mj_findFileVFS(vfs.get(), "scene.xml")]), mjcf.size());
+  std::array<char, 1000> error{};
+  const std::unique_ptr<mjModel, DeleteModel> model(
+      mj_loadXML("scene.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
+  mj_deleteVFS(vfs.get());
+  if (!model) throw std::runtime_error(error.data());
+  const std::unique_ptr<mjData, DeleteData> data(mj_makeData(model.get()));
+  for (auto _ : state) {
+    mj_resetDataKeyframe(model.get(), data.get(), 0);
+    for (std::int64_t i = 0; i < steps; ++i) __real_mj_step(model.get(), data.get());
+  }
+  state.SetLabel(kModels.at(state.range(0)));
+  state.counters["mj_steps"] = static_cast<double>(steps);
+  state.counters["us_per_mj_step"] = benchmark::Counter(
+      1e-6 * static_cast<double>(steps),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// What comes before the first step: the scene, its compilation, its first state.
+void BM_Setup(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  const Object& object = *made.file.object;
+  const ReplayObserver observer;
+  for (auto _ : state) {
+    const Stage stage(object, made.plan,
+                      MakeScene(object, made.plan, static_cast<int>(made.plan.steps.size()), {}),
+                      observer);
+    benchmark::DoNotOptimize(stage.engine().time());
+  }
+  state.SetLabel(kModels.at(state.range(0)));
+}
+
+BENCHMARK(BM_Setup)->DenseRange(0, kModels.size() - 1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Replay)->DenseRange(0, kModels.size() - 1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_BareSteps)->DenseRange(0, kModels.size() - 1)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

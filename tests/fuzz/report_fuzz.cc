@@ -1,0 +1,70 @@
+// Any bytes as a report of a small plan: what verifying it and summing it up say, or one line that
+// says what is wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "apps/batch/report_summary.h"
+#include "apps/verify_report.h"
+#include "hostile_input.h"
+#include "planner/base/angle.h"
+#include "planner/object/polyhedron.h"
+#include "small_objects.h"
+
+namespace {
+
+using namespace regrasp;
+
+/// Digests that reports of the corpus name: hashing is no matter of the reader.
+const std::string kObjectDigest(64, '0');
+const std::string kPlanDigest(64, '1');
+
+constexpr double kHalfAngleDegrees = 30;
+
+/// The cube held by six fingers, one of which leaves; then the others move a little.
+Plan MakePlan() {
+  Plan plan;
+  plan.dimension = 3;
+  plan.half_angle = Radians(kHalfAngleDegrees);
+  plan.fingers = 6;
+  FingerGrasp held;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector3d p = side * Eigen::Vector3d::Unit(axis);
+      held.push_back({static_cast<int>(held.size()), {p, -p, -1}});
+    }
+  }
+  plan.initial = held;
+  plan.steps.push_back(Switch{{}, {5}});
+  held.pop_back();
+  FingerGrasp moved = held;
+  moved[0].contact.p.y() = moved[1].contact.p.y() = 0.1;
+  plan.steps.push_back(Align{{held, moved}});
+  for (const FingerContact& finger : moved) plan.goal.push_back(finger.contact);
+  return plan;
+}
+
+void ReadAndVerify(std::string_view text) {
+  static const Plan plan = MakePlan();
+  const ReportVerification found =
+      VerifyReport(text, kHostileName, {SmallSolid(), kObjectDigest, plan, kPlanDigest});
+  if (found.text.empty()) ReportFinding("a report was verified without a word");
+}
+
+void Summarize(std::string_view text) {
+  const ReportSummary summary = SummarizeReport(ParseJson(text, kHostileName), kHostileName);
+  if (summary.entries.empty()) ReportFinding("a report without entries");
+  const auto count = static_cast<int>(summary.entries.size());
+  if (summary.weakest_step.value_or(0) >= count) ReportFinding("a weakest step outside the plan");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ReadHostileInput([&] { ReadAndVerify(text); });
+  ReadHostileInput([&] { Summarize(text); });
+  return 0;
+}
