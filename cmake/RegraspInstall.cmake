@@ -6,6 +6,8 @@ install(TARGETS regrasp_options regrasp_planner ${regrasp_libraries} EXPORT regr
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY planner sim render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp
         FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY apps/page apps/batch DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp/apps
+        FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY models scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/regrasp)
 install(EXPORT regraspTargets NAMESPACE regrasp::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/regrasp)
