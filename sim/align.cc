@@ -49,20 +49,23 @@ void Slide(Stage& stage, const FingerGrasp& from, const FingerGrasp& to) {
 }  // namespace
 
 AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
-  AlignMode mode = AlignMode::kImitated;
+  bool over = false;
+  bool slid = false;
   for (const AlignMove& move : script_B.moves) {
     if (HasFailed(stage)) break;
-    if (const auto* over = std::get_if<FingersGoOver>(&move)) {
-      GoOver(stage, *over);
+    if (const auto* fingers = std::get_if<FingersGoOver>(&move)) {
+      over = true;
+      GoOver(stage, *fingers);
     } else {
-      mode = AlignMode::kSlid;
+      slid = true;
       const auto& grasps = std::get<FingersSlide>(move).grasps;
       for (std::size_t i = 1; i < grasps.size() && !HasFailed(stage); ++i) {
         Slide(stage, grasps[i - 1], grasps[i]);
       }
     }
   }
-  return mode;
+  if (!slid) return AlignMode::kImitated;
+  return over ? AlignMode::kMixed : AlignMode::kSlid;
 }
 
 void TellMoved(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B) {

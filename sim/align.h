@@ -18,12 +18,13 @@ namespace regrasp {
 /// kSlideFriction μ. Where no such forces exist either, the finger is dragged along with the best
 /// effort, and the judge decides. An align that has failed ends there. A finger that turns its
 /// normal at a border slides too.
+///
+/// Mixed: some of it one way, some the other.
 AlignMode PerformAlign(Stage& stage, const AlignScript& script_B);
 
 /// What the frame of an align shows: who moved, and from where.
 void TellMoved(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B);
 
-inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers that hold
 inline constexpr double kSlideForce = 0.01;  ///< least force of a sliding finger over the squeeze
 inline constexpr double kSlideStep = 3e-5;   ///< of D in a time step
 

@@ -49,6 +49,19 @@ FingerGrasp AlignPath::At(double t) const {
   return Interpolate(waypoints_[from], waypoints_[from + 1], t - from);
 }
 
+double AlignPath::Travel(double from, double to) const {
+  double travel = 0;
+  while (from < to) {
+    const double next = std::min(std::floor(from) + 1, to);
+    const FingerGrasp a = At(from), b = At(next);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      travel += (b[k].contact.p - a[k].contact.p).norm();
+    }
+    from = next;
+  }
+  return travel;
+}
+
 bool AlignPath::IsTurning(std::size_t k, double t) const {
   const int from = static_cast<int>(std::floor(t));
   if (from < 0 || from >= end() || t == from) return false;

@@ -18,6 +18,8 @@ class AlignPath {
   [[nodiscard]] int end() const { return static_cast<int>(waypoints_.size()) - 1; }
   /// Fingers in the order of the first waypoint.
   [[nodiscard]] FingerGrasp At(double t) const;
+  /// How far the contacts move from `from` to `to`, all added up; turns of normals add nothing.
+  [[nodiscard]] double Travel(double from, double to) const;
   /// True iff the k-th contact is between the normals of two faces at t.
   [[nodiscard]] bool IsTurning(std::size_t k, double t) const;
 

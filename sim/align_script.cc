@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
 #include "sim/align_path.h"
 #include "planner/plan/clearance.h"
 
@@ -28,6 +29,9 @@ constexpr std::array kShorter = {0.5, 0.4, 0.6, 0.3, 0.7};
 /// A piece is lengthened by halving the last share of the way so often.
 constexpr int kRefinements = 4;
 
+/// A sliding finger needs room all along its way; looked for at so many places of a piece.
+constexpr int kRoomSamples = 4;
+
 /// What is asked of a piece.
 struct Demand {
   double half_angle;
@@ -38,6 +42,7 @@ struct Demand {
 struct Piece {
   double end = 0;
   std::vector<AlignMove> moves;
+  bool slides = false;
 };
 
 class ScriptWriter {
@@ -51,11 +56,13 @@ class ScriptWriter {
     while (at < path_.end()) {
       if (std::optional<Piece> piece = ChoosePiece(at)) {
         std::ranges::move(piece->moves, std::back_inserter(script.moves));
+        (piece->slides ? script.shares.slid : script.shares.imitated) += Share(at, piece->end);
         at = piece->end;
         continue;
       }
       const double next = std::floor(at) + 1;
       AddSlides(at, next, script);
+      script.shares.best_effort += Share(at, next);
       at = next;
     }
     return script;
@@ -63,6 +70,11 @@ class ScriptWriter {
 
  private:
   using Places = std::vector<std::size_t>;
+
+  [[nodiscard]] double Share(double from, double to) const {
+    const double all = path_.Travel(0, path_.end());
+    return all > 0 ? path_.Travel(from, to) / all : (to - from) / path_.end();
+  }
 
   [[nodiscard]] bool Holds(const Grasp& grasp, double half_angle) const {
     return IsForceClosure(grasp, frame_, half_angle);
@@ -146,23 +158,23 @@ class ScriptWriter {
   /// How far the way from `begin` on is force closure, in steps of a share of the way.
   [[nodiscard]] int FindReach(double begin) const {
     int reach = static_cast<int>(std::floor(begin * kSharesOfWay));
-    while (reach < path_.end() * kSharesOfWay && HoldsAt(Share(reach + 1))) ++reach;
+    while (reach < path_.end() * kSharesOfWay && HoldsAt(Place(reach + 1))) ++reach;
     return reach;
   }
 
-  [[nodiscard]] static double Share(int steps) { return static_cast<double>(steps) / kSharesOfWay; }
+  [[nodiscard]] static double Place(int steps) { return static_cast<double>(steps) / kSharesOfWay; }
 
   /// The longest piece that is found from `begin` up to a number of steps.
   [[nodiscard]] std::optional<Piece> FindLongest(double begin, int reach,
                                                  const Demand& demand) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
     for (int steps = reach; steps >= first; --steps) {
-      std::optional<Piece> piece = TryPiece(begin, Share(steps), demand);
+      std::optional<Piece> piece = TryPiece(begin, Place(steps), demand);
       if (!piece) continue;
-      if (steps < reach) Lengthen(begin, Share(steps + 1), demand, *piece);
+      if (steps < reach) Lengthen(begin, Place(steps + 1), demand, *piece);
       return piece;
     }
-    for (double end = (begin + Share(first)) / 2; end - begin >= kShortestPiece;
+    for (double end = (begin + Place(first)) / 2; end - begin >= kShortestPiece;
          end = (begin + end) / 2) {
       if (std::optional<Piece> piece = TryPiece(begin, end, demand)) return piece;
     }
@@ -180,10 +192,83 @@ class ScriptWriter {
     }
   }
 
+  /// The finger `k` may slide: the other contacts hold the object without it, with something to
+  /// spare.
+  [[nodiscard]] bool OthersHold(const Grasp& grasp, std::size_t k) const {
+    Grasp others = grasp;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const double half_angle = std::atan(kSlideFriction * std::tan(limits_.half_angle));
+    return QualityAtLeast(others, frame_, half_angle, kSlideQuality);
+  }
+
+  /// An order in which the contacts `left` of `grasps.back()` can slide to where they are in `to`;
+  /// the grasps on the way are added.
+  [[nodiscard]] bool OrderSlides(const FingerGrasp& to, const Places& left,
+                                 std::vector<FingerGrasp>& grasps) const {
+    if (left.empty()) return true;
+    for (const std::size_t k : left) {
+      if (!OthersHold(ContactsOf(grasps.back()), k)) continue;
+      Places rest = left;
+      std::erase(rest, k);
+      grasps.push_back(grasps.back());
+      grasps.back()[k] = to[k];
+      if (OrderSlides(to, rest, grasps)) return true;
+      grasps.pop_back();
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool HasRoom(const Places& moving, double begin, double end) const {
+    for (int i = 1; i <= kRoomSamples; ++i) {
+      const double t = i < kRoomSamples ? begin + (end - begin) * i / kRoomSamples : end;
+      const bool rests = i == kRoomSamples;
+      if (!CanRest(moving, t, {limits_.half_angle, limits_.clearance, !rests})) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::optional<Piece> TrySlide(double begin, double end) const {
+    const FingerGrasp to = path_.At(end);
+    const Places moving = FindMoving(path_.At(begin), to);
+    if (!HasRoom(moving, begin, end)) return std::nullopt;
+    FingersSlide slide{{path_.At(begin)}};
+    if (!OrderSlides(to, moving, slide.grasps)) return std::nullopt;
+    Piece piece{end, {}, true};
+    piece.moves.emplace_back(std::move(slide));
+    return piece;
+  }
+
+  /// The longest slide from `begin` on that is found.
+  [[nodiscard]] std::optional<Piece> FindSlide(double begin, int reach) const {
+    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
+    const int waypoint = (static_cast<int>(std::floor(begin)) + 1) * kSharesOfWay;
+    for (int steps = std::min(reach, waypoint); steps >= first; --steps) {
+      if (std::optional<Piece> piece = TrySlide(begin, Place(steps))) return piece;
+    }
+    return std::nullopt;
+  }
+
+  /// The first place after `begin`, up to `reach`, from which fingers can slide; `reach` if none.
+  [[nodiscard]] int FindNextSlide(double begin, int reach) const {
+    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
+    for (int steps = first; steps < reach; ++steps) {
+      if (TrySlide(Place(steps), Place(steps + 1))) return steps;
+    }
+    return reach;
+  }
+
   [[nodiscard]] std::optional<Piece> ChoosePiece(double begin) const {
+    int reach = FindReach(begin);
+    if (limits_.slide || limits_.spare.empty()) {
+      if (std::optional<Piece> slide = FindSlide(begin, reach)) return slide;
+    }
     if (limits_.spare.empty()) return std::nullopt;
+    if (limits_.slide) reach = FindNextSlide(begin, reach);
+    return ChooseGoingOver(begin, reach);
+  }
+
+  [[nodiscard]] std::optional<Piece> ChooseGoingOver(double begin, int reach) const {
     const double full = limits_.half_angle;
-    const int reach = FindReach(begin);
     std::optional<Piece> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
     if (longest) return MakeEasier(begin, reach, *std::move(longest));
     for (const Demand& demand : {Demand{full, limits_.least_clearance, false},

@@ -17,16 +17,26 @@ struct FingersGoOver {
 };
 
 /// Fingers move along the surface, one after the other, from one grasp to the next; all of them lie
-/// between two waypoints, and their k-th contacts belong together.
+/// between two waypoints, and their k-th contacts belong together. Where only one contact differs
+/// from a grasp to the next the order of the fingers is settled.
 struct FingersSlide {
   std::vector<FingerGrasp> grasps;
 };
 
 using AlignMove = std::variant<FingersGoOver, FingersSlide>;
 
+/// Shares of the way of an align, all contacts' ways added up, by how it is carried out. They sum
+/// to 1; for an align that only turns normals they are shares of the stretches between waypoints.
+struct AlignShares {
+  double imitated = 0;
+  double slid = 0;         ///< while the other fingers alone hold the object
+  double best_effort = 0;  ///< slid although they do not: nothing else serves
+};
+
 /// How the replay carries out an align.
 struct AlignScript {
   std::vector<AlignMove> moves;
+  AlignShares shares;
 };
 
 /// What a script has to keep to.
@@ -38,6 +48,8 @@ struct AlignLimits {
   double clearance = 0;
   /// Where there is no way with that, a ball of this one.
   double least_clearance = 0;
+  /// Slides are preferred to going over. Without spare fingers they are all there is.
+  bool slide = false;
 };
 
 /// Cuts the whole way of an align, across its waypoints, into as few pieces as serve; in each the
@@ -51,12 +63,24 @@ struct AlignLimits {
 /// half of the piece serves. Only where no piece serves fingers rest with `least_clearance`, then
 /// between two normals too, and at last where nothing fits.
 ///
-/// Where no piece serves at all, or no finger is spare, the fingers slide to the next waypoint,
-/// the way cut so that grasps between two slides are force closure where that is possible.
+/// With `slide`, or where no finger is spare, fingers slide as far as they can: one after the
+/// other, each only while the others alone, as they stand then, have the quality kSlideQuality at
+/// kSlideFriction of the friction; where the fingertip has room all the way; and no piece leaves a
+/// stretch between two waypoints or leaps over a place where the planned grasp is not force
+/// closure. A piece is at least a kSharesOfWay-th of the stretch; where there is none, fingers go
+/// over up to the next place where there is one.
+///
+/// Where no piece serves at all the fingers slide to the next waypoint all the same, the way cut so
+/// that grasps between two slides are force closure where that is possible.
 [[nodiscard]] AlignScript WriteAlignScript(const Object& object, const Align& align,
                                            const AlignLimits& limits);
 
 inline constexpr int kSharesOfWay = 16;
+inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers that hold
+/// The sliding finger presses with a hundredth of the squeeze at least (kSlideForce), and friction
+/// pulls along: force and torque on the object are at most √2 √(1 + μ²) of that. Twice it is what
+/// the others can balance in every direction.
+inline constexpr double kSlideQuality = 0.02;
 inline constexpr double kShortestPiece = 1.0 / 256;  ///< of the way between two waypoints
 inline constexpr int kHopelessPieces = 8;            ///< where no number of them serves
 inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that serves

@@ -35,7 +35,9 @@ void Perform(Stage& stage, const Object& object, const Plan& plan, int index, St
   }
   const auto& waypoints = std::get<Align>(step).waypoints;
   if (waypoints.empty()) return;
-  result.align_mode = PerformAlign(stage, *stage.scene().scripts[index - 1]);
+  const AlignScript& script = *stage.scene().scripts[index - 1];
+  result.align_mode = PerformAlign(stage, script);
+  result.align_shares = script.shares;
   TellMoved(stage, ToScene(object, plan.scale, waypoints.front()),
             ToScene(object, plan.scale, waypoints.back()));
 }

@@ -8,12 +8,13 @@
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 #include "planner/plan/snapshot.h"
+#include "sim/align_script.h"
 #include "sim/settings.h"
 
 namespace regrasp {
 
 /// How an align was carried out; kNone for other steps.
-enum class AlignMode { kNone, kImitated, kSlid };
+enum class AlignMode { kNone, kImitated, kSlid, kMixed };
 
 /// What the replay says of entry k of the report.
 struct StepReplay {
@@ -26,7 +27,8 @@ struct StepReplay {
   double drift_m = 0;         ///< |Δx| + R|Δrotation| at its end since the sequence began
   bool contact_lost = false;  ///< a holding finger left the surface
   AlignMode align_mode = AlignMode::kNone;
-  Snapshot snapshot;  ///< the rest state after the step
+  AlignShares align_shares;  ///< as it was meant to be carried out; zero for other steps
+  Snapshot snapshot;         ///< the rest state after the step
 };
 
 struct ReplayResult {

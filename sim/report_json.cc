@@ -20,6 +20,7 @@ Json MakeSettings(const Report& report) {
   if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
   settings["shake"] = replay.shake;
   settings["tolerance"] = replay.tolerance;
+  settings["align"] = replay.align == AlignChoice::kSlide ? "slide" : "imitate";
   settings["fingertip_radius_m"] = replay.fingertip_radius_m;
   settings["finger_mass_kg"] = replay.finger_mass_kg;
   settings["finger_stiffness_N_m"] = replay.finger_stiffness_N_m;
@@ -43,9 +44,22 @@ Json MakeSimulation(const std::optional<StepReplay>& replay) {
 }
 
 Json MakeAlignMode(const std::optional<StepReplay>& replay) {
-  const AlignMode mode = replay ? replay->align_mode : AlignMode::kNone;
-  if (mode == AlignMode::kNone) return nullptr;
-  return mode == AlignMode::kImitated ? "imitated" : "slid";
+  switch (replay ? replay->align_mode : AlignMode::kNone) {
+    case AlignMode::kImitated:
+      return "imitated";
+    case AlignMode::kSlid:
+      return "slid";
+    case AlignMode::kMixed:
+      return "mixed";
+    default:
+      return nullptr;
+  }
+}
+
+Json MakeAlignShares(const std::optional<StepReplay>& replay) {
+  if (!replay || replay->align_mode == AlignMode::kNone) return nullptr;
+  const AlignShares& shares = replay->align_shares;
+  return {{"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
 }
 
 /// `step` gets its contact region, if it has one.
@@ -71,6 +85,7 @@ Json MakeStep(const ReportStep& step, int dimension) {
                {"force_closure", MakeForceClosure(step)},
                {"undecided", step.check.undecided},
                {"align_mode", MakeAlignMode(step.replay)},
+               {"align_shares", MakeAlignShares(step.replay)},
                {"simulation", MakeSimulation(step.replay)},
                {"frame", MakeText(step.frame)}};
   AddRegion(step.region, json);

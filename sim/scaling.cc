@@ -59,6 +59,7 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
   CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
   s.shake = options.shake;
   s.tolerance = options.tolerance;
+  s.align = options.align;
   s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
   s.squeeze_N = options.squeeze_N.value_or(
       s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));

@@ -137,14 +137,14 @@ double SmallestClearance(const Object& object, const FingerGrasp& grasp) {
 
 /// Scripts of all aligns, in the object's own frame and unit.
 std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, int fingers,
-                                                     double half_angle) {
+                                                     double half_angle, AlignChoice choice) {
   const double D = sequence.object.diameter();
   double clearance = 2 * kTipRadius * D;
   for (int index = 0; index <= sequence.steps; ++index) {
     clearance =
         std::min(clearance, SmallestClearance(sequence.object, sequence.PlannedRests(index)));
   }
-  AlignLimits limits{half_angle, {}, 0, kLeastClearance * D};
+  AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
   std::vector<std::optional<AlignScript>> scripts(sequence.steps);
   FingerGrasp holding = sequence.plan.initial;
@@ -268,10 +268,11 @@ void PlaceFingersAtStart(const Object& object, Scene& scene) {
 }
 
 /// Scripts, what is unreachable, and sites.
-void LayOut(const Sequence& sequence, int fingers, double half_angle, Scene& scene) {
+void LayOut(const Sequence& sequence, int fingers, const ReplayOptions& options, Scene& scene) {
   const Object& object = sequence.object;
   const double scale = sequence.plan.scale;
-  scene.scripts = WriteScripts(sequence, fingers, half_angle);
+  const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
+  scene.scripts = WriteScripts(sequence, fingers, half_angle, options.align);
   scene.first_site.assign(fingers, -1);
   SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
   for (int index = 0; index <= sequence.steps; ++index) {
@@ -306,7 +307,7 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   }
   Scene scene;
   scene.dimension = body.dimension();
-  LayOut(sequence, fingers, options.half_angle.value_or(plan.half_angle), scene);
+  LayOut(sequence, fingers, options, scene);
   scene.settings = DeriveSettings(body, plan.scale, plan.half_angle,
                                   SmallestClearance(body, plan.scale, scene), options);
   for (const ContactSite& site : scene.sites) {

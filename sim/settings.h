@@ -4,6 +4,12 @@
 
 namespace regrasp {
 
+/// How the replay moves fingers along the surface where it can choose (sim/align_script.h).
+enum class AlignChoice {
+  kImitate,  ///< spare fingers take over
+  kSlide,    ///< fingers slide while the others alone hold the object
+};
+
 /// How the replay is set up. What is left out is derived from the body (sim/scaling.h).
 struct ReplayOptions {
   std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
@@ -13,10 +19,11 @@ struct ReplayOptions {
   std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
   double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
   double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
-  double stiffness_factor = 1;       ///< of the fingers, times what is derived
-  double timestep_factor = 1;        ///< times what is derived
-  bool gravity = true;               ///< 9.81 m/s² along −z of the object's own frame; none of
-                                     ///< it in the plane, which carries a planar object's weight
+  AlignChoice align = AlignChoice::kImitate;
+  double stiffness_factor = 1;  ///< of the fingers, times what is derived
+  double timestep_factor = 1;   ///< times what is derived
+  bool gravity = true;          ///< 9.81 m/s² along −z of the object's own frame; none of
+                                ///< it in the plane, which carries a planar object's weight
 };
 
 /// The values that the replay ran with.
@@ -26,6 +33,7 @@ struct ReplaySettings {
   double squeeze_N = 0;
   double shake = 0;
   double tolerance = 0;
+  AlignChoice align = AlignChoice::kImitate;
   double gravity_m_s2 = 0;  ///< 0 for a planar object: the plane carries it
   double thickness_m = 0;   ///< of the prism of a planar object, 0 for a solid
   double diameter_m = 0;    ///< D, the object's; R is half of it
