@@ -109,6 +109,42 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
             "How far the object may move and a fingertip slip, in diameters of the object "
             "(default 0.001)")
       ->type_name("X");
+  app.add_option_function<std::string>(
+         "--align",
+         [&options](const std::string& text) {
+           options.replay.align = text == "slide" ? AlignChoice::kSlide : AlignChoice::kImitate;
+         },
+         "How aligns are carried out. imitate: spare fingers take over for each finger while it "
+         "goes "
+         "to its target. slide: a finger slides along the surface while the others alone hold the "
+         "object, and is taken over for only where they do not (default imitate)")
+      ->check(CLI::IsMember({"imitate", "slide"}))
+      ->type_name("imitate|slide");
+}
+
+void AddTrials(CLI::App& app, ValidateOptions& options) {
+  constexpr int kMostTrials = 1'000'000;
+  const NumberRange share{0, kMostError};
+  CLI::Option* trials = AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
+                                   "Repeat the replay so often with noise: contacts off where "
+                                   "fingers are put, friction and mass "
+                                   "other than the hand believes; the report gives the share that "
+                                   "passes. The verdict is that of "
+                                   "the replay without noise");
+  AddSeed(app, options.trials.seed, "Seed of the noise (default 0)")->needs(trials);
+  AddNumber(app, "--position-noise", options.trials.position_noise, share,
+            "Standard deviation of each contact along the surface, in diameters of the object "
+            "(default 0.01)")
+      ->needs(trials)
+      ->type_name("X");
+  AddNumber(app, "--friction-error", options.trials.friction_error, share,
+            "Relative standard deviation of the friction coefficient (default 0.1)")
+      ->needs(trials)
+      ->type_name("X");
+  AddNumber(app, "--mass-error", options.trials.mass_error, share,
+            "Relative standard deviation of the mass (default 0.1)")
+      ->needs(trials)
+      ->type_name("X");
 }
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
@@ -169,6 +205,7 @@ ValidateOptions::ValidateOptions()
 void ValidateOptions::AddTo(CLI::App& app) {
   AddFiles(app, *this);
   AddPhysics(app, *this);
+  AddTrials(app, *this);
   AddPictures(app, *this);
   AddBatch(app, *this);
   app.add_flag("--allow-object-change", allow_object_change,

@@ -11,6 +11,7 @@
 #include "render/frame.h"
 #include "render/replay_animation.h"
 #include "sim/settings.h"
+#include "sim/trials.h"
 
 namespace regrasp {
 
@@ -33,6 +34,7 @@ struct ValidateOptions {
   FrictionOptions friction;
   std::optional<double> scale;
   ReplayOptions replay;
+  TrialOptions trials;  ///< a count of 0: none
   FrameOptions frame;
   AnimationOptions animation;
   bool no_frames = false;

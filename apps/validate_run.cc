@@ -114,6 +114,25 @@ Report Check(const ValidateOptions& options, const Task& task, Samples& samples)
                        observer);
 }
 
+/// Of a plan whose replay passes.
+void AddTrials(const ValidateOptions& options, const Task& task, Report& report) {
+  if (options.trials.count == 0) return;
+  if (!report.passed()) {
+    PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
+    return;
+  }
+  ProgressLine progress(options.quiet);
+  const auto tell = [&](int done) {
+    progress.Report("trials: " + std::to_string(done) + " of " +
+                    std::to_string(options.trials.count));
+  };
+  const Object& object = *task.object.object;
+  ReplayOptions replay = options.replay;
+  replay.half_angle = report.half_angle;
+  report.trials = RunTrials(object, LocatePlan(object, task.plan), replay, options.trials,
+                            report.settings->fingertip_radius_m, tell);
+}
+
 FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
   FrameOptions frame = options.frame;
   if (!options.show_clusters) return frame;
@@ -187,6 +206,7 @@ int RunValidation(const ValidateOptions& options) {
   report.plan_sha256 = Sha256(task.file_text);
   report.run_sha256 = RunDigest(options, {report.plan_file, report.plan_sha256},
                                 {report.object_file, report.object_sha256});
+  AddTrials(options, task, report);
   if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, report);
   for (const std::string& warning : report.warnings()) {

@@ -227,10 +227,18 @@ class ScriptWriter {
     return true;
   }
 
+  [[nodiscard]] bool IsTurning(double t) const {
+    for (std::size_t k = 0; k < path_.At(t).size(); ++k) {
+      if (path_.IsTurning(k, t)) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] std::optional<Piece> TrySlide(double begin, double end) const {
+    if (IsTurning(begin) || IsTurning(end)) return std::nullopt;
     const FingerGrasp to = path_.At(end);
     const Places moving = FindMoving(path_.At(begin), to);
-    if (!HasRoom(moving, begin, end)) return std::nullopt;
+    if (moving.empty() || !HasRoom(moving, begin, end)) return std::nullopt;
     FingersSlide slide{{path_.At(begin)}};
     if (!OrderSlides(to, moving, slide.grasps)) return std::nullopt;
     Piece piece{end, {}, true};

@@ -11,6 +11,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"
 #include "sim/replay.h"
+#include "sim/trials.h"
 
 namespace regrasp {
 
@@ -57,6 +58,9 @@ struct Report {
   std::vector<ReportStep> steps;
   /// Of a single grasp instead of a plan: the only entry is its hold.
   std::optional<GraspReport> grasp = std::nullopt;
+  /// Repeats with noise, where they were asked for and the nominal replay passes. They do not
+  /// change the verdict.
+  std::optional<TrialSummary> trials = std::nullopt;
 
   [[nodiscard]] bool passed() const;
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1

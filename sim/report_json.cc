@@ -3,6 +3,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
 #include "sim/report.h"
+#include "sim/trials_report.h"
 
 namespace regrasp {
 
@@ -59,7 +60,8 @@ Json MakeAlignMode(const std::optional<StepReplay>& replay) {
 Json MakeAlignShares(const std::optional<StepReplay>& replay) {
   if (!replay || replay->align_mode == AlignMode::kNone) return nullptr;
   const AlignShares& shares = replay->align_shares;
-  return {{"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
+  return {
+      {"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
 }
 
 /// `step` gets its contact region, if it has one.
@@ -134,6 +136,7 @@ std::string FormatReportJson(const Report& report) {
                {"settings", MakeSettings(report)}};
   if (!report.run_sha256.empty()) json["run"] = {{"sha256", report.run_sha256}};
   if (report.grasp) json["grasp"] = MakeGrasp(report);
+  if (report.trials) json["trials"] = TrialsJson(*report.trials);
   const int weakest = report.weakest_step();
   json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
   json["steps"] = Json::array();

@@ -6,6 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "sim/report.h"
+#include "sim/trials_report.h"
 
 namespace regrasp {
 
@@ -80,6 +81,14 @@ std::string FormatUndecided(const Report& report) {
          " pieces of aligns, a millionth of the path each\n";
 }
 
+std::string FormatTrials(const Report& report) {
+  if (!report.trials) return "";
+  const std::string failures = TrialsFailureText(*report.trials);
+  return "trials: " + TrialsShareText(*report.trials) + "\n" +
+         (failures.empty() ? "" : "trials that fail: " + failures + "\n") +
+         "noise: " + TrialsNoiseText(*report.trials) + "\n";
+}
+
 }  // namespace
 
 std::string FormatReportTable(const Report& report) {
@@ -90,7 +99,7 @@ std::string FormatReportTable(const Report& report) {
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, regions));
   return FormatRows(rows) + FormatFailure(report) + FormatUndecided(report) +
-         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) +
+         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) + FormatTrials(report) +
          "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
 }
 

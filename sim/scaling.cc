@@ -60,6 +60,8 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
   s.shake = options.shake;
   s.tolerance = options.tolerance;
   s.align = options.align;
+  s.friction_factor = options.friction_factor;
+  s.mass_factor = options.mass_factor;
   s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
   s.squeeze_N = options.squeeze_N.value_or(
       s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));

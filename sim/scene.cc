@@ -248,9 +248,10 @@ std::vector<ContactPatch> MakeScenePatches(const Object& body, double scale,
 /// Of the homogeneous body about its centroid, kg m². A polygon's moments are those of its area:
 /// its prism adds M t²/12 about the axes in the plane.
 Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& s) {
+  const double mass = s.mass_factor * s.mass_kg;
   Eigen::Matrix3d inertia =
-      s.mass_kg / body.mass_properties().volume * scale * scale * body.mass_properties().inertia;
-  inertia.diagonal().head<2>().array() += s.mass_kg * s.thickness_m * s.thickness_m / 12;
+      mass / body.mass_properties().volume * scale * scale * body.mass_properties().inertia;
+  inertia.diagonal().head<2>().array() += mass * s.thickness_m * s.thickness_m / 12;
   return inertia;
 }
 

@@ -22,6 +22,8 @@ struct ReplayOptions {
   AlignChoice align = AlignChoice::kImitate;
   double stiffness_factor = 1;  ///< of the fingers, times what is derived
   double timestep_factor = 1;   ///< times what is derived
+  double friction_factor = 1;   ///< the world's friction over the one that the hand believes
+  double mass_factor = 1;       ///< the object's true mass over the one that the hand believes
   bool gravity = true;          ///< 9.81 m/s² along −z of the object's own frame; none of
                                 ///< it in the plane, which carries a planar object's weight
 };
@@ -42,6 +44,8 @@ struct ReplaySettings {
   double finger_stiffness_N_m = 0;
   double finger_damping_Ns_m = 0;
   double timestep_s = 0;
+  double friction_factor = 1;    ///< the world's friction over `mu`
+  double mass_factor = 1;        ///< the object's true mass over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch
   double patch_thickness_m = 0;  ///< of the prism under a contact patch
 };

@@ -13,6 +13,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/markup.h"
 #include "render/caption.h"
+#include "sim/trials_report.h"
 
 namespace regrasp {
 
@@ -135,6 +136,7 @@ class Page {
       add("Weakest", StepName(weakest) + ", " +
                          DegreesText(measures_[weakest].margin_deg.value_or(0)) + " to spare");
     }
+    if (report_.trials) AddTrials(add);
     if (report_.settings) AddSettings(add);
     list += Digest("Object, SHA-256", report_.object_sha256) +
             Digest(report_.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report_.plan_sha256);
@@ -149,6 +151,14 @@ class Page {
     if (grasp.fingers.empty()) return;
     add("Quality ε", NumberText(grasp.quality));
     add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
+  }
+
+  template <typename Add>
+  void AddTrials(const Add& add) const {
+    add("Trials", TrialsShareText(*report_.trials));
+    const std::string failures = TrialsFailureText(*report_.trials);
+    if (!failures.empty()) add("Trials that fail", failures);
+    add("Noise", TrialsNoiseText(*report_.trials));
   }
 
   template <typename Add>

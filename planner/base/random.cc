@@ -1,5 +1,6 @@
 #include "planner/base/random.h"
 
+#include <boost/math/distributions/normal.hpp>
 #include <cassert>
 
 namespace regrasp {
@@ -15,13 +16,30 @@ std::mt19937_64 SeededEngine(std::uint64_t seed, RandomUse use) {
   return std::mt19937_64(sequence);
 }
 
+std::mt19937_64 SeededEngine(std::uint64_t seed, RandomUse use, std::uint64_t index) {
+  std::seed_seq sequence = {static_cast<std::uint32_t>(seed),
+                            static_cast<std::uint32_t>(seed >> 32), static_cast<std::uint32_t>(use),
+                            static_cast<std::uint32_t>(index),
+                            static_cast<std::uint32_t>(index >> 32)};
+  return std::mt19937_64(sequence);
+}
+
 }  // namespace
 
 RandomStream::RandomStream(std::uint64_t seed, RandomUse use) : engine_(SeededEngine(seed, use)) {}
 
+RandomStream::RandomStream(std::uint64_t seed, RandomUse use, std::uint64_t index)
+    : engine_(SeededEngine(seed, use, index)) {}
+
 double RandomStream::Uniform() {
   constexpr double kStep = 1.0 / (std::uint64_t{1} << kDoubleBits);
   return static_cast<double>(engine_() >> (64 - kDoubleBits)) * kStep;
+}
+
+double RandomStream::Normal() {
+  double share = Uniform();
+  while (share == 0) share = Uniform();
+  return boost::math::quantile(boost::math::normal(), share);
 }
 
 std::uint64_t RandomStream::Index(std::uint64_t count) {

@@ -13,6 +13,8 @@ enum class RandomUse : std::uint32_t {
   kGoal = 3,
   kFocusPoints = 4,
   kClusters = 5,
+  kTrialWorld = 6,
+  kTrialContacts = 7,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the
@@ -20,9 +22,14 @@ enum class RandomUse : std::uint32_t {
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, RandomUse use);
+  /// The index-th of many streams of one seed and use: what it gives depends on none of the others.
+  RandomStream(std::uint64_t seed, RandomUse use, std::uint64_t index);
 
   /// Uniform in [0, 1), a multiple of 2⁻⁵³.
   [[nodiscard]] double Uniform();
+
+  /// Normal, of mean 0 and standard deviation 1.
+  [[nodiscard]] double Normal();
 
   /// Uniform in {0, …, count − 1}, without bias. @param count  > 0.
   [[nodiscard]] std::uint64_t Index(std::uint64_t count);

@@ -21,6 +21,33 @@ TEST(RandomStream, GivesOtherNumbersForAnotherSeedOrUse) {
   EXPECT_NE(first, RandomStream(7 + (std::uint64_t{1} << 32), RandomUse::kStart).Uniform());
 }
 
+TEST(RandomStream, GivesOtherNumbersForEveryIndexAndTheSameForTheSame) {
+  const auto first = [](std::uint64_t index) {
+    return RandomStream(7, RandomUse::kTrialWorld, index).Uniform();
+  };
+  EXPECT_EQ(first(3), first(3));
+  EXPECT_NE(first(0), first(1));
+  EXPECT_NE(first(0), first(std::uint64_t{1} << 32));
+  EXPECT_NE(first(0), RandomStream(7, RandomUse::kTrialWorld).Uniform());
+}
+
+TEST(RandomStream, DrawsNormalNumbersOfMeanZeroAndDeviationOne) {
+  constexpr int kDraws = 30'000;
+  RandomStream random(1, RandomUse::kTrialContacts);
+  double sum = 0, squares = 0;
+  int beyond = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = random.Normal();
+    sum += x;
+    squares += x * x;
+    beyond += std::abs(x) > 1.959964 ? 1 : 0;
+  }
+  // Five standard deviations of each.
+  EXPECT_NEAR(sum / kDraws, 0, 5 / std::sqrt(kDraws));
+  EXPECT_NEAR(squares / kDraws, 1, 5 * std::sqrt(2.0 / kDraws));
+  EXPECT_NEAR(beyond, 0.05 * kDraws, 5 * std::sqrt(0.05 * 0.95 * kDraws));
+}
+
 TEST(RandomStream, SpreadsEvenly) {
   constexpr int kDraws = 30'000;
   RandomStream random(1, RandomUse::kContactPoints);
