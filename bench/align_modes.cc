@@ -263,20 +263,21 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   const auto wanted = static_cast<std::size_t>(each);
   Table table;
   const auto at = [](const char* name, double degrees) {
-    return std::string(name) + " at " + FormatShort(degrees) + "°";
+    return std::string(name) + ", " + FormatShort(degrees) + "°";
   };
-  const int tight = (each + 3) / 4;
   for (const double degrees : kSpatialFrictions) {
-    const double friction = Radians(degrees);
-    table.Add(at("polyhedron", degrees), PolyhedronAligns(solids, friction, wanted));
-    table.Add(at("five contacts, each needed", degrees), TightAligns(solids, friction, tight));
+    table.Add(at("polyhedron", degrees), PolyhedronAligns(solids, Radians(degrees), wanted));
   }
   for (const double degrees : kPlanarFrictions) {
-    const double friction = Radians(degrees);
-    table.Add(at("polygon", degrees), PolygonAligns(polygons, friction, wanted));
-    table.Add(at("contour", degrees), ContourAligns(contours, friction, wanted));
-    table.Add(at("three contacts, each needed", degrees), TightAligns(polygons, friction, tight));
+    table.Add(at("polygon", degrees), PolygonAligns(polygons, Radians(degrees), wanted));
+    table.Add(at("contour", degrees), ContourAligns(contours, Radians(degrees), wanted));
   }
+  const int tight = (each + 3) / 4;
+  const double spatial = kSpatialFrictions.front(), planar = kPlanarFrictions.front();
+  table.Add(at("five contacts, each needed", spatial),
+            TightAligns(solids, Radians(spatial), tight));
+  table.Add(at("three contacts, each needed", planar),
+            TightAligns(polygons, Radians(planar), tight));
   WriteTable(table.file, folder);
   WriteFile(folder / "aligns_samples.csv", table.samples);
   std::printf("%d passes at %s of the friction that the align needs\n", table.false_passes,

@@ -24,6 +24,7 @@ constexpr double kTrackDash = 0.030;
 /// Shares of the free space in front of a contact that ball and stem may take.
 constexpr double kBallShare = 0.15;
 constexpr double kStemShare = 0.75;
+constexpr double kGapShare = 0.2;
 
 /// Nearer than this a ray meets the face that it starts on.
 constexpr double kRaySkip = 1e-4;
@@ -73,6 +74,12 @@ void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes)
   }
 }
 
+/// How far the fingertip is from the surface, metres.
+double GapOf(const FingerState& state, double fingertip_radius_m) {
+  const double away = (state.contact_W - state.tip_W).dot(state.normal_W.normalized());
+  return std::max(0.0, away - fingertip_radius_m);
+}
+
 bool IsInMotion(FingerRole role) {
   return role == FingerRole::kPlaced || role == FingerRole::kReleased;
 }
@@ -86,7 +93,7 @@ Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
 }
 
 std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const PictureFrame& frame,
-                                          const FacetMesh& surface) {
+                                          const FacetMesh& surface, GapView gaps) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const FingerState& state : snapshot.fingers) {
@@ -102,8 +109,12 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const Pictur
         RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
     glyph.ball_radius = std::min(kBallRadius, kBallShare * room);
     const double stem = std::min(kStemLength, kStemShare * room);
-    glyph.ball = glyph.contact + glyph.outward * glyph.ball_radius;
-    glyph.stem_end = glyph.contact + glyph.outward * stem;
+    const double gap =
+        gaps == GapView::kNone ? 0 : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
+    const Vector3d tip =
+        glyph.contact + std::min(kGapScale * gap, kGapShare * room) * glyph.outward;
+    glyph.ball = tip + glyph.outward * glyph.ball_radius;
+    glyph.stem_end = tip + glyph.outward * stem;
     const bool roomy = room > kStemLength + kMotionGap + kMotionLength;
     glyph.end = IsInMotion(state.role) && roomy
                     ? Vector3d(glyph.stem_end + glyph.outward * (kMotionGap + kMotionLength))

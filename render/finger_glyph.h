@@ -37,11 +37,19 @@ struct FingerGlyph {
   double ball_radius = 0;
 };
 
+/// Whether a finger in the air is drawn away from its contact.
+enum class GapView {
+  kNone,   ///< at its contact: what a finger did in a step, seen at its end
+  kShown,  ///< kGapScale times as far as it is, so that the eye sees it come and go
+};
+inline constexpr double kGapScale = 3;
+
 /// The fingers of a snapshot that are drawn: all but the free ones. In narrow places (a hole, an
 /// inner corner) balls and stems are smaller, so that they don't run into the opposite wall.
 [[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot,
                                                         const PictureFrame& frame,
-                                                        const FacetMesh& surface);
+                                                        const FacetMesh& surface,
+                                                        GapView gaps = GapView::kNone);
 
 /// The canvas's meshes that glyphs are made of.
 struct GlyphMeshes {

@@ -136,7 +136,8 @@ class FrameRenderer::Impl {
                 options.width * options.supersampling, options.height * options.supersampling) {}
 
   Image Render(const Snapshot& snapshot, const std::string& caption) {
-    const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame_, body_.surface);
+    const std::vector<FingerGlyph> fingers =
+        MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     std::vector<Shape> shapes = MakeEdges(pose);
     for (const FingerGlyph& glyph : fingers) {

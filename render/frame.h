@@ -9,6 +9,7 @@
 #include "planner/plan/snapshot.h"
 #include "planner/roadmap/cluster_view.h"
 #include "render/body_shape.h"
+#include "render/finger_glyph.h"
 #include "render/image.h"
 
 namespace regrasp {
@@ -22,6 +23,8 @@ struct FrameOptions {
   int height = 960;
   int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
   double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+  /// Fingers in the air are drawn away from their contacts (render/finger_glyph.h).
+  GapView gaps = GapView::kNone;
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
   /// that it gives on the faces (planner/polyhedron/focus_view.h).
   bool show_focus = false;

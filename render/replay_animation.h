@@ -16,24 +16,35 @@ struct AnimationOptions {
   double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
 };
 
-/// How an animation is cut: every entry of a plan has the same number of pictures, evenly over its
-/// time, and then rests.
-inline constexpr int kPicturesPerEntry = 16;
-inline constexpr int kPictureTime_ms = 50;  ///< 20 pictures a second
+/// How an animation is cut: pictures where something moves, whatever its time in the replay, and a
+/// rest at the end of every entry. A unit of motion is a fingertip's way of kMotionUnit diameters,
+/// or half of the largest contact force coming or going.
+inline constexpr double kMotionUnit = 0.02;
+inline constexpr double kPicturesPerUnit = 4;  ///< a finger comes down in ten pictures
+inline constexpr int kFewestPictures = 8;      ///< of an entry
+inline constexpr int kMostPictures = 64;       ///< of an entry: a long align goes faster
+inline constexpr int kPictureTime_ms = 50;     ///< 20 pictures a second
 inline constexpr int kRestTime_ms = 900;
 
-/// A plan of more entries than this has fewer pictures an entry, but one at least and its rest.
-inline constexpr int kMostFullEntries = 40;
+/// A plan of many entries has fewer pictures an entry, but one at least and its rest.
+inline constexpr int kMostPicturesInAll = 900;
 
-/// The instants of one entry that an animation shows, by their index in `times`: at most `count`,
-/// evenly spaced over the times in (from, to], ascending, without repetition.
-/// @param times  ascending.
-[[nodiscard]] std::vector<int> ChooseInstants(const std::vector<double>& times, double from,
+/// How far the replay has come at each sample, in units of motion, ascending. A jump, where a free
+/// finger appears somewhere else, counts as little; time counts a little too, so that no two
+/// samples are equal.
+/// @param largest_force  newtons, > 0.
+[[nodiscard]] std::vector<double> MeasureProgress(const std::vector<Snapshot>& samples,
+                                                  double diameter_m, double largest_force);
+
+/// The instants of one entry that an animation shows, by their index in `progress`: at most
+/// `count`, evenly spaced over what lies in (from, to], ascending, without repetition.
+/// @param progress  ascending.
+[[nodiscard]] std::vector<int> ChooseInstants(const std::vector<double>& progress, double from,
                                               double to, int count);
 
-/// The whole replay as an animated WebP file, slowed down: each entry takes
-/// kPicturesPerEntry · kPictureTime_ms whatever its time in the replay, and rests at its end.
-/// Deterministic.
+/// The whole replay as an animated WebP file: its pictures are spread over what moves, so that a
+/// finger is seen to come down, forces to go over, and a finger to leave; every entry rests at its
+/// end. Deterministic.
 /// @param samples  states during the replay, ascending in time.
 /// @param rests    the state after each entry that was replayed, in the order of the plan, ≥ 1.
 /// @throws EnvironmentError       no off-screen rendering context.

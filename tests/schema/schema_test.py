@@ -281,6 +281,25 @@ class SchemaTest(unittest.TestCase):
             (["skipped", 0, "why"], REMOVED),
         ])
 
+    def test_wrong_trials_and_aligns_of_reports_are_refused(self):
+        report = copy.deepcopy(REPORT)
+        report["trials"] = {
+            "count": 100, "seed": 0, "position_noise": 0.01, "friction_error": 0.1,
+            "mass_error": 0.1, "passed": 93, "share": 0.93, "confidence": 0.95,
+            "interval": [0.86, 0.97], "reasons": {"slipped": 7},
+            "steps": [{"index": 1, "failed": 7}],
+        }
+        step = report["steps"][0]
+        step["align_mode"] = "mixed"
+        step["align_shares"] = {"imitated": 0.5, "slid": 0.5, "best_effort": 0}
+        self.expect_refused("report", report, [
+            *[(["trials", key], REMOVED) for key in report["trials"]],
+            *[(["steps", 0, "align_shares", key], REMOVED) for key in step["align_shares"]],
+            (["trials", "count"], 0), (["trials", "share"], 1.5), (["trials", "interval"], [0.5]),
+            (["trials", "reasons"], {"tired": 1}), (["trials", "steps"], [{"index": 1}]),
+            (["steps", 0, "align_mode"], "dragged"), (["settings", "align"], "fly"),
+        ])
+
     def test_wrong_graphs_are_refused(self):
         self.expect_refused("graph", GRAPH, [
             *[([key], REMOVED) for key in GRAPH],

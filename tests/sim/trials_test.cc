@@ -119,8 +119,8 @@ TEST(Trials, LoseAPlanNearItsCriticalFrictionAndKeepOneWithFrictionToSpare) {
   constexpr int kCount = 30;
   const int spare = Passes(25, Trials(kCount, 0, 0.1));
   const int little = Passes(7, Trials(kCount, 0, 0.03));
-  const int more = Passes(7, Trials(kCount, 0, 0.2));
-  const int most = Passes(7, Trials(kCount, 0, 0.8));
+  const int more = Passes(7, Trials(kCount, 0, 0.1));
+  const int most = Passes(7, Trials(kCount, 0, 0.5));
   EXPECT_EQ(spare, kCount);
   EXPECT_EQ(little, kCount);
   EXPECT_LT(more, little);
