@@ -52,7 +52,7 @@ void AddFiles(CLI::App& app, ValidateOptions& options) {
       app.add_option("--plan", options.plans,
                      "Plan file; or several, or a folder of plans (every *.json), each of which is "
                      "validated in a process of its own; or --grasp")
-          ->type_name("FILE...");
+          ->type_name("FILE");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "

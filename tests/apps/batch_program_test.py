@@ -215,6 +215,13 @@ class Batch(ProgramCase):
         self.assertEqual(done.stdout + done.stderr, "")
         self.assertEqual(len(self.verdicts()), 2)
 
+    def test_one_plan_finds_its_object_in_a_folder_too(self):
+        self.use(["square_01.json"])
+        self.assert_done("--object", program_case.ARGUMENTS.source + "/models", "--plan",
+                         "plans/square_01.json", "--no-frames", "--out", "result")
+        self.assertEqual(json.loads(self.read("result/report.json"))["object"]["file"],
+                         "square.wkt")
+
     def test_files_of_a_folder_that_are_no_plans_are_skipped_and_named(self):
         self.use_few()
         shutil.copy(self.model("square.start.json"), self.path("plans"))
