@@ -13,6 +13,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/contour/plan_planar.h"
 #include "planner/plan/plan_io.h"
 #include "planner/polyhedron/plan_spatial.h"
@@ -150,6 +151,7 @@ int PlanProgram::Run() const {
   result.plan->object_file = object.file;
   result.plan->object_sha256 = object.sha256;
   result.plan->scale = common.scale;
+  AddCertificates(*object.object, *result.plan);
   const std::string text = FormatPlan(*result.plan);
   if (output == "-") {
     std::cout << text;

@@ -1,10 +1,12 @@
 #include "sim/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "planner/base/number.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
 
@@ -41,6 +43,16 @@ void MeasureRegions(const Object& object, const Plan& located, int count, Report
           MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
     }
     before = GraspAfter(before, step);
+  }
+}
+
+/// Certificates are checked of aligns that are known to be right.
+void CheckCertificates(const Plan& located, int count, Report& report) {
+  for (int index = 1; index < count; ++index) {
+    const auto* align = std::get_if<Align>(&located.steps[index - 1]);
+    if (align == nullptr || !align->certificate) continue;
+    report.steps[index].certificate = CheckAlignCertificate(
+        *align, report.dimension, std::tan(report.half_angle), *align->certificate);
   }
 }
 
@@ -105,10 +117,15 @@ int Report::weakest_step() const {
 std::vector<std::string> Report::warnings() const {
   std::vector<std::string> warnings;
   for (const ReportStep& step : steps) {
-    if (!step.region || step.region->holds) continue;
-    warnings.push_back(
-        "step " + std::to_string(step.check.index) + ": the plan claims a contact region of " +
-        FormatShort(*step.region->claimed) + ", but it is " + FormatShort(step.region->half_width));
+    const std::string name = "step " + std::to_string(step.check.index);
+    if (step.region && !step.region->holds) {
+      warnings.push_back(name + ": the plan claims a contact region of " +
+                         FormatShort(*step.region->claimed) + ", but it is " +
+                         FormatShort(step.region->half_width));
+    }
+    if (step.certificate && !step.certificate->proves()) {
+      warnings.push_back(name + ": the plan's certificate does not hold: " + step.certificate->why);
+    }
   }
   return warnings;
 }
@@ -124,6 +141,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
   const int passing = CountPassing(checked.steps);
   MeasureRegions(object, checked.located, passing, report);
+  CheckCertificates(checked.located, passing, report);
   if (passing > 0) {
     ReplayOptions options = replay;
     options.half_angle = report.half_angle;

@@ -25,6 +25,9 @@ struct ReportStep {
   StepCheck check;
   /// Of a switch between 2-finger grasps of a polygon that passes the analytic check.
   std::optional<SwitchRegion> region;
+  /// What exact arithmetic says of the proof that the plan gives for an align, if it gives one and
+  /// the align passes the analytic check.
+  std::optional<ProofVerdict> certificate;
   std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
   bool skipped = false;              ///< a step before it failed, in the analysis or the replay
   std::optional<EntryProof> proof;   ///< where AddProofs was asked
@@ -66,7 +69,8 @@ struct Report {
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
   /// where no step has one.
   [[nodiscard]] int weakest_step() const;
-  /// For people, without a verdict: each switch whose contact region is smaller than claimed.
+  /// For people, without a verdict: each switch whose contact region is smaller than claimed, each
+  /// align whose certificate does not hold.
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 

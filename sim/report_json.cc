@@ -73,6 +73,11 @@ void AddRegion(const std::optional<SwitchRegion>& region, Json& step) {
       {"half_width", region->half_width}, {"claimed", claimed}, {"holds", region->holds}};
 }
 
+Json MakeCertificate(const std::optional<ProofVerdict>& certificate) {
+  if (!certificate) return nullptr;
+  return certificate->proves() ? "holds" : "does-not-hold";
+}
+
 /// An empty text is null.
 Json MakeText(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(std::string(text));
@@ -88,6 +93,7 @@ Json MakeStep(const ReportStep& step, int dimension) {
                {"undecided", step.check.undecided},
                {"align_mode", MakeAlignMode(step.replay)},
                {"align_shares", MakeAlignShares(step.replay)},
+               {"certificate", MakeCertificate(step.certificate)},
                {"simulation", MakeSimulation(step.replay)},
                {"frame", MakeText(step.frame)}};
   AddRegion(step.region, json);

@@ -18,6 +18,9 @@ struct ProofVerdict {
   };
   Kind kind = Kind::kNothing;
   std::string why;  ///< of kNothing, for people
+
+  /// Force closure is proved.
+  [[nodiscard]] bool proves() const { return kind == Kind::kForceClosure; }
 };
 
 /// Checks a proof in exact rational arithmetic, every double taken at its value: contacts, friction

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "planner/plan/motion_piece.h"  // IWYU pragma: export
+
 namespace regrasp {
 
 /// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts
@@ -21,16 +23,6 @@ struct GraspProof {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts
-};
-
-/// Why a grasp is force closure everywhere on a piece of a straight motion of its contacts: forces
-/// that go linearly from `start` to `end`, balanced all the way up to rounding. A force between two
-/// of a cone is in the cone.
-struct MotionPiece {
-  double from = 0;  ///< of the way between two waypoints, 0 to 1
-  double to = 1;
-  std::vector<Eigen::Vector3d> start;
-  std::vector<Eigen::Vector3d> end;
 };
 
 }  // namespace regrasp

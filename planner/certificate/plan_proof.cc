@@ -1,13 +1,16 @@
 #include "planner/certificate/plan_proof.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "planner/certificate/align_certificate.h"
 #include "planner/certificate/check_motion_proof.h"
 #include "planner/certificate/find_motion_proof.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/plan/contact_motion.h"
+#include "planner/plan/motion_piece_json.h"
 
 namespace regrasp {
 
@@ -15,47 +18,49 @@ namespace {
 
 using Kind = GraspProof::Kind;
 
-/// One entry as the proofs see it: the grasp at its end, and the waypoints of an align.
+/// From one waypoint to the next, the contacts of each finger at the same place.
+struct Way {
+  Grasp from;
+  Grasp to;
+};
+
+/// One entry as the proofs see it: the grasp at its end, and the ways of an align.
 struct Entry {
   std::string kind;
   Grasp rest;
-  std::vector<Grasp> waypoints;
+  std::vector<Way> ways;
+  const AlignCertificate* certificate = nullptr;  ///< that the plan gives, if it does
 };
 
 std::vector<Entry> EntriesOf(const Plan& plan) {
   FingerGrasp holding = plan.initial;
-  std::vector<Entry> entries = {{"hold", ContactsOf(holding), {}}};
+  std::vector<Entry> entries = {{"hold", ContactsOf(holding), {}, nullptr}};
   for (const Step& step : plan.steps) {
     holding = GraspAfter(holding, step);
-    Entry entry{StepKind(step), ContactsOf(holding), {}};
+    Entry entry{StepKind(step), ContactsOf(holding), {}, nullptr};
     if (const auto* align = std::get_if<Align>(&step)) {
-      for (const FingerGrasp& waypoint : align->waypoints) {
-        entry.waypoints.push_back(ContactsOf(waypoint));
+      for (std::size_t w = 0; w + 1 < align->waypoints.size(); ++w) {
+        entry.ways.push_back({ContactsOf(align->waypoints[w]),
+                              ContactsInOrder(align->waypoints[w + 1], align->waypoints[w])});
       }
+      if (align->certificate) entry.certificate = &*align->certificate;
     }
     entries.push_back(std::move(entry));
   }
   return entries;
 }
 
-std::vector<MotionPiece> FindWay(const Grasp& from, const Grasp& to, int dimension,
-                                 double half_angle) {
+/// The plan's own proof of a way where it holds, otherwise one that is found; empty where none is.
+MotionPieces ProveWay(const Entry& entry, std::size_t way, int dimension, double half_angle) {
+  const auto& [from, to] = entry.ways[way];
   if (from.size() != to.size()) return {};
+  if (entry.certificate != nullptr && way < entry.certificate->size()) {
+    const MotionPieces& given = (*entry.certificate)[way];
+    if (CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves()) return given;
+  }
   GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
-  return FindMotionProof(motion, dimension, half_angle).value_or(std::vector<MotionPiece>());
-}
-
-Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension) {
-  Json json = Json::array();
-  for (const Eigen::Vector3d& force : forces) json.push_back(VectorJson(force, dimension));
-  return json;
-}
-
-std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension) {
-  std::vector<Eigen::Vector3d> forces;
-  for (const JsonReader& force : json.Elements()) forces.push_back(force.Vector(dimension));
-  return forces;
+  return FindMotionProof(motion, dimension, half_angle).value_or(MotionPieces());
 }
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
@@ -96,10 +101,7 @@ GraspProof ReadGraspProof(const JsonReader& json, int dimension) {
 }  // namespace
 
 bool EntryVerdict::proved() const {
-  const auto is_proved = [](const ProofVerdict& verdict) {
-    return verdict.kind == ProofVerdict::Kind::kForceClosure;
-  };
-  return is_proved(rest) && std::all_of(ways.begin(), ways.end(), is_proved);
+  return rest.proves() && std::ranges::all_of(ways, &ProofVerdict::proves);
 }
 
 std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle, int entries) {
@@ -108,9 +110,8 @@ std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle, i
     if (static_cast<int>(proofs.size()) >= entries) break;
     EntryProof proof;
     proof.rest = FindGraspProof(entry.rest, located.dimension, half_angle);
-    for (std::size_t i = 1; i < entry.waypoints.size(); ++i) {
-      proof.ways.push_back(
-          FindWay(entry.waypoints[i - 1], entry.waypoints[i], located.dimension, half_angle));
+    for (std::size_t way = 0; way < entry.ways.size(); ++way) {
+      proof.ways.push_back(ProveWay(entry, way, located.dimension, half_angle));
     }
     proofs.push_back(std::move(proof));
   }
@@ -128,11 +129,11 @@ std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
     const Entry& entry = entries[i];
     EntryVerdict verdict{static_cast<int>(i), entry.kind, {}, {}};
     verdict.rest = CheckGraspProof(entry.rest, located.dimension, mu, proofs[i].rest);
-    for (std::size_t k = 1; k < entry.waypoints.size(); ++k) {
-      const bool has = k <= proofs[i].ways.size();
-      verdict.ways.push_back(
-          CheckMotionProof(entry.waypoints[k - 1], entry.waypoints[k], located.dimension, mu,
-                           has ? proofs[i].ways[k - 1] : std::vector<MotionPiece>()));
+    for (std::size_t way = 0; way < entry.ways.size(); ++way) {
+      const bool has = way < proofs[i].ways.size();
+      verdict.ways.push_back(CheckMotionProof(entry.ways[way].from, entry.ways[way].to,
+                                              located.dimension, mu,
+                                              has ? proofs[i].ways[way] : MotionPieces()));
     }
     verdicts.push_back(std::move(verdict));
   }
@@ -143,15 +144,8 @@ Json EntryProofJson(const EntryProof& proof, int dimension) {
   Json json = {{"rest", GraspProofJson(proof.rest, dimension)}};
   if (proof.ways.empty()) return json;
   json["ways"] = Json::array();
-  for (const std::vector<MotionPiece>& way : proof.ways) {
-    Json pieces = Json::array();
-    for (const MotionPiece& piece : way) {
-      pieces.push_back({{"from", piece.from},
-                        {"to", piece.to},
-                        {"start", ForcesJson(piece.start, dimension)},
-                        {"end", ForcesJson(piece.end, dimension)}});
-    }
-    json["ways"].push_back(std::move(pieces));
+  for (const MotionPieces& way : proof.ways) {
+    json["ways"].push_back(MotionPiecesJson(way, dimension));
   }
   return json;
 }
@@ -161,12 +155,7 @@ EntryProof ReadEntryProof(const JsonReader& json, int dimension) {
   proof.rest = ReadGraspProof(json.Member("rest"), dimension);
   if (!json.Has("ways")) return proof;
   for (const JsonReader& way : json.Member("ways").Elements()) {
-    std::vector<MotionPiece>& pieces = proof.ways.emplace_back();
-    for (const JsonReader& piece : way.Elements()) {
-      pieces.push_back({piece.Member("from").Number(), piece.Member("to").Number(),
-                        ReadForces(piece.Member("start"), dimension),
-                        ReadForces(piece.Member("end"), dimension)});
-    }
+    proof.ways.push_back(ReadMotionPieces(way, dimension));
   }
   return proof;
 }

@@ -14,12 +14,12 @@ namespace regrasp {
 /// The proofs of one entry of a report: of the grasp that it ends in, and of an align's ways.
 struct EntryProof {
   GraspProof rest;
-  /// By pair of waypoints that follow each other; empty where no proof was found, as where a normal
-  /// turns.
-  std::vector<std::vector<MotionPiece>> ways;
+  /// By pair of waypoints that follow each other; empty where no proof was found.
+  std::vector<MotionPieces> ways;
 };
 
-/// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included.
+/// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included. The
+/// plan's own certificates are taken where they hold.
 /// @param located  its contacts placed on the object (LocatePlan). @param half_angle  radians.
 [[nodiscard]] std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle,
                                                      int entries);

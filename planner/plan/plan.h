@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/grasp/contact.h"
+#include "planner/plan/motion_piece.h"
 
 namespace regrasp {
 
@@ -30,10 +31,15 @@ struct Switch {
   std::vector<int> release;
 };
 
+/// A claim that an align is force closure everywhere on the way, with its proof: for each pair of
+/// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
+using AlignCertificate = std::vector<MotionPieces>;
+
 /// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
 /// the same rate. The first waypoint is the grasp before the step.
 struct Align {
   std::vector<FingerGrasp> waypoints;
+  std::optional<AlignCertificate> certificate = std::nullopt;
 };
 
 using Step = std::variant<Switch, Align>;

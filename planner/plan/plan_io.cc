@@ -9,6 +9,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/plan/contact_json.h"
+#include "planner/plan/motion_piece_json.h"
 
 namespace regrasp {
 
@@ -28,6 +29,33 @@ Switch ReadSwitch(const JsonReader& json, int dimension) {
   return step;
 }
 
+void ExpectForces(const JsonReader& json, std::size_t found, std::size_t fingers) {
+  if (found == fingers) return;
+  json.Fail("expected " + std::to_string(fingers) + " forces, one a finger, found " +
+            std::to_string(found));
+}
+
+AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int dimension) {
+  const std::vector<JsonReader> ways = json.Elements();
+  if (ways.size() + 1 != step.waypoints.size()) {
+    json.Fail("expected " + std::to_string(step.waypoints.size() - 1) +
+              " lists of pieces, one for each waypoint but the last, found " +
+              std::to_string(ways.size()));
+  }
+  AlignCertificate certificate;
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    certificate.push_back(ReadMotionPieces(ways[w], dimension));
+    const std::vector<JsonReader> pieces = ways[w].Elements();
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const MotionPiece& piece = certificate.back()[k];
+      const std::size_t fingers = step.waypoints[w].size();
+      ExpectForces(pieces[k].Member("start"), piece.start.size(), fingers);
+      ExpectForces(pieces[k].Member("end"), piece.end.size(), fingers);
+    }
+  }
+  return certificate;
+}
+
 Align ReadAlign(const JsonReader& json, int dimension) {
   Align step;
   for (const JsonReader& waypoint : json.Member("waypoints").Elements()) {
@@ -36,6 +64,9 @@ Align ReadAlign(const JsonReader& json, int dimension) {
   if (step.waypoints.size() < 2) {
     json.Member("waypoints")
         .Fail("expected at least 2 waypoints, found " + std::to_string(step.waypoints.size()));
+  }
+  if (json.Has("certificate")) {
+    step.certificate = ReadCertificate(json.Member("certificate"), step, dimension);
   }
   return step;
 }
@@ -124,6 +155,12 @@ Json AlignJson(const Align& step, int dimension) {
   Json json = Json::object();
   json["kind"] = "align";
   json["waypoints"] = std::move(waypoints);
+  if (step.certificate) {
+    json["certificate"] = Json::array();
+    for (const MotionPieces& pieces : *step.certificate) {
+      json["certificate"].push_back(MotionPiecesJson(pieces, dimension));
+    }
+  }
   return json;
 }
 

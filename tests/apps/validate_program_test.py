@@ -536,6 +536,56 @@ class Validate(ProgramCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("0 hold  refuted", done.stdout)
 
+    def write_plan_with_align(self):
+        """A plan whose last step moves two fingers along the surface, as `plan` proves it."""
+        done = self.assert_done(
+            "--object", self.model("body24.obj"), "--start", self.model("body24.start.json"),
+            "--goal", self.model("body24.goal.json"), "--friction-angle", "20", "--planner",
+            "polyhedron", "--output", "plan.json", program="plan")
+        self.assertIn("align", done.stderr)
+        self.plan = json.loads(self.read("plan.json"))
+        aligns = [k for k, step in enumerate(self.plan["steps"]) if step["kind"] == "align"]
+        self.assertTrue(aligns)
+        return self.model("body24.obj"), aligns
+
+    def test_certificates_that_a_plan_gives_hold(self):
+        solid, aligns = self.write_plan_with_align()
+        for index in aligns:
+            self.assertIn("certificate", self.plan["steps"][index])
+        done, report = self.assert_passes("--certificates", "--no-frames", object=solid)
+        self.assertEqual(done.stderr, "")
+        for index, step in enumerate(report["steps"]):
+            expected = "holds" if index - 1 in aligns else None
+            self.assertEqual(step["certificate"], expected, index)
+        for index in aligns:
+            self.assertEqual(report["steps"][index + 1]["proof"]["ways"],
+                             self.plan["steps"][index]["certificate"])
+        self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
+
+    def test_warns_of_a_certificate_that_does_not_hold_and_still_passes(self):
+        solid, aligns = self.write_plan_with_align()
+        index = aligns[0]
+        for force in self.plan["steps"][index]["certificate"][0][0]["start"]:
+            force[:] = [-x for x in force]
+        self.write_plan()
+        done, report = self.assert_passes("--certificates", "--no-frames", object=solid)
+        self.assertEqual(report["steps"][index + 1]["certificate"], "does-not-hold")
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertIn(f"warning: step {index + 1}: the plan's certificate does not hold: from "
+                      "waypoint 0 on, the force at contact", done.stderr)
+        # The report has a proof of its own.
+        self.assert_done(*self.arguments(object=solid, verify="result/report.json", out=None))
+
+    def test_refuses_a_certificate_that_is_none(self):
+        solid, aligns = self.write_plan_with_align()
+        place = f"/steps/{aligns[0]}/certificate"
+        self.plan["steps"][aligns[0]]["certificate"][0][0]["end"].pop()
+        self.write_plan()
+        self.refuse(["plan.json", place + "/0/0/end", "expected 4 forces"], object=solid)
+        self.plan["steps"][aligns[0]]["certificate"] = "sure"
+        self.write_plan()
+        self.refuse(["plan.json", place, "expected an array"], object=solid)
+
     def test_refuses_reports_that_cannot_be_verified(self):
         _, report = self.assert_passes("--no-frames")
         self.refuse("holds no proofs", verify="result/report.json")

@@ -1,11 +1,13 @@
 // Any bytes as a plan file: a plan that is written as it was read and that the analytic check can
 // judge on a small object, or one line that says what is wrong.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "hostile_input.h"
+#include "planner/certificate/align_certificate.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "small_objects.h"
@@ -13,6 +15,21 @@
 namespace {
 
 using namespace regrasp;
+
+/// As validate does: where the align is right, exact arithmetic must come to an end, and prove
+/// nothing that the check has refuted.
+void CheckCertificate(const PlanCheck& check, std::size_t index) {
+  const auto* align = std::get_if<Align>(&check.located.steps[index]);
+  const StepCheck& step = check.steps[index + 1];
+  if (align == nullptr || !align->certificate || step.skipped) return;
+  if (step.reason != Reason::kNone && step.reason != Reason::kNotForceClosure) return;
+  const double mu = std::tan(check.located.half_angle);
+  const ProofVerdict verdict =
+      CheckAlignCertificate(*align, check.located.dimension, mu, *align->certificate);
+  if (verdict.proves() && !step.force_closure) {
+    ReportFinding("a certificate holds where the check refutes force closure");
+  }
+}
 
 void ReadAndCheck(std::string_view text) {
   const Plan plan = ParsePlan(text, kHostileName);
@@ -27,6 +44,7 @@ void ReadAndCheck(std::string_view text) {
   for (const StepCheck& step : check.steps) {
     if (step.force_closure && !step.required) ReportFinding("force closure at no angle");
   }
+  for (std::size_t k = 0; k < plan.steps.size(); ++k) CheckCertificate(check, k);
 }
 
 }  // namespace

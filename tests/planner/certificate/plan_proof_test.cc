@@ -57,6 +57,20 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
   }
 }
 
+TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
+  Plan plan = MakeCubePlan();
+  auto& align = std::get<Align>(plan.steps[1]);
+  align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].ways;
+  for (Vector3d& force : (*align.certificate)[0][0].start) force *= 0.5;
+  for (Vector3d& force : (*align.certificate)[0][0].end) force *= 0.5;
+  const MotionPiece given = (*align.certificate)[0][0];
+  EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].ways[0][0].start, given.start);
+  for (Vector3d& force : (*align.certificate)[0][0].start) force *= -1;
+  const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  EXPECT_NE(proofs[2].ways[0][0].start, (*align.certificate)[0][0].start);
+  EXPECT_TRUE(CheckPlanProofs(plan, kMu, proofs)[2].proved());
+}
+
 TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
   const Plan plan = MakeCubePlan();
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);

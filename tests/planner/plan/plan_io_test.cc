@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "planner/base/angle.h"
@@ -26,6 +27,24 @@ void ExpectSameGrasp(const FingerGrasp& a, const FingerGrasp& b) {
   }
 }
 
+void ExpectSameCertificate(const std::optional<AlignCertificate>& a,
+                           const std::optional<AlignCertificate>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  ASSERT_EQ(a->size(), b->size());
+  for (std::size_t w = 0; w < a->size(); ++w) {
+    ASSERT_EQ((*a)[w].size(), (*b)[w].size());
+    for (std::size_t k = 0; k < (*a)[w].size(); ++k) {
+      const MotionPiece& one = (*a)[w][k];
+      const MotionPiece& other = (*b)[w][k];
+      EXPECT_EQ(one.from, other.from);
+      EXPECT_EQ(one.to, other.to);
+      EXPECT_EQ(one.start, other.start);
+      EXPECT_EQ(one.end, other.end);
+    }
+  }
+}
+
 void ExpectSamePlan(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.object_file, b.object_file);
   EXPECT_EQ(a.object_sha256, b.object_sha256);
@@ -46,6 +65,8 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
       EXPECT_EQ(a_switch->release, b_switch.release);
       continue;
     }
+    ExpectSameCertificate(std::get<Align>(a.steps[k]).certificate,
+                          std::get<Align>(b.steps[k]).certificate);
     const auto& a_waypoints = std::get<Align>(a.steps[k]).waypoints;
     const auto& b_waypoints = std::get<Align>(b.steps[k]).waypoints;
     ASSERT_EQ(a_waypoints.size(), b_waypoints.size());
@@ -71,6 +92,50 @@ TEST(PlanIo, ReadsWhatItWrites) {
     const Plan read = ParsePlan(text, "plan.json");
     ExpectSamePlan(read, plan);
     EXPECT_EQ(FormatPlan(read), text);
+  }
+}
+
+/// Gives the align of a plan made-up forces, as many as fingers.
+Plan WithCertificate(Plan plan) {
+  auto& align = std::get<Align>(plan.steps.back());
+  align.certificate.emplace();
+  for (std::size_t w = 0; w + 1 < align.waypoints.size(); ++w) {
+    std::vector<Eigen::Vector3d> forces(align.waypoints[w].size(), {1.0 / 3, -0.1, 0});
+    align.certificate->push_back({{0, 1.0 / 7, forces, forces}, {1.0 / 7, 1, forces, forces}});
+  }
+  return plan;
+}
+
+TEST(PlanIo, KeepsCertificates) {
+  for (const Plan& plan : {WithCertificate(CubePlan()), WithCertificate(SquarePlan())}) {
+    const std::string text = FormatPlan(plan);
+    const Plan read = ParsePlan(text, "plan.json");
+    ExpectSamePlan(read, plan);
+    EXPECT_EQ(FormatPlan(read), text);
+  }
+}
+
+TEST(PlanIo, RefusesCertificatesThatDoNotFitTheAlign) {
+  const auto complaint = [](const std::function<void(Json&)>& change) {
+    Json json = ParseJson(FormatPlan(WithCertificate(CubePlan())), "plan.json");
+    change(json["steps"][2]["certificate"]);
+    return Complaint(FormatJson(json));
+  };
+  EXPECT_EQ(complaint([](Json&) {}), "");
+  EXPECT_EQ(
+      complaint([](Json& ways) { ways.erase(0); }),
+      "plan.json: /steps/2/certificate: expected 2 lists of pieces, one for each waypoint but "
+      "the last, found 1");
+  EXPECT_EQ(complaint([](Json& ways) { ways[1][0]["end"].erase(0); }),
+            "plan.json: /steps/2/certificate/1/0/end: expected 4 forces, one a finger, found 3");
+  for (const auto& change : std::vector<std::function<void(Json&)>>{
+           [](Json& ways) { ways = nullptr; }, [](Json& ways) { ways[0] = "all"; },
+           [](Json& ways) { ways[0][1].erase("from"); }, [](Json& ways) { ways[0][1]["to"] = "1"; },
+           [](Json& ways) {
+             ways[0][0]["start"][2] = {1, 2};
+           },
+           [](Json& ways) { ways[0][0]["start"][2][1] = 1e300; }}) {
+    EXPECT_EQ(complaint(change).find("plan.json: /steps/2/certificate"), 0U) << complaint(change);
   }
 }
 

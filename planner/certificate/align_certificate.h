@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "planner/certificate/check_proof.h"
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// The contacts of the fingers of `order`, in its order; fewer where a finger is missing.
+[[nodiscard]] Grasp ContactsInOrder(const FingerGrasp& grasp, const FingerGrasp& order);
+
+/// Proofs of force closure all along an align, for each pair of waypoints that follow each other;
+/// nullopt where FindMotionProof finds none for one of them.
+/// @param located  its contacts placed on the object. @param half_angle  radians.
+[[nodiscard]] std::optional<AlignCertificate> FindAlignCertificate(const Align& located,
+                                                                   int dimension,
+                                                                   double half_angle);
+
+/// Checks in exact arithmetic that proofs hold for an align (CheckMotionProof).
+/// @returns kForceClosure, or kNothing with the first way that is not proved.
+[[nodiscard]] ProofVerdict CheckAlignCertificate(const Align& located, int dimension, double mu,
+                                                 const AlignCertificate& certificate);
+
+/// Gives every align of a plan that has no certificate one, where it is found.
+void AddCertificates(const Object& object, Plan& plan);
+
+}  // namespace regrasp

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/plan/json_reader.h"
+#include "planner/plan/motion_piece.h"
+
+namespace regrasp {
+
+[[nodiscard]] Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension);
+[[nodiscard]] Json MotionPiecesJson(const MotionPieces& pieces, int dimension);
+/// @throws InputError
+[[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
+[[nodiscard]] MotionPieces ReadMotionPieces(const JsonReader& json, int dimension);
+
+}  // namespace regrasp

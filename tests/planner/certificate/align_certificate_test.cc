@@ -1,0 +1,105 @@
+#include "planner/certificate/align_certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/object/object.h"
+#include "tests/planner/certificate/random_boxes.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHalfAngle = Radians(20);
+const double kMu = std::tan(kHalfAngle);
+
+FingerGrasp Held(const Grasp& grasp) {
+  FingerGrasp held;
+  for (std::size_t i = 0; i < grasp.size(); ++i) held.push_back({static_cast<int>(i), grasp[i]});
+  return held;
+}
+
+/// Two ways over the sides of a cube; the waypoints name the fingers in different orders.
+Align MakeAlign() {
+  Grasp middle = CrossedGrasp();
+  middle[0].p.y() += 0.1;
+  middle[3].p.z() -= 0.1;
+  Grasp end = middle;
+  end[2].p.x() -= 0.1;
+  Align align{{Held(CrossedGrasp()), Held(middle), Held(end)}};
+  std::ranges::reverse(align.waypoints[1]);
+  std::ranges::rotate(align.waypoints[2], align.waypoints[2].begin() + 1);
+  return align;
+}
+
+TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
+  const Align align = MakeAlign();
+  const auto certificate = FindAlignCertificate(align, 3, kHalfAngle);
+  ASSERT_TRUE(certificate);
+  ASSERT_EQ(certificate->size(), 2U);
+  const ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, *certificate);
+  EXPECT_TRUE(verdict.proves()) << verdict.why;
+  // The force of the finger that the waypoint names first pushes along that finger's normal.
+  for (std::size_t w = 0; w < certificate->size(); ++w) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vector3d& n = align.waypoints[w][i].contact.n;
+      EXPECT_GT((*certificate)[w].front().start[i].dot(n), 0) << w << " " << i;
+    }
+  }
+}
+
+TEST(AlignCertificateTest, ForcesInAnotherOrderProveNothing) {
+  const Align align = MakeAlign();
+  AlignCertificate wrong = *FindAlignCertificate(align, 3, kHalfAngle);
+  std::ranges::reverse(wrong[1][0].start);
+  const ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, wrong);
+  EXPECT_FALSE(verdict.proves());
+  EXPECT_NE(verdict.why.find("waypoint 1"), std::string::npos) << verdict.why;
+}
+
+TEST(AlignCertificateTest, OfAnotherAlignOrLessFrictionOrTooFewWaysProvesNothing) {
+  const Align align = MakeAlign();
+  const AlignCertificate certificate = *FindAlignCertificate(align, 3, kHalfAngle);
+  Align other = align;
+  other.waypoints[1][0].contact.p.x() += 0.85;
+  EXPECT_FALSE(CheckAlignCertificate(other, 3, kMu, certificate).proves());
+  other = align;
+  other.waypoints[1].pop_back();
+  EXPECT_FALSE(CheckAlignCertificate(other, 3, kMu, certificate).proves());
+  EXPECT_FALSE(FindAlignCertificate(other, 3, kHalfAngle));
+  EXPECT_FALSE(CheckAlignCertificate(align, 3, kMu / 10, certificate).proves());
+  EXPECT_FALSE(CheckAlignCertificate(align, 3, kMu, {certificate[0]}).proves());
+  EXPECT_FALSE(FindAlignCertificate(align, 3, Radians(1)));
+}
+
+TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
+  const ObjectFile cube = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const double side = cube.object->diameter() / std::sqrt(12.0);
+  Plan plan;
+  plan.half_angle = kHalfAngle;
+  plan.fingers = 5;
+  Align align = MakeAlign();
+  for (FingerGrasp& waypoint : align.waypoints) {
+    for (FingerContact& held : waypoint) held.contact.p *= side;
+  }
+  Align too_far = align;
+  too_far.waypoints[1][0].contact.p.x() = 0.99 * side;
+  too_far.waypoints[1][3].contact.p.y() = 0.99 * side;
+  Align claimed = align;
+  claimed.certificate.emplace();
+  plan.initial = align.waypoints[0];
+  plan.steps = {align, too_far, claimed, Switch{{}, {0}}};
+  AddCertificates(*cube.object, plan);
+  const auto certificate = [&](int step) { return std::get<Align>(plan.steps[step]).certificate; };
+  ASSERT_TRUE(certificate(0));
+  EXPECT_TRUE(CheckAlignCertificate(align, 3, kMu, *certificate(0)).proves());
+  EXPECT_FALSE(certificate(1)) << "force closure is lost on the way";
+  EXPECT_TRUE(certificate(2)->empty()) << "what a planner claims stays";
+}
+
+}  // namespace
+}  // namespace regrasp
