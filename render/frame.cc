@@ -246,7 +246,7 @@ class FrameRenderer::Impl {
     for (const Snapshot& snapshot : snapshots) {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
-      frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface));
+      frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps));
       AddBody(pose, points);
       for (const FingerGlyph& glyph : frames.back()) {
         points.push_back(glyph.contact);

@@ -8,8 +8,8 @@
 
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "sim/align_path.h"
 #include "planner/plan/clearance.h"
+#include "sim/align_path.h"
 
 namespace regrasp {
 

@@ -43,8 +43,8 @@ struct AlignScript {
 struct AlignLimits {
   double half_angle = 0;   ///< friction, radians
   std::vector<int> spare;  ///< fingers that hold nothing
-  /// Wherever a finger comes to rest a ball of this radius should fit (planner/plan/clearance.h), the unit
-  /// that of the object.
+  /// Wherever a finger comes to rest a ball of this radius should fit (planner/plan/clearance.h),
+  /// the unit that of the object.
   double clearance = 0;
   /// Where there is no way with that, a ball of this one.
   double least_clearance = 0;
