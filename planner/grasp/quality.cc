@@ -161,15 +161,25 @@ class RaySearch {
 };
 
 template <int kDim>
-bool AtLeast(const UnitContacts& contacts, double threshold) {
-  const WrenchSet<kDim> set(contacts);
+QualityBounds ShootFrames(const WrenchSet<kDim>& set, double threshold) {
   RaySearch<kDim> rays(set, threshold);
   rays.ShootFrame(RaySearch<kDim>::Frame::Identity());
   for (int frame = 1; frame < kFrames && !rays.decided(); ++frame) {
     rays.Descend();
     if (!rays.decided()) rays.ShootFrame(rays.NearestFrame());
   }
-  BallSearch<kDim> balls(set, rays.bounds());
+  return rays.bounds();
+}
+
+template <int kDim>
+bool ClearlyAtLeast(const UnitContacts& contacts, double threshold) {
+  return ShootFrames<kDim>(WrenchSet<kDim>(contacts), threshold).lower >= threshold;
+}
+
+template <int kDim>
+bool AtLeast(const UnitContacts& contacts, double threshold) {
+  const WrenchSet<kDim> set(contacts);
+  BallSearch<kDim> balls(set, ShootFrames<kDim>(set, threshold));
   const QualityBounds& bounds = balls.bounds();
   for (int round = 0; round < kMaxRounds; ++round) {
     if (bounds.lower >= threshold || bounds.upper < threshold) break;
@@ -178,14 +188,20 @@ bool AtLeast(const UnitContacts& contacts, double threshold) {
   return bounds.lower >= threshold;
 }
 
+UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const WrenchFrame& frame,
+                                double half_angle) {
+  UnitContacts units = MakeUnitContacts(contacts, frame);
+  SetUnitNormalForces(units, half_angle);
+  return units;
+}
+
 }  // namespace
 
 QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFrame& frame,
                              double half_angle, double relative_gap) {
   if (!(relative_gap > 0)) throw std::invalid_argument("quality: relative gap not positive");
   if (!IsForceClosure(contacts, frame, half_angle)) return {};
-  UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
+  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
   return frame.dimension == 3 ? Quality<6>(units, relative_gap) : Quality<3>(units, relative_gap);
 }
 
@@ -194,9 +210,18 @@ bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
   if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
   if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
   if (threshold <= 0) return true;
-  UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
+  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
   return frame.dimension == 3 ? AtLeast<6>(units, threshold) : AtLeast<3>(units, threshold);
+}
+
+bool QualityClearlyAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
+                           double half_angle, double threshold) {
+  if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
+  if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
+  if (threshold <= 0) return true;
+  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
+  return frame.dimension == 3 ? ClearlyAtLeast<6>(units, threshold)
+                              : ClearlyAtLeast<3>(units, threshold);
 }
 
 }  // namespace regrasp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "planner/base/random.h"
+#include "planner/general/grasp_path.h"
+#include "planner/general/search_space.h"
+#include "planner/general/surface_source.h"
+
+namespace regrasp {
+
+/// The same path with its contacts numbered by another space.
+[[nodiscard]] GraspPath Renumber(const GraspPath& path, const SearchSpace& from, SearchSpace& to);
+
+/// Shortens a path: stretches of it are replaced by ways with fewer steps, over the contacts of the
+/// stretch and some random ones, by switches and aligns, as long as one is found. Never longer.
+[[nodiscard]] GraspPath ShortenPath(GraspPath path, const SurfaceSource& source,
+                                    RandomStream& random, SearchSpace& space);
+
+/// Widens a path, without more steps: its weakest grasps and aligns come to need less friction.
+/// Stretches of it are replaced by ways over their contacts and some random ones that hold at a
+/// smaller half-angle, which is bisected. A stretch can't become better than its two ends.
+[[nodiscard]] GraspPath WidenPath(GraspPath path, const SurfaceSource& source, RandomStream& random,
+                                  SearchSpace& space);
+
+/// The largest required half-angle of the path's grasps at rest, the ends included, radians.
+[[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, const SearchSpace& space);
+
+}  // namespace regrasp

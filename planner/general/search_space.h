@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "planner/general/contact_set.h"
+#include "planner/grasp/contact.h"
+#include "planner/grasp/unit_contacts.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// What is asked of the grasps that a search passes.
+struct GraspDemands {
+  double half_angle = 0;  ///< friction, radians
+  /// Force closure is asked for at a half-angle smaller by this, radians.
+  double margin = 0;
+  /// Grasps are at least this good (QualityClearlyAtLeast); 0: force closure is enough.
+  double min_quality = 0;
+};
+
+/// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps
+/// that a sequence may pass. Counts what it tests, which is what searches spend.
+class SearchSpace {
+ public:
+  /// @param object  outlives this object.
+  SearchSpace(const Object& object, const GraspDemands& demands);
+
+  /// The same contacts, with force closure asked for at another half-angle, radians.
+  [[nodiscard]] SearchSpace WithHalfAngle(double half_angle) const;
+
+  [[nodiscard]] const Object& object() const { return object_; }
+  [[nodiscard]] int dimension() const { return frame_.dimension; }
+  [[nodiscard]] const GraspDemands& demands() const { return demands_; }
+  /// At which grasps and aligns are force closure, radians.
+  [[nodiscard]] double half_angle() const { return demands_.half_angle - demands_.margin; }
+  /// That the hand has: 5 in space, 4 in the plane.
+  [[nodiscard]] int fingers() const { return dimension() == 3 ? 5 : 4; }
+  /// Contacts that a force-closure grasp has at least.
+  [[nodiscard]] int fewest_contacts() const { return dimension() == 3 ? 3 : 2; }
+
+  /// @param contact  knows its face. @returns its number, the old one where it is known.
+  int Add(const Contact& contact);
+  [[nodiscard]] ContactSet Add(const Grasp& grasp);
+  /// Whether another grasp's contacts can be added.
+  [[nodiscard]] bool has_room() const {
+    return count() + ContactSet::kMostHeld <= ContactSet::kMostNumbers;
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(contacts_.size()); }
+  [[nodiscard]] const Contact& contact(int number) const { return contacts_[number]; }
+  [[nodiscard]] Grasp GraspOf(const ContactSet& set) const;
+
+  /// Whether two fingers can stand at two contacts at once.
+  [[nodiscard]] bool CanMeet(int a, int b) const;
+  /// Whether a finger can come to `contact` while others hold `set`.
+  [[nodiscard]] bool CanMeet(const ContactSet& set, int contact) const;
+
+  /// Whether a sequence may pass this grasp: force closure, and good enough. Remembered.
+  /// @param set  contacts that can meet.
+  [[nodiscard]] bool Admits(const ContactSet& set);
+  /// The same for contacts that have no numbers yet, which need not be able to meet.
+  [[nodiscard]] bool IsAdmitted(const Grasp& grasp);
+  /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
+  void Accept(const ContactSet& set) { known_[set.key()] = true; }
+
+  /// Tests of force closure so far, those of certificates included.
+  [[nodiscard]] std::int64_t tests() const { return tests_; }
+  void CountTests(std::int64_t tests) { tests_ += tests; }
+
+ private:
+  [[nodiscard]] bool Test(const ContactSet& set);
+  /// Force closure of contacts in the object's frame.
+  [[nodiscard]] bool Holds(UnitContacts contacts);
+  [[nodiscard]] bool IsGood(const Grasp& grasp) const;
+
+  const Object& object_;
+  WrenchFrame frame_;
+  GraspDemands demands_;
+  double same_point_;
+  std::vector<Contact> contacts_;
+  UnitContacts units_;  ///< of the contacts, in the object's frame
+  std::unordered_map<std::uint64_t, bool> known_;
+  std::int64_t tests_ = 0;
+};
+
+}  // namespace regrasp

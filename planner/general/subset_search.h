@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/general/grasp_path.h"
+#include "planner/general/search_space.h"
+
+namespace regrasp {
+
+/// Whether straight aligns are looked for beside finger switches.
+enum class UseAligns { kNo, kYes };
+
+/// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search in
+/// which a subset is tested when it is first reached. In one step a hand of h fingers switches from
+/// A to B iff |A ∪ B| ≤ h; aligns go straight between grasps of one tuple of faces.
+///
+/// Laws: none of the sets but the ends needs to be admitted; the fewest steps never grow with more
+/// contacts, more friction or aligns.
+/// @param contacts   those of the ends included, at most kMostSubsetContacts.
+/// @param most_steps the search ends there.
+/// @returns nullopt where there is no way.
+[[nodiscard]] std::optional<GraspPath> SearchSubsets(const ContactSet& from, const ContactSet& to,
+                                                     const std::vector<int>& contacts,
+                                                     UseAligns aligns, int most_steps,
+                                                     SearchSpace& space);
+
+/// Over the contacts of the two grasps alone, by switches. With enough friction that joins nearly
+/// all pairs.
+[[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from,
+                                                        const ContactSet& to, SearchSpace& space);
+
+/// What is known of every subset is kept in an array of 2¹⁶ numbers at most.
+inline constexpr int kMostSubsetContacts = 16;
+
+}  // namespace regrasp

@@ -1,0 +1,115 @@
+#include "planner/general/surface_source.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "planner/graph/standing_room.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Contacts drawn before room is no longer asked for: on nearly all of a surface fingers have it.
+constexpr int kMostDraws = 1000;
+
+/// A nearby point is tried again this often where it falls off the face.
+constexpr int kNearDraws = 4;
+
+/// The nearest face is looked for within this share of the reach first.
+constexpr double kFirstLook = 1.0 / 16;
+
+}  // namespace
+
+SurfaceSource::SurfaceSource(const Object& object) : object_(object) {
+  const auto* solid = dynamic_cast<const Polyhedron*>(&object);
+  for (int face = 0; face < object.face_count(); ++face) {
+    first_piece_.push_back(static_cast<int>(pieces_.size()));
+    if (solid == nullptr) {
+      const auto [a, b] = dynamic_cast<const Polygon&>(object).edge(face);
+      AddPiece({a, b, b, face}, (b - a).norm());
+      continue;
+    }
+    for (const int triangle : solid->faces()[face].triangles) {
+      const auto& [i, j, k] = solid->triangles()[triangle];
+      const Piece piece{solid->vertices()[i], solid->vertices()[j], solid->vertices()[k], face};
+      AddPiece(piece, (piece.b - piece.a).cross(piece.c - piece.a).norm() / 2);
+    }
+  }
+  first_piece_.push_back(static_cast<int>(pieces_.size()));
+}
+
+void SurfaceSource::AddPiece(const Piece& piece, double measure) {
+  pieces_.push_back(piece);
+  up_to_.push_back(measure + (up_to_.empty() ? 0 : up_to_.back()));
+}
+
+Contact SurfaceSource::DrawIn(const Piece& piece, RandomStream& random) const {
+  const double root = object_.dimension() == 3 ? std::sqrt(random.Uniform()) : 1;
+  const double along = random.Uniform();
+  const Vector3d p = (1 - root) * piece.a + root * (1 - along) * piece.b + root * along * piece.c;
+  const Vector3d q = object_.dimension() == 3 ? p : piece.a + along * (piece.b - piece.a);
+  return {object_.ClosestPoint(piece.face, q), object_.inward_normal(piece.face), piece.face};
+}
+
+Contact SurfaceSource::DrawBetween(double from, double to, RandomStream& random) const {
+  Contact contact;
+  for (int draw = 0; draw < kMostDraws; ++draw) {
+    const double at = from + random.Uniform() * (to - from);
+    const auto above = std::upper_bound(up_to_.begin(), up_to_.end(), at);
+    const auto last = static_cast<std::ptrdiff_t>(up_to_.size()) - 1;
+    contact = DrawIn(pieces_[std::min(above - up_to_.begin(), last)], random);
+    if (HasStandingRoom(object_, contact)) break;
+  }
+  return contact;
+}
+
+Contact SurfaceSource::Draw(RandomStream& random) const {
+  return DrawBetween(0, up_to_.back(), random);
+}
+
+Contact SurfaceSource::DrawOn(int face, RandomStream& random) const {
+  const int first = first_piece_[face];
+  return DrawBetween(first == 0 ? 0 : up_to_[first - 1], up_to_[first_piece_[face + 1] - 1],
+                     random);
+}
+
+Contact SurfaceSource::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
+  const bool space = object_.dimension() == 3;
+  const Vector3d across = space ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
+  const Vector3d along = contact.n.cross(across);
+  for (int draw = 0; draw < kNearDraws; ++draw) {
+    const double u = (2 * random.Uniform() - 1) * reach;
+    const double v = space ? (2 * random.Uniform() - 1) * reach : 0;
+    const Vector3d p = object_.ClosestPoint(contact.face, contact.p + u * along + v * across);
+    const Contact near{p, contact.n, contact.face};
+    if (HasStandingRoom(object_, near)) return near;
+  }
+  return contact;
+}
+
+Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
+                                  RandomStream& random) const {
+  for (int draw = 0; draw < kNearDraws; ++draw) {
+    Vector3d p = contact.p;
+    for (int axis = 0; axis < object_.dimension(); ++axis) {
+      p[axis] += (2 * random.Uniform() - 1) * reach;
+    }
+    // Looking for the nearest face far away is dear, and most are near.
+    std::vector<int> faces;
+    for (double radius = kFirstLook * reach; faces.empty() && radius <= reach; radius *= 2) {
+      faces = object_.FacesNear(p, radius);
+    }
+    if (faces.empty()) continue;
+    const Contact near{object_.ClosestPoint(faces.front(), p), object_.inward_normal(faces.front()),
+                       faces.front()};
+    if (HasStandingRoom(object_, near)) return near;
+  }
+  return contact;
+}
+
+}  // namespace regrasp

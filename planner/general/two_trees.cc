@@ -1,0 +1,213 @@
+#include "planner/general/two_trees.h"
+
+#include <algorithm>
+
+#include "planner/general/subset_search.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Random candidates at first; when all have been tried their number doubles.
+constexpr int kFirstCandidates = 8;
+
+/// Aligns to so many grasps of the other tree are tried from each new grasp.
+constexpr int kAlignsToMeet = 2;
+
+/// Force-closure tests that each tree may take before the other's turn, doubled in every round.
+constexpr std::int64_t kFirstTurn = 200;
+
+/// Draws for a grasp around another, over ever smaller surroundings.
+constexpr int kDrawsAround = 24;
+constexpr double kNarrower = 0.7;
+
+/// A grasp that is nearer than this to one of the tree, over the diameter, tells it nothing new: on
+/// the small faces of a mesh there are no others.
+constexpr double kLeastWay = 0.05;
+
+/// So many candidates later than the grasp before it on its tuple of faces a grasp gets its turn.
+constexpr int kBehind = 8;
+
+/// What a draw costs beside its test, in tests.
+constexpr int kDrawCost = 2;
+
+}  // namespace
+
+TwoTrees::TwoTrees(const ContactSet& from, const ContactSet& to, const SurfaceSource& source,
+                   RandomStream& random, SearchSpace& space)
+    : source_(source),
+      random_(random),
+      space_(space),
+      trees_{Tree{ReachedGrasps(from, space), {}, {}}, Tree{ReachedGrasps(to, space), {}, {}}} {
+  for (const ContactSet* set : {&to, &from}) {
+    for (const int contact : *set) {
+      if (std::find(candidates_.begin(), candidates_.end(), contact) == candidates_.end()) {
+        candidates_.push_back(contact);
+      }
+    }
+  }
+  for (Tree& tree : trees_) tree.offers.push({0, 0, 0});
+}
+
+std::optional<GraspPath> TwoTrees::Join(std::int64_t most_tests) {
+  if (trees_[0].reached[0] == trees_[1].reached[0]) {
+    return GraspPath{trees_[0].reached[0], {}};
+  }
+  Meet(0, 0);
+  bool around = false;
+  for (std::int64_t turn = kFirstTurn; !found_ && space_.tests() < most_tests; turn *= 2) {
+    for (int side = 0; side < 2 && !found_; ++side) {
+      GrowBySwitches(side, std::min(space_.tests() + turn, most_tests));
+      if (around && !found_) GrowAround(side, std::min(space_.tests() + turn, most_tests));
+    }
+    around = true;
+  }
+  return found_;
+}
+
+void TwoTrees::AddCandidates() {
+  const int more = std::max(kFirstCandidates, static_cast<int>(candidates_.size()));
+  for (int i = 0; i < more && space_.has_room(); ++i) {
+    candidates_.push_back(space_.Add(source_.Draw(random_)));
+  }
+  for (Tree& tree : trees_) {
+    for (const Offer& offer : tree.waiting) tree.offers.push(offer);
+    tree.waiting.clear();
+  }
+}
+
+void TwoTrees::GrowBySwitches(int side, std::int64_t until) {
+  Tree& tree = trees_[side];
+  while (!found_ && space_.tests() < until) {
+    if (tree.offers.empty()) {
+      if (!space_.has_room()) return;
+      AddCandidates();
+    }
+    Offer offer = tree.offers.top();
+    tree.offers.pop();
+    if (offer.next >= static_cast<int>(candidates_.size())) {
+      tree.waiting.push_back(offer);
+      continue;
+    }
+    TryCandidate(side, offer.node, candidates_[offer.next]);
+    ++offer.next;
+    ++offer.rank;
+    tree.offers.push(offer);
+  }
+}
+
+void TwoTrees::TryCandidate(int side, int node, int candidate) {
+  const ContactSet set = trees_[side].reached[node];
+  const int fingers = space_.fingers();
+  if (set.size() == fingers) {
+    // A full hand can only let go.
+    for (const int contact : set) TryToReach(side, set.Without(contact), node);
+    return;
+  }
+  if (set.Has(candidate) || !space_.CanMeet(set, candidate)) return;
+  if (set.size() < fingers - 1) {
+    TryToReach(side, set.With(candidate), node);
+    return;
+  }
+  for (const int contact : set) {
+    TryToReach(side, set.Without(contact).With(candidate), node);
+    if (found_) return;
+  }
+}
+
+void TwoTrees::TryToReach(int side, const ContactSet& set, int parent) {
+  if (trees_[side].reached.Find(set) < 0 && space_.Admits(set)) Reach(side, set, parent);
+}
+
+void TwoTrees::Reach(int side, const ContactSet& set, int parent, std::optional<FaceAlign> align) {
+  Tree& tree = trees_[side];
+  const int node = tree.reached.Reach(set, parent, std::move(align));
+  const int on_tuple = static_cast<int>(tree.reached.OnTuple(TupleOf(set, space_)).size());
+  tree.offers.push({kBehind * (on_tuple - 1), node, 0});
+  Meet(side, node);
+}
+
+std::vector<TwoTrees::NodeAt> TwoTrees::NearestOnTuple(int side, const ContactSet& set,
+                                                       int most) const {
+  const ReachedGrasps& reached = trees_[side].reached;
+  std::vector<NodeAt> ways;
+  for (const int node : reached.OnTuple(TupleOf(set, space_))) {
+    ways.push_back({WayBetween(set, reached[node], space_), node});
+  }
+  most = std::min(most, static_cast<int>(ways.size()));
+  std::partial_sort(ways.begin(), ways.begin() + most, ways.end());
+  ways.resize(most);
+  return ways;
+}
+
+void TwoTrees::Meet(int side, int node) {
+  const ReachedGrasps& own = trees_[side].reached;
+  const ReachedGrasps& other = trees_[1 - side].reached;
+  const ContactSet set = own[node];
+  const auto join = [&](int there, const GraspPath& between) {
+    GraspPath path = own.PathTo(node);
+    Append(between, path);
+    Append(Reversed(other.PathTo(there)), path);
+    found_ = side == 0 ? path : Reversed(path);
+  };
+  if (const int there = other.Find(set); there >= 0) {
+    join(there, {set, {}});
+    return;
+  }
+  const int any = static_cast<int>(random_.Index(other.size()));
+  if (const auto between = SearchOwnSubsets(set, other[any], space_)) {
+    join(any, *between);
+    return;
+  }
+  for (const auto& [way, there] : NearestOnTuple(1 - side, set, kAlignsToMeet)) {
+    if (auto align = AlignStraight(set, other[there], space_)) {
+      join(there, {set, {{other[there], std::move(align)}}});
+      return;
+    }
+  }
+}
+
+void TwoTrees::GrowAround(int side, std::int64_t until) {
+  while (!found_ && space_.tests() < until && space_.has_room()) {
+    const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
+    double reach = space_.object().diameter();
+    for (int draw = 0; draw < kDrawsAround && !found_; ++draw, reach *= kNarrower) {
+      space_.CountTests(kDrawCost);
+      if (draw % 2 == 0 ? AlignAround(side, node, reach) : SwitchAround(side, node, reach)) break;
+    }
+  }
+}
+
+bool TwoTrees::AlignAround(int side, int node, double reach) {
+  Grasp drawn;
+  for (const int number : trees_[side].reached[node]) {
+    drawn.push_back(source_.DrawNear(space_.contact(number), reach, random_));
+  }
+  if (!space_.IsAdmitted(drawn)) return false;
+  const ContactSet set = space_.Add(drawn);
+  space_.Accept(set);
+  for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
+    if (way < kLeastWay * space_.object().diameter()) return false;
+    auto align = AlignStraight(trees_[side].reached[near], set, space_);
+    if (!align) return false;
+    Reach(side, set, near, std::move(align));
+  }
+  return true;
+}
+
+bool TwoTrees::SwitchAround(int side, int node, double reach) {
+  const ContactSet set = trees_[side].reached[node];
+  if (set.size() == space_.fingers()) return false;
+  const int leaving = set[static_cast<int>(random_.Index(set.size()))];
+  Grasp drawn = space_.GraspOf(set.Without(leaving));
+  drawn.push_back(source_.DrawAround(space_.contact(leaving), reach, random_));
+  if (!space_.IsAdmitted(drawn)) return false;
+  const int placed = space_.Add(drawn.back());
+  if (!space_.CanMeet(leaving, placed)) return false;
+  const ContactSet after = set.Without(leaving).With(placed);
+  space_.Accept(after);
+  if (trees_[side].reached.Find(after) < 0) Reach(side, after, node);
+  return true;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <queue>
+
+#include "planner/base/random.h"
+#include "planner/general/reached_grasps.h"
+#include "planner/general/surface_source.h"
+
+namespace regrasp {
+
+/// Joins two grasps by a tree of grasps from each, grown in turn.
+///
+/// A tree grows by finger switches, every one of its grasps with every candidate contact, fair to
+/// all: no grasp sees a candidate before the others have seen those before it. Candidates are the
+/// contacts of both grasps, then random ones of the whole surface, the same for both trees, so that
+/// the trees meet. Where that alone has not joined them soon, trees also grow by aligns to random
+/// grasps of the tuples of faces that they have reached. A grasp whose tuple the other tree knows
+/// is joined to it by a straight align where one is proved.
+class TwoTrees {
+ public:
+  /// @param from, to  grasps that the space admits, as do all that follow. All outlive this object.
+  TwoTrees(const ContactSet& from, const ContactSet& to, const SurfaceSource& source,
+           RandomStream& random, SearchSpace& space);
+
+  /// Grows until the trees meet.
+  /// @param most_tests  force-closure tests of the space at which it gives up.
+  /// @returns nullopt where they have not met.
+  [[nodiscard]] std::optional<GraspPath> Join(std::int64_t most_tests);
+
+  /// Grasps and tuples of faces reached from either side.
+  [[nodiscard]] const ReachedGrasps& tree(int side) const { return trees_[side].reached; }
+
+ private:
+  /// A grasp that candidates from `next` on have not been tried on.
+  struct Offer {
+    int rank;  ///< of equal ones the first; the queue's top is its largest
+    int node;
+    int next;
+    bool operator<(const Offer& other) const {
+      return rank != other.rank ? rank > other.rank : node > other.node;
+    }
+  };
+  struct Tree {
+    ReachedGrasps reached;
+    std::priority_queue<Offer> offers;
+    std::vector<Offer> waiting;  ///< grasps that have seen all candidates
+  };
+
+  void GrowBySwitches(int side, std::int64_t until);
+  void GrowAround(int side, std::int64_t until);
+  /// Draw a grasp around one of the tree and reach it, if it is one, by an align or by a switch of
+  /// one contact. @returns whether it came to something.
+  bool AlignAround(int side, int node, double reach);
+  bool SwitchAround(int side, int node, double reach);
+  void TryCandidate(int side, int node, int candidate);
+  void TryToReach(int side, const ContactSet& set, int parent);
+  void Reach(int side, const ContactSet& set, int parent,
+             std::optional<FaceAlign> align = std::nullopt);
+  void Meet(int side, int node);
+  struct NodeAt {
+    double way;
+    int node;
+    auto operator<=>(const NodeAt&) const = default;
+  };
+  /// Nodes of the tuple in a tree, those with the least way to the grasp first.
+  [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const ContactSet& set, int most) const;
+  void AddCandidates();
+
+  const SurfaceSource& source_;
+  RandomStream& random_;
+  SearchSpace& space_;
+  std::array<Tree, 2> trees_;
+  std::vector<int> candidates_;
+  std::optional<GraspPath> found_;
+};
+
+}  // namespace regrasp
