@@ -15,6 +15,7 @@ enum class RandomUse : std::uint32_t {
   kClusters = 5,
   kTrialWorld = 6,
   kTrialContacts = 7,
+  kCandidates = 8,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the

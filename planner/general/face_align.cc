@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "planner/certificate/find_proof.h"
+#include "planner/certificate/find_motion_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/contact_motion.h"
 
@@ -17,6 +17,9 @@ using Pairs = std::vector<std::pair<int, int>>;
 /// Instants of a motion that are looked at first, the most telling ones before the others: one that
 /// is not force closure spares the search for a proof.
 constexpr std::array kProbes = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875};
+
+/// A motion that needs shorter pieces of a proof keeps too close to the limit.
+constexpr double kShortestStretch = 1.0 / 64;
 
 bool SeemsToHold(const GraspMotion& motion, SearchSpace& space) {
   return std::all_of(kProbes.begin(), kProbes.end(), [&](double t) {
@@ -107,7 +110,7 @@ std::optional<FaceAlign> AlignStraight(const ContactSet& from, const ContactSet&
     motion.emplace_back(start, end);
   }
   if (!SeemsToHold(motion, space)) return std::nullopt;
-  auto proof = FindMotionProof(motion, space.dimension(), space.half_angle());
+  auto proof = FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
   if (!proof) return std::nullopt;
   align.proof = *std::move(proof);
   return align;

@@ -97,9 +97,9 @@ bool ShortenOnce(const SurfaceSource& source, RandomStream& random, SearchSpace&
 }
 
 /// Bisects the half-angle between what the stretch's ends need and what it needs now.
-void WidenStretch(Stretch stretch, const SurfaceSource& source, RandomStream& random,
-                  SearchSpace& space, GraspPath& path) {
-  const int steps = stretch.end - stretch.begin;
+void WidenStretch(Stretch stretch, int more_steps, const SurfaceSource& source,
+                  RandomStream& random, SearchSpace& space, GraspPath& path) {
+  const int steps = stretch.end - stretch.begin + more_steps;
   double low = std::max(RequiredOf(GraspNumber(path, stretch.begin), space),
                         RequiredOf(GraspNumber(path, stretch.end), space));
   double high = space.half_angle();
@@ -146,15 +146,16 @@ GraspPath ShortenPath(GraspPath path, const SurfaceSource& source, RandomStream&
   return path;
 }
 
-GraspPath WidenPath(GraspPath path, const SurfaceSource& source, RandomStream& random,
-                    SearchSpace& space) {
+GraspPath WidenPath(GraspPath path, int more_steps, const SurfaceSource& source,
+                    RandomStream& random, SearchSpace& space) {
   for (int pass = 0; pass < kPasses; ++pass) {
     for (int begin = 0; begin < static_cast<int>(path.steps.size());) {
       const Stretch stretch = LongestStretch(path, begin);
       if (stretch.end == begin) break;
       const bool last = stretch.end == static_cast<int>(path.steps.size());
       const int middle = begin + std::max(1, (stretch.end - begin) / 2);
-      WidenStretch(stretch, source, random, space, path);
+      WidenStretch(stretch, more_steps, source, random, space, path);
+      if (begin == 0 && last) return path;
       if (last) break;
       begin = middle;
     }

@@ -15,11 +15,14 @@ namespace regrasp {
 [[nodiscard]] GraspPath ShortenPath(GraspPath path, const SurfaceSource& source,
                                     RandomStream& random, SearchSpace& space);
 
-/// Widens a path, without more steps: its weakest grasps and aligns come to need less friction.
-/// Stretches of it are replaced by ways over their contacts and some random ones that hold at a
-/// smaller half-angle, which is bisected. A stretch can't become better than its two ends.
-[[nodiscard]] GraspPath WidenPath(GraspPath path, const SurfaceSource& source, RandomStream& random,
-                                  SearchSpace& space);
+/// Widens a path, with at most `more_steps` steps more for each stretch: its weakest grasps and
+/// aligns come to need less friction. Stretches of it are replaced by ways over their contacts and
+/// some random ones that hold at a smaller half-angle, which is bisected. A stretch can't become
+/// better than its two ends.
+[[nodiscard]] GraspPath WidenPath(GraspPath path, int more_steps, const SurfaceSource& source,
+                                  RandomStream& random, SearchSpace& space);
+/// So many are worth while where the margin counts more than the number of steps.
+inline constexpr int kMoreSteps = 2;
 
 /// The largest required half-angle of the path's grasps at rest, the ends included, radians.
 [[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, const SearchSpace& space);

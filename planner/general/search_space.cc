@@ -8,6 +8,13 @@
 
 namespace regrasp {
 
+namespace {
+
+/// The clock is looked at once in about a millisecond.
+constexpr std::int64_t kTestsBetweenLooks = 500;
+
+}  // namespace
+
 SearchSpace::SearchSpace(const Object& object, const GraspDemands& demands)
     : object_(object),
       frame_(object.wrench_frame()),
@@ -58,6 +65,14 @@ bool SearchSpace::CanMeet(int a, int b) const {
 
 bool SearchSpace::CanMeet(const ContactSet& set, int contact) const {
   return std::all_of(set.begin(), set.end(), [&](int held) { return CanMeet(held, contact); });
+}
+
+bool SearchSpace::IsSpent() {
+  if (limits_.deadline && tests_ >= next_look_) {
+    next_look_ = tests_ + kTestsBetweenLooks;
+    out_of_time_ = std::chrono::steady_clock::now() >= *limits_.deadline;
+  }
+  return out_of_time_ || tests_ >= limits_.most_tests;
 }
 
 bool SearchSpace::Admits(const ContactSet& set) {

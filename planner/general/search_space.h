@@ -1,6 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -18,6 +21,12 @@ struct GraspDemands {
   double margin = 0;
   /// Grasps are at least this good (QualityClearlyAtLeast); 0: force closure is enough.
   double min_quality = 0;
+};
+
+/// When a search gives up.
+struct SearchLimits {
+  std::int64_t most_tests = std::numeric_limits<std::int64_t>::max();
+  std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
 /// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps
@@ -67,6 +76,10 @@ class SearchSpace {
   /// Tests of force closure so far, those of certificates included.
   [[nodiscard]] std::int64_t tests() const { return tests_; }
   void CountTests(std::int64_t tests) { tests_ += tests; }
+  void SetLimits(const SearchLimits& limits) { limits_ = limits; }
+  /// Whether the search has to give up. Looks at the clock now and then only.
+  [[nodiscard]] bool IsSpent();
+  [[nodiscard]] bool out_of_time() const { return out_of_time_; }
 
  private:
   [[nodiscard]] bool Test(const ContactSet& set);
@@ -82,6 +95,9 @@ class SearchSpace {
   UnitContacts units_;  ///< of the contacts, in the object's frame
   std::unordered_map<std::uint64_t, bool> known_;
   std::int64_t tests_ = 0;
+  SearchLimits limits_;
+  std::int64_t next_look_ = 0;  ///< at the clock, by tests
+  bool out_of_time_ = false;
 };
 
 }  // namespace regrasp

@@ -5,12 +5,17 @@
 #include <limits>
 #include <set>
 
+#include "planner/grasp/subset_force_closure.h"
+
 namespace regrasp {
 
 namespace {
 
 /// Some of the contacts, by bits.
 using Mask = std::uint32_t;
+
+/// From so many contacts on most subsets of four are going to be asked for.
+constexpr int kMany = 10;
 
 /// Optimistic aligns that turn out not to hold before the search does without any more of them.
 constexpr int kMostRefusals = 32;
@@ -38,6 +43,7 @@ class SubsetSearch {
   std::optional<GraspPath> Search(const ContactSet& from, const ContactSet& to) {
     from_ = MaskOf(from);
     to_ = MaskOf(to);
+    if (space_.dimension() == 3 && count_ >= kMany) TestQuadruples();
     for (int refusals = 0;; ++refusals) {
       if (refusals == kMostRefusals) aligns_ = false;
       if (!Flood()) return std::nullopt;
@@ -61,6 +67,27 @@ class SubsetSearch {
     ContactSet set;
     for (; mask != 0; mask &= mask - 1) set.Insert(contacts_[std::countr_zero(mask)]);
     return set;
+  }
+
+  /// All subsets of four at once, which is far faster than one after the other.
+  void TestQuadruples() {
+    Grasp points;
+    for (const int contact : contacts_) points.push_back(space_.contact(contact));
+    SubsetCounts counts;
+    const auto found =
+        ForceClosureSubsets(points, space_.object().wrench_frame(), space_.half_angle(), &counts);
+    space_.CountTests(counts.subsets);
+    quadruples_.assign(std::size_t{1} << count_, 0);
+    for (const auto& [a, b, c, d] : found) {
+      quadruples_[Mask{1} << a | Mask{1} << b | Mask{1} << c | Mask{1} << d] = 1;
+    }
+  }
+
+  [[nodiscard]] bool Admits(Mask mask) {
+    const bool known = !quadruples_.empty() && std::popcount(mask) == 4;
+    if (!known) return space_.Admits(SetOf(mask));
+    if (quadruples_[mask] == 0) return false;
+    return space_.demands().min_quality == 0 || space_.Admits(SetOf(mask));
   }
 
   /// Level by level from the start. @returns whether the goal was reached.
@@ -124,7 +151,7 @@ class SubsetSearch {
       const int held = std::popcount(mask);
       // A hand that is full goes nowhere but to a part of what it holds.
       if (held < space_.fewest_contacts() || (held == space_.fingers() && !aligns_)) return;
-      if (!space_.Admits(SetOf(mask))) {
+      if (!Admits(mask)) {
         parents_[mask] = kNoGrasp;
         return;
       }
@@ -167,6 +194,7 @@ class SubsetSearch {
   Mask to_ = 0;
   std::vector<Mask> parents_;  ///< where a set was reached from
   std::vector<Mask> next_;
+  std::vector<char> quadruples_;  ///< by mask: 1 for four contacts in force closure; or empty
   std::set<std::pair<Mask, Mask>> refused_;
 };
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/graph/standing_room.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/plan/clearance.h"
 
 namespace regrasp {
 

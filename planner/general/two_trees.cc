@@ -49,16 +49,17 @@ TwoTrees::TwoTrees(const ContactSet& from, const ContactSet& to, const SurfaceSo
   for (Tree& tree : trees_) tree.offers.push({0, 0, 0});
 }
 
-std::optional<GraspPath> TwoTrees::Join(std::int64_t most_tests) {
+std::optional<GraspPath> TwoTrees::Join() {
   if (trees_[0].reached[0] == trees_[1].reached[0]) {
     return GraspPath{trees_[0].reached[0], {}};
   }
   Meet(0, 0);
   bool around = false;
-  for (std::int64_t turn = kFirstTurn; !found_ && space_.tests() < most_tests; turn *= 2) {
+  for (std::int64_t turn = kFirstTurn; !found_ && !space_.IsSpent() && space_.has_room();
+       turn *= 2) {
     for (int side = 0; side < 2 && !found_; ++side) {
-      GrowBySwitches(side, std::min(space_.tests() + turn, most_tests));
-      if (around && !found_) GrowAround(side, std::min(space_.tests() + turn, most_tests));
+      GrowBySwitches(side, space_.tests() + turn);
+      if (around && !found_) GrowAround(side, space_.tests() + turn);
     }
     around = true;
   }
@@ -78,7 +79,7 @@ void TwoTrees::AddCandidates() {
 
 void TwoTrees::GrowBySwitches(int side, std::int64_t until) {
   Tree& tree = trees_[side];
-  while (!found_ && space_.tests() < until) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent()) {
     if (tree.offers.empty()) {
       if (!space_.has_room()) return;
       AddCandidates();
@@ -168,7 +169,7 @@ void TwoTrees::Meet(int side, int node) {
 }
 
 void TwoTrees::GrowAround(int side, std::int64_t until) {
-  while (!found_ && space_.tests() < until && space_.has_room()) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
     const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
     double reach = space_.object().diameter();
     for (int draw = 0; draw < kDrawsAround && !found_; ++draw, reach *= kNarrower) {

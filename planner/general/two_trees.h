@@ -26,9 +26,8 @@ class TwoTrees {
            RandomStream& random, SearchSpace& space);
 
   /// Grows until the trees meet.
-  /// @param most_tests  force-closure tests of the space at which it gives up.
-  /// @returns nullopt where they have not met.
-  [[nodiscard]] std::optional<GraspPath> Join(std::int64_t most_tests);
+  /// @returns nullopt where they have not met within the limits of the space.
+  [[nodiscard]] std::optional<GraspPath> Join();
 
   /// Grasps and tuples of faces reached from either side.
   [[nodiscard]] const ReachedGrasps& tree(int side) const { return trees_[side].reached; }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "planner/general/grasp_path.h"
+#include "planner/general/search_space.h"
+#include "planner/graph/draft.h"
+
+namespace regrasp {
+
+/// What the hand does along a path: fingers 0, 1, … take the contacts of `start` in its order;
+/// aligns that follow each other are one step.
+/// @param start  the contacts of the path's start.
+[[nodiscard]] Draft MakeDraft(const GraspPath& path, const Grasp& start, const SearchSpace& space);
+
+/// The way of all fingers together: along the surface in an align, straight from where one leaves
+/// to where one comes in a switch.
+[[nodiscard]] double TravelOf(const GraspPath& path, const SearchSpace& space);
+
+}  // namespace regrasp

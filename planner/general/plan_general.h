@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "planner/graph/grasp_choice.h"
+#include "planner/graph/plan_result.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// What a sequence is made best in, once one is found.
+enum class GeneralAim {
+  kSteps,   ///< the fewest steps found, then the largest margin of the weakest grasp
+  kMargin,  ///< the largest margin, with a few steps more where they help
+  kTravel,  ///< the least way of all fingers together
+};
+
+struct GeneralPlanOptions {
+  double half_angle = 0;  ///< friction, radians
+  std::uint64_t seed = 0;
+  /// Quality that random grasps have at least, and the sequence's grasps where there is a way.
+  double min_quality = 0.01;
+  GeneralAim aim = GeneralAim::kSteps;
+  /// Force-closure tests after which a search gives up; about two microseconds each.
+  std::int64_t effort = kDefaultEffort;
+  std::optional<double>
+      time_limit_s;  ///< of the whole search; then the plan depends on the machine
+  /// Where there is no sequence: looks for the smallest friction at which one is found.
+  bool explain = false;
+  /// Told what is being done.
+  std::function<void(std::string_view)> progress = [](std::string_view) {};
+
+  static constexpr std::int64_t kDefaultEffort = 1'000'000;
+};
+
+/// Plans between any two force-closure grasps that the hand can hold, on any body, in space (three
+/// to five contacts, a hand of five fingers) and in the plane (two to four contacts, four fingers),
+/// with switches and aligns.
+///
+/// First the grasps of the two grasps' own contacts; then a tree from each, grown by switches with
+/// contacts of the whole surface and by aligns, until they meet (TwoTrees). The sequence is then
+/// shortened and widened. Every align on the way is proved to keep force closure.
+///
+/// No sequence found is no proof that there is none: the message says what was reached.
+///
+/// Laws: without a time limit the same arguments give the same plan, bit for bit; a goal equal to
+/// the start as a set gives no steps.
+/// @throws InputError             a given grasp does not serve (CheckGivenGrasp).
+/// @throws std::invalid_argument  an option is out of its range.
+[[nodiscard]] PlanResult PlanGeneral(const Object& object, const GraspChoice& start,
+                                     const GraspChoice& goal, const GeneralPlanOptions& options);
+
+}  // namespace regrasp
