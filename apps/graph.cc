@@ -58,6 +58,9 @@ struct GraphProgram {
                        " draws no focus points; polyhedron does");
     }
     if (compare && sampling == 0) throw InputError("--compare: needs --sampling");
+    if (common.planner == "general") {
+      throw InputError("--planner general: it searches from grasp to grasp and has no graph");
+    }
     const bool may_query = common.planner == "roadmap" || common.planner == "auto";
     if (queries > 0 && !may_query) {
       throw InputError("--queries: the planner " + common.planner + " answers none; roadmap does");

@@ -15,6 +15,7 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/contour/plan_planar.h"
+#include "planner/general/plan_general.h"
 #include "planner/plan/plan_io.h"
 #include "planner/polyhedron/plan_spatial.h"
 
@@ -23,6 +24,9 @@ namespace {
 using namespace regrasp;
 
 constexpr char kProgram[] = "plan";
+
+/// A day's work.
+constexpr std::int64_t kMostEffort = 100'000'000'000;
 
 using ProgressReport = std::function<void(std::string_view)>;
 
@@ -34,6 +38,9 @@ struct PlanProgram {
   double min_quality = RoadmapOptions().min_quality;
   std::string optimize;
   bool no_lazy = false;
+  std::int64_t effort = GeneralPlanOptions::kDefaultEffort;
+  std::optional<double> time_limit_s;
+  bool explain = false;
 
   void AddTo(CLI::App& app) {
     common.AddTo(app, {.in_plane = "contour where start and goal are 2-finger grasps and it joins "
@@ -59,12 +66,31 @@ struct PlanProgram {
     app.add_flag("--no-lazy", no_lazy,
                  "On a roadmap of clusters: no search among the grasps of all contact points where "
                  "the way over the representatives fails");
-    app.add_option("--optimize", optimize,
-                   "regions: the planner contour makes every switch where the smaller of its two "
-                   "grasps' contact regions is largest (default: well inside both sets, sparing "
-                   "aligns)")
-        ->check(CLI::IsMember({"regions"}))
-        ->type_name("regions");
+    app.add_option(
+           "--optimize", optimize,
+           "The planner general: steps (the fewest found, then margin; the default), margin "
+           "(the weakest grasp's margin, with a few steps more), travel (the least way of "
+           "the fingers). The planner contour: regions (every switch where the smaller of "
+           "its two grasps' contact regions is largest; default: well inside both sets)")
+        ->check(CLI::IsMember({"steps", "margin", "travel", "regions"}))
+        ->type_name("steps|margin|travel|regions");
+    AddGeneral(app);
+  }
+
+  void AddGeneral(CLI::App& app) {
+    app.add_option("--effort", effort,
+                   "The planner general: force-closure tests, some microseconds each, after which "
+                   "it gives up (default " +
+                       std::to_string(GeneralPlanOptions::kDefaultEffort) + ")")
+        ->check(CLI::Range(std::int64_t{1}, kMostEffort))
+        ->type_name("N");
+    AddNumber(app, "--time-limit", time_limit_s, NumberRange::Positive(),
+              "The planner general: seconds after which it gives up; the plan then depends on the "
+              "machine")
+        ->type_name("S");
+    app.add_flag("--explain", explain,
+                 "The planner general: where it finds no sequence, looks for the smallest friction "
+                 "at which it finds one");
   }
 
   int Run() const;
@@ -74,6 +100,8 @@ struct PlanProgram {
                      const Object& object) const;
   PlanResult Find(const ObjectFile& object) const;
   PlanResult PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const;
+  PlanResult PlanAnyGrasps(const Object& object, const ProgressReport& report) const;
+  void CheckUsage() const;
   PlanResult PlanInPlane(const Polygon& polygon, const ProgressReport& report) const;
   void PrintSummary(const PlanResult& result, double seconds) const;
 };
@@ -92,6 +120,7 @@ PlanResult PlanProgram::Find(const ObjectFile& object) const {
   const auto report = [&](std::string_view text) { progress.Report(text); };
   const bool planar = object.object->dimension() == 2;
   PlanResult result;
+  if (common.planner == "general") return PlanAnyGrasps(*object.object, report);
   const bool spatial = common.planner == "roadmap" || common.planner == "polyhedron";
   if (spatial || (common.planner == "auto" && !planar)) {
     result = PlanOnSolid(SolidOf(object, common), report);
@@ -118,30 +147,57 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
       {options.half_angle, common.spanning_value(), options.seed, min_quality, report});
 }
 
+PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport& report) const {
+  GeneralPlanOptions options;
+  options.half_angle = common.friction.required_half_angle();
+  options.seed = common.seed;
+  options.min_quality = min_quality;
+  options.effort = effort;
+  options.time_limit_s = time_limit_s;
+  options.explain = explain;
+  options.progress = report;
+  if (optimize == "margin") options.aim = GeneralAim::kMargin;
+  if (optimize == "travel") options.aim = GeneralAim::kTravel;
+  return PlanGeneral(object, Choose("--start", start, object), Choose("--goal", goal, object),
+                     options);
+}
+
 PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {
   const GraspChoice from = Choose("--start", start, polygon);
   const GraspChoice to = Choose("--goal", goal, polygon);
   const double half_angle = common.friction.required_half_angle();
   const PolygonPlanOptions options = {half_angle, common.spanning_value(), common.seed, min_quality,
                                       report};
-  const SwitchAim aim = optimize.empty() ? SwitchAim::kRoom : SwitchAim::kRegion;
+  const SwitchAim aim = optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
   if (common.planner == "polygon") return PlanOnPolygon(polygon, from, to, options);
   if (common.planner == "auto") return PlanPlanar(polygon, from, to, {options, aim});
   return PlanOnContour(polygon, from, to, {half_angle, common.seed, min_quality, aim, report});
 }
 
-int PlanProgram::Run() const {
-  const auto begin = std::chrono::steady_clock::now();
-  const bool can_optimize = common.planner == "contour" || common.planner == "auto";
-  const bool on_roadmap = common.planner == "roadmap" || common.planner == "auto";
-  if (no_lazy && !on_roadmap) {
+void PlanProgram::CheckUsage() const {
+  const auto is = [&](const char* planner) {
+    return common.planner == planner || common.planner == "auto";
+  };
+  if (no_lazy && !is("roadmap")) {
     throw InputError("--no-lazy: the planner " + common.planner +
                      " has no last resort; roadmap has");
   }
-  if (!optimize.empty() && !can_optimize) {
+  if (optimize == "regions" && !is("contour")) {
     throw InputError("--optimize regions: the planner " + common.planner +
                      " has no such regions; contour has");
   }
+  const bool for_general = explain || time_limit_s || (!optimize.empty() && optimize != "regions");
+  if (for_general && !is("general")) {
+    throw InputError(std::string(explain        ? "--explain"
+                                 : time_limit_s ? "--time-limit"
+                                                : "--optimize " + optimize) +
+                     ": not for the planner " + common.planner + "; for general");
+  }
+}
+
+int PlanProgram::Run() const {
+  const auto begin = std::chrono::steady_clock::now();
+  CheckUsage();
   const ObjectFile object = ReadObject(common.object);
   PlanResult result = Find(object);
   if (!result.plan) {
@@ -181,6 +237,7 @@ void PlanProgram::PrintSummary(const PlanResult& result, double seconds) const {
                              "; the weakest grasp needs a friction half-angle of " +
                              FormatShort(given - Degrees(result.margin)) + "° of " +
                              FormatShort(given) + "°; " + FormatShort(seconds, 2) + " s");
+  for (const std::string& note : result.notes) PrintMessage(kProgram, note);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  for (const char* known : {"auto", "polygon", "contour", "polyhedron", "roadmap"}) {
+  for (const char* known : {"auto", "polygon", "contour", "polyhedron", "roadmap", "general"}) {
     if (name == known) return {};
   }
   return "the planner \"" + name +
-         "\" does not exist in this version; there are auto, polygon, contour, polyhedron and "
-         "roadmap";
+         "\" does not exist in this version; there are auto, polygon, contour, polyhedron, roadmap "
+         "and general";
 }
 
 std::string CheckSpanning(const std::string& name) {
@@ -29,10 +29,12 @@ void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
       ->type_name("FILE")
       ->required();
   friction.AddTo(app);
-  app.add_option("--planner", planner,
-                 "auto, polygon, contour (2-finger grasps of the whole boundary), polyhedron "
-                 "(concurrent grasps) or roadmap (default auto: in space " +
-                     automatic.in_space + "; in the plane " + automatic.in_plane + ")")
+  app.add_option(
+         "--planner", planner,
+         "auto, polygon, contour (2-finger grasps of the whole boundary), polyhedron "
+         "(concurrent grasps), roadmap or general (any force-closure grasps, on any body, with "
+         "switches and aligns) (default auto: in space " +
+             automatic.in_space + "; in the plane " + automatic.in_plane + ")")
       ->type_name("NAME")
       ->check(CheckPlanner);
   app.add_option(

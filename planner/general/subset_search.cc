@@ -149,8 +149,9 @@ class SubsetSearch {
     if (parents_[mask] != kUnseen) return;
     if (mask != to_) {
       const int held = std::popcount(mask);
-      // A hand that is full goes nowhere but to a part of what it holds.
-      if (held < space_.fewest_contacts() || (held == space_.fingers() && !aligns_)) return;
+      // A hand that is full switches to nothing but a part of what it holds, and its aligns have no
+      // spare finger to be carried out with.
+      if (held < space_.fewest_contacts() || held == space_.fingers()) return;
       if (!Admits(mask)) {
         parents_[mask] = kNoGrasp;
         return;
