@@ -231,6 +231,29 @@ class Batch(ProgramCase):
         self.assertEqual(self.summary()["skipped"],
                          [{"file": "square.start.json", "why": "is a regrasp-grasp file"}])
 
+    def test_progress_is_shown_on_a_terminal_and_gone_at_the_end(self):
+        self.use(["square_01.json", "square_02.json"])
+        for quiet in ([], ["--quiet"]):
+            master, terminal = os.openpty()
+            self.addCleanup(os.close, master)
+            done = subprocess.run(
+                [os.path.join(program_case.ARGUMENTS.programs, "validate"),
+                 *self.arguments("--fresh", *quiet)],
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=terminal,
+                cwd=self.folder, timeout=HANG_SECONDS, check=False)
+            os.close(terminal)
+            self.assertEqual(done.returncode, 0)
+            os.set_blocking(master, False)
+            try:
+                shown = os.read(master, 1 << 16).decode()
+            except OSError:
+                shown = ""
+            if quiet:
+                self.assertEqual(shown, "")
+            else:
+                self.assertIn("1 of 2 plans, 0 not passed", shown)
+                self.assertTrue(shown.endswith("\r\x1b[K"), repr(shown))
+
     # What goes wrong with one plan.
 
     def test_bad_plans_stop_no_other(self):
