@@ -1,6 +1,8 @@
 // Uses one thing of each library: reads an object, tests a grasp, builds a scene, draws nothing.
 #include <cstdio>
 
+#include "apps/batch/batch_summary.h"
+#include "apps/page/quantity.h"
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/object.h"
@@ -25,6 +27,7 @@ int main(int argc, char** argv) {
   plan = regrasp::LocatePlan(*file.object, plan);
   const bool scene = !regrasp::SceneMjcf(*file.object, plan, {}).empty();
   const bool image = regrasp::Image{}.rgb.empty();
-  std::printf("force closure %d, scene %d, image %d\n", closed, scene, image);
-  return closed && scene && image ? 0 : 1;
+  const bool summary = !regrasp::FormatSummaryJson({}).empty();
+  std::printf("force closure %d, scene %d, image %d, summary %d\n", closed, scene, image, summary);
+  return closed && scene && image && summary ? 0 : 1;
 }
