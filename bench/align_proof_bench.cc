@@ -1,0 +1,230 @@
+// Proofs of aligns: random pairs of force-closure grasps of four contacts on the same faces, joined
+// by straight segments. How many of the segments that hold are proved by forces of degree 1, of
+// degree 2, and of degree 1 with halving, in how many pieces, and what each takes; beside it the
+// decision by intervals with CertifyForceClosure, which is also the truth.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/certificate/check_motion_proof.h"
+#include "planner/certificate/find_motion_proof.h"
+#include "planner/certificate/moving_forces.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/path_force_closure.h"
+
+namespace {
+
+using namespace regrasp;
+using Eigen::Vector3d;
+
+constexpr int kContacts = 4;
+constexpr int kSegments = 400;
+/// So many draws look for a grasp on the faces of another.
+constexpr int kPartnerDraws = 2000;
+constexpr std::array kBodies{"cube", "prism", "l_block", "hole_block", "body42"};
+constexpr std::array kDegrees{25.0, 15.0, 10.0, 5.0};
+
+/// Of this thread: other work on the machine does not count.
+double ProcessorMicroseconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+/// Points spread evenly over the surface, or over a face.
+class SurfaceDraw {
+ public:
+  explicit SurfaceDraw(const Polyhedron& solid) : solid_(solid) {
+    std::vector<double> areas;
+    for (const Polyhedron::Face& face : solid.faces()) {
+      areas.push_back(face.area);
+      std::vector<double> parts;
+      for (const int triangle : face.triangles) parts.push_back(Doubled(triangle).norm());
+      triangles_.emplace_back(parts.begin(), parts.end());
+    }
+    faces_ = std::discrete_distribution<int>(areas.begin(), areas.end());
+  }
+
+  Contact Draw() { return DrawOn(faces_(engine_)); }
+  Contact DrawOn(int face) {
+    const int triangle = solid_.faces()[face].triangles[triangles_[face](engine_)];
+    std::uniform_real_distribution<double> uniform(0, 1);
+    double a = uniform(engine_);
+    double b = uniform(engine_);
+    if (a + b > 1) {
+      a = 1 - a;
+      b = 1 - b;
+    }
+    return {Corner(triangle, 0) + a * (Corner(triangle, 1) - Corner(triangle, 0)) +
+                b * (Corner(triangle, 2) - Corner(triangle, 0)),
+            solid_.inward_normal(face), face};
+  }
+
+ private:
+  [[nodiscard]] const Vector3d& Corner(int triangle, int corner) const {
+    return solid_.vertices()[solid_.triangles()[triangle][corner]];
+  }
+  [[nodiscard]] Vector3d Doubled(int triangle) const {
+    return (Corner(triangle, 1) - Corner(triangle, 0))
+        .cross(Corner(triangle, 2) - Corner(triangle, 0));
+  }
+
+  const Polyhedron& solid_;
+  std::mt19937_64 engine_{2026};
+  std::discrete_distribution<int> faces_;
+  std::vector<std::discrete_distribution<int>> triangles_;
+};
+
+struct Segment {
+  Grasp from;
+  Grasp to;
+  GraspMotion motion;
+};
+
+std::optional<Segment> SegmentBetween(const Polyhedron& solid, const Grasp& from, const Grasp& to) {
+  Segment segment{from, to, {}};
+  for (int i = 0; i < kContacts; ++i) {
+    if (FindMotionFault(solid, from[i], to[i])) return std::nullopt;
+    segment.motion.emplace_back(from[i], to[i]);
+  }
+  return segment;
+}
+
+std::vector<Segment> DrawSegments(const Polyhedron& solid, double half_angle) {
+  SurfaceDraw draw(solid);
+  const WrenchFrame frame = solid.wrench_frame();
+  std::vector<Segment> segments;
+  while (segments.size() < kSegments) {
+    Grasp from;
+    for (int i = 0; i < kContacts; ++i) from.push_back(draw.Draw());
+    if (!IsForceClosure(from, frame, half_angle)) continue;
+    for (int tries = 0; tries < kPartnerDraws; ++tries) {
+      Grasp to;
+      for (const Contact& contact : from) to.push_back(draw.DrawOn(contact.face));
+      if (!IsForceClosure(to, frame, half_angle)) continue;
+      auto segment = SegmentBetween(solid, from, to);
+      if (!segment) continue;
+      segments.push_back(std::move(*segment));
+      break;
+    }
+  }
+  return segments;
+}
+
+/// The contacts of a whole segment in a frame that moves with their centre.
+MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
+  Vector3d start = Vector3d::Zero();
+  Vector3d end = Vector3d::Zero();
+  for (int i = 0; i < kContacts; ++i) {
+    start += segment.from[i].p / kContacts;
+    end += segment.to[i].p / kContacts;
+  }
+  double radius = 0;
+  for (int i = 0; i < kContacts; ++i) {
+    radius = std::max({radius, (segment.from[i].p - start).norm(), (segment.to[i].p - end).norm()});
+  }
+  MovingContacts contacts;
+  for (int i = 0; i < kContacts; ++i) {
+    contacts.push_back({(segment.from[i].p - start) / radius, (segment.to[i].p - end) / radius,
+                        segment.from[i].n, std::cos(half_angle), std::sin(half_angle)});
+  }
+  return contacts;
+}
+
+/// What a way of proving does with all segments.
+struct Outcome {
+  int proved = 0;
+  int pieces = 0;
+  double proved_us = 0;
+  double rejected_us = 0;
+};
+
+/// @param prove  the number of pieces, 0 where a segment is not proved.
+template <typename Prove>
+Outcome Measure(const std::vector<Segment>& segments, const Prove& prove) {
+  Outcome outcome;
+  for (const Segment& segment : segments) {
+    const double begin = ProcessorMicroseconds();
+    const int pieces = prove(segment);
+    const double took = ProcessorMicroseconds() - begin;
+    outcome.proved += pieces > 0 ? 1 : 0;
+    outcome.pieces += pieces;
+    (pieces > 0 ? outcome.proved_us : outcome.rejected_us) += took;
+  }
+  return outcome;
+}
+
+template <int kDegree>
+Outcome MeasureOnePiece(const std::vector<Segment>& segments, double half_angle) {
+  return Measure(segments, [&](const Segment& segment) {
+    MovingForces<kDegree> forces;
+    return FindMovingForces<3, kDegree>(MovingContactsOf(segment, half_angle), forces) ? 1 : 0;
+  });
+}
+
+/// How many proofs exact arithmetic refuses.
+int CountRefused(const std::vector<Segment>& segments, double half_angle) {
+  int refused = 0;
+  for (const Segment& segment : segments) {
+    const auto pieces = FindMotionProof(segment.motion, 3, half_angle);
+    if (!pieces) continue;
+    const double mu = std::tan(half_angle);
+    refused += CheckMotionProof(segment.from, segment.to, 3, mu, *pieces).proves() ? 0 : 1;
+  }
+  return refused;
+}
+
+double Each(double sum, int count) { return count > 0 ? sum / count : 0; }
+
+void PrintRow(const std::string& body, double degrees) {
+  const ObjectFile file = ReadObject(std::string(REGRASP_MODELS "/") + body + ".obj");
+  const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
+  const WrenchFrame frame = solid.wrench_frame();
+  const double half_angle = Radians(degrees);
+  const std::vector<Segment> segments = DrawSegments(solid, half_angle);
+  const Outcome truth = Measure(segments, [&](const Segment& segment) {
+    return DecidePathForceClosure(segment.motion, frame, half_angle).holds ? 1 : 0;
+  });
+  const Outcome first = MeasureOnePiece<1>(segments, half_angle);
+  const Outcome second = MeasureOnePiece<2>(segments, half_angle);
+  const Outcome halved = Measure(segments, [&](const Segment& segment) {
+    const auto pieces = FindMotionProof(segment.motion, 3, half_angle);
+    return pieces ? static_cast<int>(pieces->size()) : 0;
+  });
+  const auto share = [&](const Outcome& outcome) {
+    return 100 * Each(outcome.proved, truth.proved);
+  };
+  std::printf("| %s | %g | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.2f | %.1f | %.1f | %.0f |\n",
+              body.c_str(), degrees, 100.0 * truth.proved / kSegments, share(first),
+              (first.proved_us + first.rejected_us) / kSegments, share(second),
+              (second.proved_us + second.rejected_us) / kSegments, share(halved),
+              Each(halved.pieces, halved.proved), Each(halved.proved_us, halved.proved),
+              Each(halved.rejected_us, kSegments - halved.proved),
+              (truth.proved_us + truth.rejected_us) / kSegments);
+  if (const int refused = CountRefused(segments, half_angle)) {
+    std::printf("%d proofs refused by exact arithmetic\n", refused);
+  }
+}
+
+}  // namespace
+
+int main() {
+  std::printf(
+      "| body | half-angle, degrees | segments that hold, %% | degree 1, %% | us | degree 2, %% | "
+      "us | halved, %% | pieces | us proved | us rejected | intervals, us |\n");
+  for (const char* body : kBodies) {
+    for (const double degrees : kDegrees) PrintRow(body, degrees);
+  }
+  return 0;
+}
