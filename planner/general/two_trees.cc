@@ -46,7 +46,6 @@ TwoTrees::TwoTrees(const ContactSet& from, const ContactSet& to, const SurfaceSo
       }
     }
   }
-  for (Tree& tree : trees_) tree.offers.push({0, 0, 0});
 }
 
 std::optional<GraspPath> TwoTrees::Join() {
@@ -54,6 +53,7 @@ std::optional<GraspPath> TwoTrees::Join() {
     return GraspPath{trees_[0].reached[0], {}};
   }
   Meet(0, 0);
+  for (int side = 0; side < 2; ++side) MakeOffer(side, 0);
   bool around = false;
   for (std::int64_t turn = kFirstTurn; !found_ && !space_.IsSpent() && space_.has_room();
        turn *= 2) {
@@ -81,7 +81,7 @@ void TwoTrees::GrowBySwitches(int side, std::int64_t until) {
   Tree& tree = trees_[side];
   while (!found_ && space_.tests() < until && !space_.IsSpent()) {
     if (tree.offers.empty()) {
-      if (!space_.has_room()) return;
+      if (tree.waiting.empty() || !space_.has_room()) return;
       AddCandidates();
     }
     Offer offer = tree.offers.top();
@@ -100,11 +100,6 @@ void TwoTrees::GrowBySwitches(int side, std::int64_t until) {
 void TwoTrees::TryCandidate(int side, int node, int candidate) {
   const ContactSet set = trees_[side].reached[node];
   const int fingers = space_.fingers();
-  if (set.size() == fingers) {
-    // A full hand can only let go.
-    for (const int contact : set) TryToReach(side, set.Without(contact), node);
-    return;
-  }
   if (set.Has(candidate) || !space_.CanMeet(set, candidate)) return;
   if (set.size() < fingers - 1) {
     TryToReach(side, set.With(candidate), node);
@@ -121,11 +116,21 @@ void TwoTrees::TryToReach(int side, const ContactSet& set, int parent) {
 }
 
 void TwoTrees::Reach(int side, const ContactSet& set, int parent, std::optional<FaceAlign> align) {
+  const int node = trees_[side].reached.Reach(set, parent, std::move(align));
+  Meet(side, node);
+  if (!found_) MakeOffer(side, node);
+}
+
+void TwoTrees::MakeOffer(int side, int node) {
   Tree& tree = trees_[side];
-  const int node = tree.reached.Reach(set, parent, std::move(align));
+  const ContactSet set = tree.reached[node];
+  if (set.size() == space_.fingers()) {
+    // A full hand can only let go.
+    for (const int contact : set) TryToReach(side, set.Without(contact), node);
+    return;
+  }
   const int on_tuple = static_cast<int>(tree.reached.OnTuple(TupleOf(set, space_)).size());
   tree.offers.push({kBehind * (on_tuple - 1), node, 0});
-  Meet(side, node);
 }
 
 std::vector<TwoTrees::NodeAt> TwoTrees::NearestOnTuple(int side, const ContactSet& set,

@@ -58,6 +58,8 @@ class TwoTrees {
   void TryToReach(int side, const ContactSet& set, int parent);
   void Reach(int side, const ContactSet& set, int parent,
              std::optional<FaceAlign> align = std::nullopt);
+  /// Lets candidates be tried on a grasp.
+  void MakeOffer(int side, int node);
   void Meet(int side, int node);
   struct NodeAt {
     double way;
