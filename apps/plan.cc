@@ -17,6 +17,7 @@
 #include "planner/contour/plan_planar.h"
 #include "planner/general/plan_general.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/reach.h"
 #include "planner/polyhedron/plan_spatial.h"
 
 namespace {
@@ -36,6 +37,7 @@ struct PlanProgram {
   std::string goal;
   std::string output;
   double min_quality = RoadmapOptions().min_quality;
+  double finger_radius = 0;  ///< 0: points
   std::string optimize;
   bool no_lazy = false;
   std::int64_t effort = GeneralPlanOptions::kDefaultEffort;
@@ -63,6 +65,11 @@ struct PlanProgram {
               "Quality that random grasps have at least, and the sequence's grasps where there is "
               "a way: the largest ball of wrenches resisted, normal forces summing to 1, torques "
               "over half the diameter (default 0.01)");
+    AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
+              "Radius of the fingers, in the object file's own unit of length: contacts that a "
+              "finger cannot come to straight along the normal, and grasps in which two fingers "
+              "overlap, are avoided (default: fingers are points); not for the planner general")
+        ->type_name("R");
     app.add_flag("--no-lazy", no_lazy,
                  "On a roadmap of clusters: no search among the grasps of all contact points where "
                  "the way over the representatives fails");
@@ -135,6 +142,7 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   RoadmapOptions options = common.roadmap(solid);
   options.last_resort = !no_lazy;
   options.min_quality = min_quality;
+  options.finger_radius = finger_radius;
   options.progress = report;
   const GraspChoice from = Choose("--start", start, solid);
   const GraspChoice to = Choose("--goal", goal, solid);
@@ -142,9 +150,9 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   if (common.planner == "auto") {
     return PlanSpatial(solid, from, to, common.spanning_value(), options);
   }
-  return PlanOnPolyhedron(
-      solid, from, to,
-      {options.half_angle, common.spanning_value(), options.seed, min_quality, report});
+  return PlanOnPolyhedron(solid, from, to,
+                          {options.half_angle, common.spanning_value(), options.seed, min_quality,
+                           report, finger_radius});
 }
 
 PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport& report) const {
@@ -166,15 +174,19 @@ PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport
   const GraspChoice from = Choose("--start", start, polygon);
   const GraspChoice to = Choose("--goal", goal, polygon);
   const double half_angle = common.friction.required_half_angle();
-  const PolygonPlanOptions options = {half_angle, common.spanning_value(), common.seed, min_quality,
-                                      report};
+  const PolygonPlanOptions options = {
+      half_angle, common.spanning_value(), common.seed, min_quality, report, finger_radius};
   const SwitchAim aim = optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
   if (common.planner == "polygon") return PlanOnPolygon(polygon, from, to, options);
   if (common.planner == "auto") return PlanPlanar(polygon, from, to, {options, aim});
-  return PlanOnContour(polygon, from, to, {half_angle, common.seed, min_quality, aim, report});
+  return PlanOnContour(polygon, from, to,
+                       {half_angle, common.seed, min_quality, aim, report, finger_radius});
 }
 
 void PlanProgram::CheckUsage() const {
+  if (finger_radius > 0 && common.planner == "general") {
+    throw InputError("--finger-radius: the planner general plans for fingers that are points");
+  }
   const auto is = [&](const char* planner) {
     return common.planner == planner || common.planner == "auto";
   };
@@ -199,6 +211,7 @@ int PlanProgram::Run() const {
   const auto begin = std::chrono::steady_clock::now();
   CheckUsage();
   const ObjectFile object = ReadObject(common.object);
+  CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   PlanResult result = Find(object);
   if (!result.plan) {
     PrintMessage(kProgram, result.message);

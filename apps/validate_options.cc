@@ -97,6 +97,11 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
             "Thickness of the prism that a planar object is, in the object file's own unit of "
             "length (default a quarter of the diameter)")
       ->type_name("X");
+  AddNumber(app, "--finger-radius", options.replay.finger_radius, NumberRange::Positive(),
+            "Radius of the fingers, in the object file's own unit of length: a finger that cannot "
+            "come straight along the normal to its contact, or overlaps another, is unreachable "
+            "(default that of the plan, otherwise fingers are points)")
+      ->type_name("R");
   AddNumber(app, "--squeeze", options.replay.squeeze_N, NumberRange::Positive(),
             "Sum of the normal forces of a grasp at rest, newtons (default: such "
             "that the weight is a tenth of the shake force, 1000 weights at the default shake)")

@@ -17,6 +17,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/reach.h"
 #include "sim/junit.h"
 #include "sim/report.h"
 #include "sim/trajectory.h"
@@ -69,6 +70,11 @@ Task ReadTask(const ValidateOptions& options) {
   if (options.replay.thickness && task.plan.dimension == 3) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
   }
+  if (options.replay.finger_radius) {
+    CheckFingerRadius(object, *options.replay.finger_radius, "--finger-radius");
+  } else if (task.plan.finger_radius) {
+    CheckFingerRadius(object, *task.plan.finger_radius, options.plan_path + ": /finger_radius");
+  }
   return task;
 }
 
@@ -96,6 +102,7 @@ Report Check(const ValidateOptions& options, const Task& task, Samples& samples)
   const Object& object = *task.object.object;
   CheckOptions check;
   check.half_angle = options.friction.half_angle();
+  check.finger_radius = options.replay.finger_radius;
   Grasp start;
   Grasp goal;
   if (!options.start.empty()) {

@@ -138,6 +138,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   report.dimension = plan.dimension;
   report.planner = plan.planner;
   report.half_angle = check.half_angle.value_or(plan.half_angle);
+  report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;
   for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
   const int passing = CountPassing(checked.steps);
   MeasureRegions(object, checked.located, passing, report);
@@ -145,6 +146,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   if (passing > 0) {
     ReplayOptions options = replay;
     options.half_angle = report.half_angle;
+    options.finger_radius = report.finger_radius;
     Replay(object, checked.located, options, observer, passing, report);
   }
   SkipAfterFailure(report.steps);
@@ -178,7 +180,8 @@ Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, d
 
 Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle, double scale,
                      const ReplayOptions& replay, const ReplayObserver& observer) {
-  const Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
+  Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
+  plan.finger_radius = replay.finger_radius;
   Report report = Validate(object, plan, {}, replay, observer);
   const WrenchFrame frame = object.wrench_frame();
   report.grasp.emplace();

@@ -56,7 +56,9 @@ struct Report {
   std::string planner;
   double scale = 1;
   int dimension = 3;
-  double half_angle = 0;                   ///< checked against, radians
+  double half_angle = 0;  ///< checked against, radians
+  /// Of the fingers, the object's unit of length; points where none.
+  std::optional<double> finger_radius = std::nullopt;
   std::optional<ReplaySettings> settings;  ///< none where nothing was replayed
   std::vector<ReportStep> steps;
   /// Of a single grasp instead of a plan: the only entry is its hold.

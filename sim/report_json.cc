@@ -12,6 +12,7 @@ namespace {
 Json MakeSettings(const Report& report) {
   Json settings = {{"friction_half_angle_deg", Degrees(report.half_angle)},
                    {"mu", std::tan(report.half_angle)}};
+  if (report.finger_radius) settings["finger_radius"] = *report.finger_radius;
   if (!report.settings) return settings;
   const ReplaySettings& replay = *report.settings;
   settings["mu"] = replay.mu;

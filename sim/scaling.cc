@@ -72,8 +72,10 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
   s.timestep_s =
       options.timestep_factor * std::sqrt(s.finger_mass_kg / s.finger_stiffness_N_m) / steps;
   s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
-  s.fingertip_radius_m =
-      std::clamp(clearance / 2, kLeastTipRadius * s.diameter_m, kTipRadius * s.diameter_m);
+  const double wanted =
+      options.finger_radius ? *options.finger_radius * scale : kTipRadius * s.diameter_m;
+  const double fits = options.finger_radius ? clearance : clearance / 2;
+  s.fingertip_radius_m = std::max(std::min(wanted, fits), kLeastTipRadius * s.diameter_m);
   s.patch_size_m = kPatchSize * s.diameter_m;
   s.patch_thickness_m = kPatchThickness * s.diameter_m;
   return s;

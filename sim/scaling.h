@@ -20,7 +20,8 @@ namespace regrasp {
 /// - time step dt so that damping · dt / m = 2 √(k / m) dt is kDampingStep: above 0.6 the explicit
 ///   damping of the finger's motion turns unstable. Time thus goes with √(M D / F): who squeezes
 ///   harder moves faster.
-/// - fingertip radius = kTipRadius · D, or half of `clearance` where that is less.
+/// - fingertip radius = kTipRadius · D, or half of `clearance` where that is less; the radius that
+///   the options ask for, or `clearance` where that is less.
 ///
 /// A planar object is the prism of its polygon, kPrismThickness · D thick unless the options say
 /// otherwise; M = density · area · thickness. The thickness matters through M only.

@@ -126,9 +126,14 @@ struct Sequence {
   }
 };
 
-/// The smallest clearance of contacts where fingers stand, at most that of the largest fingertip.
-double SmallestClearance(const Object& object, const FingerGrasp& grasp) {
-  double least = kTipRadius * object.diameter() * 2;
+/// The clearance that the fingertip which is wanted needs: twice its radius where it is derived.
+double WantedClearance(const Object& object, const ReplayOptions& options) {
+  return options.finger_radius.value_or(2 * kTipRadius * object.diameter());
+}
+
+/// The smallest clearance of contacts where fingers stand, at most `limit`.
+double SmallestClearance(const Object& object, const FingerGrasp& grasp, double limit) {
+  double least = limit;
   for (const FingerContact& held : grasp) {
     least = std::min(least, ComputeClearance(object, held.contact, least));
   }
@@ -137,12 +142,12 @@ double SmallestClearance(const Object& object, const FingerGrasp& grasp) {
 
 /// Scripts of all aligns, in the object's own frame and unit.
 std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, int fingers,
-                                                     double half_angle, AlignChoice choice) {
+                                                     double half_angle, double wanted,
+                                                     AlignChoice choice) {
   const double D = sequence.object.diameter();
-  double clearance = 2 * kTipRadius * D;
+  double clearance = wanted;
   for (int index = 0; index <= sequence.steps; ++index) {
-    clearance =
-        std::min(clearance, SmallestClearance(sequence.object, sequence.PlannedRests(index)));
+    clearance = SmallestClearance(sequence.object, sequence.PlannedRests(index), clearance);
   }
   AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
@@ -209,8 +214,7 @@ Vector3d FromScene(const Object& object, double scale, const Vector3d& p_S) {
   return p_S / scale + object.mass_properties().centroid;
 }
 
-double SmallestClearance(const Object& object, double scale, const Scene& scene) {
-  const double limit = 2 * kTipRadius * object.diameter();
+double SmallestClearance(const Object& object, double scale, const Scene& scene, double limit) {
   double least = limit;
   for (const ContactSite& site : scene.sites) {
     const int samples = site.from == site.to ? 0 : kClearanceSamples;
@@ -273,7 +277,8 @@ void LayOut(const Sequence& sequence, int fingers, const ReplayOptions& options,
   const Object& object = sequence.object;
   const double scale = sequence.plan.scale;
   const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
-  scene.scripts = WriteScripts(sequence, fingers, half_angle, options.align);
+  scene.scripts =
+      WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
   scene.first_site.assign(fingers, -1);
   SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
   for (int index = 0; index <= sequence.steps; ++index) {
@@ -298,7 +303,9 @@ FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
   return grasp;
 }
 
-Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& options) {
+Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& given) {
+  ReplayOptions options = given;
+  if (!options.finger_radius) options.finger_radius = plan.finger_radius;
   const Sequence sequence{body, plan, steps};
   sequence.CheckFaces();
   const int fingers = sequence.CountFingers();
@@ -309,8 +316,9 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   Scene scene;
   scene.dimension = body.dimension();
   LayOut(sequence, fingers, options, scene);
-  scene.settings = DeriveSettings(body, plan.scale, plan.half_angle,
-                                  SmallestClearance(body, plan.scale, scene), options);
+  scene.settings = DeriveSettings(
+      body, plan.scale, plan.half_angle,
+      SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);
   for (const ContactSite& site : scene.sites) {
     scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings));
   }

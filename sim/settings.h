@@ -16,9 +16,12 @@ struct ReplayOptions {
   std::optional<double> mass_kg;     ///< instead of density
   double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
   std::optional<double> thickness;   ///< of a polygon's prism, in the object's own units
-  std::optional<double> squeeze_N;   ///< total normal force of a grasp at rest
-  double shake = 0.01;               ///< ρ: shake force over squeeze, and torque over squeeze·R
-  double tolerance = 1e-3;           ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  /// Fingertips are balls of this radius, in the object's own units; derived where neither this nor
+  /// the plan says.
+  std::optional<double> finger_radius;
+  std::optional<double> squeeze_N;  ///< total normal force of a grasp at rest
+  double shake = 0.01;              ///< ρ: shake force over squeeze, and torque over squeeze·R
+  double tolerance = 1e-3;          ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
   double stiffness_factor = 1;  ///< of the fingers, times what is derived
   double timestep_factor = 1;   ///< times what is derived

@@ -22,7 +22,7 @@ class ContourPlanner {
                  const ContourPlanOptions& options)
       : polygon_(polygon),
         options_(options),
-        judge_(polygon, options.half_angle, options.min_quality),
+        judge_(polygon, options.half_angle, options.min_quality, options.finger_radius),
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
         graph_(MakeGraph()),
@@ -81,6 +81,7 @@ class ContourPlanner {
     if (choice.kind == GraspChoice::Kind::kGiven) {
       CheckGivenGrasp(choice, {"contour", kContacts, kContacts}, judge_.frame(),
                       options_.half_angle, kSamePoint * polygon_.diameter());
+      CheckFingersFit(choice, polygon_, options_.finger_radius);
       return;
     }
     if (choice.kind == GraspChoice::Kind::kRandom) {

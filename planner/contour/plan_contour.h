@@ -19,6 +19,7 @@ struct ContourPlanOptions {
   SwitchAim aim = SwitchAim::kRoom;
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
+  double finger_radius = 0;  ///< of fingers that are not points (reach.h)
 };
 
 /// Plans a sequence of switches and aligns from one 2-finger grasp to another on the switching

@@ -8,6 +8,8 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/plan/plan_reach.h"
+#include "planner/plan/reach.h"
 
 namespace regrasp {
 
@@ -51,11 +53,24 @@ void CheckGivenGrasp(const GraspChoice& choice, const ContactCount& count, const
                    ", given " + FormatShort(Degrees(half_angle)) + "°");
 }
 
+void CheckFingersFit(const GraspChoice& choice, const Object& object, double finger_radius) {
+  FingerGrasp held;
+  for (const Contact& contact : choice.grasp) {
+    held.push_back({static_cast<int>(held.size()), contact});
+  }
+  if (const auto obstacle = FindRestObstacle(object, held, finger_radius)) {
+    throw InputError(choice.name +
+                     ": /contacts: with a finger at each, by their numbers: " + *obstacle);
+  }
+}
+
 std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw, const WrenchFrame& frame,
-                                   double half_angle, double min_quality, double same_point) {
+                                   double half_angle, double min_quality, double same_point,
+                                   double finger_radius) {
   for (int i = 0; i < kMaxSurfaceDraws; ++i) {
     Grasp grasp = draw();
-    if (!ContactsAtSamePoint(grasp, same_point) && IsForceClosure(grasp, frame, half_angle) &&
+    if (!ContactsAtSamePoint(grasp, same_point) && KeepApart(grasp, finger_radius) &&
+        IsForceClosure(grasp, frame, half_angle) &&
         QualityAtLeast(grasp, frame, half_angle, min_quality)) {
       return grasp;
     }

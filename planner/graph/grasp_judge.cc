@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "planner/graph/grasp_choice.h"
-#include "planner/plan/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/plan/clearance.h"
+#include "planner/plan/reach.h"
 
 namespace regrasp {
 
@@ -39,17 +40,20 @@ bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
 
 }  // namespace
 
-GraspJudge::GraspJudge(const Object& object, double half_angle, double min_quality)
+GraspJudge::GraspJudge(const Object& object, double half_angle, double min_quality,
+                       double finger_radius)
     : object_(object),
       frame_(object.wrench_frame()),
       half_angle_(half_angle),
       min_quality_(min_quality),
-      same_point_(kSamePoint * object.diameter()) {}
+      same_point_(kSamePoint * object.diameter()),
+      finger_radius_(finger_radius) {}
 
 bool GraspJudge::CanStand(const Grasp& grasp) const {
   return HaveDistinctPoints(grasp, same_point_) &&
          std::all_of(grasp.begin(), grasp.end(),
-                     [&](const Contact& contact) { return HasStandingRoom(object_, contact); });
+                     [&](const Contact& contact) { return HasStandingRoom(object_, contact); }) &&
+         CanHold(object_, grasp, finger_radius_);
 }
 
 bool GraspJudge::IsGood(const Grasp& grasp) const {

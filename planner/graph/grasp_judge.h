@@ -13,14 +13,14 @@ class GraspJudge {
  public:
   /// @param object      must outlive this object.
   /// @param half_angle  friction, radians. @param min_quality  see QualityAtLeast.
-  GraspJudge(const Object& object, double half_angle, double min_quality);
+  /// @param finger_radius  of fingers that are not points (reach.h), the object's unit of length.
+  GraspJudge(const Object& object, double half_angle, double min_quality, double finger_radius = 0);
 
-  /// Force closure, of the quality that is asked for, no two contacts at one point, and room for a
-  /// fingertip at each (HasStandingRoom).
+  /// Force closure, of the quality that is asked for, and fingers can stand in it.
   [[nodiscard]] bool IsGood(const Grasp& grasp) const;
 
-  /// Whether fingers can stand in it, good or not: at different points, and with room for
-  /// fingertips.
+  /// Whether fingers can stand in it, good or not: at different points, with room for a fingertip
+  /// at each (HasStandingRoom), and with the radius that they have (CanHold).
   [[nodiscard]] bool CanStand(const Grasp& grasp) const;
 
   /// How good it is to rest in a grasp: its margin to the required half-angle, radians, where it is
@@ -33,6 +33,8 @@ class GraspJudge {
   [[nodiscard]] const WrenchFrame& frame() const { return frame_; }
   [[nodiscard]] double half_angle() const { return half_angle_; }
   [[nodiscard]] double min_quality() const { return min_quality_; }
+  [[nodiscard]] double finger_radius() const { return finger_radius_; }
+  [[nodiscard]] const Object& object() const { return object_; }
 
  private:
   [[nodiscard]] double ComputeScore(const Grasp& grasp) const;
@@ -42,6 +44,7 @@ class GraspJudge {
   double half_angle_;
   double min_quality_;
   double same_point_;
+  double finger_radius_;
   mutable std::map<std::vector<double>, double> scores_;  ///< by the numbers of a grasp
 };
 

@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/graph/rest_summary.h"
 #include "planner/graph/shortest_ways.h"
+#include "planner/plan/plan_reach.h"
 
 namespace regrasp {
 
@@ -43,6 +44,25 @@ class OnShortestWays final : public SwitchingGraph {
   const ShortestWays& ways_;
   int goal_;
 };
+
+/// Worse than every score of a GraspJudge: a sequence that fingers cannot carry out.
+constexpr double kScoreOfObstacle = -2;
+
+std::optional<PlanObstacle> FindDraftObstacle(const Draft& draft, const GraspJudge& judge) {
+  return FindPlanObstacle(judge.object(), draft.initial, draft.steps, judge.finger_radius());
+}
+
+/// The switch that a step belongs to: the one that the grasp after it was chosen for, or else the
+/// last one before or the first one after it.
+std::optional<VertexPair> EdgeNear(const Draft& draft, int step) {
+  for (int i = step; i >= 0; --i) {
+    if (draft.rests[i].chosen_for) return draft.rests[i].chosen_for;
+  }
+  for (const Rest& rest : draft.rests) {
+    if (rest.chosen_for) return rest.chosen_for;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -120,6 +140,7 @@ std::optional<Draft> FindDraft(
     const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
     const std::function<std::optional<Draft>(const std::vector<int>& path,
                                              std::set<VertexPair>& banned)>& make) {
+  // Where no way is free for the fingers' radius, the result is told so (ResultOf).
   std::optional<Draft> best;
   double best_score = -std::numeric_limits<double>::infinity();
   std::set<VertexPair> banned;
@@ -135,6 +156,13 @@ std::optional<Draft> FindDraft(
       if (of_rest < 0) banned.insert(*rest.chosen_for);
       score = std::min(score, of_rest);
     }
+    const auto obstacle = FindDraftObstacle(*draft, judge);
+    if (obstacle) {
+      const auto edge = EdgeNear(*draft, obstacle->index);
+      if (!edge) return draft;
+      banned.insert(*edge);
+      score = std::min(score, kScoreOfObstacle);
+    }
     if (score >= 0) return draft;
     if (best && score <= best_score) continue;
     best = std::move(draft);
@@ -145,11 +173,20 @@ std::optional<Draft> FindDraft(
 
 PlanResult ResultOf(const Draft& draft, const GraspJudge& judge, const std::string& planner,
                     int fingers, const Grasp& goal) {
+  if (const auto obstacle = FindDraftObstacle(draft, judge)) {
+    PlanResult none;
+    none.status = PlanResult::Status::kNoSequence;
+    none.message = "the planner " + planner + " found no sequence for fingers of radius " +
+                   FormatShort(judge.finger_radius()) + "; in the best one, step " +
+                   std::to_string(obstacle->index) + ": " + obstacle->detail;
+    return none;
+  }
   Plan plan;
   plan.dimension = judge.frame().dimension;
   plan.half_angle = judge.half_angle();
   plan.fingers = fingers;
   plan.planner = planner;
+  if (judge.finger_radius() > 0) plan.finger_radius = judge.finger_radius();
   plan.initial = draft.initial;
   plan.steps = draft.steps;
   plan.goal = goal;

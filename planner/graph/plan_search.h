@@ -69,7 +69,8 @@ class GraphWithout final : public SwitchingGraph {
                                             const VertexWidth& width);
 
 /// The first sequence whose chosen grasps are all of the quality that is asked for, otherwise the
-/// one whose weakest is best: paths are tried without the switches that were too weak before.
+/// one whose weakest is best: paths are tried without the switches that were too weak before, or
+/// that fingers of the judge's radius could not carry out.
 /// @param find_path  a path without banned edges; empty where there is none.
 /// @param make       its sequence, or nullopt and at least one more edge banned.
 [[nodiscard]] std::optional<Draft> FindDraft(
@@ -78,7 +79,7 @@ class GraphWithout final : public SwitchingGraph {
     const std::function<std::optional<Draft>(const std::vector<int>& path,
                                              std::set<VertexPair>& banned)>& make);
 
-/// The answer that a sequence is.
+/// The answer that a sequence is: none where fingers of the judge's radius cannot carry it out.
 [[nodiscard]] PlanResult ResultOf(const Draft& draft, const GraspJudge& judge,
                                   const std::string& planner, int fingers, const Grasp& goal);
 

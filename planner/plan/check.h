@@ -33,8 +33,11 @@ struct StepCheck {
 
 struct CheckOptions {
   std::optional<double> half_angle = std::nullopt;  ///< instead of the plan's friction, radians
-  const Grasp* start = nullptr;                     ///< the plan's initial grasp must be this one
-  const Grasp* goal = nullptr;                      ///< and its goal this one
+  /// Fingers have this radius (reach.h), the object's unit of length, instead of the plan's; points
+  /// where neither says.
+  std::optional<double> finger_radius = std::nullopt;
+  const Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
+  const Grasp* goal = nullptr;   ///< and its goal this one
 };
 
 struct PlanCheck {

@@ -7,6 +7,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/path_force_closure.h"
+#include "planner/plan/plan_reach.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/plan/tolerance.h"
 
@@ -107,6 +108,10 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
     fault.Add(Reason::kNotForceClosure,
               std::string(name) + " is not force closure: " + AngleNeeded(context, required));
   }
+}
+
+void AddObstacle(const std::optional<std::string>& obstacle, StepFault& fault) {
+  if (obstacle) fault.Add(Reason::kUnreachable, *obstacle);
 }
 
 /// Where force closure is about to be judged: nothing found against it yet.
@@ -220,6 +225,7 @@ StepCheck CheckHold(const CheckContext& context) {
   if (fault.none()) {
     BeginForceClosure(check);
     IncludeRest(context, initial, "the initial grasp", check, fault);
+    AddObstacle(FindRestObstacle(context.object, initial, context.least_radius()), fault);
   }
   return Finish(check, fault);
 }
@@ -250,6 +256,7 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
     BeginForceClosure(check);
     IncludeRest(context, before, "the grasp before", check, fault);
     IncludeRest(context, after, "the grasp after", check, fault);
+    AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }
   return Finish(check, fault);
 }
@@ -277,6 +284,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
       IncludeMotion(context, MotionBetween(step.waypoints[w], step.waypoints[w + 1]), w, check,
                     fault);
     }
+    AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }
   return Finish(check, fault);
 }

@@ -26,9 +26,13 @@ class StepFault {
 struct CheckContext {
   const Object& object;
   const Plan& plan;
-  double half_angle;  ///< friction, radians
+  double half_angle;         ///< friction, radians
+  double finger_radius = 0;  ///< the object's unit of length; 0: points
 
   [[nodiscard]] double tolerance() const { return kPointTolerance * object.diameter(); }
+
+  /// Points are read to within the tolerance: fingers that overlap something by less don't.
+  [[nodiscard]] double least_radius() const { return finger_radius - tolerance(); }
 };
 
 /// The checks of one entry of the report: reason, detail, force closure, required half-angle and

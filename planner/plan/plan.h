@@ -62,6 +62,8 @@ struct Plan {
   double half_angle = 0;  ///< friction half-angle, radians
   int fingers = 0;        ///< that the hand has
   std::string planner;
+  /// Radius that the fingers were planned with, the object's unit of length; points where none.
+  std::optional<double> finger_radius = std::nullopt;
   std::optional<RoadmapNote> roadmap = std::nullopt;
   FingerGrasp initial;
   std::vector<Step> steps;

@@ -119,6 +119,12 @@ double WrittenDegrees(double radians) {
   return degrees;
 }
 
+double ReadFingerRadius(const JsonReader& json) {
+  const double radius = json.Number();
+  if (!(radius > 0)) json.Fail("must be positive, found " + json.Quoted());
+  return radius;
+}
+
 RoadmapNote ReadRoadmapNote(const JsonReader& json) {
   RoadmapNote note;
   note.contacts = json.Member("contacts").Integer(1, std::numeric_limits<int>::max());
@@ -182,6 +188,8 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   plan.half_angle = ReadHalfAngle(root.Member("friction").Member("half_angle_deg"));
   plan.fingers = root.Member("fingers").Integer(1, kMostFingers);
   plan.planner = root.Member("planner").String();
+  if (root.Has("finger_radius"))
+    plan.finger_radius = ReadFingerRadius(root.Member("finger_radius"));
   if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
   for (const JsonReader& step : root.Member("steps").Elements()) {
@@ -208,6 +216,7 @@ std::string FormatPlan(const Plan& plan) {
   json["friction"]["half_angle_deg"] = WrittenDegrees(plan.half_angle);
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;
+  if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;
   if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);
   json["initial"]["contacts"] = FingerGraspJson(plan.initial, plan.dimension);
   json["steps"] = Json::array();

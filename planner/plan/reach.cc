@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/plan/clearance.h"
 
@@ -53,6 +54,12 @@ bool CanHold(const Object& object, std::span<const Contact> grasp, double radius
   return KeepApart(grasp, radius) && std::ranges::all_of(grasp, [&](const Contact& contact) {
            return CanReach(object, contact, radius);
          });
+}
+
+void CheckFingerRadius(const Object& object, double radius, const std::string& name) {
+  if (radius <= object.diameter()) return;
+  throw InputError(name + ": " + FormatShort(radius) + " is more than the object's diameter of " +
+                   FormatShort(object.diameter()) + " (it is in the unit of the object's file)");
 }
 
 std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,

@@ -31,6 +31,11 @@ namespace regrasp {
 /// Both, for all contacts of a grasp.
 [[nodiscard]] bool CanHold(const Object& object, std::span<const Contact> grasp, double radius);
 
+/// Fingers thicker than the object is long are a mistake in the unit of length.
+/// @param name  what gave the radius, for the message.
+/// @throws InputError  the radius is larger than the object's diameter.
+void CheckFingerRadius(const Object& object, double radius, const std::string& name);
+
 /// The centre of the ball at rest.
 [[nodiscard]] Eigen::Vector3d BallCentre(const Contact& contact, double radius);
 

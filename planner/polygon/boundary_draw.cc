@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/plan/clearance.h"
+#include "planner/plan/reach.h"
 #include "planner/polygon/set_cells.h"
 
 namespace regrasp {
@@ -14,7 +15,8 @@ constexpr int kMostDraws = 1000;
 
 }  // namespace
 
-Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random) {
+Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random,
+                     double finger_radius) {
   double perimeter = 0;
   for (int e = 0; e < polygon.face_count(); ++e) perimeter += polygon.face_measure(e);
   Grasp grasp;
@@ -26,7 +28,10 @@ Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random)
     }
     const Contact contact =
         ContactAt(polygon, edge, std::min(along / polygon.face_measure(edge), 1.0));
-    if (draw > kMostDraws || HasStandingRoom(polygon, contact)) grasp.push_back(contact);
+    const bool serves =
+        HasStandingRoom(polygon, contact) && CanReach(polygon, contact, finger_radius);
+    if (!serves && draw > kMostDraws && finger_radius > 0) break;
+    if (serves || draw > kMostDraws) grasp.push_back(contact);
   }
   return grasp;
 }
@@ -37,9 +42,10 @@ std::optional<Grasp> DrawAnyGrasp(const Polygon& polygon, int least, int most,
   const int first = static_cast<int>(random.Index(numbers));
   for (int i = 0; i < numbers; ++i) {
     const int contacts = least + (first + i) % numbers;
-    auto grasp =
-        DrawGoodGrasp([&] { return DrawOnBoundary(polygon, contacts, random); }, judge.frame(),
-                      judge.half_angle(), judge.min_quality(), kSamePoint * polygon.diameter());
+    auto grasp = DrawGoodGrasp(
+        [&] { return DrawOnBoundary(polygon, contacts, random, judge.finger_radius()); },
+        judge.frame(), judge.half_angle(), judge.min_quality(), kSamePoint * polygon.diameter(),
+        judge.finger_radius());
     if (grasp) return grasp;
   }
   return std::nullopt;

@@ -8,8 +8,10 @@
 
 namespace regrasp {
 
-/// Contacts spread evenly over the boundary of a polygon, where fingers have room.
-[[nodiscard]] Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random);
+/// Contacts spread evenly over the boundary of a polygon, where fingers have room; fewer than asked
+/// where fingers of a radius (reach.h) reach nearly nothing.
+[[nodiscard]] Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random,
+                                   double finger_radius = 0);
 
 /// A random grasp of the boundary that is as good as `judge` asks, of two contacts or of three by
 /// the seed; where the polygon has none of that number, of the other.

@@ -31,7 +31,7 @@ class PolygonPlanner {
                  const PolygonPlanOptions& options)
       : polygon_(polygon),
         options_(options),
-        judge_(polygon, options.half_angle, options.min_quality),
+        judge_(polygon, options.half_angle, options.min_quality, options.finger_radius),
         start_(std::move(start)),
         goal_(std::move(goal)),
         graph_(MakeGraph()),
@@ -77,6 +77,7 @@ class PolygonPlanner {
     if (choice.kind == GraspChoice::Kind::kGiven) {
       CheckGivenGrasp(choice, {"polygon", kLeastContacts, kPolygonFingers}, judge_.frame(),
                       options_.half_angle, same_point);
+      CheckFingersFit(choice, polygon_, options_.finger_radius);
       return;
     }
     RandomStream random(options_.seed, use);

@@ -19,6 +19,7 @@ struct PolygonPlanOptions {
   double min_quality = 0.01;
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
+  double finger_radius = 0;  ///< of fingers that are not points (reach.h)
 };
 
 /// Plans a sequence of switches and aligns from start to goal on the switching graph of a polygon

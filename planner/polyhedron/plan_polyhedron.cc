@@ -58,7 +58,7 @@ class PolyhedronPlanner {
                     GraspChoice goal, const PolyhedronPlanOptions& options)
       : solid_(solid),
         options_(options),
-        judge_(solid, options.half_angle, options.min_quality),
+        judge_(solid, options.half_angle, options.min_quality, options.finger_radius),
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
         graph_(graph),
@@ -115,6 +115,7 @@ class PolyhedronPlanner {
     if (choice.kind == Kind::kGiven) {
       CheckGivenGrasp(choice, {"polyhedron", kContacts, kContacts}, judge_.frame(),
                       options_.half_angle, same_point());
+      CheckFingersFit(choice, solid_, options_.finger_radius);
       return;
     }
     if (choice.kind == Kind::kRandom) {

@@ -20,6 +20,7 @@ struct PolyhedronPlanOptions {
   double min_quality = 0.01;
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
+  double finger_radius = 0;  ///< of fingers that are not points (reach.h)
 };
 
 /// Plans a sequence of switches and aligns between concurrent grasps of four fingers on the

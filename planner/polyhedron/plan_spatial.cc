@@ -15,7 +15,7 @@ constexpr int kMostFaces = 100;
 GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
                  const RoadmapOptions& options) {
   if (choice.kind == GraspChoice::Kind::kGiven) return choice;
-  const GraspJudge judge(solid, options.half_angle, options.min_quality);
+  const GraspJudge judge(solid, options.half_angle, options.min_quality, options.finger_radius);
   RandomStream random(options.seed, use);
   choice.grasp = DrawOnSurface(solid, kContacts, judge, random, choice.name);
   choice.kind = GraspChoice::Kind::kGiven;
@@ -34,9 +34,10 @@ PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start, const 
     return ResultOf(none);
   }
   if (solid.face_count() <= kMostFaces) {
-    const PlanResult result = PlanOnPolyhedron(
-        solid, from, to,
-        {options.half_angle, spanning, options.seed, options.min_quality, options.progress});
+    const PlanResult result =
+        PlanOnPolyhedron(solid, from, to,
+                         {options.half_angle, spanning, options.seed, options.min_quality,
+                          options.progress, options.finger_radius});
     if (result.plan && result.warnings.empty()) return result;
     if (!result.plan) options.progress("roadmap, since polyhedron says: " + result.message);
   }

@@ -5,6 +5,7 @@
 
 #include "planner/graph/grasp_choice.h"
 #include "planner/plan/clearance.h"
+#include "planner/plan/reach.h"
 #include "planner/roadmap/contact_points.h"
 
 namespace regrasp {
@@ -20,7 +21,7 @@ Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactCluster
   options.progress("testing the grasps of four of " + std::to_string(representatives.size()) +
                    " representatives");
   return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
-                 kSamePoint * solid.diameter());
+                 kSamePoint * solid.diameter(), options.finger_radius);
 }
 
 }  // namespace
@@ -31,7 +32,9 @@ ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapO
   }
   options.progress("choosing contact points");
   std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
-  std::erase_if(contacts, [&](const Contact& contact) { return !HasStandingRoom(solid, contact); });
+  std::erase_if(contacts, [&](const Contact& contact) {
+    return !HasStandingRoom(solid, contact) || !CanReach(solid, contact, options.finger_radius);
+  });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
   options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
   return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,

@@ -23,6 +23,7 @@ struct ClusteredRoadmapOptions {
   std::uint64_t seed = 0;
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
+  double finger_radius = 0;  ///< of fingers that are not points (reach.h)
 };
 
 /// The contact points of a mesh at which a fingertip has room, in clusters; no more clusters than

@@ -4,17 +4,19 @@
 #include <stdexcept>
 
 #include "planner/grasp/force_closure.h"
+#include "planner/plan/reach.h"
 
 namespace regrasp {
 
 GraspOracle::GraspOracle(const std::vector<Contact>& contacts, const WrenchFrame& frame,
                          double half_angle, double same_point,
-                         std::function<bool(const Grasp&)> is_good)
+                         std::function<bool(const Grasp&)> is_good, double finger_radius)
     : contacts_(contacts),
       frame_(frame),
       half_angle_(half_angle),
       same_point_(same_point),
-      is_good_(std::move(is_good)) {
+      is_good_(std::move(is_good)),
+      finger_radius_(finger_radius) {
   if (contacts.size() > kMostOracleContacts) {
     throw std::invalid_argument("too many contact points");
   }
@@ -32,8 +34,9 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
   return entry->second;
 }
 
-bool GraspOracle::AtSamePoint(int a, int b) const {
-  return (contacts_[a].p - contacts_[b].p).norm() <= same_point_;
+bool GraspOracle::ExcludeEachOther(int a, int b) const {
+  return (contacts_[a].p - contacts_[b].p).norm() <= same_point_ ||
+         !KeepApart(std::array{contacts_[a], contacts_[b]}, finger_radius_);
 }
 
 bool GraspOracle::Test(const Quadruple& grasp) {
@@ -43,7 +46,7 @@ bool GraspOracle::Test(const Quadruple& grasp) {
   if (!IsForceClosure(contacts, frame_, half_angle_)) return false;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < i; ++j) {
-      if (AtSamePoint(grasp[i], grasp[j])) return false;
+      if (ExcludeEachOther(grasp[i], grasp[j])) return false;
     }
   }
   if (!is_good_) return true;

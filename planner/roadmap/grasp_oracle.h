@@ -27,13 +27,15 @@ class GraspOracle {
   /// @param half_angle  radians.
   /// @param same_point  contacts no farther apart than this stand in no grasp.
   /// @param is_good  asked of force-closure grasps; empty: all are.
+  /// @param finger_radius  fingers of this radius that overlap at two contacts hold no grasp.
   GraspOracle(const std::vector<Contact>& contacts, const WrenchFrame& frame, double half_angle,
-              double same_point, std::function<bool(const Grasp&)> is_good = {});
+              double same_point, std::function<bool(const Grasp&)> is_good = {},
+              double finger_radius = 0);
 
   [[nodiscard]] bool Admits(const Quadruple& ascending);
-  /// Whether two contacts are at one point: then a finger can't take the one before another leaves
-  /// the other.
-  [[nodiscard]] bool AtSamePoint(int a, int b) const;
+  /// Whether two contacts are at one point, or too close for two fingers: then a finger can't take
+  /// the one before another leaves the other.
+  [[nodiscard]] bool ExcludeEachOther(int a, int b) const;
 
   [[nodiscard]] Grasp GraspOf(const Quadruple& contacts) const;
 
@@ -49,6 +51,7 @@ class GraspOracle {
   double half_angle_;
   double same_point_;
   std::function<bool(const Grasp&)> is_good_;
+  double finger_radius_;
   std::unordered_map<std::uint64_t, bool> known_;
   std::int64_t test_count_ = 0;
   std::int64_t good_count_ = 0;

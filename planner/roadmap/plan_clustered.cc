@@ -29,7 +29,7 @@ class ClusterPlanner {
   ClusterPlanner(const Polyhedron& solid, const RoadmapOptions& options)
       : solid_(solid),
         options_(options),
-        judge_(solid, options.half_angle, options.min_quality),
+        judge_(solid, options.half_angle, options.min_quality, options.finger_radius),
         roadmap_(BuildClusteredRoadmap(solid, options)) {}
 
   RoadmapPlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {
@@ -48,6 +48,7 @@ class ClusterPlanner {
     if (choice.kind == Kind::kGiven) {
       CheckGivenGrasp(choice, {"roadmap", kContacts, kContacts}, roadmap_.frame,
                       options_.half_angle, SamePoint());
+      CheckFingersFit(choice, solid_, options_.finger_radius);
     } else {
       choice.grasp = choice.kind == Kind::kRandom
                          ? DrawContacts(choice, random)
@@ -66,7 +67,8 @@ class ClusterPlanner {
             drawn.push_back(contacts[random.Index(contacts.size())]);
           return drawn;
         },
-        roadmap_.frame, options_.half_angle, options_.min_quality, SamePoint());
+        roadmap_.frame, options_.half_angle, options_.min_quality, SamePoint(),
+        options_.finger_radius);
     if (grasp) return *grasp;
     throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                   " grasps drawn from " + std::to_string(contacts.size()) +
@@ -101,7 +103,7 @@ class ClusterPlanner {
   ContactChain Find(const ContactClusters& clusters, const Quadruple& from, const Quadruple& to,
                     std::function<bool(const Grasp&)> good) const {
     GraspOracle oracle(clusters.contacts(), roadmap_.frame, options_.half_angle, SamePoint(),
-                       std::move(good));
+                       std::move(good), options_.finger_radius);
     return FindContactChain(roadmap_, clusters, oracle, from, to, options_.last_resort);
   }
 

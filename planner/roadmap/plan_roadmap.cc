@@ -12,6 +12,7 @@
 #include "planner/graph/sequence.h"
 #include "planner/graph/widest_path.h"
 #include "planner/grasp/quality.h"
+#include "planner/plan/reach.h"
 #include "planner/roadmap/contact_points.h"
 #include "planner/roadmap/find_contact.h"
 #include "planner/roadmap/plan_clustered.h"
@@ -52,7 +53,11 @@ void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more
 std::vector<Contact> SpreadContacts(const Polyhedron& solid, const RoadmapOptions& options) {
   CheckOptions(options);
   options.progress("spreading " + std::to_string(options.contacts) + " contact points");
-  return SpreadContactPoints(solid, options.contacts, options.seed);
+  std::vector<Contact> contacts = SpreadContactPoints(solid, options.contacts, options.seed);
+  std::erase_if(contacts, [&](const Contact& contact) {
+    return !CanReach(solid, contact, options.finger_radius);
+  });
+  return contacts;
 }
 
 Roadmap JoinedRoadmap(const Polyhedron& solid, const std::vector<Contact>& given,
@@ -63,7 +68,8 @@ Roadmap JoinedRoadmap(const Polyhedron& solid, const std::vector<Contact>& given
   JoinContacts(points, contacts, tolerance);
   options.progress("testing the grasps of four of " + std::to_string(points.size()) +
                    " contact points");
-  return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid));
+  return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid),
+                 options.finger_radius);
 }
 
 /// The planning of one sequence: what its stages share.
@@ -106,10 +112,12 @@ class RoadmapPlanner {
     if (choice.kind == GraspChoice::Kind::kGiven) {
       CheckGivenGrasp(choice, {"roadmap", kContacts, kContacts}, frame_, options_.half_angle,
                       SamePoint(solid_));
+      CheckFingersFit(choice, solid_, options_.finger_radius);
     }
     if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
     RandomStream random(options_.seed, use);
-    const GraspJudge judge(solid_, options_.half_angle, options_.min_quality);
+    const GraspJudge judge(solid_, options_.half_angle, options_.min_quality,
+                           options_.finger_radius);
     choice.grasp = DrawOnSurface(solid_, kContacts, judge, random, choice.name);
     choice.kind = GraspChoice::Kind::kGiven;
     return choice;
@@ -214,6 +222,7 @@ class RoadmapPlanner {
     plan.half_angle = options_.half_angle;
     plan.fingers = kRoadmapFingers;
     plan.planner = "roadmap";
+    if (options_.finger_radius > 0) plan.finger_radius = options_.finger_radius;
     plan.initial = std::move(sequence.initial);
     plan.steps = std::move(sequence.steps);
     plan.goal = goal_.grasp;
@@ -272,7 +281,7 @@ Roadmap BuildRoadmap(const Polyhedron& solid, const RoadmapOptions& options,
 ClusteredRoadmap BuildClusteredRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
   CheckOptions(options);
   return ClusteredRoadmap(solid, {options.half_angle, options.contacts, options.clusters,
-                                  options.seed, options.progress});
+                                  options.seed, options.progress, options.finger_radius});
 }
 
 RoadmapPlanResult PlanOverContacts(const Polyhedron& solid, const std::vector<Contact>& contacts,

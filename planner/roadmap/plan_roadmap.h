@@ -35,6 +35,9 @@ struct RoadmapOptions {
   double min_quality = 0.01;
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
+  /// Of fingers that are not points (reach.h): contact points that they cannot reach are left out,
+  /// and those where two would overlap are never held together.
+  double finger_radius = 0;
 };
 
 struct RoadmapPlanResult : PlanResult {

@@ -5,22 +5,26 @@
 #include <iterator>
 
 #include "planner/grasp/subset_force_closure.h"
+#include "planner/plan/reach.h"
 #include "planner/roadmap/combination_rank.h"
 
 namespace regrasp {
 
 namespace {
 
-std::vector<std::array<int, 2>> PairsAtSamePoint(const std::vector<Contact>& points,
-                                                 double same_point) {
-  std::vector<std::array<int, 2>> pairs;
-  const int count = static_cast<int>(points.size());
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b) {
-      if ((points[a].p - points[b].p).norm() <= same_point) pairs.push_back({a, b});
+/// Of any two points, whether two fingers cannot be at both.
+std::vector<bool> FindExcluded(const std::vector<Contact>& points, double same_point,
+                               double finger_radius) {
+  const std::size_t count = points.size();
+  std::vector<bool> excluded(count * count, false);
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const bool at_one = (points[a].p - points[b].p).norm() <= same_point;
+      if (!at_one && KeepApart(std::array{points[a], points[b]}, finger_radius)) continue;
+      excluded[a * count + b] = excluded[b * count + a] = true;
     }
   }
-  return pairs;
+  return excluded;
 }
 
 /// The triple that is left when one contact of a grasp leaves.
@@ -38,14 +42,20 @@ bool Contains(const Quadruple& vertex, int point) {
 }  // namespace
 
 Roadmap::Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
-                 double same_point)
-    : points_(std::move(points)), same_point_pairs_(PairsAtSamePoint(points_, same_point)) {
+                 double same_point, double finger_radius)
+    : points_(std::move(points)), excluded_(FindExcluded(points_, same_point, finger_radius)) {
+  any_excluded_ = std::find(excluded_.begin(), excluded_.end(), true) != excluded_.end();
   vertices_ = ForceClosureSubsets(points_, frame, half_angle);
-  std::erase_if(vertices_, [&](const Quadruple& vertex) {
-    return std::any_of(same_point_pairs_.begin(), same_point_pairs_.end(), [&](const auto& pair) {
-      return Contains(vertex, pair[0]) && Contains(vertex, pair[1]);
+  if (any_excluded_) {
+    std::erase_if(vertices_, [&](const Quadruple& vertex) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          if (ExcludeEachOther(vertex[i], vertex[j])) return true;
+        }
+      }
+      return false;
     });
-  });
+  }
   assert(std::is_sorted(vertices_.begin(), vertices_.end()));
   ListByTriples();
 }
@@ -84,7 +94,7 @@ void Roadmap::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
   neighbours.clear();
   for (int i = 0; i < 4; ++i) {
     for (const int other : VerticesWith(TripleWithout(vertices_[vertex], i))) {
-      if (other != vertex && !StaysAtPoint(vertex, other)) neighbours.push_back(other);
+      if (other != vertex && !IsExcluded(vertex, other)) neighbours.push_back(other);
     }
   }
 }
@@ -107,10 +117,35 @@ std::int64_t Roadmap::edge_count() const {
 }
 
 Components Roadmap::components() const {
-  // Being at the same point is an equivalence, so a group with any switch is joined as a whole.
-  return FindComponents(vertex_count(), triple_count(), [&](int triple) {
-    return EdgesWith(triple) > 0 ? VerticesWith(triple) : std::span<const int>();
-  });
+  if (!any_excluded_) {
+    return FindComponents(vertex_count(), triple_count(),
+                          [&](int triple) { return VerticesWith(triple); });
+  }
+  // In a group with excluded pairs a vertex is joined to those that it finds among the ones left
+  // over: a search of the group, which leaves a tree of edges.
+  std::vector<std::array<int, 2>> edges;
+  for (int triple = 0; triple < triple_count(); ++triple) {
+    const std::span<const int> group = VerticesWith(triple);
+    std::vector<int> left(group.begin(), group.end());
+    std::vector<int> reached;
+    while (!left.empty() || !reached.empty()) {
+      if (reached.empty()) {
+        reached.push_back(left.back());
+        left.pop_back();
+      }
+      const int vertex = reached.back();
+      reached.pop_back();
+      const auto joined = std::partition(left.begin(), left.end(),
+                                         [&](int other) { return IsExcluded(vertex, other); });
+      for (auto other = joined; other != left.end(); ++other) {
+        edges.push_back({vertex, *other});
+        reached.push_back(*other);
+      }
+      left.erase(joined, left.end());
+    }
+  }
+  return FindComponents(vertex_count(), static_cast<int>(edges.size()),
+                        [&](int edge) { return std::span<const int>(edges[edge]); });
 }
 
 int Roadmap::triple_count() const { return static_cast<int>(triple_begin_.size()) - 1; }
@@ -120,21 +155,21 @@ std::span<const int> Roadmap::VerticesWith(int triple) const {
   return std::span(triple_vertices_).subspan(begin, triple_begin_[triple + 1] - begin);
 }
 
-bool Roadmap::StaysAtPoint(int vertex, int other) const {
-  return std::any_of(same_point_pairs_.begin(), same_point_pairs_.end(), [&](const auto& pair) {
-    const auto swaps = [&](int from, int to) {
-      return Contains(vertices_[vertex], from) && Contains(vertices_[other], to);
-    };
-    return swaps(pair[0], pair[1]) || swaps(pair[1], pair[0]);
-  });
+bool Roadmap::IsExcluded(int vertex, int other) const {
+  if (!any_excluded_) return false;
+  const Quadruple& a = vertices_[vertex];
+  const Quadruple& b = vertices_[other];
+  const auto left = std::find_if_not(a.begin(), a.end(), [&](int p) { return Contains(b, p); });
+  const auto taken = std::find_if_not(b.begin(), b.end(), [&](int p) { return Contains(a, p); });
+  return left != a.end() && taken != b.end() && ExcludeEachOther(*left, *taken);
 }
 
 std::int64_t Roadmap::EdgesWith(int triple) const {
   const std::span<const int> group = VerticesWith(triple);
   std::int64_t edges = std::ssize(group) * (std::ssize(group) - 1) / 2;
-  if (same_point_pairs_.empty()) return edges;
+  if (!any_excluded_) return edges;
   for (std::size_t i = 0; i < group.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) edges -= StaysAtPoint(group[i], group[j]) ? 1 : 0;
+    for (std::size_t j = 0; j < i; ++j) edges -= IsExcluded(group[i], group[j]) ? 1 : 0;
   }
   return edges;
 }

@@ -23,15 +23,16 @@ using Quadruple = std::array<int, 4>;
 /// Edges are not stored: grasps are listed by the triples of contacts that they contain, and two
 /// different grasps share at most one triple. Contacts at the same point (two normals on an edge of
 /// the solid, say) never stand in one grasp nor take turns in one switch, for two fingers cannot
-/// touch one point.
+/// touch one point; nor do contacts where two fingers of a radius would overlap.
 class Roadmap final : public SwitchingGraph {
  public:
   /// Tests all 4-subsets of the points.
   /// @param half_angle  radians.
   /// @param same_point  contacts no farther apart than this are at the same point.
+  /// @param finger_radius  of fingers that are not points (reach.h).
   /// @throws std::invalid_argument  as TestForceClosure.
   Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
-          double same_point);
+          double same_point, double finger_radius = 0);
 
   [[nodiscard]] const std::vector<Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }
@@ -54,8 +55,12 @@ class Roadmap final : public SwitchingGraph {
   void ListByTriples();
   [[nodiscard]] int triple_count() const;
   [[nodiscard]] std::span<const int> VerticesWith(int triple) const;
-  /// Whether the switch between two grasps with a triple in common moves a finger to its own point.
-  [[nodiscard]] bool StaysAtPoint(int vertex, int other) const;
+  /// Whether the switch between two grasps with a triple in common is between two contacts that
+  /// exclude each other.
+  [[nodiscard]] bool IsExcluded(int vertex, int other) const;
+  [[nodiscard]] bool ExcludeEachOther(int a, int b) const {
+    return excluded_[a * points_.size() + b];
+  }
   [[nodiscard]] std::int64_t EdgesWith(int triple) const;
 
   std::vector<Contact> points_;
@@ -63,7 +68,8 @@ class Roadmap final : public SwitchingGraph {
   /// Vertices that contain a triple stand at triple_begin_[triple] … triple_begin_[triple + 1].
   std::vector<int> triple_begin_;
   std::vector<int> triple_vertices_;
-  std::vector<std::array<int, 2>> same_point_pairs_;  ///< ascending; hardly ever any
+  std::vector<bool> excluded_;  ///< of any two points: two fingers cannot be at both
+  bool any_excluded_ = false;   ///< with points for fingers hardly ever
 };
 
 }  // namespace regrasp

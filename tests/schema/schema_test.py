@@ -179,6 +179,13 @@ class SchemaTest(unittest.TestCase):
                 "--json", graph,
             )
             self.expect_valid("plan", [plan])
+            thick = pathlib.Path(folder) / "thick.json"
+            self.run_program(
+                "plan", "--object", cube, "--friction-angle", 25, "--output", thick, "--start",
+                "random", "--goal", "random", "--finger-radius", 0.004,
+            )
+            self.expect_valid("plan", [thick])
+            self.assertEqual(validate_schema.load(thick)["finger_radius"], 0.004)
             self.expect_valid("graph", [graph])
 
     def test_reports_of_plans_that_pass_and_fail_are_valid(self):
@@ -188,6 +195,8 @@ class SchemaTest(unittest.TestCase):
         cases = {
             "pass": (0, good),
             "fail": (1, changed(good, ["steps", 0, "release"], [2, 0])),
+            "thin": (0, {**good, "finger_radius": 0.001}),
+            "thick": (1, {**good, "finger_radius": 0.09}),
         }
         with tempfile.TemporaryDirectory() as folder:
             for verdict, (code, plan) in cases.items():
@@ -199,7 +208,10 @@ class SchemaTest(unittest.TestCase):
                     "--out", out, "--no-frames", "--allow-object-change", code=code,
                 )
                 self.expect_valid("report", [out / "report.json"])
-                self.assertEqual(validate_schema.load(out / "report.json")["verdict"], verdict)
+                report = validate_schema.load(out / "report.json")
+                self.assertEqual(report["verdict"], "pass" if code == 0 else "fail")
+                self.assertEqual(report["settings"].get("finger_radius"),
+                                 plan.get("finger_radius"))
 
     def test_wrong_grasps_are_refused(self):
         grasp = validate_schema.load(source("models/cube.start.json"))
@@ -227,6 +239,8 @@ class SchemaTest(unittest.TestCase):
             (["object", "sha256"], "F" * 64),
             (["friction", "half_angle_deg"], 90),
             (["fingers"], 65),
+            (["finger_radius"], 0),
+            (["finger_radius"], "0.01"),
             (["initial", "contacts", 0, "finger"], REMOVED),
             (["initial", "contacts", 0, "normal"], REMOVED),
             (["initial", "contacts", 0, "point"], [0, 0]),

@@ -57,6 +57,18 @@ TEST(GraspJudge, TwoContactsAtOnePointAreNoGrasp) {
   EXPECT_TRUE(judge.IsGood(grasp));
 }
 
+TEST(GraspJudge, FingersOfARadiusNeedRoom) {
+  const Polygon square = Square(2);
+  const Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
+                       {{1.4, 0, 0}, square.inward_normal(0), 0},
+                       {{1, 2, 0}, square.inward_normal(2), 2}};
+  EXPECT_TRUE(GraspJudge(square, Radians(30), 0.01).CanStand(grasp));
+  EXPECT_TRUE(GraspJudge(square, Radians(30), 0.01, 0.39).CanStand(grasp));
+  EXPECT_FALSE(GraspJudge(square, Radians(30), 0.01, 0.41).CanStand(grasp));
+  EXPECT_LT(GraspJudge(square, Radians(30), 0.01, 0.41).Score(grasp), 0);
+  EXPECT_GE(GraspJudge(square, Radians(30), 0.01, 0.39).Score(grasp), 0);
+}
+
 TEST(GraspJudge, RemembersTheScoreOfEachGraspApart) {
   const Polygon square = Square(1);
   const GraspJudge judge(square, Radians(30), 0.01);

@@ -34,6 +34,7 @@ const Model kModels[] = {
     {"prism.obj", 5, std::hypot(0.09, 0.08), std::sqrt(3) / 4 * 0.09 * 0.09 * 0.08},
     {"l_block.obj", 8, std::hypot(0.1, 0.1, 0.06), (0.01 - 0.0036) * 0.06},
     {"hole_block.obj", 10, std::hypot(0.1, 0.1, 0.06), (0.01 - 0.0025) * 0.06},
+    {"u_channel.obj", 10, std::hypot(0.1, 0.08, 0.06), (0.1 * 0.02 + 2 * 0.06 * 0.02) * 0.06},
     {"pyramid.obj", 6, 0, 0},
     {"stone.obj", 20, 0, 0},
     {"square.wkt", 4, 0.06 * std::sqrt(2), 0.06 * 0.06},
@@ -233,6 +234,13 @@ TEST(Models, SomeContactsAreOnInnerFaces) {
                                 c.p.head<2>().cwiseAbs().maxCoeff() < 0.03;
                        }),
             1);
+  // The walls of the channel face each other, its ground lies 2 cm up.
+  EXPECT_GE(ContactsIn("u_channel.obj",
+                       [](const Contact& c) {
+                         return std::abs(c.n.z()) < 0.5 && c.p.y() > 0.019 &&
+                                std::abs(c.p.x() - 0.05) < 0.031;
+                       }),
+            2);
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.half_angle, b.half_angle);
   EXPECT_EQ(a.fingers, b.fingers);
   EXPECT_EQ(a.planner, b.planner);
+  EXPECT_EQ(a.finger_radius, b.finger_radius);
   ExpectSameGrasp(a.initial, b.initial);
   ASSERT_EQ(a.goal.size(), b.goal.size());
   for (std::size_t i = 0; i < a.goal.size(); ++i) ExpectSameContact(a.goal[i], b.goal[i]);
@@ -165,6 +166,15 @@ TEST(PlanIo, KeepsRegionsOfContactsAndWritesNoneWhereThereIsNone) {
   EXPECT_EQ(std::get<Switch>(read.steps.front()).place[0].region, 0.1 / 3);
 }
 
+TEST(PlanIo, KeepsTheRadiusOfFingersAndWritesNoneWhereThereIsNone) {
+  EXPECT_EQ(FormatPlan(CubePlan()).find("finger_radius"), std::string::npos);
+  Plan plan = CubePlan();
+  plan.finger_radius = 0.01 / 3;
+  const Plan read = ParsePlan(FormatPlan(plan), "plan.json");
+  ExpectSamePlan(read, plan);
+  EXPECT_EQ(read.finger_radius, 0.01 / 3);
+}
+
 TEST(PlanIo, WritesRoundHalfAnglesRound) {
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 20)).find("\"half_angle_deg\": 20.0"), std::string::npos);
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 33.3)).find("\"half_angle_deg\": 33.3"), std::string::npos);
@@ -191,6 +201,9 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/version", 2, "plan.json: /version: expected 1, found 2"},
       {"/version", "1", "plan.json: /version: expected a number, found \"1\""},
       {"/object/scale", 0, "plan.json: /object/scale: must be positive"},
+      {"/finger_radius", 0, "plan.json: /finger_radius: must be positive, found 0"},
+      {"/finger_radius", -1, "plan.json: /finger_radius: must be positive, found -1"},
+      {"/finger_radius", Json(), "plan.json: /finger_radius: expected a number, found null"},
       {"/object/dimension", 4,
        "plan.json: /object/dimension: expected a whole number from 2 to 3, found 4"},
       {"/object/sha256", "abc",

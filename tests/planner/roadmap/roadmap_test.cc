@@ -9,6 +9,7 @@
 #include "planner/base/angle.h"
 #include "planner/graph/fewest_switches.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/plan/reach.h"
 #include "planner/roadmap/contact_points.h"
 #include "tests/planner/roadmap/solids.h"
 
@@ -116,6 +117,62 @@ TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
   EXPECT_GT(with_twin, 0);
   EXPECT_EQ(roadmap.vertex_count(), plain.vertex_count() + with_twin);
   EXPECT_EQ(roadmap.edge_count(), edges / 2);
+}
+
+TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
+  const std::vector<Contact> points = CubePoints(14);
+  const Roadmap plain = MakeRoadmap(points, 25);
+  int left_out = 0;
+  std::int64_t cut = 0;
+  for (const double radius : {0.1, 0.2, 0.3}) {
+    const Roadmap roadmap(points, MakeCube().wrench_frame(), Radians(25), kSamePoint, radius);
+    int kept = 0;
+    for (int v = 0; v < plain.vertex_count(); ++v) {
+      const bool apart = KeepApart(plain.grasp(v), radius);
+      EXPECT_EQ(roadmap.Find(plain.vertex(v)).has_value(), apart);
+      ++(apart ? kept : left_out);
+    }
+    EXPECT_EQ(roadmap.vertex_count(), kept);
+    std::int64_t edges = 0;
+    std::vector<int> neighbours;
+    const Components components = roadmap.components();
+    for (int v = 0; v < roadmap.vertex_count(); ++v) {
+      roadmap.GetNeighbours(v, neighbours);
+      std::int64_t expected = 0;
+      for (int other = 0; other < roadmap.vertex_count(); ++other) {
+        if (roadmap.MinSwitches(v, other) != 1) continue;
+        Grasp during = roadmap.grasp(v);
+        const Grasp after = roadmap.grasp(other);
+        during.insert(during.end(), after.begin(), after.end());
+        std::sort(during.begin(), during.end(), [](const Contact& a, const Contact& b) {
+          return std::lexicographical_compare(a.p.begin(), a.p.end(), b.p.begin(), b.p.end());
+        });
+        during.erase(std::unique(during.begin(), during.end(),
+                                 [](const Contact& a, const Contact& b) { return a.p == b.p; }),
+                     during.end());
+        const bool joined = std::ranges::count(neighbours, other) > 0;
+        EXPECT_EQ(joined, KeepApart(during, radius));
+        EXPECT_TRUE(!joined || components.of_vertex[v] == components.of_vertex[other]);
+        ++(joined ? expected : cut);
+      }
+      EXPECT_EQ(std::ssize(neighbours), expected);
+      edges += expected;
+    }
+    EXPECT_EQ(roadmap.edge_count(), edges / 2);
+    // Not fewer components than a search finds either.
+    std::vector<bool> seen(roadmap.vertex_count(), false);
+    int found = 0;
+    for (int v = 0; v < roadmap.vertex_count(); ++v) {
+      if (seen[v]) continue;
+      ++found;
+      for (const int other : ReachableVertices(roadmap, v, [](int) { return true; })) {
+        seen[other] = true;
+      }
+    }
+    EXPECT_EQ(components.count(), found);
+  }
+  EXPECT_GT(left_out, 20);
+  EXPECT_GT(cut, 20);
 }
 
 TEST(Roadmap, IsEmptyWithoutForceClosure) {

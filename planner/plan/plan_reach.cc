@@ -1,0 +1,170 @@
+#include "planner/plan/plan_reach.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "planner/base/number.h"
+#include "planner/plan/reach.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+std::string Name(const FingerContact& held) { return "finger " + std::to_string(held.finger); }
+
+std::string TooClose(const FingerContact& a, const FingerContact& b, double distance,
+                     double radius) {
+  return "fingers " + std::to_string(a.finger) + " and " + std::to_string(b.finger) +
+         " overlap: their centres are " + FormatShort(distance) +
+         " apart, and two fingers of radius " + FormatShort(radius) + " need " +
+         FormatShort(2 * radius);
+}
+
+double CentreDistance(const Contact& a, const Contact& b, double radius) {
+  return (BallCentre(a, radius) - BallCentre(b, radius)).norm();
+}
+
+std::optional<std::string> FindOverlap(const FingerGrasp& grasp, double radius) {
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      const Contact& a = grasp[i].contact;
+      const Contact& b = grasp[j].contact;
+      if (KeepApart(std::vector{a, b}, radius)) continue;
+      return TooClose(grasp[i], grasp[j], CentreDistance(a, b, radius), radius);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindUnreached(const Object& object, const FingerGrasp& grasp,
+                                         double radius) {
+  for (const FingerContact& held : grasp) {
+    if (const auto obstacle = FindObstacle(object, held.contact, radius)) {
+      return Name(held) + ": " + *obstacle;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Looks for an instant of [begin, end] that `fails`, leaving out intervals about an instant for
+/// which `is_clear` answers yes.
+/// @param is_clear  (t, half): nothing fails from t − half to t + half.
+template <class Fails, class IsClear>
+std::optional<double> FindInstant(double begin, double end, const Fails& fails,
+                                  const IsClear& is_clear) {
+  const double half = (end - begin) / 2;
+  const double middle = begin + half;
+  if (is_clear(middle, half)) return std::nullopt;
+  if (fails(middle)) return middle;
+  if (half < kShortestReachInterval) return std::nullopt;
+  if (const auto found = FindInstant(begin, middle, fails, is_clear)) return found;
+  return FindInstant(middle, end, fails, is_clear);
+}
+
+/// The instant at which the object blocks a moving finger.
+std::optional<double> FindBlocked(const Object& object, const ContactMotion& motion,
+                                  double radius) {
+  const int from = motion.At(0).face;
+  const int to = motion.At(1).face;
+  // The far end of the segment that a finger sweeps moves fastest.
+  const double length = radius + object.diameter();
+  const double speed = motion.velocity().norm() + motion.turn() * length;
+  const auto fails = [&](double t) { return !CanReach(object, motion.At(t), radius); };
+  const auto is_clear = [&](double t, double half) {
+    const Contact contact = motion.At(t);
+    const Vector3d rest = BallCentre(contact, radius);
+    const auto near =
+        object.FacesNearSegment(rest, rest - object.diameter() * contact.n, radius + half * speed);
+    return std::ranges::all_of(near, [&](int face) { return face == from || face == to; });
+  };
+  return FindInstant(0, 1, fails, is_clear);
+}
+
+/// The instant at which two moving fingers overlap.
+std::optional<double> FindMeeting(const ContactMotion& a, const ContactMotion& b, double radius) {
+  const double speed = (a.velocity() - b.velocity()).norm() + radius * (a.turn() + b.turn());
+  const auto fails = [&](double t) { return !KeepApart(std::vector{a.At(t), b.At(t)}, radius); };
+  const auto is_clear = [&](double t, double half) {
+    return CentreDistance(a.At(t), b.At(t), radius) >= 2 * radius + half * speed;
+  };
+  return FindInstant(0, 1, fails, is_clear);
+}
+
+std::optional<std::string> FindWayObstacle(const Object& object, const FingerGrasp& from,
+                                           const FingerGrasp& to, double radius) {
+  std::vector<ContactMotion> motions;
+  for (const FingerContact& held : from) {
+    const auto end = std::ranges::find(to, held.finger, &FingerContact::finger);
+    if (end == to.end()) return std::nullopt;
+    motions.emplace_back(held.contact, end->contact);
+  }
+  const auto at = [](double t) { return FormatShort(t) + " of the way: "; };
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (const auto t = FindBlocked(object, motions[i], radius)) {
+      return at(*t) + Name(from[i]) + ": " +
+             FindObstacle(object, motions[i].At(*t), radius).value_or("");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (const auto t = FindMeeting(motions[i], motions[j], radius)) {
+        const double distance = CentreDistance(motions[i].At(*t), motions[j].At(*t), radius);
+        return at(*t) + TooClose(from[j], from[i], distance, radius);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindAlignObstacle(const Object& object, const Align& align,
+                                             double radius) {
+  for (std::size_t w = 0; w < align.waypoints.size(); ++w) {
+    const std::string waypoint = "waypoint " + std::to_string(w);
+    if (const auto found = FindRestObstacle(object, align.waypoints[w], radius)) {
+      return waypoint + ": " + *found;
+    }
+    if (w == 0) continue;
+    const auto found = FindWayObstacle(object, align.waypoints[w - 1], align.waypoints[w], radius);
+    if (found) return "before " + waypoint + ", " + *found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> FindRestObstacle(const Object& object, const FingerGrasp& grasp,
+                                            double radius) {
+  if (radius <= 0) return std::nullopt;
+  if (auto found = FindUnreached(object, grasp, radius)) return found;
+  return FindOverlap(grasp, radius);
+}
+
+std::optional<std::string> FindStepObstacle(const Object& object, const FingerGrasp& before,
+                                            const Step& step, double radius) {
+  if (radius <= 0) return std::nullopt;
+  if (const auto* align = std::get_if<Align>(&step)) {
+    return FindAlignObstacle(object, *align, radius);
+  }
+  const FingerGrasp& placed = std::get<Switch>(step).place;
+  if (auto found = FindUnreached(object, placed, radius)) return found;
+  FingerGrasp during = before;
+  during.insert(during.end(), placed.begin(), placed.end());
+  return FindOverlap(during, radius);
+}
+
+std::optional<PlanObstacle> FindPlanObstacle(const Object& object, const FingerGrasp& initial,
+                                             std::span<const Step> steps, double radius) {
+  if (auto found = FindRestObstacle(object, initial, radius)) return PlanObstacle{0, *found};
+  FingerGrasp holding = initial;
+  int index = 0;
+  for (const Step& step : steps) {
+    ++index;
+    if (auto found = FindStepObstacle(object, holding, step, radius)) {
+      return PlanObstacle{index, *found};
+    }
+    holding = GraspAfter(holding, step);
+  }
+  return std::nullopt;
+}
+
+}  // namespace regrasp

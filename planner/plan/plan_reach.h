@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "planner/object/object.h"
+#include "planner/plan/contact_motion.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// What stands in the way of fingers of some radius (reach.h) in a plan, in words for people;
+/// nullopt where nothing does. Contacts lie on the object and know their faces; a radius of 0 or
+/// less is never in the way.
+
+/// Of a grasp at rest: a contact that its finger cannot reach, or two fingers that overlap.
+[[nodiscard]] std::optional<std::string> FindRestObstacle(const Object& object,
+                                                          const FingerGrasp& grasp, double radius);
+
+/// Of a step that begins with `before`. In a switch all fingers hold together before those of
+/// `release` leave. In an align every waypoint counts as a rest, and on the way between two of them
+/// nothing may be in the way of the moving fingers either: decided by bisection with bounds on how
+/// far they move, down to kShortestReachInterval of the way; what stays undecided there passes.
+[[nodiscard]] std::optional<std::string> FindStepObstacle(const Object& object,
+                                                          const FingerGrasp& before,
+                                                          const Step& step, double radius);
+
+inline constexpr double kShortestReachInterval = 1e-3;
+
+struct PlanObstacle {
+  int index = 0;  ///< 0: the initial grasp, k: the k-th step
+  std::string detail;
+};
+
+/// The first in a sequence.
+[[nodiscard]] std::optional<PlanObstacle> FindPlanObstacle(const Object& object,
+                                                           const FingerGrasp& initial,
+                                                           std::span<const Step> steps,
+                                                           double radius);
+
+}  // namespace regrasp

@@ -1,0 +1,119 @@
+"""Plans for fingers of some radius pass the check with that radius; others do not all."""
+
+import json
+
+import program_case
+from program_case import ProgramCase
+
+FRICTION = ("--friction-angle", "25")
+# Model, planner, radii in metres, seeds.
+CASES = [
+    ("cube.obj", "auto", ("0.004", "0.01"), ("1", "2")),
+    ("cube.obj", "polyhedron", ("0.004",), ("1", "2")),
+    ("l_block.obj", "auto", ("0.004", "0.01"), ("1", "2")),
+    ("hole_block.obj", "auto", ("0.004", "0.01"), ("1", "2")),
+    ("u_channel.obj", "auto", ("0.004",), ("1", "2")),
+    ("mug500.obj", "auto", ("0.004", "0.008"), ("1",)),
+    ("flask500.obj", "auto", ("0.004",), ("1",)),
+    ("polygon_hole.wkt", "auto", ("0.002", "0.004"), ("1", "2")),
+    ("polygon15.wkt", "polygon", ("0.002",), ("1", "2")),
+    ("gear128.wkt", "contour", ("0.001",), ("1", "2")),
+]
+
+
+class Reach(ProgramCase):
+    program = "plan"
+
+    def plan(self, model, planner, seed, *more):
+        return self.run_program("--object", self.model(model), *FRICTION, "--planner", planner,
+                                "--start", "random", "--goal", "random", "--seed", seed,
+                                "--output", "plan.json", "--quiet", *more)
+
+    def validate(self, model, *more):
+        done = self.run_program("--object", self.model(model), "--plan", "plan.json", "--out",
+                                "out", "--no-frames", *more, program="validate")
+        return done, json.loads(self.read("out/report.json"))
+
+    def reasons(self, report):
+        return [step["reason"] for step in report["steps"] if step["reason"]]
+
+    def test_plans_for_a_radius_pass_with_it(self):
+        made = passed = 0
+        for model, planner, radii, seeds in CASES:
+            found = 0
+            for radius in radii:
+                for seed in seeds:
+                    with self.subTest(model=model, planner=planner, radius=radius, seed=seed):
+                        done = self.plan(model, planner, seed, "--finger-radius", radius)
+                        if done.returncode == 1:
+                            # No sequence is an answer, in one line.
+                            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                            continue
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                        plan = json.loads(self.read("plan.json"))
+                        self.assertEqual(plan["finger_radius"], float(radius))
+                        done, report = self.validate(model)
+                        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                        self.assertEqual(report["settings"]["finger_radius"], float(radius))
+                        self.assertAlmostEqual(report["settings"]["fingertip_radius_m"],
+                                               float(radius), delta=1e-6)
+                        found += 1
+            self.assertGreater(found, 0, model)
+            made += found
+            passed += 1
+        self.assertEqual(passed, len(CASES))
+        self.assertGreaterEqual(made, 18)
+
+    def test_plans_for_points_are_unreachable_for_thick_fingers(self):
+        unreachable = 0
+        for model in ("hole_block.obj", "u_channel.obj", "polygon_hole.wkt"):
+            for seed in ("1", "2"):
+                with self.subTest(model=model, seed=seed):
+                    done = self.plan(model, "auto", seed)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertNotIn("finger_radius", json.loads(self.read("plan.json")))
+                    done, report = self.validate(model, "--finger-radius", "0.004")
+                    if done.returncode == 0:
+                        continue
+                    self.assertEqual(self.reasons(report), ["unreachable"], done.stdout)
+                    self.assertIn("finger", done.stdout)
+                    unreachable += 1
+        self.assertGreater(unreachable, 2)
+
+    def test_a_grasp_alone_is_checked_with_the_radius(self):
+        arguments = ("--object", self.model("hole_block.obj"), "--grasp",
+                     self.model("hole_block.start.json"), "--friction-angle", "20", "--out", "out",
+                     "--no-frames")
+        self.assert_done(*arguments, program="validate")
+        done = self.run_program(*arguments, "--finger-radius", "0.002", program="validate")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        # Finger 1 presses outwards from inside the hole, 5 cm wide.
+        self.assertIn("finger 1", done.stdout)
+        self.assertIn("0.046 of free way", done.stdout)
+
+    def test_a_given_grasp_that_fingers_cannot_hold_is_bad_input(self):
+        self.assert_refused(
+            2, ["hole_block.start.json: /contacts", "finger 1", "blocks its way"],
+            "--object", self.model("hole_block.obj"), *FRICTION, "--start",
+            self.model("hole_block.start.json"), "--goal", self.model("hole_block.goal.json"),
+            "--finger-radius", "0.002", "--output", "plan.json")
+
+    def test_a_named_planner_says_that_it_finds_nothing(self):
+        # Fingers as thick as the cube overlap wherever four of them hold.
+        done = self.plan("cube.obj", "polyhedron", "1", "--finger-radius", "0.1")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_bad_radii_are_refused(self):
+        cube = ("--object", self.model("cube.obj"), *FRICTION, "--start",
+                self.model("cube.start.json"), "--goal", self.model("cube.goal.json"),
+                "--output", "plan.json")
+        for radius in ("0", "-1", "nan", "1e999", "wide"):
+            with self.subTest(radius=radius):
+                self.assert_refused(2, "--finger-radius", *cube, "--finger-radius", radius)
+        self.assert_refused(2, ["--finger-radius: 4 is more than the object's diameter of 0.10"],
+                            *cube, "--finger-radius", "4")
+
+
+if __name__ == "__main__":
+    program_case.main()

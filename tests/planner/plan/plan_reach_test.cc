@@ -1,0 +1,179 @@
+#include "planner/plan/plan_reach.h"
+
+#include <gtest/gtest.h>
+
+#include "bodies.h"
+#include "planner/plan/check.h"
+#include "sample_plans.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+FingerContact At(const Object& object, int finger, const Vector3d& p, const Vector3d& n) {
+  for (const int face : object.FacesNear(p, kPointTolerance * object.diameter())) {
+    if ((object.inward_normal(face) - n).norm() < 1e-9) return {finger, {p, n, face}};
+  }
+  ADD_FAILURE() << "no face with normal " << n.transpose() << " at " << p.transpose();
+  return {finger, {p, n, 0}};
+}
+
+/// [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
+Polyhedron MakePostPlate() {
+  PolygonSoup soup;
+  const auto add_square = [&](double half, double z) {
+    soup.vertices.insert(soup.vertices.end(),
+                         {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+  };
+  for (const auto& [half, z] : {std::pair(3.0, 0.0), {3.0, 1.0}, {0.5, 1.0}, {0.5, 2.0}}) {
+    add_square(half, z);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    for (const int ring : {0, 4, 8}) {
+      soup.facets.push_back({ring + i, ring + next, ring + 4 + next, ring + 4 + i});
+    }
+  }
+  soup.facets.push_back({3, 2, 1, 0});
+  soup.facets.push_back({12, 13, 14, 15});
+  return Polyhedron::FromSoup(soup, "post");
+}
+
+const Vector3d kDown(0, 0, -1);
+
+TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
+  const Polyhedron l = MakeLBlock();
+  const FingerGrasp grasp = {At(l, 3, {1.2, 1, 0.5}, {0, -1, 0}),
+                             At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
+  EXPECT_FALSE(FindRestObstacle(l, grasp, 0).has_value());
+  EXPECT_FALSE(FindRestObstacle(l, grasp, 0.2).has_value());
+  const std::string corner = FindRestObstacle(l, grasp, 0.25).value_or("");
+  EXPECT_NE(corner.find("finger 3: a ball of radius 0.25"), std::string::npos) << corner;
+  const FingerGrasp close = {At(l, 3, {1.6, 1, 0.5}, {0, -1, 0}),
+                             At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
+  const std::string overlap = FindRestObstacle(l, close, 0.25).value_or("");
+  EXPECT_NE(overlap.find("fingers 3 and 7 overlap: their centres are 0.4 apart"), std::string::npos)
+      << overlap;
+}
+
+TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
+  const Polyhedron cube = MakeCube();
+  const FingerGrasp before = {At(cube, 0, {0, 0, 1}, kDown), At(cube, 1, {0, 0, -1}, -kDown)};
+  const Step step = Switch{{At(cube, 2, {0.3, 0, 1}, kDown)}, {0}};
+  EXPECT_FALSE(FindStepObstacle(cube, before, step, 0.1).has_value());
+  const auto found = FindStepObstacle(cube, before, step, 0.2);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NE(found->find("fingers 0 and 2 overlap"), std::string::npos) << *found;
+  // After it there is room again: only the switch itself is in the way.
+  EXPECT_FALSE(FindRestObstacle(cube, GraspAfter(before, step), 0.2).has_value());
+}
+
+TEST(PlanReach, AFingerThatSlidesPastAPostNeedsRoomAllTheWay) {
+  const Polyhedron body = MakePostPlate();
+  const FingerGrasp before = {At(body, 0, {-2, 0.8, 1}, kDown)};
+  const FingerGrasp after = {At(body, 0, {2, 0.8, 1}, kDown)};
+  const Step slide = Align{{before, after}};
+  int passes = 0, fails = 0;
+  for (const double radius : {0.05, 0.2, 0.29, 0.299, 0.301, 0.31, 0.4}) {
+    EXPECT_FALSE(FindRestObstacle(body, before, radius).has_value()) << radius;
+    EXPECT_FALSE(FindRestObstacle(body, after, radius).has_value()) << radius;
+    const auto found = FindStepObstacle(body, before, slide, radius);
+    EXPECT_EQ(found.has_value(), radius > 0.3) << radius << found.value_or("");
+    ++(found ? fails : passes);
+  }
+  EXPECT_EQ(passes, 4);
+  EXPECT_EQ(fails, 3);
+}
+
+TEST(PlanReach, FingersThatCrossMeetOnTheWay) {
+  const Polyhedron cube = MakeCube();
+  const FingerGrasp before = {At(cube, 0, {-0.8, -0.1, 1}, kDown),
+                              At(cube, 1, {0.8, 0.1, 1}, kDown)};
+  const FingerGrasp after = {At(cube, 0, {0.8, -0.1, 1}, kDown),
+                             At(cube, 1, {-0.8, 0.1, 1}, kDown)};
+  const Step cross = Align{{before, after}};
+  EXPECT_FALSE(FindStepObstacle(cube, before, cross, 0.099).has_value());
+  const std::string found = FindStepObstacle(cube, before, cross, 0.11).value_or("");
+  EXPECT_NE(found.find("fingers 0 and 1 overlap"), std::string::npos) << found;
+  EXPECT_FALSE(FindRestObstacle(cube, before, 0.11).has_value());
+}
+
+TEST(PlanReach, AFingerTurnsFreelyAroundAConvexEdge) {
+  const Polyhedron cube = MakeCube();
+  const FingerGrasp top = {At(cube, 0, {0.5, 0, 1}, kDown)};
+  const FingerGrasp edge = {At(cube, 0, {1, 0, 1}, kDown)};
+  const FingerGrasp turned = {At(cube, 0, {1, 0, 1}, {-1, 0, 0})};
+  const FingerGrasp side = {At(cube, 0, {1, 0, 0.5}, {-1, 0, 0})};
+  EXPECT_FALSE(FindStepObstacle(cube, top, Align{{top, edge, turned, side}}, 0.5).has_value());
+  // Around the edge it comes close to the finger that holds the side.
+  const Polyhedron l = MakeLBlock();
+  const FingerGrasp arm = {At(l, 0, {2.9, 1, 0.5}, {0, -1, 0}),
+                           At(l, 1, {3, 0.1, 0.5}, {-1, 0, 0})};
+  EXPECT_FALSE(FindRestObstacle(l, arm, 0.4).has_value());
+  const FingerGrasp at_edge = {At(l, 0, {3, 1, 0.5}, {0, -1, 0}), arm[1]};
+  const FingerGrasp around = {At(l, 0, {3, 1, 0.5}, {-1, 0, 0}), arm[1]};
+  EXPECT_FALSE(FindStepObstacle(l, arm, Align{{arm, at_edge, around}}, 0.4).has_value());
+  EXPECT_TRUE(FindStepObstacle(l, arm, Align{{arm, at_edge, around}}, 0.46).has_value());
+}
+
+TEST(PlanReach, NamesTheFirstEntryOfASequence) {
+  const Polyhedron cube = MakeCube();
+  Plan plan = CubePlan();
+  plan = CheckPlan(cube, plan).located;
+  EXPECT_FALSE(FindPlanObstacle(cube, plan.initial, plan.steps, 0.05).has_value());
+  plan.steps.insert(plan.steps.begin(),
+                    Switch{{{4,
+                             {plan.initial[0].contact.p + Vector3d(0, 0, 0.05),
+                              plan.initial[0].contact.n, plan.initial[0].contact.face}}},
+                           {0}});
+  const auto found = FindPlanObstacle(cube, plan.initial, plan.steps, 0.05);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->index, 1);
+}
+
+TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
+  const Polyhedron cube = MakeCube();
+  Plan plan = CubePlan();
+  EXPECT_TRUE(CheckPlan(cube, plan).passed());
+  EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.01}).passed());
+  const PlanCheck thick = CheckPlan(cube, plan, {.finger_radius = 3.0});
+  ASSERT_FALSE(thick.passed());
+  EXPECT_EQ(thick.steps[0].reason, Reason::kUnreachable);
+  EXPECT_TRUE(thick.steps[0].force_closure);
+  EXPECT_NE(thick.steps[0].detail.find("overlap"), std::string::npos) << thick.steps[0].detail;
+  // The plan's own radius counts where the options have none.
+  plan.finger_radius = 3.0;
+  EXPECT_FALSE(CheckPlan(cube, plan).passed());
+  EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.01}).passed());
+  plan.half_angle *= 0.1;
+  EXPECT_EQ(CheckPlan(cube, plan).steps[0].reason, Reason::kNotForceClosure);
+}
+
+TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
+  // Points are read to a millionth of the diameter: fingers that overlap by less touch.
+  const Polyhedron cube = MakeCube();
+  Plan plan = CubePlan();
+  double least = 1e9;
+  for (std::size_t i = 0; i < plan.initial.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      // Two balls of radius r, their centres r outward along the normals.
+      const Contact& a = plan.initial[i].contact;
+      const Contact& b = plan.initial[j].contact;
+      double low = 0, high = 10;
+      for (int round = 0; round < 100; ++round) {
+        const double r = (low + high) / 2;
+        ((a.p - b.p - r * (a.n - b.n)).norm() >= 2 * r ? low : high) = r;
+      }
+      least = std::min(least, low);
+    }
+  }
+  plan.steps.clear();
+  plan.goal = ContactsOf(plan.initial);
+  const double tolerance = kPointTolerance * cube.diameter();
+  EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = least + 0.5 * tolerance}).passed());
+  EXPECT_FALSE(CheckPlan(cube, plan, {.finger_radius = least + 20 * tolerance}).passed());
+}
+
+}  // namespace
+}  // namespace regrasp
