@@ -71,9 +71,10 @@ Task ReadTask(const ValidateOptions& options) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
   }
   if (options.replay.finger_radius) {
-    CheckFingerRadius(object, *options.replay.finger_radius, "--finger-radius");
+    CheckFingerRadius(*task.object.object, *options.replay.finger_radius, "--finger-radius");
   } else if (task.plan.finger_radius) {
-    CheckFingerRadius(object, *task.plan.finger_radius, options.plan_path + ": /finger_radius");
+    CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
+                      options.plan_path + ": /finger_radius");
   }
   return task;
 }

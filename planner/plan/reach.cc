@@ -19,6 +19,7 @@ constexpr double kRounding = 1e-12;
 
 /// How far from the contact the way of a finger is free is told to this share of the diameter.
 constexpr double kDistanceAccuracy = 1e-4;
+constexpr int kDistanceDigits = 3;
 
 /// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
 /// `way` before it rests.
@@ -77,7 +78,7 @@ std::optional<std::string> FindObstacle(const Object& object, const Contact& con
     (IsBlocked(object, contact, radius, way) ? blocked : free) = way;
   }
   return "the object blocks its way to the contact along the normal: a finger of radius " +
-         FormatShort(radius) + " has " + FormatShort(free) + " of free way there";
+         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free way there";
 }
 
 }  // namespace regrasp

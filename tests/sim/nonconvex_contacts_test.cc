@@ -128,15 +128,18 @@ TEST(NonconvexContacts, FingersPressInABlindHole) {
 }
 
 TEST(NonconvexContacts, FingersPinchThinWallsFromBothSides) {
-  // The walls are thinner than the pieces of surface under a contact are thick.
+  // The walls are thinner than the pieces of surface under a contact are thick. Two pinches alone
+  // let the body turn about the line between them.
   const Polyhedron body = MakeThinBox();
   const TouchCount count = Hold(body,
-                                WithFingers({ContactAt(body, {0.05, 0.01, 0.04}, {-1, 0, 0}),
-                                             ContactAt(body, {0.0498, 0.01, 0.04}, {1, 0, 0}),
-                                             ContactAt(body, {-0.01, 0.05, 0.03}, {0, -1, 0}),
-                                             ContactAt(body, {-0.01, 0.0498, 0.03}, {0, 1, 0})}),
+                                WithFingers({ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
+                                             ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
+                                             ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
+                                             ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
+                                             ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
+                                             ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
                                 30);
-  ExpectTouchesItsOwn(count, 4);
+  ExpectTouchesItsOwn(count, 6);
 }
 
 TEST(NonconvexContacts, FingersPressOutwardsInAChannel) {

@@ -120,11 +120,11 @@ TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
 }
 
 TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
-  const std::vector<Contact> points = CubePoints(14);
+  const std::vector<Contact> points = CubePoints(22);
   const Roadmap plain = MakeRoadmap(points, 25);
   int left_out = 0;
   std::int64_t cut = 0;
-  for (const double radius : {0.1, 0.2, 0.3}) {
+  for (const double radius : {0.006, 0.012}) {
     const Roadmap roadmap(points, MakeCube().wrench_frame(), Radians(25), kSamePoint, radius);
     int kept = 0;
     for (int v = 0; v < plain.vertex_count(); ++v) {
