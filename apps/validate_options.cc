@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <system_error>
 #include <thread>
@@ -110,6 +111,21 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
             "Size of the shake: force over squeeze, and torque over squeeze times half the "
             "diameter (default 0.01)")
       ->type_name("RHO");
+  const std::map<std::string, Protocol> protocols = {
+      {"adapted", Protocol::kAdapted}, {"fixed", Protocol::kFixed}, {"both", Protocol::kBoth}};
+  const auto set_protocol = [&options, protocols](const std::string& name) {
+    options.replay.protocol = protocols.at(name);
+  };
+  app.add_option_function<std::string>(
+         "--protocol", set_protocol,
+         "How the fingers answer the shake: adapted with forces planned for each "
+         "direction, fixed with the forces of the rest and the stiffness of their servos "
+         "alone; both runs both, the adapted one decides (default adapted)")
+      ->check(CLI::IsMember({"adapted", "fixed", "both"}))
+      ->type_name("NAME");
+  app.add_flag("--stress", options.replay.stress,
+               "Also find the largest push and turn that each rest resists in every direction, by "
+               "bisection in the replay and by analysis; takes some ten times as long");
   AddNumber(app, "--tolerance", options.replay.tolerance, NumberRange::Positive(),
             "How far the object may move and a fingertip slip, in diameters of the object "
             "(default 0.001)")

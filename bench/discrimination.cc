@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/sample_table.h"
 #include "bench/scatter_plot.h"
 #include "bench/table_file.h"
 #include "planner/base/angle.h"
@@ -22,12 +23,12 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
-#include "planner/plan/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/plan/clearance.h"
 #include "planner/roadmap/surface_sample.h"
 #include "sim/replay.h"
 
@@ -95,16 +96,6 @@ class Body {
   std::unique_ptr<SurfaceSampler> sampler_;
 };
 
-/// One replay.
-struct Sample {
-  std::string body;
-  double ratio = 0;  ///< μ over the critical μ of the grasp that is judged
-  double quality = 0;
-  bool passed = false;
-  std::string reason;
-  double displacement = 0;  ///< over D
-};
-
 /// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.
 std::optional<double> CriticalFriction(const Body& body, const Grasp& grasp) {
   if (!IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical)) return std::nullopt;
@@ -139,6 +130,11 @@ Sample Judge(const Body& body, const Plan& plan, const Grasp& judged, double rat
   const bool complete = result.steps.size() == plan.steps.size() + 1;
   sample.passed = complete && last.reason == Reason::kNone;
   sample.reason = ReasonName(last.reason);
+  if (last.fixed) {
+    sample.passed_fixed = complete && last.fixed->reason == Reason::kNone;
+    sample.reason_fixed = ReasonName(last.fixed->reason);
+    sample.give = last.fixed->give_m / result.settings.diameter_m;
+  }
   sample.displacement =
       last.displacement_m / result.settings.diameter_m + last.rotation_deg * Radians(1) / 2;
   return sample;
@@ -184,73 +180,6 @@ std::vector<Sample> JudgeSwitches(const Body& body, int count, std::uint64_t see
     samples.push_back(Judge(body, plan, second, ratio, options));
   }
   return samples;
-}
-
-std::string Share(const std::vector<Sample>& samples,
-                  const std::function<bool(const Sample&)>& in) {
-  int count = 0;
-  int passed = 0;
-  for (const Sample& sample : samples) {
-    if (!in(sample)) continue;
-    ++count;
-    passed += sample.passed ? 1 : 0;
-  }
-  return count == 0 ? "–" : std::to_string(passed) + " of " + std::to_string(count);
-}
-
-struct Range {
-  std::string name;
-  double from;
-  double to;
-};
-
-const std::vector<Range> kRatios = {{"0.7 to 0.9", 0.7, 0.9},   {"0.9 to 0.98", 0.9, 0.98},
-                                    {"0.98 to 1", 0.98, 1},     {"1 to 1.02", 1, 1.02},
-                                    {"1.02 to 1.1", 1.02, 1.1}, {"1.1 to 1.3", 1.1, 1.3},
-                                    {"1.3 to 1.5", 1.3, 1.5}};
-const std::vector<Range> kQualities = {
-    {"0 to 0.002", 0, 0.002},       {"0.002 to 0.005", 0.002, 0.005},
-    {"0.005 to 0.01", 0.005, 0.01}, {"0.01 to 0.012", 0.01, 0.012},
-    {"0.012 to 0.02", 0.012, 0.02}, {"0.02 to 0.05", 0.02, 0.05},
-    {"0.05 and more", 0.05, 1e9}};
-
-std::vector<std::string> BodyNames(const std::vector<Sample>& samples) {
-  std::vector<std::string> names;
-  for (const Sample& sample : samples) {
-    if (names.empty() || names.back() != sample.body) names.push_back(sample.body);
-  }
-  return names;
-}
-
-/// Passes in each range, all bodies and one by one.
-TableFile RangeTable(const std::string& name, const std::string& title, const std::string& column,
-                     const std::vector<Range>& ranges, const std::vector<Sample>& samples,
-                     const std::function<std::optional<double>(const Sample&)>& value) {
-  TableFile table{name, title, {column, "all"}, {}};
-  const std::vector<std::string> bodies = BodyNames(samples);
-  table.columns.insert(table.columns.end(), bodies.begin(), bodies.end());
-  for (const Range& range : ranges) {
-    const auto in_range = [&](const Sample& sample) {
-      const auto x = value(sample);
-      return x && *x >= range.from && *x < range.to;
-    };
-    std::vector<std::string> row = {range.name, Share(samples, in_range)};
-    for (const std::string& body : bodies) {
-      row.push_back(Share(samples, [&](const Sample& s) { return s.body == body && in_range(s); }));
-    }
-    table.rows.push_back(row);
-  }
-  return table;
-}
-
-void WriteSamples(const std::vector<Sample>& samples, const std::filesystem::path& file) {
-  std::string csv = "body,ratio,quality,verdict,reason,displacement_over_diameter\n";
-  for (const Sample& sample : samples) {
-    csv += sample.body + "," + FormatFixed(sample.ratio, 4) + "," + FormatShort(sample.quality, 4) +
-           "," + (sample.passed ? "pass" : "fail") + "," + sample.reason + "," +
-           FormatShort(sample.displacement, 3) + "\n";
-  }
-  WriteFile(file, csv);
 }
 
 /// The settings that the table of settings compares, each a change of one.
@@ -340,8 +269,10 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   std::vector<Sample> holds;
   std::vector<Sample> switches;
   for (const Body& body : bodies) {
-    const auto held = JudgeHolds(body, count, kSeed, {});
-    const auto switched = JudgeSwitches(body, count, kSeed, {});
+    ReplayOptions both;
+    both.protocol = Protocol::kBoth;
+    const auto held = JudgeHolds(body, count, kSeed, both);
+    const auto switched = JudgeSwitches(body, count, kSeed, both);
     holds.insert(holds.end(), held.begin(), held.end());
     switches.insert(switches.end(), switched.begin(), switched.end());
     std::fprintf(stderr, "%s: %d holds and %d switches\n", body.name().c_str(), count, count);
@@ -366,11 +297,14 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
                         "Switches to force-closure grasps that pass, by quality of the grasp after",
                         "quality", kQualities, switches, quality),
              folder);
-  WriteTable(SettingsTable(bodies, std::max(count / 5, 1), kSeed + 1), folder);
+  WriteTable(ProtocolTable(holds, switches), folder);
   WriteSamples(holds, folder / "holds.csv");
   WriteSamples(switches, folder / "switches.csv");
+  WriteTable(SettingsTable(bodies, std::max(count / 5, 1), kSeed + 1), folder);
   WriteFile(folder / "discrimination.svg", FormatScatterPlot(PlotOf(holds)));
-  const auto false_pass = [](const Sample& s) { return s.passed && s.ratio <= 0.98; };
+  const auto false_pass = [](const Sample& s) {
+    return (s.passed || s.passed_fixed) && s.ratio <= 0.98;
+  };
   const auto false_passes = std::count_if(holds.begin(), holds.end(), false_pass) +
                             std::count_if(switches.begin(), switches.end(), false_pass);
   std::printf("%zu holds, %zu switches, %d passes at or below 0.98 of the critical friction\n",

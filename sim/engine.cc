@@ -237,6 +237,8 @@ void Engine::Restore(const State& state) {
   std::ranges::copy(state.qpos, d.qpos);
   std::ranges::copy(state.qvel, d.qvel);
   std::ranges::copy(state.qacc_warmstart, d.qacc_warmstart);
+  // A warning of what happened since the state was saved is not one of the state.
+  for (const mjtWarning warning : kFatalWarnings) d.warning[warning].number = 0;
 }
 
 }  // namespace regrasp

@@ -60,6 +60,7 @@ class Engine {
   void Step();
 
   [[nodiscard]] State Save() const;
+  /// Also after UnstableError.
   void Restore(const State& state);
 
  private:

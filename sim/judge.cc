@@ -1,6 +1,7 @@
 #include "sim/judge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -30,6 +31,11 @@ void Judge::AddPose(const Eigen::Isometry3d& X_SB) {
   const double displacement = (X_SB.translation() - start_.translation()).norm();
   const double rotation = RotationAngle(start_, X_SB);
   const double moved = displacement + settings_.diameter_m / 2 * rotation;
+  moved_now_ = moved;
+  if (giving_) {
+    give_ = std::max(give_, moved);
+    return;
+  }
   displacement_ = std::max(displacement_, displacement);
   rotation_ = std::max(rotation_, rotation);
   moved_ = std::max(moved_, moved);
@@ -49,6 +55,11 @@ void Judge::AddGap(int finger, double gap_m) {
   if (!lost_.empty() || gap_m <= kLostGap * settings_.diameter_m) return;
   lost_ = phase_ + ": finger " + std::to_string(finger) + " is " + FormatShort(gap_m) +
           " m off the surface";
+}
+
+void Judge::AddForce(int finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal) {
+  if (force.dot(normal) < kPressing * settings_.squeeze_N) return;
+  AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu)), margins_);
 }
 
 Reason Judge::reason() const {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/plan/reason.h"
+#include "sim/cone_margin.h"
 #include "sim/settings.h"
 
 namespace regrasp {
@@ -23,9 +24,17 @@ class Judge {
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
 
   void AddPose(const Eigen::Isometry3d& X_SB);
+  /// While on, how far the object moves is the give of the servos under a push, which counts apart
+  /// and has no limit: the object has moved where it does not come back.
+  void SetGiving(bool on) { giving_ = on; }
   void AddSlip(int finger, double slip_m);
   /// @param gap_m  from the surface to the fingertip of a finger at rest.
   void AddGap(int finger, double gap_m);
+  /// @param force   of a finger on the object; left out where it hardly presses (kPressing).
+  /// @param normal  inward, unit.
+  void AddForce(int finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal);
+  /// Cone margins are smallest from here on.
+  void ForgetForces() { margins_.clear(); }
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] Reason reason() const;
@@ -33,14 +42,23 @@ class Judge {
   [[nodiscard]] std::string detail() const;
   [[nodiscard]] double displacement_m() const { return displacement_; }
   [[nodiscard]] double rotation_rad() const { return rotation_; }
+  /// Largest |Δx| + R |Δrotation|, what the tolerance is about.
+  [[nodiscard]] double moved_m() const { return moved_; }
+  /// |Δx| + R |Δrotation| now.
+  [[nodiscard]] double moved_now_m() const { return moved_now_; }
+  /// Largest |Δx| + R |Δrotation| while giving.
+  [[nodiscard]] double give_m() const { return give_; }
   [[nodiscard]] double slip_m() const { return slip_; }
   [[nodiscard]] bool contact_lost() const { return !lost_.empty(); }
+  [[nodiscard]] const FingerMargins& margins() const { return margins_; }
 
  private:
   ReplaySettings settings_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
   std::string phase_;
-  double displacement_ = 0, rotation_ = 0, moved_ = 0, slip_ = 0;
+  double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
+  bool giving_ = false;
+  FingerMargins margins_;
   std::string lost_, slipped_, object_moved_;  ///< where each was seen first
 };
 

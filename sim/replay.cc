@@ -42,6 +42,69 @@ void Perform(Stage& stage, const Object& object, const Plan& plan, int index, St
             ToScene(object, plan.scale, waypoints.back()));
 }
 
+/// The step as the judge saw it.
+StepMotion Describe(const Judge& judge) {
+  StepMotion result;
+  result.reason = judge.reason();
+  result.detail = judge.detail();
+  result.displacement_m = judge.displacement_m();
+  result.rotation_deg = Degrees(judge.rotation_rad());
+  result.moved_m = judge.moved_m();
+  result.give_m = judge.give_m();
+  result.slip_m = judge.slip_m();
+  result.contact_lost = judge.contact_lost();
+  return result;
+}
+
+StepMotion Unstable(const Judge& judge, const UnstableError& error) {
+  StepMotion result = Describe(judge);
+  result.reason = Reason::kSimulationUnstable;
+  result.detail = error.what();
+  return result;
+}
+
+/// The step with its shakes; the judge is as before.
+StepMotion ShakeAtRest(Stage& stage, Answer answer) {
+  const Judge before = stage.judge();
+  StepMotion result;
+  stage.judge().ForgetForces();
+  try {
+    Shake(stage, answer);
+    result = Describe(stage.judge());
+  } catch (const UnstableError& error) {
+    result = Unstable(stage.judge(), error);
+  }
+  result.shake_margins = stage.judge().margins();
+  stage.judge() = before;
+  return result;
+}
+
+FingerMargins MarginsNow(const Stage& stage) {
+  FingerMargins margins;
+  for (const int f : stage.HoldingFingers()) {
+    const Eigen::Vector3d force = stage.engine().contact_force(f);
+    const Eigen::Vector3d normal = stage.X_SB().linear() * stage.fingers()[f].contact.n;
+    if (force.dot(normal) < kPressing * stage.settings().squeeze_N) continue;
+    AddMargin(f, ConeMargin(force, normal, stage.half_angle()), margins);
+  }
+  return margins;
+}
+
+/// What is asked of a step once it is at rest.
+void ExamineRest(Stage& stage, StepReplay& result) {
+  const ReplaySettings& settings = stage.settings();
+  result.rest_margins = MarginsNow(stage);
+  result.snapshot = stage.TakeSnapshot();
+  if (settings.protocol != Protocol::kFixed) {
+    result.adapted = ShakeAtRest(stage, Answer::kAdapted);
+  }
+  if (settings.protocol != Protocol::kAdapted) result.fixed = ShakeAtRest(stage, Answer::kFixed);
+  static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
+  // A grasp that lost the object before any push has no limit to look for.
+  if (settings.stress && stage.judge().reason() == Reason::kNone)
+    result.stress = MeasureStress(stage);
+}
+
 StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int index) {
   StepReplay result;
   result.index = index;
@@ -59,18 +122,11 @@ StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int 
     stage.judge().SetPhase("rest");
     Settle(stage);
     stage.JudgeRest();
-    result.snapshot = stage.TakeSnapshot();
-    Shake(stage);
-    result.reason = stage.judge().reason();
-    result.detail = stage.judge().detail();
+    result.motion_margins = stage.judge().margins();
+    ExamineRest(stage, result);
   } catch (const UnstableError& error) {
-    result.reason = Reason::kSimulationUnstable;
-    result.detail = error.what();
+    static_cast<StepMotion&>(result) = Unstable(stage.judge(), error);
   }
-  result.displacement_m = stage.judge().displacement_m();
-  result.rotation_deg = Degrees(stage.judge().rotation_rad());
-  result.slip_m = stage.judge().slip_m();
-  result.contact_lost = stage.judge().contact_lost();
   result.drift_m =
       MeasureMotion(Eigen::Isometry3d::Identity(), stage.X_SB(), stage.settings().diameter_m / 2);
   return result;

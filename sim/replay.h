@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,26 +10,40 @@
 #include "planner/plan/reason.h"
 #include "planner/plan/snapshot.h"
 #include "sim/align_script.h"
+#include "sim/cone_margin.h"
 #include "sim/settings.h"
+#include "sim/stress.h"
 
 namespace regrasp {
 
 /// How an align was carried out; kNone for other steps.
 enum class AlignMode { kNone, kImitated, kSlid, kMixed };
 
-/// What the replay says of entry k of the report.
-struct StepReplay {
-  int index = 0;
+/// What is measured of a step: its motion, its rest and the shakes after it.
+struct StepMotion {
   Reason reason = Reason::kNone;
-  std::string detail;         ///< for people: which finger, which direction of the shake
-  double displacement_m = 0;  ///< largest translation of the object's centroid in this step
-  double rotation_deg = 0;    ///< largest rotation of the object in this step
-  double slip_m = 0;          ///< largest slide of a holding fingertip along the surface
-  double drift_m = 0;         ///< |Δx| + R|Δrotation| at its end since the sequence began
-  bool contact_lost = false;  ///< a holding finger left the surface
+  std::string detail;           ///< for people: which finger, which direction of the shake
+  double displacement_m = 0;    ///< largest translation of the object's centroid in this step
+  double rotation_deg = 0;      ///< largest rotation of the object in this step
+  double moved_m = 0;           ///< largest |Δx| + R|Δrotation|, what the tolerance is about
+  double give_m = 0;            ///< as moved_m, but on the servos under a push at fixed squeeze
+  double slip_m = 0;            ///< largest slide of a holding fingertip along the surface
+  bool contact_lost = false;    ///< a holding finger left the surface
+  FingerMargins shake_margins;  ///< smallest cone margins (sim/cone_margin.h) during the shakes
+};
+
+/// What the replay says of entry k of the report; the numbers of StepMotion are those of the
+/// protocol that decides.
+struct StepReplay : StepMotion {
+  int index = 0;
+  double drift_m = 0;  ///< |Δx| + R|Δrotation| at its end since the sequence began
   AlignMode align_mode = AlignMode::kNone;
-  AlignShares align_shares;  ///< as it was meant to be carried out; zero for other steps
-  Snapshot snapshot;         ///< the rest state after the step
+  AlignShares align_shares;      ///< as it was meant to be carried out; zero for other steps
+  FingerMargins motion_margins;  ///< of fingers that hold and do not slide on purpose
+  FingerMargins rest_margins;    ///< at rest after the step
+  std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
+  std::vector<DirectionStress> stress;       ///< where it was asked for, in each direction
+  Snapshot snapshot;                         ///< the rest state after the step
 };
 
 struct ReplayResult {

@@ -56,6 +56,17 @@ void CheckCertificates(const Plan& located, int count, Report& report) {
   }
 }
 
+/// What each finger needs, and why examinations disagree, of the steps that pass the analysis.
+void ExamineSteps(const Object& object, const Plan& located, int count, Report& report) {
+  for (int index = 0; index < count; ++index) {
+    ReportStep& step = report.steps[index];
+    step.needs = NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
+    if (!step.replay) continue;
+    step.disagreement =
+        ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
+  }
+}
+
 /// What follows the first failure is skipped, whoever found it.
 void SkipAfterFailure(std::vector<ReportStep>& steps) {
   bool failed = false;
@@ -114,6 +125,19 @@ int Report::weakest_step() const {
   return weakest;
 }
 
+int Report::weakest_finger_step() const {
+  std::vector<FingerFriction> weakest;
+  std::vector<int> index;
+  for (const ReportStep& step : steps) {
+    const int finger = step.skipped ? -1 : WeakestOf(step.needs);
+    if (finger < 0) continue;
+    weakest.push_back(step.needs[finger].friction);
+    index.push_back(step.check.index);
+  }
+  const int found = WeakestFinger(weakest);
+  return found < 0 ? -1 : index[found];
+}
+
 std::vector<std::string> Report::warnings() const {
   std::vector<std::string> warnings;
   for (const ReportStep& step : steps) {
@@ -148,6 +172,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
     options.half_angle = report.half_angle;
     options.finger_radius = report.finger_radius;
     Replay(object, checked.located, options, observer, passing, report);
+    ExamineSteps(object, checked.located, passing, report);
   }
   SkipAfterFailure(report.steps);
   return report;

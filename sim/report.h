@@ -10,8 +10,10 @@
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"
+#include "sim/disagreement.h"
 #include "sim/replay.h"
 #include "sim/trials.h"
+#include "sim/weakest_finger.h"
 
 namespace regrasp {
 
@@ -30,8 +32,10 @@ struct ReportStep {
   std::optional<ProofVerdict> certificate;
   std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
   bool skipped = false;              ///< a step before it failed, in the analysis or the replay
-  std::optional<EntryProof> proof;   ///< where AddProofs was asked
-  std::string frame;                 ///< file name of the picture, empty where there is none
+  std::vector<NeedOfFinger> needs;   ///< of a step that passes the analytic check
+  std::optional<Disagreement> disagreement;  ///< between the examinations of a step
+  std::optional<EntryProof> proof;           ///< where AddProofs was asked
+  std::string frame;  ///< file name of the picture, empty where there is none
 
   /// The analytic reason, or else that of the replay; kNone for a skipped step.
   [[nodiscard]] Reason reason() const;
@@ -71,6 +75,9 @@ struct Report {
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
   /// where no step has one.
   [[nodiscard]] int weakest_step() const;
+  /// The step with the weakest finger of all (sim/weakest_finger.h), the first of equal ones; −1
+  /// where no step has one.
+  [[nodiscard]] int weakest_finger_step() const;
   /// For people, without a verdict: each switch whose contact region is smaller than claimed, each
   /// align whose certificate does not hold.
   [[nodiscard]] std::vector<std::string> warnings() const;

@@ -3,6 +3,8 @@
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
 #include "sim/report.h"
+#include "sim/simulation_json.h"
+#include "sim/stress_table.h"
 #include "sim/trials_report.h"
 
 namespace regrasp {
@@ -21,6 +23,8 @@ Json MakeSettings(const Report& report) {
   settings["gravity_m_s2"] = replay.gravity_m_s2;
   if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
   settings["shake"] = replay.shake;
+  settings["protocol"] = ProtocolName(replay.protocol);
+  settings["stress"] = replay.stress;
   settings["tolerance"] = replay.tolerance;
   settings["align"] = replay.align == AlignChoice::kSlide ? "slide" : "imitate";
   settings["fingertip_radius_m"] = replay.fingertip_radius_m;
@@ -37,12 +41,30 @@ Json MakeForceClosure(const ReportStep& step) {
   return {{"holds", step.check.force_closure}, {"required_half_angle_deg", required}};
 }
 
-Json MakeSimulation(const std::optional<StepReplay>& replay) {
-  if (!replay) return nullptr;
-  return {{"displacement_m", replay->displacement_m},
-          {"rotation_deg", replay->rotation_deg},
-          {"slip_m", replay->slip_m},
-          {"contact_lost", replay->contact_lost}};
+Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
+  const int weakest = step.skipped ? -1 : WeakestOf(step.needs);
+  if (weakest < 0) return nullptr;
+  return FingerNeedJson(step.needs[weakest].finger, step.needs[weakest].friction, half_angle);
+}
+
+/// What the plan takes as a whole: the least of every margin, and where.
+Json MakeMargins(const Report& report) {
+  Json finger = nullptr;
+  if (const int step = report.weakest_finger_step(); step >= 0) {
+    finger = MakeWeakestFinger(report.steps[step], report.half_angle);
+    finger["step"] = step;
+  }
+  Json required = nullptr;
+  if (const int step = report.weakest_step(); step >= 0) {
+    const double angle = report.steps[step].check.required->upper;
+    required = {{"step", step}, {"required_half_angle_deg", Degrees(angle)}};
+  }
+  Json stress = nullptr;
+  if (const auto weakest = FindWeakestPush(report)) {
+    stress = StressJson({weakest->stress})[0];
+    stress["step"] = weakest->step;
+  }
+  return {{"friction", required}, {"weakest_finger", finger}, {"stress", stress}};
 }
 
 Json MakeAlignMode(const std::optional<StepReplay>& replay) {
@@ -84,7 +106,14 @@ Json MakeText(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
-Json MakeStep(const ReportStep& step, int dimension) {
+/// What the replay measured, where there was one.
+void AddReplay(const ReportStep& step, Json& json) {
+  if (!step.replay || step.skipped) return;
+  json["protocols"] = ProtocolsJson(*step.replay);
+  if (!step.replay->stress.empty()) json["stress"] = StressJson(step.replay->stress);
+}
+
+Json MakeStep(const ReportStep& step, const Report& report) {
   Json json = {{"index", step.check.index},
                {"kind", step.check.kind},
                {"verdict", std::string(VerdictName(step.verdict()))},
@@ -95,10 +124,13 @@ Json MakeStep(const ReportStep& step, int dimension) {
                {"align_mode", MakeAlignMode(step.replay)},
                {"align_shares", MakeAlignShares(step.replay)},
                {"certificate", MakeCertificate(step.certificate)},
-               {"simulation", MakeSimulation(step.replay)},
+               {"simulation", step.replay ? SimulationJson(*step.replay) : Json(nullptr)},
+               {"cause", CauseJson(step.disagreement)},
+               {"weakest_finger", MakeWeakestFinger(step, report.half_angle)},
                {"frame", MakeText(step.frame)}};
+  AddReplay(step, json);
   AddRegion(step.region, json);
-  if (step.proof) json["proof"] = EntryProofJson(*step.proof, dimension);
+  if (step.proof) json["proof"] = EntryProofJson(*step.proof, report.dimension);
   return json;
 }
 
@@ -111,14 +143,7 @@ Json MakeGrasp(const Report& report) {
   const GraspReport& grasp = *report.grasp;
   Json fingers = Json::array();
   for (std::size_t i = 0; i < grasp.fingers.size(); ++i) {
-    const FingerFriction& friction = grasp.fingers[i];
-    Json without = nullptr;
-    if (friction.without) without = Degrees(*friction.without);
-    fingers.push_back({{"finger", i},
-                       {"needed", friction.needed},
-                       {"required_half_angle_deg", Degrees(friction.required)},
-                       {"margin_deg", Degrees(report.half_angle - friction.required)},
-                       {"without_half_angle_deg", without}});
+    fingers.push_back(FingerNeedJson(static_cast<int>(i), grasp.fingers[i], report.half_angle));
   }
   const int weakest = WeakestFinger(grasp.fingers);
   return {{"file", report.plan_file},
@@ -146,9 +171,9 @@ std::string FormatReportJson(const Report& report) {
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
   const int weakest = report.weakest_step();
   json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
+  json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();
-  for (const ReportStep& step : report.steps)
-    json["steps"].push_back(MakeStep(step, report.dimension));
+  for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
   // File names may be any bytes; JSON must be UTF-8.
   return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "sim/report.h"
+#include "sim/stress_table.h"
 #include "sim/trials_report.h"
 
 namespace regrasp {
@@ -24,7 +25,27 @@ std::string RequiredAngle(const ReportStep& step) {
   return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
 }
 
-TextRow MakeRow(const ReportStep& step, bool regions) {
+/// Which columns a table has beside those that it always has.
+struct Columns {
+  bool regions = false;
+  bool fixed = false;  ///< the verdict at fixed squeeze, beside the adapted one that decides
+};
+
+Columns ColumnsOf(const Report& report) {
+  const auto has = [&](auto property) { return std::ranges::any_of(report.steps, property); };
+  return {has([](const ReportStep& step) { return step.region.has_value(); }),
+          has([](const ReportStep& step) {
+            return step.replay && step.replay->adapted && step.replay->fixed;
+          })};
+}
+
+std::string FixedVerdict(const ReportStep& step) {
+  if (!step.replay || !step.replay->fixed || step.skipped) return kNothing;
+  const Reason reason = step.replay->fixed->reason;
+  return reason == Reason::kNone ? "pass" : "fail: " + std::string(ReasonName(reason));
+}
+
+TextRow MakeRow(const ReportStep& step, const Columns& columns) {
   const auto length = [&](double StepReplay::*member) -> std::string {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
@@ -32,9 +53,10 @@ TextRow MakeRow(const ReportStep& step, bool regions) {
   if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
   TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
                  length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
-  if (regions) {
+  if (columns.regions) {
     row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
   }
+  if (columns.fixed) row.push_back(FixedVerdict(step));
   row.push_back(verdict);
   return row;
 }
@@ -73,6 +95,35 @@ std::string FormatFailure(const Report& report) {
   return "";
 }
 
+std::string FormatCauses(const Report& report) {
+  std::string text;
+  for (const ReportStep& step : report.steps) {
+    if (!step.disagreement) continue;
+    const bool fixed = step.disagreement->between == Between::kFixedFails;
+    text += "step " + std::to_string(step.check.index) + ": " +
+            (fixed ? "a fixed squeeze fails, " : "") + "likely cause: " + step.disagreement->text +
+            "\n";
+  }
+  return text;
+}
+
+/// The weakest finger of the whole plan.
+std::string FormatWeakestFinger(const Report& report) {
+  const int index = report.weakest_finger_step();
+  if (index < 0 || report.grasp) return "";
+  const ReportStep& step = report.steps[index];
+  const NeedOfFinger& need = step.needs[WeakestOf(step.needs)];
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  std::string text =
+      "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index);
+  if (need.friction.needed) {
+    text += ", which alone needs " + degrees(need.friction.required);
+  } else {
+    text += ", without which the others need " + degrees(*need.friction.without);
+  }
+  return text + " of " + degrees(report.half_angle) + " degrees\n";
+}
+
 std::string FormatUndecided(const Report& report) {
   long undecided = 0;
   for (const ReportStep& step : report.steps) undecided += step.check.undecided;
@@ -92,14 +143,15 @@ std::string FormatTrials(const Report& report) {
 }  // namespace
 
 std::string FormatReportTable(const Report& report) {
-  const bool regions = std::ranges::any_of(
-      report.steps, [](const ReportStep& step) { return step.region.has_value(); });
+  const Columns columns = ColumnsOf(report);
   std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
-  if (regions) rows.front().push_back("region");
+  if (columns.regions) rows.front().push_back("region");
+  if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
-  for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, regions));
-  return FormatRows(rows) + FormatFailure(report) + FormatUndecided(report) +
-         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) + FormatTrials(report) +
+  for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
+  return FormatRows(rows) + FormatFailure(report) + FormatCauses(report) + FormatUndecided(report) +
+         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) +
+         FormatWeakestFinger(report) + FormatStressTable(report) + FormatTrials(report) +
          "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
 }
 

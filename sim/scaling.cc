@@ -58,6 +58,8 @@ ReplaySettings DeriveSettings(const Object& object, double scale, double half_an
       options.mass_kg.value_or(options.density_kg_m3 * Volume(object, scale, s.thickness_m));
   CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
   s.shake = options.shake;
+  s.protocol = options.protocol;
+  s.stress = options.stress;
   s.tolerance = options.tolerance;
   s.align = options.align;
   s.friction_factor = options.friction_factor;

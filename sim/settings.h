@@ -4,6 +4,13 @@
 
 namespace regrasp {
 
+/// How the fingers answer the shake at a rest, and which answer decides.
+enum class Protocol {
+  kAdapted,  ///< with forces planned for each direction: can the grasp resist?
+  kFixed,    ///< with the forces of the rest and the servos' stiffness: does this squeeze?
+  kBoth,     ///< both, from the same rest; the adapted one decides
+};
+
 /// How the replay moves fingers along the surface where it can choose (sim/align_script.h).
 enum class AlignChoice {
   kImitate,  ///< spare fingers take over
@@ -21,7 +28,9 @@ struct ReplayOptions {
   std::optional<double> finger_radius;
   std::optional<double> squeeze_N;  ///< total normal force of a grasp at rest
   double shake = 0.01;              ///< ρ: shake force over squeeze, and torque over squeeze·R
-  double tolerance = 1e-3;          ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  Protocol protocol = Protocol::kAdapted;
+  bool stress = false;      ///< also look for the largest push in each direction (sim/stress.h)
+  double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
   double stiffness_factor = 1;  ///< of the fingers, times what is derived
   double timestep_factor = 1;   ///< times what is derived
@@ -37,6 +46,8 @@ struct ReplaySettings {
   double mass_kg = 0;
   double squeeze_N = 0;
   double shake = 0;
+  Protocol protocol = Protocol::kAdapted;
+  bool stress = false;
   double tolerance = 0;
   AlignChoice align = AlignChoice::kImitate;
   double gravity_m_s2 = 0;  ///< 0 for a planar object: the plane carries it

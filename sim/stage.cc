@@ -103,6 +103,7 @@ void Stage::JudgeMotion() {
   for (int f = 0; f < static_cast<int>(fingers_.size()); ++f) {
     const StageFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
+    judge_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n);
     const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
     judge_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
   }

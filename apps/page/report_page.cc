@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/page/data_uri.h"
+#include "apps/page/findings.h"
 #include "apps/page/quantity.h"
 #include "apps/page/step_measures.h"
 #include "apps/page/step_plot.h"
@@ -49,9 +50,10 @@ class Page {
   }
 
   [[nodiscard]] std::string Format() const {
-    const std::string body = Element(
-        "main", "",
-        Header() + Facts() + Plots() + Table() + (report_.grasp ? Fingers() : "") + Frames());
+    const std::string body =
+        Element("main", "",
+                Header() + Facts() + Plots() + Table() + (report_.grasp ? Fingers() : "") +
+                    FormatFindings(report_) + Frames());
     return "<!DOCTYPE html>\n" +
            Element("html", "lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\"",
                    Head() + "\n" + Element("body", "", "\n" + body + "\n") + "\n") +
@@ -168,6 +170,7 @@ class Page {
     add("Mass", NumberText(settings.mass_kg) + " kg");
     add("Squeeze", NumberText(settings.squeeze_N) + " N");
     add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
+    if (settings.protocol == Protocol::kFixed) add("Protocol", "fixed squeeze");
     add("Tolerance", LengthText(Tolerance()));
   }
 

@@ -9,7 +9,7 @@ namespace regrasp {
 
 /// Numbers of each entry of a report, none where it has none; what plots and tables show.
 struct StepMeasures {
-  /// |Δx| + R |Δrotation| of the object, largest of either, metres: what the tolerance is about.
+  /// Largest |Δx| + R |Δrotation| of the object, metres: what the tolerance is about.
   std::optional<double> moved_m;
   std::optional<double> slip_m;  ///< the largest of a holding finger
   /// Friction half-angle minus the required one, degrees; negative where the step fails for it.
@@ -20,9 +20,5 @@ struct StepMeasures {
 };
 
 [[nodiscard]] std::vector<StepMeasures> MeasureSteps(const Report& report);
-
-/// The friction half-angle minus the largest angle between a holding finger's force on the object
-/// and its inward normal, radians; nullopt where no finger presses.
-[[nodiscard]] std::optional<double> ConeMarginAtRest(const Snapshot& snapshot, double half_angle);
 
 }  // namespace regrasp

@@ -152,6 +152,45 @@ class Validate(ProgramCase):
         self.assertIn("verdict: pass", done.stdout)
         self.assertEqual(done.stderr, "")
 
+    def test_both_protocols_are_told_apart_and_the_adapted_one_decides(self):
+        done, report = self.assert_passes("--no-frames", protocol="both")
+        self.assertIn("fixed_squeeze", done.stdout)
+        for step in report["steps"]:
+            self.assertEqual(set(step["protocols"]), {"adapted", "fixed"})
+            self.assertEqual(step["simulation"]["motion_m"],
+                             step["protocols"]["adapted"]["motion_m"])
+        done, report = self.assert_passes("--no-frames", protocol="both", shake="0.06")
+        disagreements = [step for step in report["steps"] if step["cause"]]
+        self.assertTrue(disagreements)
+        for step in disagreements:
+            self.assertEqual(step["cause"]["between"], "fixed-fails")
+            self.assertEqual(step["protocols"]["fixed"]["verdict"], "fail")
+            self.assertIn(step["cause"]["text"], done.stdout)
+        self.assertIn("Likely cause", self.page_text())
+        first = disagreements[0]["index"]
+        failed = self.assert_fails(first, disagreements[0]["protocols"]["fixed"]["reason"],
+                                   protocol="fixed", shake="0.06")
+        self.assertEqual(set(failed["steps"][first]["protocols"]), {"fixed"})
+        self.assertNotIn("fixed_squeeze", self.assert_passes("--no-frames")[0].stdout)
+        self.refuse("--protocol: loose", protocol="loose")
+
+    def test_stress_finds_the_largest_push_by_two_routes(self):
+        done, report = self.assert_passes("--no-frames", "--stress")
+        self.assertIn("largest push", done.stdout)
+        self.assertIn("The largest push", self.page_text())
+        checked = 0
+        for step in report["steps"]:
+            self.assertEqual(len({push["direction"] for push in step["stress"]}), 12)
+            for push in step["stress"]:
+                self.assertAlmostEqual(push["replay"], push["analysis"],
+                                       delta=0.03 * push["analysis"])
+                checked += 1
+        self.assertEqual(checked, 12 * len(report["steps"]))
+        least = report["margins"]["stress"]
+        self.assertEqual(least["replay"], min(push["replay"] for step in report["steps"]
+                                              for push in step["stress"]))
+        self.assertNotIn("stress", self.assert_passes("--no-frames")[1]["steps"][0])
+
     def test_quiet_prints_nothing(self):
         done, _ = self.assert_passes("--quiet", "--no-frames")
         self.assertEqual(done.stdout + done.stderr, "")

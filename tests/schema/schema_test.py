@@ -213,6 +213,43 @@ class SchemaTest(unittest.TestCase):
                 self.assertEqual(report["settings"].get("finger_radius"),
                                  plan.get("finger_radius"))
 
+    def test_reports_with_every_protocol_and_stress_are_valid_and_wrong_ones_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plan = pathlib.Path(folder) / "plan.json"
+            out = pathlib.Path(folder) / "out"
+            cube = source("models/cube.obj")
+            self.run_program(
+                "plan", "--object", cube, "--friction-angle", 25, "--output", plan, "--start",
+                source("models/cube.start.json"), "--goal", source("models/cube.goal.json"),
+            )
+            # A shake that adapted forces resist and a fixed squeeze does not.
+            self.run_program(
+                "validate", "--object", cube, "--plan", plan, "--out", out, "--no-frames",
+                "--protocol", "both", "--stress", "--shake", "0.08",
+            )
+            report = validate_schema.load(out / "report.json")
+        causes = [index for index, step in enumerate(report["steps"]) if step["cause"]]
+        self.assertTrue(causes)
+        self.assertTrue(all(step["stress"] for step in report["steps"]))
+        self.expect_refused("report", report, [
+            (["settings", "protocol"], "none"),
+            (["margins", "friction"], REMOVED),
+            (["margins", "weakest_finger", "step"], REMOVED),
+            (["margins", "stress", "direction"], "up"),
+            (["steps", 0, "simulation", "motion_m"], -1),
+            (["steps", 0, "simulation", "cone_margin_deg", "rest"], REMOVED),
+            (["steps", 0, "simulation", "fingers", 0, "finger"], "thumb"),
+            (["steps", 0, "protocols", "adapted", "verdict"], "maybe"),
+            (["steps", 0, "protocols", "fixed", "give_m"], REMOVED),
+            (["steps", 0, "protocols", "loose"], {}),
+            (["steps", 0, "protocols"], {}),
+            (["steps", 0, "stress", 0, "replay"], -1),
+            (["steps", 0, "stress"], []),
+            (["steps", 0, "weakest_finger", "margin_deg"], REMOVED),
+            (["steps", causes[0], "cause", "cause"], "bad luck"),
+            (["steps", causes[0], "cause", "text"], ""),
+        ])
+
     def test_wrong_grasps_are_refused(self):
         grasp = validate_schema.load(source("models/cube.start.json"))
         self.expect_refused("grasp", grasp, [

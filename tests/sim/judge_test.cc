@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace regrasp {
 namespace {
 
@@ -51,6 +53,47 @@ TEST(JudgeTest, ALostContactComesBeforeASlipBeforeAMotion) {
   judge.Start(Pose(0, 0));
   EXPECT_EQ(judge.reason(), Reason::kNone);
   EXPECT_TRUE(judge.detail().empty());
+}
+
+TEST(JudgeTest, TheGiveOfTheServosIsNoMotion) {
+  Judge judge(UnitSettings());
+  judge.Start(Pose(0, 0));
+  judge.SetGiving(true);
+  judge.AddPose(Pose(0.1, 0));
+  judge.SetGiving(false);
+  judge.AddPose(Pose(0.0005, 0));
+  EXPECT_EQ(judge.reason(), Reason::kNone);
+  EXPECT_NEAR(judge.give_m(), 0.1, 1e-12);
+  EXPECT_NEAR(judge.moved_m(), 0.0005, 1e-12);
+  judge.AddPose(Pose(0.1, 0));
+  EXPECT_EQ(judge.reason(), Reason::kObjectMoved) << "an object that does not come back has moved";
+}
+
+TEST(JudgeTest, MotionIsTheLargestSumOfShiftAndTurnNotTheSumOfTheLargest) {
+  Judge judge(UnitSettings());
+  judge.Start(Pose(0, 0));
+  judge.AddPose(Pose(0.0006, 0));
+  judge.AddPose(Pose(0, 0.0008));
+  EXPECT_NEAR(judge.moved_m(), 0.0008, 1e-9);
+  EXPECT_NEAR(judge.displacement_m() + judge.rotation_rad(), 0.0014, 1e-9);
+  EXPECT_EQ(judge.reason(), Reason::kNone);
+}
+
+TEST(JudgeTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
+  ReplaySettings settings = UnitSettings();
+  settings.mu = 1;
+  settings.squeeze_N = 10;
+  Judge judge(settings);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  judge.AddForce(0, {0, 0, 5}, up);
+  judge.AddForce(1, {0, 2, 2}, up);
+  judge.AddForce(1, {0, 0, 2}, up);
+  judge.AddForce(2, {0, 0.004, 0.004}, up);  // hardly presses
+  ASSERT_EQ(judge.margins().size(), 2u);
+  EXPECT_NEAR(judge.margins().at(0), std::atan(1.0), 1e-12);
+  EXPECT_NEAR(judge.margins().at(1), 0, 1e-12);
+  judge.ForgetForces();
+  EXPECT_TRUE(judge.margins().empty());
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ struct Scene {
     step.replay->index = index;
     step.replay->displacement_m = 4.14e-6;
     step.replay->rotation_deg = Degrees(1e-4);
+    step.replay->moved_m = 6e-6;
     step.replay->slip_m = 2e-9;
   }
 };
@@ -129,7 +130,7 @@ TEST(ReportPageTest, ASingleGraspHasALineForEachFingerAndNoPlots) {
   EXPECT_THAT(page, HasSubstr("<dd>0.123</dd>"));
   EXPECT_THAT(page, HasSubstr("9.00°"));
   EXPECT_EQ(Count(page, "<svg"), 0);
-  EXPECT_EQ(Count(page, "<table"), 2);
+  EXPECT_EQ(Count(page, "<table"), 3);
 }
 
 TEST(ReportPageTest, PicturesStandInThePage) {
@@ -147,6 +148,7 @@ TEST(ReportPageTest, ValuesThatAreNotFiniteBreakNothing) {
   Scene scene(/*fails=*/true);
   scene.report.steps[1].replay->reason = Reason::kSimulationUnstable;
   scene.report.steps[1].replay->displacement_m = std::numeric_limits<double>::infinity();
+  scene.report.steps[1].replay->moved_m = std::numeric_limits<double>::infinity();
   scene.report.steps[1].replay->slip_m = std::nan("");
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});
   EXPECT_THAT(page, HasSubstr("simulation-unstable"));
@@ -159,35 +161,21 @@ TEST(ReportPageTest, ManyPicturesAreSmaller) {
   EXPECT_GE(PagePictureWidth(100000), 200);
 }
 
-TEST(StepMeasuresTest, MotionCountsTurnsAtHalfTheDiameter) {
+TEST(StepMeasuresTest, MotionIsWhatTheToleranceIsAbout) {
   const Scene scene(/*fails=*/true);
   const std::vector<StepMeasures> measures = MeasureSteps(scene.report);
   ASSERT_EQ(measures.size(), 3u);
-  EXPECT_THAT(measures[0].moved_m, Optional(DoubleNear(4.14e-6 + 0.03 * 1e-4, 1e-12)));
+  EXPECT_THAT(measures[0].moved_m, Optional(DoubleNear(6e-6, 1e-12)));
   EXPECT_THAT(measures[0].margin_deg, Optional(DoubleNear(7.5, 1e-9)));
   EXPECT_THAT(measures[0].slip_m, Optional(2e-9));
   EXPECT_FALSE(measures[2].moved_m || measures[2].margin_deg || measures[2].slip_m);
 }
 
-FingerState MakeFinger(FingerRole role, double degrees, double force_N) {
-  FingerState finger;
-  finger.role = role;
-  finger.normal_W = Eigen::Vector3d::UnitZ();
-  const double angle = Radians(degrees);
-  finger.force_W = force_N * Eigen::Vector3d(std::sin(angle), 0, std::cos(angle));
-  return finger;
-}
-
 TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
-  Snapshot snapshot;
-  EXPECT_FALSE(ConeMarginAtRest(snapshot, 0.5));
-  snapshot.fingers = {MakeFinger(FingerRole::kHolding, 5, 2), MakeFinger(FingerRole::kPlaced, 9, 1),
-                      MakeFinger(FingerRole::kFree, 80, 1),
-                      MakeFinger(FingerRole::kReleased, 80, 1),
-                      MakeFinger(FingerRole::kHolding, 0, 0)};
-  EXPECT_THAT(ConeMarginAtRest(snapshot, Radians(20)), Optional(DoubleNear(Radians(11), 1e-12)));
-  snapshot.fingers.push_back(MakeFinger(FingerRole::kMoved, 30, 1));
-  EXPECT_THAT(ConeMarginAtRest(snapshot, Radians(20)), Optional(DoubleNear(-Radians(10), 1e-12)));
+  Scene scene(/*fails=*/false);
+  EXPECT_FALSE(MeasureSteps(scene.report)[1].rest_margin_deg);
+  scene.report.steps[1].replay->rest_margins = {{0, Radians(11)}, {3, Radians(8)}};
+  EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
 }
 
 }  // namespace

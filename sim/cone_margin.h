@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+
+namespace regrasp {
+
+/// What is left of the friction of a contact: the friction half-angle minus the angle between the
+/// force on the object and the inward normal, radians. 0 where the force lies on its cone, negative
+/// outside.
+/// @param normal  unit.
+/// @pre the force is not zero.
+[[nodiscard]] double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
+                                double half_angle);
+
+/// The smallest margin that each finger came to, radians, by the finger's number. A finger that
+/// never pressed has none.
+using FingerMargins = std::map<int, double>;
+
+/// Of several margins of a finger the smallest stays.
+void AddMargin(int finger, double margin, FingerMargins& margins);
+
+/// The smallest of all.
+[[nodiscard]] std::optional<double> SmallestMargin(const FingerMargins& margins);
+
+/// The finger with the smallest, −1 for none.
+[[nodiscard]] int FingerOfSmallestMargin(const FingerMargins& margins);
+
+/// Fingers that press with less than this, over the squeeze, have no margin: the angle of a force
+/// that comes or goes says nothing, and what it can slip is nothing.
+inline constexpr double kPressing = 1e-3;
+
+/// A margin below this is a force that reached its cone, radians (0.03°): the engine keeps forces
+/// inside to 1e-6, forces planned with a margin of a hundredth of the cone stay a tenth of a degree
+/// off.
+inline constexpr double kConeReached = 5e-4;
+
+}  // namespace regrasp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/grasp/finger_friction.h"
+#include "planner/object/wrench_frame.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp {
+
+/// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
+struct NeedOfFinger {
+  int finger = 0;
+  FingerFriction friction;
+};
+
+/// What every finger of the grasps of an entry needs, at rest: of the hold the initial grasp, of a
+/// switch the grasps before and after it, of an align the grasps at its waypoints. A finger that
+/// holds in several of them has an element for each. Empty for an entry without contacts.
+/// @param located  contacts on the surface, in the unit of `frame`.
+/// @param index    0 is the hold, k the plan's k-th step.
+[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const Plan& located, int index,
+                                                     const WrenchFrame& frame, double half_angle);
+
+/// Index of the finger with the least of its own friction to spare, as planner/grasp/
+/// finger_friction.h has it; −1 for none.
+[[nodiscard]] int WeakestOf(const std::vector<NeedOfFinger>& needs);
+
+/// The grasps of an entry, in the order of time (see NeedsOfEntry).
+[[nodiscard]] std::vector<FingerGrasp> GraspsOfEntry(const Plan& located, int index);
+
+}  // namespace regrasp
