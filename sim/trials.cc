@@ -45,6 +45,7 @@ TrialSummary RunTrials(const Object& object, const Plan& plan, const ReplayOptio
     RandomStream world(trials.seed, RandomUse::kTrialWorld, trial);
     RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
     ReplayOptions drawn = options;
+    drawn.stress = false;  // of the nominal replay alone
     drawn.friction_factor = DrawFactor(trials.friction_error, world);
     drawn.mass_factor = DrawFactor(trials.mass_error, world);
     const Plan noisy = AddContactNoise(object, plan, noise, contacts);
