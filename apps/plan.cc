@@ -14,8 +14,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
-#include "planner/contour/plan_planar.h"
-#include "planner/general/plan_general.h"
+#include "planner/general/plan_auto.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reach.h"
 #include "planner/polyhedron/plan_spatial.h"
@@ -46,9 +45,9 @@ struct PlanProgram {
 
   void AddTo(CLI::App& app) {
     common.AddTo(app, {.in_plane = "contour where start and goal are 2-finger grasps and it joins "
-                                   "them, otherwise polygon",
+                                   "them, polygon where that does, otherwise general",
                        .in_space = "polyhedron where start and goal are in its graph and joined, "
-                                   "otherwise roadmap"});
+                                   "otherwise general; or roadmap where its options are given"});
     const std::string kinds =
         ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
         "or random-any (evenly over the surface)";
@@ -68,7 +67,7 @@ struct PlanProgram {
     AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
               "Radius of the fingers, in the object file's own unit of length: contacts that a "
               "finger cannot come to straight along the normal, and grasps in which two fingers "
-              "overlap, are avoided (default: fingers are points); not for the planner general")
+              "overlap, are avoided (default: fingers are points)")
         ->type_name("R");
     app.add_flag("--no-lazy", no_lazy,
                  "On a roadmap of clusters: no search among the grasps of all contact points where "
@@ -109,6 +108,12 @@ struct PlanProgram {
   PlanResult PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const;
   PlanResult PlanAnyGrasps(const Object& object, const ProgressReport& report) const;
   void CheckUsage() const;
+  [[nodiscard]] bool AsksForRoadmap() const {
+    return no_lazy || common.contacts.has_value() || common.clusters.has_value();
+  }
+  [[nodiscard]] SwitchAim contour_aim() const {
+    return optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
+  }
   PlanResult PlanInPlane(const Polygon& polygon, const ProgressReport& report) const;
   void PrintSummary(const PlanResult& result, double seconds) const;
 };
@@ -127,9 +132,11 @@ PlanResult PlanProgram::Find(const ObjectFile& object) const {
   const auto report = [&](std::string_view text) { progress.Report(text); };
   const bool planar = object.object->dimension() == 2;
   PlanResult result;
-  if (common.planner == "general") return PlanAnyGrasps(*object.object, report);
-  const bool spatial = common.planner == "roadmap" || common.planner == "polyhedron";
-  if (spatial || (common.planner == "auto" && !planar)) {
+  const bool automatic = common.planner == "auto" && !AsksForRoadmap();
+  if (common.planner == "general" || automatic) {
+    result = PlanAnyGrasps(*object.object, report);
+  } else if (common.planner == "roadmap" || common.planner == "polyhedron" ||
+             (common.planner == "auto" && !planar)) {
     result = PlanOnSolid(SolidOf(object, common), report);
   } else {
     result = PlanInPlane(PolygonOf(object, common), report);
@@ -161,13 +168,16 @@ PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport
   options.seed = common.seed;
   options.min_quality = min_quality;
   options.effort = effort;
+  options.finger_radius = finger_radius;
   options.time_limit_s = time_limit_s;
   options.explain = explain;
   options.progress = report;
   if (optimize == "margin") options.aim = GeneralAim::kMargin;
   if (optimize == "travel") options.aim = GeneralAim::kTravel;
-  return PlanGeneral(object, Choose("--start", start, object), Choose("--goal", goal, object),
-                     options);
+  const GraspChoice from = Choose("--start", start, object);
+  const GraspChoice to = Choose("--goal", goal, object);
+  if (common.planner == "general") return PlanGeneral(object, from, to, options);
+  return PlanAuto(object, from, to, {options, common.spanning_value(), contour_aim()});
 }
 
 PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {
@@ -176,17 +186,13 @@ PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport
   const double half_angle = common.friction.required_half_angle();
   const PolygonPlanOptions options = {
       half_angle, common.spanning_value(), common.seed, min_quality, report, finger_radius};
-  const SwitchAim aim = optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
   if (common.planner == "polygon") return PlanOnPolygon(polygon, from, to, options);
-  if (common.planner == "auto") return PlanPlanar(polygon, from, to, {options, aim});
-  return PlanOnContour(polygon, from, to,
-                       {half_angle, common.seed, min_quality, aim, report, finger_radius});
+  return PlanOnContour(
+      polygon, from, to,
+      {half_angle, common.seed, min_quality, contour_aim(), report, finger_radius});
 }
 
 void PlanProgram::CheckUsage() const {
-  if (finger_radius > 0 && common.planner == "general") {
-    throw InputError("--finger-radius: the planner general plans for fingers that are points");
-  }
   const auto is = [&](const char* planner) {
     return common.planner == planner || common.planner == "auto";
   };

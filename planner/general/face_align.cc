@@ -7,6 +7,7 @@
 #include "planner/certificate/find_motion_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/contact_motion.h"
+#include "planner/plan/plan_reach.h"
 
 namespace regrasp {
 
@@ -55,6 +56,18 @@ bool HaveEqualNeighbours(const std::vector<int>& contacts, const SearchSpace& sp
   return std::adjacent_find(contacts.begin(), contacts.end(), [&](int a, int b) {
            return space.contact(a).face == space.contact(b).face;
          }) != contacts.end();
+}
+
+/// Whether fingers that are no points can carry the motion out.
+bool IsFree(const GraspMotion& motion, const SearchSpace& space) {
+  if (space.demands().finger_radius == 0) return true;
+  Align align{{{}, {}}};
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    align.waypoints[0].push_back({static_cast<int>(i), motion[i].from()});
+    align.waypoints[1].push_back({static_cast<int>(i), motion[i].to()});
+  }
+  return !FindStepObstacle(space.object(), align.waypoints[0], align,
+                           space.demands().finger_radius);
 }
 
 }  // namespace
@@ -109,7 +122,7 @@ std::optional<FaceAlign> AlignStraight(const ContactSet& from, const ContactSet&
     }
     motion.emplace_back(start, end);
   }
-  if (!SeemsToHold(motion, space)) return std::nullopt;
+  if (!SeemsToHold(motion, space) || !IsFree(motion, space)) return std::nullopt;
   auto proof = FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
   if (!proof) return std::nullopt;
   align.proof = *std::move(proof);

@@ -37,13 +37,15 @@ const double kLargestExplained = Radians(85);
 /// The effort of one search of --explain over that of the search that found nothing.
 constexpr int kExplainEffortShare = 4;
 
+int FingersOf(const Object& object) { return object.dimension() == 3 ? 5 : 4; }
+
 class Planner {
  public:
   Planner(const Object& object, const GeneralPlanOptions& options)
       : object_(object),
         options_(options),
-        judge_(object, options.half_angle, options.min_quality),
-        source_(object),
+        judge_(object, options.half_angle, options.min_quality, options.finger_radius),
+        source_(object, options.finger_radius),
         random_(options.seed, RandomUse::kCandidates) {
     if (options.time_limit_s) {
       deadline_ = std::chrono::steady_clock::now() +
@@ -53,8 +55,8 @@ class Planner {
   }
 
   PlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {
-    const Grasp from = Fix(start, RandomUse::kStart);
-    const Grasp to = Fix(goal, RandomUse::kGoal);
+    const Grasp from = FixGrasp(object_, start, RandomUse::kStart, options_).grasp;
+    const Grasp to = FixGrasp(object_, goal, RandomUse::kGoal, options_).grasp;
     std::optional<Found> best = Find(from, to, 0);
     if (!best) return NoSequence(from, to);
     if (!IsGood(*best)) {
@@ -79,33 +81,13 @@ class Planner {
     bool out_of_time = false;
   };
 
-  Grasp Fix(const GraspChoice& choice, RandomUse use) const {
-    const int fewest = object_.dimension() == 3 ? 3 : 2;
-    if (choice.kind == Kind::kGiven) {
-      CheckGivenGrasp(choice, {"general", fewest, fingers_}, judge_.frame(), options_.half_angle,
-                      kSamePoint * object_.diameter());
-      return choice.grasp;
-    }
-    RandomStream random(options_.seed, use);
-    if (const auto* solid = dynamic_cast<const Polyhedron*>(&object_)) {
-      return DrawOnSurface(*solid, kRandomContacts, judge_, random, choice.name);
-    }
-    const auto& polygon = dynamic_cast<const Polygon&>(object_);
-    if (auto grasp = DrawAnyGrasp(polygon, kFewestPlanar, kMostPlanar, judge_, random)) {
-      return *grasp;
-    }
-    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                  " grasps drawn on the boundary is force closure with a quality of at least " +
-                  FormatShort(options_.min_quality)};
-  }
-
   [[nodiscard]] bool IsGood(const Found& found) const {
     return std::all_of(found.draft.rests.begin(), found.draft.rests.end(),
                        [&](const Rest& rest) { return judge_.Score(rest.grasp) >= 0; });
   }
 
   SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
-    SearchSpace space(object_, {half_angle, 0, min_quality});
+    SearchSpace space(object_, {half_angle, 0, min_quality, options_.finger_radius});
     space.SetLimits({effort, deadline_});
     return space;
   }
@@ -201,12 +183,39 @@ class Planner {
   GraspJudge judge_;
   SurfaceSource source_;
   RandomStream random_;
-  int fingers_ = object_.dimension() == 3 ? 5 : 4;
+  int fingers_ = FingersOf(object_);
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   Reach reach_;
 };
 
 }  // namespace
+
+GraspChoice FixGrasp(const Object& object, const GraspChoice& choice, RandomUse use,
+                     const GeneralPlanOptions& options) {
+  const GraspJudge judge(object, options.half_angle, options.min_quality, options.finger_radius);
+  if (choice.kind == Kind::kGiven) {
+    const int fewest = object.dimension() == 3 ? 3 : 2;
+    CheckGivenGrasp(choice, {"general", fewest, FingersOf(object)}, judge.frame(),
+                    options.half_angle, kSamePoint * object.diameter());
+    CheckFingersFit(choice, object, options.finger_radius);
+    return choice;
+  }
+  GraspChoice fixed{Kind::kGiven, {}, choice.name};
+  RandomStream random(options.seed, use);
+  if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
+    fixed.grasp = DrawOnSurface(*solid, kRandomContacts, judge, random, choice.name);
+    return fixed;
+  }
+  const auto& polygon = dynamic_cast<const Polygon&>(object);
+  const auto grasp = DrawAnyGrasp(polygon, kFewestPlanar, kMostPlanar, judge, random);
+  if (!grasp) {
+    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
+                  " grasps drawn on the boundary is force closure with a quality of at least " +
+                  FormatShort(options.min_quality)};
+  }
+  fixed.grasp = *grasp;
+  return fixed;
+}
 
 PlanResult PlanGeneral(const Object& object, const GraspChoice& start, const GraspChoice& goal,
                        const GeneralPlanOptions& options) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "planner/base/random.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
 #include "planner/object/object.h"
@@ -23,6 +24,7 @@ struct GeneralPlanOptions {
   std::uint64_t seed = 0;
   /// Quality that random grasps have at least, and the sequence's grasps where there is a way.
   double min_quality = 0.01;
+  double finger_radius = 0;  ///< of fingers that are not points (reach.h), the object's unit
   GeneralAim aim = GeneralAim::kSteps;
   /// Force-closure tests after which a search gives up; about two microseconds each.
   std::int64_t effort = kDefaultEffort;
@@ -52,5 +54,11 @@ struct GeneralPlanOptions {
 /// @throws std::invalid_argument  an option is out of its range.
 [[nodiscard]] PlanResult PlanGeneral(const Object& object, const GraspChoice& start,
                                      const GraspChoice& goal, const GeneralPlanOptions& options);
+
+/// A start or goal as PlanGeneral takes it: a given one checked, a random one drawn evenly over the
+/// surface, of four contacts in space, in the plane of two or three by the seed.
+/// @throws InputError  it does not serve. @throws NoGrasp  none was drawn.
+[[nodiscard]] GraspChoice FixGrasp(const Object& object, const GraspChoice& choice, RandomUse use,
+                                   const GeneralPlanOptions& options);
 
 }  // namespace regrasp

@@ -1,10 +1,12 @@
 #include "planner/general/search_space.h"
 
 #include <algorithm>
+#include <array>
 
 #include "planner/graph/grasp_choice.h"
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/quality.h"
+#include "planner/plan/reach.h"
 
 namespace regrasp {
 
@@ -59,8 +61,9 @@ Grasp SearchSpace::GraspOf(const ContactSet& set) const {
   return grasp;
 }
 
-bool SearchSpace::CanMeet(int a, int b) const {
-  return (contacts_[a].p - contacts_[b].p).squaredNorm() > same_point_ * same_point_;
+bool SearchSpace::CanMeet(const Contact& a, const Contact& b) const {
+  if ((a.p - b.p).squaredNorm() <= same_point_ * same_point_) return false;
+  return demands_.finger_radius == 0 || KeepApart(std::array{a, b}, demands_.finger_radius);
 }
 
 bool SearchSpace::CanMeet(const ContactSet& set, int contact) const {
@@ -85,7 +88,7 @@ bool SearchSpace::Admits(const ContactSet& set) {
 bool SearchSpace::IsAdmitted(const Grasp& grasp) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if ((grasp[i].p - grasp[j].p).norm() <= same_point_) return false;
+      if (!CanMeet(grasp[i], grasp[j])) return false;
     }
   }
   UnitContacts contacts = MakeUnitContacts(grasp, frame_);

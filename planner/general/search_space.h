@@ -21,6 +21,8 @@ struct GraspDemands {
   double margin = 0;
   /// Grasps are at least this good (QualityClearlyAtLeast); 0: force closure is enough.
   double min_quality = 0;
+  /// Of fingers that are not points (KeepApart), the object's unit of length.
+  double finger_radius = 0;
 };
 
 /// When a search gives up.
@@ -61,7 +63,8 @@ class SearchSpace {
   [[nodiscard]] Grasp GraspOf(const ContactSet& set) const;
 
   /// Whether two fingers can stand at two contacts at once.
-  [[nodiscard]] bool CanMeet(int a, int b) const;
+  [[nodiscard]] bool CanMeet(int a, int b) const { return CanMeet(contacts_[a], contacts_[b]); }
+  [[nodiscard]] bool CanMeet(const Contact& a, const Contact& b) const;
   /// Whether a finger can come to `contact` while others hold `set`.
   [[nodiscard]] bool CanMeet(const ContactSet& set, int contact) const;
 

@@ -7,6 +7,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/clearance.h"
+#include "planner/plan/reach.h"
 
 namespace regrasp {
 
@@ -25,7 +26,8 @@ constexpr double kFirstLook = 1.0 / 16;
 
 }  // namespace
 
-SurfaceSource::SurfaceSource(const Object& object) : object_(object) {
+SurfaceSource::SurfaceSource(const Object& object, double finger_radius)
+    : object_(object), finger_radius_(finger_radius) {
   const auto* solid = dynamic_cast<const Polyhedron*>(&object);
   for (int face = 0; face < object.face_count(); ++face) {
     first_piece_.push_back(static_cast<int>(pieces_.size()));
@@ -41,6 +43,10 @@ SurfaceSource::SurfaceSource(const Object& object) : object_(object) {
     }
   }
   first_piece_.push_back(static_cast<int>(pieces_.size()));
+}
+
+bool SurfaceSource::Serves(const Contact& contact) const {
+  return HasStandingRoom(object_, contact) && CanReach(object_, contact, finger_radius_);
 }
 
 void SurfaceSource::AddPiece(const Piece& piece, double measure) {
@@ -63,7 +69,7 @@ Contact SurfaceSource::DrawBetween(double from, double to, RandomStream& random)
     const auto above = std::upper_bound(up_to_.begin(), up_to_.end(), at);
     const auto last = static_cast<std::ptrdiff_t>(up_to_.size()) - 1;
     contact = DrawIn(pieces_[std::min(above - up_to_.begin(), last)], random);
-    if (HasStandingRoom(object_, contact)) break;
+    if (Serves(contact)) break;
   }
   return contact;
 }
@@ -87,7 +93,7 @@ Contact SurfaceSource::DrawNear(const Contact& contact, double reach, RandomStre
     const double v = space ? (2 * random.Uniform() - 1) * reach : 0;
     const Vector3d p = object_.ClosestPoint(contact.face, contact.p + u * along + v * across);
     const Contact near{p, contact.n, contact.face};
-    if (HasStandingRoom(object_, near)) return near;
+    if (Serves(near)) return near;
   }
   return contact;
 }
@@ -107,7 +113,7 @@ Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
     if (faces.empty()) continue;
     const Contact near{object_.ClosestPoint(faces.front(), p), object_.inward_normal(faces.front()),
                        faces.front()};
-    if (HasStandingRoom(object_, near)) return near;
+    if (Serves(near)) return near;
   }
   return contact;
 }

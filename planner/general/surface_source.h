@@ -9,11 +9,12 @@
 namespace regrasp {
 
 /// Random contacts, evenly over a body's surface or over one of its faces, in space and in the
-/// plane, where fingers have room (HasStandingRoom).
+/// plane, where fingers have room (HasStandingRoom) and, where they are no points, come to
+/// (CanReach).
 class SurfaceSource {
  public:
-  /// @param object  outlives this object.
-  explicit SurfaceSource(const Object& object);
+  /// @param object  outlives this object. @param finger_radius  its unit of length; 0: points.
+  explicit SurfaceSource(const Object& object, double finger_radius = 0);
 
   [[nodiscard]] Contact Draw(RandomStream& random) const;
   [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
@@ -31,11 +32,13 @@ class SurfaceSource {
     int face;
   };
 
+  [[nodiscard]] bool Serves(const Contact& contact) const;
   void AddPiece(const Piece& piece, double measure);
   [[nodiscard]] Contact DrawIn(const Piece& piece, RandomStream& random) const;
   [[nodiscard]] Contact DrawBetween(double from, double to, RandomStream& random) const;
 
   const Object& object_;
+  double finger_radius_;
   std::vector<Piece> pieces_;     ///< those of one face together
   std::vector<double> up_to_;     ///< running sums of their areas or lengths
   std::vector<int> first_piece_;  ///< by face, and the number of pieces at the end

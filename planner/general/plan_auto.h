@@ -1,0 +1,26 @@
+#pragma once
+
+#include "planner/contour/plan_planar.h"
+#include "planner/general/plan_general.h"
+#include "planner/polygon/grasp_set.h"
+
+namespace regrasp {
+
+struct AutoPlanOptions {
+  GeneralPlanOptions general;  ///< friction, seed, quality and progress count for all
+  Spanning spanning = Spanning::kAdaptive;
+  SwitchAim contour_aim = SwitchAim::kRoom;
+};
+
+/// Plans with the planner that fits: an exact one (polyhedron in space; contour, then polygon in
+/// the plane) where it joins start and goal by good grasps, otherwise PlanGeneral, and where that
+/// fails what the exact one said of weaker grasps. A note says why it was not an exact one. Exact
+/// planners are asked only on bodies of a size that they answer for soon, for grasps of a number of
+/// contacts that they know, and where the aim is GeneralAim::kSteps.
+///
+/// Random grasps are drawn evenly over the surface, whatever the planner.
+/// @throws as PlanGeneral.
+[[nodiscard]] PlanResult PlanAuto(const Object& object, const GraspChoice& start,
+                                  const GraspChoice& goal, const AutoPlanOptions& options);
+
+}  // namespace regrasp
