@@ -18,7 +18,7 @@ struct PlanResult {
   Status status = Status::kFound;
   std::string message;                ///< for a negative answer: what was searched
   std::vector<std::string> warnings;  ///< grasps below the quality that was asked for
-  std::vector<std::string> notes;  ///< what was gained by making the sequence better, for people
+  std::vector<std::string> notes;     ///< what was gained by making the sequence better, for people
   /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
   std::optional<Plan> plan;
   double margin = 0;  ///< smallest of half_angle − required half-angle over all grasps at rest

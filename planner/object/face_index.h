@@ -25,8 +25,7 @@ class FaceIndex {
   [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const;
   [[nodiscard]] std::vector<int> FacesNear(const Eigen::Vector3d& point, double tolerance) const;
   [[nodiscard]] std::vector<int> FacesNearSegment(const Eigen::Vector3d& a,
-                                                  const Eigen::Vector3d& b,
-                                                  double tolerance) const;
+                                                  const Eigen::Vector3d& b, double tolerance) const;
   [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const;
   [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      double tolerance) const;

@@ -73,7 +73,7 @@ class Plan(ProgramCase):
                 self.assertEqual(plan["format"], "regrasp-plan")
                 # Of the solids of many faces the grasps are concurrent and joined.
                 self.assertEqual(plan["planner"],
-                                 "polyhedron" if name.startswith("body") else "roadmap")
+                                 "polyhedron" if name.startswith("body") else "general")
                 self.assertEqual(plan["fingers"], 5)
                 self.assertGreater(len(plan["steps"]), 0)
 
@@ -209,7 +209,7 @@ class Plan(ProgramCase):
              {"point": [0.01, -0.03]}, {"point": [-0.01, 0.03]}]))
         said = self.assert_refused(1, "in none of the", *self.polygon_arguments(
             object=self.model("square.wkt"), goal=self.model("square.goal.json"), start=start,
-            friction_angle="5")).stderr
+            friction_angle="5", planner="polygon")).stderr
         self.assertIn(start, said)
 
     def test_steps_lead_from_the_start_to_the_goal(self):

@@ -118,8 +118,6 @@ class Reach(ProgramCase):
                 self.assert_refused(2, "--finger-radius", *cube, "--finger-radius", radius)
         self.assert_refused(2, ["--finger-radius: 4 is more than the object's diameter of 0.10"],
                             *cube, "--finger-radius", "4")
-        self.assert_refused(2, ["--finger-radius", "general"], *cube, "--finger-radius", "0.004",
-                            "--planner", "general")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "replay_cases.h"
 #include "planner/plan/clearance.h"
+#include "replay_cases.h"
 #include "sim/contact_patches.h"
 
 namespace regrasp {
