@@ -200,6 +200,9 @@ void PlanProgram::CheckUsage() const {
     throw InputError("--no-lazy: the planner " + common.planner +
                      " has no last resort; roadmap has");
   }
+  if (common.planner == "general" && AsksForRoadmap()) {
+    throw InputError("--contacts and --clusters: the planner general has none; roadmap has");
+  }
   if (optimize == "regions" && !is("contour")) {
     throw InputError("--optimize regions: the planner " + common.planner +
                      " has no such regions; contour has");

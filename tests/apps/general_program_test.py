@@ -74,6 +74,7 @@ class General(ProgramCase):
                 ("--explain", self.arguments("cube.obj", 0, "--explain", planner="roadmap")),
                 ("--time-limit", self.arguments("cube.obj", 0, "--time-limit", "1",
                                                 planner="polyhedron")),
+                ("--clusters", self.arguments("cube.obj", 0, "--clusters", "20")),
                 ("--optimize regions", self.arguments("cube.obj", 0, "--optimize", "regions")),
                 ("--effort", self.arguments("cube.obj", 0, "--effort", "0")),
                 ("--time-limit", self.arguments("cube.obj", 0, "--time-limit", "-1"))):

@@ -396,7 +396,7 @@ class Plan(ProgramCase):
         self.assert_refused(2, "--seed", *self.arguments(seed="1"), "--seed", "2")
 
     def test_refuses_planners_that_do_not_exist(self):
-        for planner in ("general", "none", ""):
+        for planner in ("generals", "none", ""):
             self.refuse("planner", planner=planner)
         self.refuse("--spanning", spanning="neither")
 
