@@ -90,7 +90,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     }
     return answer;
   };
-  return {"general, search only", "", 0, ask};
+  return {"general (search only)", "", 0, ask};
 }
 
 Contender OnPolyhedron(const Polyhedron& solid, const ContestSetting& setting) {

@@ -134,7 +134,7 @@ class Tables {
     for (const TableFile* table : {&space_, &plane_, &quality_}) WriteTable(*table, folder);
   }
 
-  /// Settings with at least one pair, and those in which a planner joins more than general.
+  /// Settings with a pair and another planner, and those in which one joins more than general.
   [[nodiscard]] int contest_count() const { return contests_; }
   [[nodiscard]] int better_count() const { return better_; }
 
@@ -161,7 +161,7 @@ class Tables {
       table.rows.push_back(std::move(row));
       Report(table.rows.back());
     }
-    contests_ += pairs.empty() ? 0 : 1;
+    contests_ += !pairs.empty() && contenders.size() > 1 ? 1 : 0;
     if (const auto better = FindBetterThanGeneral(contest)) {
       ++better_;
       std::printf("%s, %s°, %s contacts: %s joins more than general\n", name.c_str(),
