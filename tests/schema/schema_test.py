@@ -219,7 +219,8 @@ class SchemaTest(unittest.TestCase):
             out = pathlib.Path(folder) / "out"
             cube = source("models/cube.obj")
             self.run_program(
-                "plan", "--object", cube, "--friction-angle", 25, "--output", plan, "--start",
+                "plan", "--object", cube, "--friction-angle", 25, "--planner", "roadmap", "--output",
+                plan, "--start",
                 source("models/cube.start.json"), "--goal", source("models/cube.goal.json"),
             )
             # A shake that adapted forces resist and a fixed squeeze does not.
