@@ -15,13 +15,14 @@
 #include <vector>
 
 #include "planner/base/angle.h"
-#include "planner/certificate/check_motion_proof.h"
-#include "planner/certificate/find_motion_proof.h"
-#include "planner/certificate/moving_forces.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/find_motion_proof.h"
+#include "planner/motion/moving_forces.h"
+#include "planner/motion/path_force_closure.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
-#include "planner/plan/path_force_closure.h"
+#include "planner/plan/motion_fault.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "planner/certificate/check_motion_proof.h"
-#include "planner/certificate/find_motion_proof.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/plan/locate.h"
 
 namespace regrasp {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "planner/certificate/check_proof.h"
+#include "planner/motion/proof_verdict.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/certificate/exact_balance.h"
+#include "planner/motion/exact_balance.h"
 
 namespace regrasp {
 

@@ -1,27 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string>
-#include <vector>
 
 #include "planner/certificate/force_proof.h"
 #include "planner/grasp/contact.h"
+#include "planner/motion/proof_verdict.h"
 
 namespace regrasp {
-
-/// What exact arithmetic says of a proof.
-struct ProofVerdict {
-  enum class Kind {
-    kForceClosure,     ///< proved
-    kNotForceClosure,  ///< refuted
-    kNothing,          ///< the proof proves neither
-  };
-  Kind kind = Kind::kNothing;
-  std::string why;  ///< of kNothing, for people
-
-  /// Force closure is proved.
-  [[nodiscard]] bool proves() const { return kind == Kind::kForceClosure; }
-};
 
 /// Checks a proof in exact rational arithmetic, every double taken at its value: contacts, friction
 /// and forces. What decides force closure in floating point is not used.

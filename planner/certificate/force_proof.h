@@ -4,8 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "planner/plan/motion_piece.h"  // IWYU pragma: export
-
 namespace regrasp {
 
 /// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "planner/certificate/align_certificate.h"
-#include "planner/certificate/check_motion_proof.h"
-#include "planner/certificate/find_motion_proof.h"
 #include "planner/certificate/find_proof.h"
-#include "planner/plan/contact_motion.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/plan/motion_piece_json.h"
 
 namespace regrasp {

@@ -6,6 +6,8 @@
 
 #include "planner/certificate/check_proof.h"
 #include "planner/certificate/force_proof.h"
+#include "planner/motion/motion_piece.h"
+#include "planner/motion/proof_verdict.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
 

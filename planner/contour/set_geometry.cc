@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/plan/tolerance.h"
+#include "planner/grasp/angle_between.h"
 
 namespace regrasp {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "planner/certificate/find_motion_proof.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/contact_motion.h"
+#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/plan/plan_reach.h"
 
 namespace regrasp {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "planner/certificate/force_proof.h"
 #include "planner/general/search_space.h"
 #include "planner/grasp/contact.h"
+#include "planner/motion/motion_piece.h"
 
 namespace regrasp {
 

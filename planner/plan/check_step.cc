@@ -4,9 +4,11 @@
 #include <set>
 
 #include "planner/base/number.h"
+#include "planner/grasp/angle_between.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
-#include "planner/plan/path_force_closure.h"
+#include "planner/plan/motion_fault.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/plan/tolerance.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
+#include "planner/grasp/angle_between.h"
 #include "planner/plan/locate_align.h"
 #include "planner/plan/tolerance.h"
 

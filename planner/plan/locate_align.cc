@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/plan/contact_motion.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/motion_fault.h"
 
 namespace regrasp {
 

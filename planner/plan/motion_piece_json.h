@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "planner/motion/motion_piece.h"
 #include "planner/plan/json_reader.h"
-#include "planner/plan/motion_piece.h"
 
 namespace regrasp {
 

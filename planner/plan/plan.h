@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/grasp/contact.h"
-#include "planner/plan/motion_piece.h"
+#include "planner/motion/motion_piece.h"
 
 namespace regrasp {
 

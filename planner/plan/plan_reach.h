@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "planner/motion/contact_motion.h"
 #include "planner/object/object.h"
-#include "planner/plan/contact_motion.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp {

@@ -4,6 +4,7 @@
 #include <boost/graph/max_cardinality_matching.hpp>
 #include <vector>
 
+#include "planner/grasp/angle_between.h"
 #include "planner/plan/tolerance.h"
 
 namespace regrasp {

@@ -7,7 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
-#include "tests/planner/certificate/random_boxes.h"
+#include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp {
 namespace {

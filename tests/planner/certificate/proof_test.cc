@@ -8,7 +8,7 @@
 #include "planner/certificate/find_proof.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
-#include "tests/planner/certificate/random_boxes.h"
+#include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/certificate/check_motion_proof.h"
 #include "planner/general/improve_path.h"
 #include "planner/general/path_plan.h"
 #include "planner/general/subset_search.h"
+#include "planner/motion/check_motion_proof.h"
 #include "planner/plan/check.h"
 #include "tests/planner/general/search_cases.h"
 

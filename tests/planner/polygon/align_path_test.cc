@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "planner/plan/path_force_closure.h"
+#include "planner/motion/path_force_closure.h"
 #include "planner/polygon/graph_cells.h"
 #include "tests/planner/polygon/shapes.h"
 

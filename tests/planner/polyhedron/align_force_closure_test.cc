@@ -7,7 +7,7 @@
 #include <string>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/contact_motion.h"
+#include "planner/motion/contact_motion.h"
 #include "planner/polyhedron/focus_geometry.h"
 #include "planner/polyhedron/plan_polyhedron.h"
 #include "tests/planner/polyhedron/bodies.h"

@@ -1,13 +1,12 @@
-#include "planner/plan/path_force_closure.h"
+#include "planner/motion/path_force_closure.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "bodies.h"
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/motion_certificate.h"
+#include "planner/motion/motion_certificate.h"
 
 namespace regrasp {
 namespace {

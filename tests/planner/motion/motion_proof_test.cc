@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "planner/base/angle.h"
-#include "planner/certificate/check_motion_proof.h"
-#include "planner/certificate/find_motion_proof.h"
-#include "planner/plan/path_force_closure.h"
-#include "tests/planner/certificate/random_boxes.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/find_motion_proof.h"
+#include "planner/motion/path_force_closure.h"
+#include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "planner/motion/contact_motion.h"
 #include "planner/object/wrench_frame.h"
-#include "planner/plan/contact_motion.h"
 
 namespace regrasp {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "planner/grasp/required_half_angle.h"
+#include "planner/motion/contact_motion.h"
 #include "planner/object/wrench_frame.h"
-#include "planner/plan/contact_motion.h"
 
 namespace regrasp {
 

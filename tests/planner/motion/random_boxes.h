@@ -4,8 +4,8 @@
 #include <random>
 
 #include "planner/grasp/contact.h"
+#include "planner/motion/contact_motion.h"
 #include "planner/object/wrench_frame.h"
-#include "planner/plan/contact_motion.h"
 
 namespace regrasp {
 

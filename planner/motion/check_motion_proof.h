@@ -3,9 +3,9 @@
 #include <numbers>
 #include <span>
 
-#include "planner/certificate/check_proof.h"
-#include "planner/certificate/force_proof.h"
 #include "planner/grasp/contact.h"
+#include "planner/motion/motion_piece.h"
+#include "planner/motion/proof_verdict.h"
 
 namespace regrasp {
 

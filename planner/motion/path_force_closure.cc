@@ -1,10 +1,10 @@
-#include "planner/plan/path_force_closure.h"
+#include "planner/motion/path_force_closure.h"
 
 #include <algorithm>
 #include <numbers>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/motion_certificate.h"
+#include "planner/motion/motion_certificate.h"
 
 namespace regrasp {
 

@@ -1,11 +1,11 @@
-#include "planner/certificate/check_motion_proof.h"
+#include "planner/motion/check_motion_proof.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "planner/certificate/exact_balance.h"
+#include "planner/motion/exact_balance.h"
 
 namespace regrasp {
 

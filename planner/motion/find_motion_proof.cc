@@ -1,13 +1,13 @@
-#include "planner/certificate/find_motion_proof.h"
+#include "planner/motion/find_motion_proof.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "planner/certificate/check_motion_proof.h"
-#include "planner/certificate/moving_forces.h"
 #include "planner/grasp/force_closure_core.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/moving_forces.h"
 
 namespace regrasp {
 

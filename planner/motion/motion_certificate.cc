@@ -1,4 +1,4 @@
-#include "planner/plan/motion_certificate.h"
+#include "planner/motion/motion_certificate.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-#include "planner/certificate/moving_forces.h"
+#include "planner/motion/moving_forces.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
-#include "tests/planner/certificate/random_boxes.h"
+#include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp {
 namespace {

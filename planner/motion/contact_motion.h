@@ -1,11 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "planner/grasp/contact.h"
-#include "planner/object/object.h"
 
 namespace regrasp {
 
@@ -35,11 +32,5 @@ class ContactMotion {
 using GraspMotion = std::vector<ContactMotion>;
 
 [[nodiscard]] Grasp GraspAt(const GraspMotion& motion, double t);
-
-/// What is wrong with a motion between two contacts that lie on the object: nullopt where the
-/// contact stays on one face all the way, or keeps its point (to within kPointTolerance · D) and
-/// turns from one face to another that both contain it.
-[[nodiscard]] std::optional<std::string> FindMotionFault(const Object& object, const Contact& from,
-                                                         const Contact& to);
 
 }  // namespace regrasp

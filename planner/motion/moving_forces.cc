@@ -1,4 +1,4 @@
-#include "planner/certificate/moving_forces.h"
+#include "planner/motion/moving_forces.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "planner/certificate/exact_balance.h"
+#include "planner/motion/exact_balance.h"
 
 #include <cmath>
 

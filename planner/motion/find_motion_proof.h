@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "planner/certificate/force_proof.h"
-#include "planner/plan/contact_motion.h"
+#include "planner/motion/contact_motion.h"
+#include "planner/motion/motion_piece.h"
 
 namespace regrasp {
 
