@@ -14,12 +14,8 @@ namespace {
 /// A stretch has at most so many contacts of its own; random ones fill it up to this.
 constexpr int kStretchContacts = 14;
 
-/// Bisections of the margin of one stretch, and passes over all stretches.
-constexpr int kBisections = 6;
+/// Passes over all stretches.
 constexpr int kPasses = 2;
-
-/// A stretch this close to what its ends allow is as good as it can be, radians.
-constexpr double kAtLimit = 1e-3;
 
 /// Of required half-angles that are only compared, radians.
 constexpr double kAngleAccuracy = 1e-5;
@@ -96,26 +92,16 @@ bool ShortenOnce(const SurfaceSource& source, RandomStream& random, SearchSpace&
   return false;
 }
 
-/// Bisects the half-angle between what the stretch's ends need and what it needs now.
 void WidenStretch(Stretch stretch, int more_steps, const SurfaceSource& source,
                   RandomStream& random, SearchSpace& space, GraspPath& path) {
-  const int steps = stretch.end - stretch.begin + more_steps;
-  double low = std::max(RequiredOf(GraspNumber(path, stretch.begin), space),
-                        RequiredOf(GraspNumber(path, stretch.end), space));
-  double high = space.half_angle();
+  const ContactSet& from = GraspNumber(path, stretch.begin);
+  const ContactSet& to = GraspNumber(path, stretch.end);
+  const double least = std::max(RequiredOf(from, space), RequiredOf(to, space));
   FillUp(stretch, source, random, space);
-  for (int i = 0; i < kBisections && high - low > kAtLimit; ++i) {
-    const double half_angle = (low + high) / 2;
-    SearchSpace narrow = space.WithHalfAngle(half_angle);
-    const auto wider = SearchStretch(path, stretch, steps, narrow);
-    space.CountTests(narrow.tests());
-    if (!wider) {
-      low = half_angle;
-      continue;
-    }
-    high = half_angle;
+  const int steps = stretch.end - stretch.begin + more_steps;
+  if (const auto wider =
+          SearchWidest(from, to, stretch.contacts, UseAligns::kYes, steps, least, space)) {
     Splice(*wider, stretch, path);
-    stretch.end = stretch.begin + static_cast<int>(wider->steps.size());
   }
 }
 

@@ -21,19 +21,16 @@ SearchSpace::SearchSpace(const Object& object, const GraspDemands& demands)
     : object_(object),
       frame_(object.wrench_frame()),
       demands_(demands),
+      half_angle_(demands.half_angle - demands.margin),
       same_point_(kSamePoint * object.diameter()) {
   CheckHalfAngle(demands.half_angle);
   CheckHalfAngle(half_angle());
 }
 
-SearchSpace SearchSpace::WithHalfAngle(double half_angle) const {
-  GraspDemands demands = demands_;
-  demands.margin = demands.half_angle - half_angle;
-  SearchSpace space(object_, demands);
-  space.contacts_ = contacts_;
-  space.units_ = units_;
-  SetUnitForces(space.units_, half_angle);
-  return space;
+void SearchSpace::SetHalfAngle(double half_angle) {
+  CheckHalfAngle(half_angle);
+  half_angle_ = half_angle;
+  SetUnitForces(units_, half_angle);
 }
 
 int SearchSpace::Add(const Contact& contact) {
@@ -80,9 +77,19 @@ bool SearchSpace::IsSpent() {
 
 bool SearchSpace::Admits(const ContactSet& set) {
   if (set.size() < fewest_contacts()) return false;
-  const auto [entry, is_new] = known_.try_emplace(set.key(), false);
-  if (is_new) entry->second = Test(set);
-  return entry->second;
+  Known& known = known_[set.key()];
+  if (known.worth == Worth::kPoor || half_angle_ <= known.fails_at) return false;
+  if (half_angle_ < known.holds_at) {
+    UnitContacts contacts;
+    for (const int number : set) contacts.push_back(units_[number]);
+    const bool holds = Holds(std::move(contacts));
+    (holds ? known.holds_at : known.fails_at) = half_angle_;
+    if (!holds) return false;
+  }
+  if (demands_.min_quality > 0 && known.worth == Worth::kUnknown) {
+    known.worth = IsGood(GraspOf(set)) ? Worth::kGood : Worth::kPoor;
+  }
+  return known.worth != Worth::kPoor;
 }
 
 bool SearchSpace::IsAdmitted(const Grasp& grasp) {
@@ -94,12 +101,6 @@ bool SearchSpace::IsAdmitted(const Grasp& grasp) {
   UnitContacts contacts = MakeUnitContacts(grasp, frame_);
   SetUnitForces(contacts, half_angle());
   return Holds(std::move(contacts)) && IsGood(grasp);
-}
-
-bool SearchSpace::Test(const ContactSet& set) {
-  UnitContacts contacts;
-  for (const int number : set) contacts.push_back(units_[number]);
-  return Holds(std::move(contacts)) && (demands_.min_quality == 0 || IsGood(GraspOf(set)));
 }
 
 bool SearchSpace::Holds(UnitContacts contacts) {

@@ -38,14 +38,15 @@ class SearchSpace {
   /// @param object  outlives this object.
   SearchSpace(const Object& object, const GraspDemands& demands);
 
-  /// The same contacts, with force closure asked for at another half-angle, radians.
-  [[nodiscard]] SearchSpace WithHalfAngle(double half_angle) const;
+  /// From now on force closure is asked for at this half-angle, radians. What is known of a grasp
+  /// stays known: one that holds does so with more friction, one that does not neither with less.
+  void SetHalfAngle(double half_angle);
 
   [[nodiscard]] const Object& object() const { return object_; }
   [[nodiscard]] int dimension() const { return frame_.dimension; }
   [[nodiscard]] const GraspDemands& demands() const { return demands_; }
   /// At which grasps and aligns are force closure, radians.
-  [[nodiscard]] double half_angle() const { return demands_.half_angle - demands_.margin; }
+  [[nodiscard]] double half_angle() const { return half_angle_; }
   /// That the hand has: 5 in space, 4 in the plane.
   [[nodiscard]] int fingers() const { return dimension() == 3 ? 5 : 4; }
   /// Contacts that a force-closure grasp has at least.
@@ -74,7 +75,7 @@ class SearchSpace {
   /// The same for contacts that have no numbers yet, which need not be able to meet.
   [[nodiscard]] bool IsAdmitted(const Grasp& grasp);
   /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
-  void Accept(const ContactSet& set) { known_[set.key()] = true; }
+  void Accept(const ContactSet& set) { known_[set.key()] = {0, 0, Worth::kGood}; }
 
   /// Tests of force closure so far, those of certificates included.
   [[nodiscard]] std::int64_t tests() const { return tests_; }
@@ -85,18 +86,26 @@ class SearchSpace {
   [[nodiscard]] bool out_of_time() const { return out_of_time_; }
 
  private:
-  [[nodiscard]] bool Test(const ContactSet& set);
-  /// Force closure of contacts in the object's frame.
+  enum class Worth : std::uint8_t { kUnknown, kGood, kPoor };
+  /// What is known of a grasp.
+  struct Known {
+    double fails_at = 0;  ///< half-angles at which it does not hold and does
+    double holds_at = std::numeric_limits<double>::infinity();
+    Worth worth = Worth::kUnknown;  ///< by its quality
+  };
+
+  /// Force closure of contacts in the object's frame with their rims set.
   [[nodiscard]] bool Holds(UnitContacts contacts);
   [[nodiscard]] bool IsGood(const Grasp& grasp) const;
 
   const Object& object_;
   WrenchFrame frame_;
   GraspDemands demands_;
+  double half_angle_;
   double same_point_;
   std::vector<Contact> contacts_;
   UnitContacts units_;  ///< of the contacts, in the object's frame
-  std::unordered_map<std::uint64_t, bool> known_;
+  std::unordered_map<std::uint64_t, Known> known_;
   std::int64_t tests_ = 0;
   SearchLimits limits_;
   std::int64_t next_look_ = 0;  ///< at the clock, by tests

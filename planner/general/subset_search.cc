@@ -1,11 +1,10 @@
 #include "planner/general/subset_search.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
-#include <set>
-
-#include "planner/grasp/subset_force_closure.h"
+#include <map>
 
 namespace regrasp {
 
@@ -14,22 +13,32 @@ namespace {
 /// Some of the contacts, by bits.
 using Mask = std::uint32_t;
 
-/// From so many contacts on most subsets of four are going to be asked for.
-constexpr int kMany = 10;
-
 /// Optimistic aligns that turn out not to hold before the search does without any more of them.
 constexpr int kMostRefusals = 32;
 
+/// Half-angles that are closer than this count as equal when the least one is looked for, radians.
+constexpr double kEqualAngles = 1e-3;
+
+/// How many bits are set; compilers call a function for std::popcount where the processor need not
+/// have an instruction for it.
+int Count(Mask mask) {
+  int count = 0;
+  for (; mask != 0; mask &= mask - 1) ++count;
+  return count;
+}
+
+/// A breadth-first search from both ends, by turns from the one with fewer grasps at hand.
 class SubsetSearch {
  public:
-  SubsetSearch(const std::vector<int>& contacts, UseAligns aligns, int most_steps,
-               SearchSpace& space)
+  SubsetSearch(const ContactSet& from, const ContactSet& to, const std::vector<int>& contacts,
+               UseAligns aligns, int most_steps, SearchSpace& space)
       : space_(space),
         contacts_(contacts),
         count_(static_cast<int>(contacts.size())),
         aligns_(aligns == UseAligns::kYes),
         most_steps_(most_steps),
-        apart_(contacts.size(), 0) {
+        apart_(contacts.size(), 0),
+        ends_{MaskOf(from), MaskOf(to)} {
     assert(count_ <= kMostSubsetContacts);
     for (int a = 0; a < count_; ++a) {
       for (int b = 0; b < a; ++b) {
@@ -40,20 +49,26 @@ class SubsetSearch {
     }
   }
 
-  std::optional<GraspPath> Search(const ContactSet& from, const ContactSet& to) {
-    from_ = MaskOf(from);
-    to_ = MaskOf(to);
-    if (space_.dimension() == 3 && count_ >= kMany) TestQuadruples();
+  /// At the half-angle that the space has now.
+  std::optional<GraspPath> Search() {
     for (int refusals = 0;; ++refusals) {
       if (refusals == kMostRefusals) aligns_ = false;
-      if (!Flood()) return std::nullopt;
-      if (auto path = MakePath()) return path;
+      const auto middle = Meet();
+      if (!middle) return std::nullopt;
+      if (auto path = MakePath(*middle)) return path;
     }
   }
 
  private:
   static constexpr Mask kUnseen = ~Mask{0};
   static constexpr Mask kNoGrasp = kUnseen - 1;
+
+  /// What was reached from one end.
+  struct Side {
+    std::vector<Mask> parents;  ///< by mask: where it was reached from, kUnseen or kNoGrasp
+    std::vector<Mask> level;    ///< the grasps reached last
+    std::vector<Mask> next;     ///< what can be reached from those, not tested yet
+  };
 
   [[nodiscard]] Mask MaskOf(const ContactSet& set) const {
     Mask mask = 0;
@@ -69,69 +84,86 @@ class SubsetSearch {
     return set;
   }
 
-  /// All subsets of four at once, which is far faster than one after the other.
-  void TestQuadruples() {
-    Grasp points;
-    for (const int contact : contacts_) points.push_back(space_.contact(contact));
-    SubsetCounts counts;
-    const auto found =
-        ForceClosureSubsets(points, space_.object().wrench_frame(), space_.half_angle(), &counts);
-    space_.CountTests(counts.subsets);
-    quadruples_.assign(std::size_t{1} << count_, 0);
-    for (const auto& [a, b, c, d] : found) {
-      quadruples_[Mask{1} << a | Mask{1} << b | Mask{1} << c | Mask{1} << d] = 1;
+  /// @returns a grasp that both sides have reached.
+  std::optional<Mask> Meet() {
+    for (int i = 0; i < 2; ++i) {
+      sides_[i].parents.assign(std::size_t{1} << count_, kUnseen);
+      sides_[i].parents[ends_[i]] = ends_[i];
+      sides_[i].level = {ends_[i]};
     }
-  }
-
-  [[nodiscard]] bool Admits(Mask mask) {
-    const bool known = !quadruples_.empty() && std::popcount(mask) == 4;
-    if (!known) return space_.Admits(SetOf(mask));
-    if (quadruples_[mask] == 0) return false;
-    return space_.demands().min_quality == 0 || space_.Admits(SetOf(mask));
-  }
-
-  /// Level by level from the start. @returns whether the goal was reached.
-  bool Flood() {
-    parents_.assign(std::size_t{1} << count_, kUnseen);
-    parents_[from_] = from_;
-    std::vector<Mask> level = {from_};
-    for (int steps = 0; parents_[to_] == kUnseen; ++steps) {
-      if (level.empty() || steps == most_steps_) return false;
-      next_.clear();
-      for (const Mask mask : level) {
-        Place(mask, mask, 0, space_.fingers() - std::popcount(mask));
-        if (aligns_) Align(mask, mask, 0);
+    for (int steps = 1;; ++steps) {
+      Side& near = sides_[sides_[1].level.size() < sides_[0].level.size() ? 1 : 0];
+      Side& far = &near == &sides_[0] ? sides_[1] : sides_[0];
+      FindNext(near);
+      for (const Mask mask : near.next) {
+        if (IsReached(mask, far)) return mask;
       }
-      level = next_;
+      if (steps == most_steps_) break;
+      if (steps + 1 == most_steps_) return MeetBetween(near, far);
+      Advance(near);
+      if (near.level.empty()) break;
     }
-    return true;
+    return std::nullopt;
+  }
+
+  /// One grasp more between the sides: only what both can reach is tested.
+  std::optional<Mask> MeetBetween(Side& near, Side& far) {
+    FindNext(far);
+    for (const Mask mask : far.next) {
+      if (IsReached(mask, near) && space_.Admits(SetOf(mask))) return mask;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static bool IsReached(Mask mask, const Side& side) {
+    return side.parents[mask] != kUnseen && side.parents[mask] != kNoGrasp;
+  }
+
+  void Advance(Side& side) {
+    side.level.clear();
+    for (const Mask mask : side.next) {
+      if (space_.Admits(SetOf(mask))) {
+        side.level.push_back(mask);
+      } else {
+        side.parents[mask] = kNoGrasp;
+      }
+    }
+  }
+
+  void FindNext(Side& side) {
+    side.next.clear();
+    for (const Mask mask : side.level) {
+      Place(mask, mask, 0, space_.fingers() - Count(mask), side);
+      if (aligns_) Align(mask, mask, 0, side);
+    }
   }
 
   /// All switches from `mask` that place `placed`, and more contacts from the `first` on.
-  void Place(Mask mask, Mask placed, int first, int spare) {
+  void Place(Mask mask, Mask placed, int first, int spare, Side& side) {
+    const Mask added = placed & ~mask;
     for (Mask kept = mask;; kept = (kept - 1) & mask) {
-      Reach(kept | (placed & ~mask), mask);
+      Reach(kept | added, mask, side);
       if (kept == 0) break;
     }
     for (int i = first; spare > 0 && i < count_; ++i) {
       const Mask bit = Mask{1} << i;
       if ((placed & bit) != 0 || (apart_[i] & placed) != 0) continue;
-      Place(mask, placed | bit, i + 1, spare - 1);
+      Place(mask, placed | bit, i + 1, spare - 1, side);
     }
   }
 
   /// All grasps with each contact, from the `first` on, at itself or at another one of its face.
-  void Align(Mask mask, Mask moved, int first) {
-    if (moved != mask && parents_[moved] == kUnseen && AreApart(moved) &&
-        !refused_.contains({mask, moved})) {
-      Reach(moved, mask);
+  void Align(Mask mask, Mask moved, int first, Side& side) {
+    if (moved != mask && side.parents[moved] == kUnseen && AreApart(moved) &&
+        !IsRefused(mask, moved)) {
+      Reach(moved, mask, side);
     }
     for (int i = first; i < count_; ++i) {
       if ((mask >> i & 1) == 0) continue;
       for (int k = 0; k < count_; ++k) {
         const bool taken = ((mask | moved) >> k & 1) != 0;
         if (taken || FaceOf(k) != FaceOf(i)) continue;
-        Align(mask, (moved & ~(Mask{1} << i)) | Mask{1} << k, i + 1);
+        Align(mask, (moved & ~(Mask{1} << i)) | Mask{1} << k, i + 1, side);
       }
     }
   }
@@ -145,38 +177,41 @@ class SubsetSearch {
     return true;
   }
 
-  void Reach(Mask mask, Mask parent) {
-    if (parents_[mask] != kUnseen) return;
-    if (mask != to_) {
-      const int held = std::popcount(mask);
+  void Reach(Mask mask, Mask parent, Side& side) {
+    if (side.parents[mask] != kUnseen) return;
+    if (mask != ends_[0] && mask != ends_[1]) {
+      const int held = Count(mask);
       // A hand that is full switches to nothing but a part of what it holds, and its aligns have no
       // spare finger to be carried out with.
       if (held < space_.fewest_contacts() || held == space_.fingers()) return;
-      if (!Admits(mask)) {
-        parents_[mask] = kNoGrasp;
-        return;
-      }
     }
-    parents_[mask] = parent;
-    next_.push_back(mask);
+    side.parents[mask] = parent;
+    side.next.push_back(mask);
   }
 
   [[nodiscard]] bool IsSwitch(Mask a, Mask b) const {
-    return std::popcount(a | b) <= space_.fingers() && AreApart(a | b);
+    return Count(a | b) <= space_.fingers() && AreApart(a | b);
   }
 
-  /// The way that was found, its aligns proved; nullopt where one is not, which is then refused.
-  std::optional<GraspPath> MakePath() {
-    std::vector<Mask> masks = {to_};
-    while (masks.back() != from_) masks.push_back(parents_[masks.back()]);
+  [[nodiscard]] bool IsRefused(Mask a, Mask b) const {
+    const auto found = refused_.find({std::min(a, b), std::max(a, b)});
+    return found != refused_.end() && space_.half_angle() <= found->second;
+  }
+
+  /// The way through `middle`, its aligns proved; nullopt where one is not, which is then refused.
+  std::optional<GraspPath> MakePath(Mask middle) {
+    std::vector<Mask> masks = {middle};
+    while (masks.back() != ends_[0]) masks.push_back(sides_[0].parents[masks.back()]);
     std::reverse(masks.begin(), masks.end());
-    GraspPath path{SetOf(from_), {}};
+    while (masks.back() != ends_[1]) masks.push_back(sides_[1].parents[masks.back()]);
+    GraspPath path{SetOf(ends_[0]), {}};
     for (std::size_t i = 1; i < masks.size(); ++i) {
+      const Mask before = masks[i - 1];
       PathStep step{SetOf(masks[i]), std::nullopt};
-      if (!IsSwitch(masks[i - 1], masks[i])) {
-        step.align = AlignStraight(SetOf(masks[i - 1]), step.to, space_);
+      if (!IsSwitch(before, masks[i])) {
+        step.align = AlignStraight(SetOf(before), step.to, space_);
         if (!step.align) {
-          refused_.insert({masks[i - 1], masks[i]});
+          refused_[{std::min(before, masks[i]), std::max(before, masks[i])}] = space_.half_angle();
           return std::nullopt;
         }
       }
@@ -191,12 +226,10 @@ class SubsetSearch {
   bool aligns_;
   int most_steps_;
   std::vector<Mask> apart_;  ///< by contact: those that it can't meet
-  Mask from_ = 0;
-  Mask to_ = 0;
-  std::vector<Mask> parents_;  ///< where a set was reached from
-  std::vector<Mask> next_;
-  std::vector<char> quadruples_;  ///< by mask: 1 for four contacts in force closure; or empty
-  std::set<std::pair<Mask, Mask>> refused_;
+  std::array<Mask, 2> ends_;
+  std::array<Side, 2> sides_;
+  /// The largest half-angle at which an align was not proved.
+  std::map<std::pair<Mask, Mask>, double> refused_;
 };
 
 }  // namespace
@@ -204,7 +237,30 @@ class SubsetSearch {
 std::optional<GraspPath> SearchSubsets(const ContactSet& from, const ContactSet& to,
                                        const std::vector<int>& contacts, UseAligns aligns,
                                        int most_steps, SearchSpace& space) {
-  return SubsetSearch(contacts, aligns, most_steps, space).Search(from, to);
+  return SubsetSearch(from, to, contacts, aligns, most_steps, space).Search();
+}
+
+std::optional<GraspPath> SearchWidest(const ContactSet& from, const ContactSet& to,
+                                      const std::vector<int>& contacts, UseAligns aligns,
+                                      int most_steps, double least, SearchSpace& space) {
+  const double before = space.half_angle();
+  SubsetSearch search(from, to, contacts, aligns, most_steps, space);
+  std::optional<GraspPath> widest;
+  double low = least;
+  double high = before;
+  // Most often the ends are the limit.
+  for (double middle = low + kEqualAngles; middle < high; middle = (low + high) / 2) {
+    space.SetHalfAngle(middle);
+    if (auto path = search.Search()) {
+      widest = std::move(path);
+      high = middle;
+    } else {
+      low = middle;
+    }
+    if (high - low <= kEqualAngles) break;
+  }
+  space.SetHalfAngle(before);
+  return widest;
 }
 
 std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from, const ContactSet& to,

@@ -11,9 +11,10 @@ namespace regrasp {
 /// Whether straight aligns are looked for beside finger switches.
 enum class UseAligns { kNo, kYes };
 
-/// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search in
-/// which a subset is tested when it is first reached. In one step a hand of h fingers switches from
-/// A to B iff |A ∪ B| ≤ h; aligns go straight between grasps of one tuple of faces.
+/// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search
+/// from both ends in which a subset is tested when it is first reached. In one step a hand of h
+/// fingers switches from A to B iff |A ∪ B| ≤ h; aligns go straight between grasps of one tuple of
+/// faces.
 ///
 /// Laws: none of the sets but the ends needs to be admitted; the fewest steps never grow with more
 /// contacts, more friction or aligns.
@@ -24,6 +25,16 @@ enum class UseAligns { kNo, kYes };
                                                      const std::vector<int>& contacts,
                                                      UseAligns aligns, int most_steps,
                                                      SearchSpace& space);
+
+/// Of the ways of at most `most_steps` steps one that needs the least friction, to a milliradian:
+/// the half-angle at which SearchSubsets finds one is bisected. What is known of a grasp or an
+/// align at one angle spares tests at the others, so that all take little more than the first.
+/// @param least  no way is looked for that needs less than this half-angle, radians.
+/// @returns nullopt where none needs less than the space's half-angle.
+[[nodiscard]] std::optional<GraspPath> SearchWidest(const ContactSet& from, const ContactSet& to,
+                                                    const std::vector<int>& contacts,
+                                                    UseAligns aligns, int most_steps, double least,
+                                                    SearchSpace& space);
 
 /// Over the contacts of the two grasps alone, by switches. With enough friction that joins nearly
 /// all pairs.

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
 #include "tests/planner/general/search_cases.h"
 
 namespace regrasp {
@@ -109,6 +110,66 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
   }
   EXPECT_GT(joined + apart, 0);
   EXPECT_GT(joined, 0);
+}
+
+/// The least half-angle at which so many switches join two grasps: by its definition alone.
+double LeastHalfAngle(const ContactSet& from, const ContactSet& to,
+                      const std::vector<int>& contacts, int steps, const SearchSpace& space) {
+  std::vector<std::pair<ContactSet, double>> grasps = {{from, 0}, {to, 0}};
+  for (const ContactSet& set : AllSets(contacts, space.fewest_contacts(), space.fingers() - 1)) {
+    if (set == from || set == to) continue;
+    const auto required =
+        ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame());
+    if (required) grasps.emplace_back(set, required->upper);
+  }
+  std::vector<double> least(grasps.size(), std::numeric_limits<double>::infinity());
+  least[0] = 0;
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<double> before = least;
+    for (std::size_t a = 0; a < grasps.size(); ++a) {
+      for (std::size_t b = 0; b < grasps.size(); ++b) {
+        if (ContactSet::CountUnion(grasps[a].first, grasps[b].first) > space.fingers()) continue;
+        least[b] = std::min(least[b], std::max(before[a], grasps[b].second));
+      }
+    }
+  }
+  return least[1];
+}
+
+TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
+  const ObjectFile file = ReadModel(GetParam().model);
+  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  constexpr double kAccuracy = 1.1e-3;
+  RandomStream random(11, RandomUse::kStart);
+  int wider = 0;
+  for (int i = 0; i < 8; ++i) {
+    SearchSpace space(*file.object, demands);
+    const auto from =
+        Take(DrawGrasp(*file.object, GetParam().from_contacts, demands, random), space);
+    const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, demands, random), space);
+    const std::vector<int> contacts = Numbers(space);
+    for (const int steps : {2, 3, 4}) {
+      const double expected = LeastHalfAngle(from, to, contacts, steps, space);
+      const auto path = SearchWidest(from, to, contacts, UseAligns::kNo, steps, 0, space);
+      EXPECT_EQ(space.half_angle(), demands.half_angle);
+      if (expected > demands.half_angle) {
+        EXPECT_FALSE(path);
+      }
+      if (expected > demands.half_angle - kAccuracy) continue;
+      ASSERT_TRUE(path);
+      ++wider;
+      EXPECT_LE(static_cast<int>(path->steps.size()), steps);
+      for (const PathStep& step : path->steps) {
+        if (step.to == to) continue;
+        EXPECT_TRUE(IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
+                                   expected + kAccuracy));
+      }
+      // Where its own bound forbids it, no way is looked for.
+      EXPECT_FALSE(
+          SearchWidest(from, to, contacts, UseAligns::kNo, steps, demands.half_angle, space));
+    }
+  }
+  EXPECT_GT(wider, 0);
 }
 
 TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
