@@ -98,9 +98,13 @@ bool SearchSpace::IsAdmitted(const Grasp& grasp) {
       if (!CanMeet(grasp[i], grasp[j])) return false;
     }
   }
+  return HoldsAt(grasp, half_angle()) && IsGood(grasp);
+}
+
+bool SearchSpace::HoldsAt(const Grasp& grasp, double half_angle) {
   UnitContacts contacts = MakeUnitContacts(grasp, frame_);
-  SetUnitForces(contacts, half_angle());
-  return Holds(std::move(contacts)) && IsGood(grasp);
+  SetUnitForces(contacts, half_angle);
+  return Holds(std::move(contacts));
 }
 
 bool SearchSpace::Holds(UnitContacts contacts) {

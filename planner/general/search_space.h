@@ -74,6 +74,8 @@ class SearchSpace {
   [[nodiscard]] bool Admits(const ContactSet& set);
   /// The same for contacts that have no numbers yet, which need not be able to meet.
   [[nodiscard]] bool IsAdmitted(const Grasp& grasp);
+  /// Force closure alone, at any half-angle, radians.
+  [[nodiscard]] bool HoldsAt(const Grasp& grasp, double half_angle);
   /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
   void Accept(const ContactSet& set) { known_[set.key()] = {0, 0, Worth::kGood}; }
 

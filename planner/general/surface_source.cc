@@ -18,11 +18,8 @@ namespace {
 /// Contacts drawn before room is no longer asked for: on nearly all of a surface fingers have it.
 constexpr int kMostDraws = 1000;
 
-/// A nearby point is tried again this often where it falls off the face.
-constexpr int kNearDraws = 4;
-
 /// The nearest face is looked for within this share of the reach first.
-constexpr double kFirstLook = 1.0 / 16;
+constexpr double kFirstLook = 1.0 / 64;
 
 }  // namespace
 
@@ -84,36 +81,30 @@ Contact SurfaceSource::DrawOn(int face, RandomStream& random) const {
                      random);
 }
 
-Contact SurfaceSource::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
+Vector3d SurfaceSource::DrawBeside(const Contact& contact, double reach,
+                                   RandomStream& random) const {
   const bool space = object_.dimension() == 3;
   const Vector3d across = space ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
   const Vector3d along = contact.n.cross(across);
-  for (int draw = 0; draw < kNearDraws; ++draw) {
-    const double u = (2 * random.Uniform() - 1) * reach;
-    const double v = space ? (2 * random.Uniform() - 1) * reach : 0;
-    const Vector3d p = object_.ClosestPoint(contact.face, contact.p + u * along + v * across);
-    const Contact near{p, contact.n, contact.face};
-    if (Serves(near)) return near;
-  }
-  return contact;
+  const double u = (2 * random.Uniform() - 1) * reach;
+  const double v = space ? (2 * random.Uniform() - 1) * reach : 0;
+  return contact.p + u * along + v * across;
+}
+
+Contact SurfaceSource::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
+  const Vector3d p = object_.ClosestPoint(contact.face, DrawBeside(contact, reach, random));
+  return {p, contact.n, contact.face};
 }
 
 Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
                                   RandomStream& random) const {
-  for (int draw = 0; draw < kNearDraws; ++draw) {
-    Vector3d p = contact.p;
-    for (int axis = 0; axis < object_.dimension(); ++axis) {
-      p[axis] += (2 * random.Uniform() - 1) * reach;
-    }
-    // Looking for the nearest face far away is dear, and most are near.
-    std::vector<int> faces;
-    for (double radius = kFirstLook * reach; faces.empty() && radius <= reach; radius *= 2) {
-      faces = object_.FacesNear(p, radius);
-    }
+  const Vector3d p = DrawBeside(contact, reach, random);
+  // Looking for the nearest face far away is dear, and most are near.
+  for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
+    const std::vector<int> faces = object_.FacesNear(p, radius);
     if (faces.empty()) continue;
-    const Contact near{object_.ClosestPoint(faces.front(), p), object_.inward_normal(faces.front()),
-                       faces.front()};
-    if (Serves(near)) return near;
+    const int face = faces.front();
+    return {object_.ClosestPoint(face, p), object_.inward_normal(face), face};
   }
   return contact;
 }

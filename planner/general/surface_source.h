@@ -8,20 +8,25 @@
 
 namespace regrasp {
 
-/// Random contacts, evenly over a body's surface or over one of its faces, in space and in the
-/// plane, where fingers have room (HasStandingRoom) and, where they are no points, come to
-/// (CanReach).
+/// Random contacts on a body's surface, in space and in the plane.
 class SurfaceSource {
  public:
   /// @param object  outlives this object. @param finger_radius  its unit of length; 0: points.
   explicit SurfaceSource(const Object& object, double finger_radius = 0);
 
+  /// Whether a finger has room at a contact (HasStandingRoom) and, if it is no point, comes to it
+  /// (CanReach).
+  [[nodiscard]] bool Serves(const Contact& contact) const;
+
+  /// Evenly over the whole surface or over one face, where it serves.
   [[nodiscard]] Contact Draw(RandomStream& random) const;
   [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
-  /// Near a contact, on its face: no farther than `reach` from it along each axis of the face.
-  /// The contact itself where the face's border is in the way.
+
+  /// Near a contact, on its face: beside it by no more than `reach` along each axis of the face, or
+  /// where that is off the face at its border. May not serve: that costs more to find out than
+  /// whether the contact makes a grasp.
   [[nodiscard]] Contact DrawNear(const Contact& contact, double reach, RandomStream& random) const;
-  /// Near a contact, on whatever face is there: about as far from it as `reach` at most.
+  /// The same on whatever face is there; the contact itself where none is.
   [[nodiscard]] Contact DrawAround(const Contact& contact, double reach,
                                    RandomStream& random) const;
 
@@ -32,7 +37,9 @@ class SurfaceSource {
     int face;
   };
 
-  [[nodiscard]] bool Serves(const Contact& contact) const;
+  /// A point of the plane that touches at the contact, in the plane of its line.
+  [[nodiscard]] Eigen::Vector3d DrawBeside(const Contact& contact, double reach,
+                                           RandomStream& random) const;
   void AddPiece(const Piece& piece, double measure);
   [[nodiscard]] Contact DrawIn(const Piece& piece, RandomStream& random) const;
   [[nodiscard]] Contact DrawBetween(double from, double to, RandomStream& random) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/general/subset_search.h"
+#include "planner/general/transition.h"
 
 namespace regrasp {
 
@@ -60,6 +61,7 @@ std::optional<GraspPath> TwoTrees::Join() {
     for (int side = 0; side < 2 && !found_; ++side) {
       GrowBySwitches(side, space_.tests() + turn);
       if (around && !found_) GrowAround(side, space_.tests() + turn);
+      if (around && !found_) GrowAcross(side, space_.tests() + turn);
     }
     around = true;
   }
@@ -189,7 +191,8 @@ bool TwoTrees::AlignAround(int side, int node, double reach) {
   for (const int number : trees_[side].reached[node]) {
     drawn.push_back(source_.DrawNear(space_.contact(number), reach, random_));
   }
-  if (!space_.IsAdmitted(drawn)) return false;
+  const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
+  if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
   const ContactSet set = space_.Add(drawn);
   space_.Accept(set);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
@@ -207,13 +210,64 @@ bool TwoTrees::SwitchAround(int side, int node, double reach) {
   const int leaving = set[static_cast<int>(random_.Index(set.size()))];
   Grasp drawn = space_.GraspOf(set.Without(leaving));
   drawn.push_back(source_.DrawAround(space_.contact(leaving), reach, random_));
-  if (!space_.IsAdmitted(drawn)) return false;
+  if (!space_.IsAdmitted(drawn) || !source_.Serves(drawn.back())) return false;
   const int placed = space_.Add(drawn.back());
   if (!space_.CanMeet(leaving, placed)) return false;
   const ContactSet after = set.Without(leaving).With(placed);
   space_.Accept(after);
   if (trees_[side].reached.Find(after) < 0) Reach(side, after, node);
   return true;
+}
+
+void TwoTrees::GrowAcross(int side, std::int64_t until) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
+    const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
+    const ContactSet set = trees_[side].reached[node];
+    space_.CountTests(kDrawCost);
+    if (set.size() == space_.fingers()) continue;
+    const int leaving = static_cast<int>(random_.Index(set.size()));
+    const int face = FaceAcross(side);
+    const Grasp before = space_.GraspOf(set);
+    FaceTuple tuple;
+    for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
+    std::sort(tuple.begin(), tuple.end());
+    if (!trees_[side].reached.OnTuple(tuple).empty()) continue;
+    const auto found =
+        FindTransition(before, leaving, source_.DrawOn(face, random_), source_, random_, space_);
+    if (!found) continue;
+    const int last = AlignAlong(side, node, std::span(found->way).subspan(1));
+    if (last < 0 || found_) continue;
+    const ContactSet after = space_.Add(found->after);
+    space_.Accept(after);
+    if (trees_[side].reached.Find(after) < 0) Reach(side, after, last);
+  }
+}
+
+int TwoTrees::FaceAcross(int side) {
+  const ReachedGrasps& other = trees_[1 - side].reached;
+  if (random_.Index(2) == 0) return static_cast<int>(random_.Index(space_.object().face_count()));
+  const ContactSet set = other[static_cast<int>(random_.Index(other.size()))];
+  return space_.contact(set[static_cast<int>(random_.Index(set.size()))]).face;
+}
+
+int TwoTrees::AlignTo(int side, int node, const Grasp& grasp) {
+  if (!space_.has_room()) return -1;
+  const ContactSet set = space_.Add(grasp);
+  space_.Accept(set);
+  if (trees_[side].reached.Find(set) < 0) {
+    auto align = AlignStraight(trees_[side].reached[node], set, space_);
+    if (!align) return -1;
+    Reach(side, set, node, std::move(align));
+  }
+  return trees_[side].reached.Find(set);
+}
+
+int TwoTrees::AlignAlong(int side, int node, std::span<const Grasp> way) {
+  if (way.empty() || found_) return node;
+  if (const int end = AlignTo(side, node, way.back()); end >= 0) return end;
+  if (way.size() == 1) return -1;
+  const int middle = AlignAlong(side, node, way.first(way.size() / 2));
+  return middle < 0 ? -1 : AlignAlong(side, middle, way.subspan(way.size() / 2));
 }
 
 }  // namespace regrasp

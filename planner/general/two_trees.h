@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <queue>
+#include <span>
 
 #include "planner/base/random.h"
 #include "planner/general/reached_grasps.h"
@@ -17,7 +18,8 @@ namespace regrasp {
 /// all: no grasp sees a candidate before the others have seen those before it. Candidates are the
 /// contacts of both grasps, then random ones of the whole surface, the same for both trees, so that
 /// the trees meet. Where that alone has not joined them soon, trees also grow by aligns to random
-/// grasps of the tuples of faces that they have reached. A grasp whose tuple the other tree knows
+/// grasps of the tuples of faces that they have reached, by switches to points nearby, and across
+/// narrow places to new tuples of faces (FindTransition). A grasp whose tuple the other tree knows
 /// is joined to it by a straight align where one is proved.
 class TwoTrees {
  public:
@@ -54,6 +56,15 @@ class TwoTrees {
   /// one contact. @returns whether it came to something.
   bool AlignAround(int side, int node, double reach);
   bool SwitchAround(int side, int node, double reach);
+  /// Looks for transitions from random grasps of the tree to tuples of faces new to it.
+  void GrowAcross(int side, std::int64_t until);
+  /// Any face of the body, or one that the other tree's grasps are on.
+  int FaceAcross(int side);
+  /// Reaches a grasp of a node's tuple of faces by a straight align.
+  /// @returns its node; −1 where the align was not proved.
+  int AlignTo(int side, int node, const Grasp& grasp);
+  /// The same for the last of several grasps, over some of the others where it has to be.
+  int AlignAlong(int side, int node, std::span<const Grasp> way);
   void TryCandidate(int side, int node, int candidate);
   void TryToReach(int side, const ContactSet& set, int parent);
   void Reach(int side, const ContactSet& set, int parent,
