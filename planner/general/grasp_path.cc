@@ -7,12 +7,16 @@ namespace regrasp {
 
 FaceAlign Reversed(FaceAlign align) {
   for (auto& [from, to] : align.contacts) std::swap(from, to);
+  std::reverse(align.between.begin(), align.between.end());
   std::reverse(align.proof.begin(), align.proof.end());
-  for (MotionPiece& piece : align.proof) {
-    std::swap(piece.start, piece.end);
-    std::swap(piece.from, piece.to);
-    piece.from = 1 - piece.from;
-    piece.to = 1 - piece.to;
+  for (MotionPieces& pieces : align.proof) {
+    std::reverse(pieces.begin(), pieces.end());
+    for (MotionPiece& piece : pieces) {
+      std::swap(piece.start, piece.end);
+      std::swap(piece.from, piece.to);
+      piece.from = 1 - piece.from;
+      piece.to = 1 - piece.to;
+    }
   }
   return align;
 }

@@ -1,6 +1,7 @@
 #include "planner/general/path_plan.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "planner/graph/sequence.h"
 
@@ -12,29 +13,32 @@ bool SameContact(const Contact& a, const Contact& b) {
   return a.face == b.face && a.p == b.p && a.n == b.n;
 }
 
-/// Where every finger is after an align.
-FingerGrasp AfterAlign(const FingerGrasp& before, const FaceAlign& align,
-                       const SearchSpace& space) {
-  FingerGrasp after = before;
-  for (FingerContact& held : after) {
-    for (const auto& [from, to] : align.contacts) {
-      if (!SameContact(held.contact, space.contact(from))) continue;
-      held.contact = space.contact(to);
-      break;
-    }
+/// The waypoints of an align, each finger with its own contacts.
+std::vector<FingerGrasp> WaypointsFor(const FingerGrasp& holding, const FaceAlign& align,
+                                      const SearchSpace& space) {
+  const std::vector<Grasp> grasps = WaypointsOf(align, space);
+  std::vector<FingerGrasp> waypoints(grasps.size(), holding);
+  for (std::size_t f = 0; f < holding.size(); ++f) {
+    const auto same = std::find_if(
+        grasps.front().begin(), grasps.front().end(),
+        [&](const Contact& contact) { return SameContact(holding[f].contact, contact); });
+    assert(same != grasps.front().end());
+    const auto place = same - grasps.front().begin();
+    for (std::size_t w = 0; w < grasps.size(); ++w) waypoints[w][f].contact = grasps[w][place];
   }
-  return after;
+  return waypoints;
 }
 
-void AddAlign(const FingerGrasp& before, const FingerGrasp& after, Draft& draft) {
+void AddAlign(const std::vector<FingerGrasp>& waypoints, Draft& draft) {
   auto* last = draft.steps.empty() ? nullptr : std::get_if<Align>(&draft.steps.back());
+  const Grasp after = ContactsOf(waypoints.back());
   if (last != nullptr) {
-    last->waypoints.push_back(after);
-    draft.rests.back().grasp = ContactsOf(after);
+    last->waypoints.insert(last->waypoints.end(), waypoints.begin() + 1, waypoints.end());
+    draft.rests.back().grasp = after;
     return;
   }
-  draft.steps.emplace_back(Align{{before, after}});
-  draft.rests.push_back({ContactsOf(after), std::nullopt});
+  draft.steps.emplace_back(Align{waypoints});
+  draft.rests.push_back({after, std::nullopt});
 }
 
 /// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
@@ -64,9 +68,9 @@ Draft MakeDraft(const GraspPath& path, const Grasp& start, const SearchSpace& sp
   FingerGrasp holding = draft.initial;
   for (const PathStep& step : path.steps) {
     if (step.align) {
-      const FingerGrasp after = AfterAlign(holding, *step.align, space);
-      AddAlign(holding, after, draft);
-      holding = after;
+      const std::vector<FingerGrasp> waypoints = WaypointsFor(holding, *step.align, space);
+      AddAlign(waypoints, draft);
+      holding = waypoints.back();
       continue;
     }
     const Switch change = MakeSwitch(holding, space.GraspOf(step.to), space.fingers());
@@ -81,7 +85,7 @@ double TravelOf(const GraspPath& path, const SearchSpace& space) {
   double way = 0;
   const ContactSet* before = &path.start;
   for (const PathStep& step : path.steps) {
-    way += step.align ? WayBetween(*before, step.to, space) : WayOfSwitch(*before, step.to, space);
+    way += step.align ? WayOf(*step.align, space) : WayOfSwitch(*before, step.to, space);
     before = &step.to;
   }
   return way;

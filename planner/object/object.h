@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,6 +11,17 @@
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp {
+
+/// Where a face meets another one: a straight segment in space, a vertex of the polygon (a = b) in
+/// the plane.
+struct FaceBorder {
+  Eigen::Vector3d a;
+  Eigen::Vector3d b;
+  int beyond = -1;  ///< the other face
+  /// No finger that touches both faces here is in a concave edge: less than 180° of material, up to
+  /// kCoplanarAngle.
+  bool convex = false;
+};
 
 /// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
 ///
@@ -54,6 +66,13 @@ class Object {
   [[nodiscard]] virtual bool ContainsSegment(int face, const Eigen::Vector3d& a,
                                              const Eigen::Vector3d& b, double tolerance) const = 0;
 
+  /// All the borders of a face with others.
+  [[nodiscard]] virtual std::vector<FaceBorder> BordersOf(int face) const = 0;
+
+  /// True iff two different faces have a border in common. Takes some nanoseconds where they have
+  /// few borders.
+  [[nodiscard]] virtual bool AreNeighbours(int face, int other) const = 0;
+
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }
 
@@ -81,6 +100,13 @@ inline constexpr double kPointTolerance = 1e-6;
 
 /// Facets whose normals differ by no more than this (radians) are one face.
 inline constexpr double kCoplanarAngle = 1e-4;
+
+/// Whether the material turns by less than 180° where one goes from a face to the next across an
+/// edge along `along`, which has the first face on its left seen from outside. All of length 1.
+[[nodiscard]] inline bool IsConvexTurn(const Eigen::Vector3d& normal, const Eigen::Vector3d& next,
+                                       const Eigen::Vector3d& along) {
+  return normal.cross(next).dot(along) > -kCoplanarAngle;
+}
 
 /// An object together with the file that it was read from.
 struct ObjectFile {

@@ -54,8 +54,12 @@ Polygon Polygon::FromWkt(std::string_view text, const std::string& name) {
 Polygon::Polygon(PolygonRings rings, double diameter, MassProperties mass_properties)
     : Object(diameter, std::move(mass_properties)), rings_(std::move(rings)) {
   for (const auto& ring : rings_) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      edges_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+    const int first = face_count();
+    const int size = static_cast<int>(ring.size());
+    for (int i = 0; i < size; ++i) {
+      edges_.emplace_back(ring[i], ring[(i + 1) % size]);
+      next_.push_back(first + (i + 1) % size);
+      previous_.push_back(first + (i + size - 1) % size);
     }
   }
 }
@@ -119,6 +123,21 @@ bool Polygon::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
   // An edge is convex: what lies between two points near it is near it too.
   return (ClosestPoint(face, a) - a).norm() <= tolerance &&
          (ClosestPoint(face, b) - b).norm() <= tolerance;
+}
+
+std::vector<FaceBorder> Polygon::BordersOf(int face) const {
+  // Seen from above the material is on the left of the edges: a convex vertex turns left.
+  const auto convex = [&](int edge, int next) {
+    return IsConvexTurn(inward_normal(edge), inward_normal(next), Vector3d::UnitZ());
+  };
+  const auto [a, b] = edge(face);
+  const int before = previous_[face];
+  const int after = next_[face];
+  return {{a, a, before, convex(before, face)}, {b, b, after, convex(face, after)}};
+}
+
+bool Polygon::AreNeighbours(int face, int other) const {
+  return other == next_[face] || other == previous_[face];
 }
 
 }  // namespace regrasp

@@ -45,6 +45,8 @@ class Polygon final : public Object {
   [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      double tolerance) const override;
+  [[nodiscard]] std::vector<FaceBorder> BordersOf(int face) const override;
+  [[nodiscard]] bool AreNeighbours(int face, int other) const override;
 
  private:
   Polygon(std::vector<std::vector<Eigen::Vector2d>> rings, double diameter,
@@ -52,6 +54,8 @@ class Polygon final : public Object {
 
   std::vector<std::vector<Eigen::Vector2d>> rings_;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
+  std::vector<int> next_;      ///< by edge: the one that begins where it ends
+  std::vector<int> previous_;  ///< by edge: the one that ends where it begins
 };
 
 }  // namespace regrasp

@@ -47,8 +47,10 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
       face.point += area / 3 * mesh.vertices[from];
-      if (face_of_triangle[topology.neighbor[t][k]] != face_of_triangle[t]) {
+      const int beyond = face_of_triangle[topology.neighbor[t][k]];
+      if (beyond != face_of_triangle[t]) {
         face.border.push_back({from, to});
+        face.beyond.push_back(beyond);
       }
     }
   }
@@ -118,6 +120,24 @@ double Polyhedron::DistanceToBorder(int face, const Vector3d& point) const {
 bool Polyhedron::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
   return index_->ContainsSegment(face, a, b, tolerance);
+}
+
+std::vector<FaceBorder> Polyhedron::BordersOf(int face) const {
+  const Face& own = faces_[face];
+  std::vector<FaceBorder> borders;
+  borders.reserve(own.border.size());
+  for (std::size_t i = 0; i < own.border.size(); ++i) {
+    const Vector3d& a = vertices_[own.border[i][0]];
+    const Vector3d& b = vertices_[own.border[i][1]];
+    const Vector3d& normal = faces_[own.beyond[i]].inward_normal;
+    borders.push_back(
+        {a, b, own.beyond[i], IsConvexTurn(own.inward_normal, normal, (b - a).stableNormalized())});
+  }
+  return borders;
+}
+
+bool Polyhedron::AreNeighbours(int face, int other) const {
+  return std::ranges::find(faces_[face].beyond, other) != faces_[face].beyond.end();
 }
 
 }  // namespace regrasp

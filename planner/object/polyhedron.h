@@ -24,6 +24,7 @@ class Polyhedron final : public Object {
     /// Directed border segments (vertex indices), outline and holes, material of the face on the
     /// left seen from outside.
     std::vector<std::array<int, 2>> border;
+    std::vector<int> beyond;  ///< by border segment: the face across it
   };
 
   /// Checks, orients (a wholly inward mesh is turned) and joins a soup. Vertices with exactly equal
@@ -54,6 +55,8 @@ class Polyhedron final : public Object {
   [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      double tolerance) const override;
+  [[nodiscard]] std::vector<FaceBorder> BordersOf(int face) const override;
+  [[nodiscard]] bool AreNeighbours(int face, int other) const override;
 
  private:
   Polyhedron(std::vector<Eigen::Vector3d> vertices, std::vector<std::array<int, 3>> triangles,

@@ -32,15 +32,13 @@ int CheckAligns(const GraspPath& path, const SearchSpace& space) {
   for (const PathStep& step : path.steps) {
     if (!step.align) continue;
     ++aligns;
-    Grasp from, to;
-    for (const auto& [a, b] : step.align->contacts) {
-      from.push_back(space.contact(a));
-      to.push_back(space.contact(b));
+    const std::vector<Grasp> waypoints = WaypointsOf(*step.align, space);
+    for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
+      EXPECT_EQ(CheckMotionProof(waypoints[w], waypoints[w + 1], space.dimension(),
+                                 std::tan(space.half_angle()), step.align->proof.at(w))
+                    .kind,
+                ProofVerdict::Kind::kForceClosure);
     }
-    EXPECT_EQ(CheckMotionProof(from, to, space.dimension(), std::tan(space.half_angle()),
-                               step.align->proof)
-                  .kind,
-              ProofVerdict::Kind::kForceClosure);
   }
   return aligns;
 }

@@ -38,6 +38,30 @@ TEST(Polygon, MaterialIsOnTheLeftOfOutlineAndHoles) {
   EXPECT_NEAR(frame.diameter(), std::sqrt(20), kTight);
 }
 
+TEST(Polygon, EdgesMeetAtTheirVerticesAndOnlyThoseOfTheHoleAreConcave) {
+  const Polygon frame = Polygon::FromWkt(kFrame, "frame");
+  for (int f = 0; f < 8; ++f) {
+    const auto [a, b] = frame.edge(f);
+    const auto borders = frame.BordersOf(f);
+    ASSERT_EQ(borders.size(), 2u);
+    EXPECT_EQ(borders[0].a, a);
+    EXPECT_EQ(borders[0].b, a);
+    EXPECT_EQ(borders[1].a, b);
+    for (const FaceBorder& border : borders) {
+      EXPECT_EQ(border.convex, f < 4) << "edge " << f;
+      EXPECT_EQ(border.beyond < 4, f < 4);
+      EXPECT_TRUE(frame.AreNeighbours(f, border.beyond));
+      EXPECT_TRUE(frame.AreNeighbours(border.beyond, f));
+    }
+    EXPECT_NE(borders[0].beyond, borders[1].beyond);
+    EXPECT_FALSE(frame.AreNeighbours(f, f));
+    EXPECT_FALSE(frame.AreNeighbours(f, (f + 4) % 8));
+  }
+  // Collinear edges are passed as well.
+  const Polygon split = Polygon::FromWkt("POLYGON((0 0, 1 0, 2 0, 2 2, 0 2, 0 0))", "split");
+  EXPECT_TRUE(split.BordersOf(0).back().convex);
+}
+
 TEST(Polygon, MassPropertiesAreThoseOfARectangleLessItsHole) {
   const Polygon frame = Polygon::FromWkt(kFrame, "frame");
   const MassProperties mass = frame.mass_properties();

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/planner/object/meshes.h"
@@ -38,6 +39,40 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
     EXPECT_EQ(cube.faces()[f].border.size(), 4u);
     EXPECT_EQ(cube.faces()[f].triangles.size(), 2u);
   }
+}
+
+/// Both faces of every border know it, and say the same of it. @returns how many are concave.
+int CheckBorders(const Polyhedron& body) {
+  int concave = 0;
+  for (int face = 0; face < body.face_count(); ++face) {
+    const auto borders = body.BordersOf(face);
+    EXPECT_EQ(borders.size(), body.faces()[face].border.size());
+    for (const FaceBorder& border : borders) {
+      EXPECT_NE(border.beyond, face);
+      EXPECT_TRUE(body.AreNeighbours(face, border.beyond));
+      EXPECT_TRUE(body.AreNeighbours(border.beyond, face));
+      const auto others = body.BordersOf(border.beyond);
+      EXPECT_TRUE(std::ranges::any_of(others, [&](const FaceBorder& other) {
+        return other.beyond == face && other.a == border.b && other.b == border.a &&
+               other.convex == border.convex;
+      }));
+      concave += border.convex ? 0 : 1;
+    }
+  }
+  return concave;
+}
+
+TEST(Polyhedron, FacesKnowTheirNeighboursAndWhichEdgesAreConcave) {
+  const Polyhedron cube = Polyhedron::FromSoup(UnitCubeSoup(), "cube");
+  EXPECT_EQ(CheckBorders(cube), 0);
+  const int top = FaceTowards(cube, Vector3d::UnitZ());
+  EXPECT_EQ(cube.BordersOf(top).size(), 4u);
+  EXPECT_FALSE(cube.AreNeighbours(top, FaceTowards(cube, -Vector3d::UnitZ())));
+  EXPECT_FALSE(cube.AreNeighbours(top, top));
+  // Of an L one edge is concave, of a square hole four: each is counted from both sides.
+  EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(LBlockSoup(), "ell")), 2);
+  EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(HoleBlockSoup(), "block")), 8);
+  EXPECT_EQ(CheckBorders(Polyhedron::FromSoup(SphereSoup(8), "sphere")), 0);
 }
 
 TEST(Polyhedron, AMeshThatIsWhollyInwardIsTurned) {
