@@ -211,34 +211,21 @@ std::vector<AlignCase> PolyhedronAligns(const Bodies& bodies, double half_angle,
   return cases;
 }
 
-std::vector<AlignCase> PolygonAligns(const Bodies& bodies, double half_angle, std::size_t each) {
+/// @param plan  of a polygon, by options: PlanOnPolygon or PlanOnContour.
+template <class Options>
+std::vector<AlignCase> PlanarAligns(PlanResult (*plan)(const Polygon&, const GraspChoice&,
+                                                       const GraspChoice&, const Options&),
+                                    const Bodies& bodies, double half_angle, std::size_t each) {
   std::vector<AlignCase> cases;
   for (const ObjectFile& file : bodies.files) {
     const auto& polygon = dynamic_cast<const Polygon&>(*file.object);
     CollectAligns(
         file,
         [&](std::uint64_t seed) {
-          PolygonPlanOptions options;
+          Options options;
           options.half_angle = half_angle;
           options.seed = seed;
-          return PlanOnPolygon(polygon, kAny, kAny, options);
-        },
-        each, cases);
-  }
-  return cases;
-}
-
-std::vector<AlignCase> ContourAligns(const Bodies& bodies, double half_angle, std::size_t each) {
-  std::vector<AlignCase> cases;
-  for (const ObjectFile& file : bodies.files) {
-    const auto& polygon = dynamic_cast<const Polygon&>(*file.object);
-    CollectAligns(
-        file,
-        [&](std::uint64_t seed) {
-          ContourPlanOptions options;
-          options.half_angle = half_angle;
-          options.seed = seed;
-          return PlanOnContour(polygon, kAny, kAny, options);
+          return plan(polygon, kAny, kAny, options);
         },
         each, cases);
   }
@@ -269,8 +256,10 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
     table.Add(at("polyhedron", degrees), PolyhedronAligns(solids, Radians(degrees), wanted));
   }
   for (const double degrees : kPlanarFrictions) {
-    table.Add(at("polygon", degrees), PolygonAligns(polygons, Radians(degrees), wanted));
-    table.Add(at("contour", degrees), ContourAligns(contours, Radians(degrees), wanted));
+    table.Add(at("polygon", degrees),
+              PlanarAligns(PlanOnPolygon, polygons, Radians(degrees), wanted));
+    table.Add(at("contour", degrees),
+              PlanarAligns(PlanOnContour, contours, Radians(degrees), wanted));
   }
   const int tight = (each + 3) / 4;
   const double spatial = kSpatialFrictions.front(), planar = kPlanarFrictions.front();

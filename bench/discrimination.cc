@@ -23,13 +23,10 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
+#include "planner/general/surface_source.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/object/polygon.h"
-#include "planner/object/polyhedron.h"
-#include "planner/plan/clearance.h"
-#include "planner/roadmap/surface_sample.h"
 #include "sim/replay.h"
 
 namespace {
@@ -51,49 +48,25 @@ constexpr double kFirstQuality = 0.03;
 class Body {
  public:
   explicit Body(const std::filesystem::path& path)
-      : name_(path.stem().string()), file_(ReadObject(path)) {
-    if (const auto* solid = dynamic_cast<const Polyhedron*>(file_.object.get())) {
-      sampler_ = std::make_unique<SurfaceSampler>(*solid);
-    }
-  }
+      : name_(path.stem().string()), file_(ReadObject(path)), source_(*file_.object) {}
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Object& object() const { return *file_.object; }
+  /// Contacts drawn evenly over the surface where a fingertip has room.
+  [[nodiscard]] const SurfaceSource& source() const { return source_; }
   [[nodiscard]] bool planar() const { return object().dimension() == 2; }
   [[nodiscard]] int hold() const { return planar() ? 3 : 4; }
 
-  /// A contact drawn evenly over the surface where a fingertip has room.
-  [[nodiscard]] Contact Draw(RandomStream& random) const {
-    for (;;) {
-      const Contact contact = sampler_ ? sampler_->Draw(random) : DrawOnEdges(random);
-      if (HasStandingRoom(object(), contact)) return contact;
-    }
-  }
-
   [[nodiscard]] Grasp DrawGrasp(RandomStream& random) const {
     Grasp grasp;
-    for (int i = 0; i < hold(); ++i) grasp.push_back(Draw(random));
+    for (int i = 0; i < hold(); ++i) grasp.push_back(source_.Draw(random));
     return grasp;
   }
 
  private:
-  [[nodiscard]] Contact DrawOnEdges(RandomStream& random) const {
-    const auto& polygon = dynamic_cast<const Polygon&>(object());
-    double length = 0;
-    for (int edge = 0; edge < polygon.face_count(); ++edge) length += polygon.face_measure(edge);
-    double left = random.Uniform() * length;
-    int edge = 0;
-    while (edge + 1 < polygon.face_count() && left > polygon.face_measure(edge)) {
-      left -= polygon.face_measure(edge++);
-    }
-    const auto [from, to] = polygon.edge(edge);
-    const double share = random.Uniform();
-    return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
-  }
-
   std::string name_;
   ObjectFile file_;
-  std::unique_ptr<SurfaceSampler> sampler_;
+  SurfaceSource source_;
 };
 
 /// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.
@@ -168,7 +141,7 @@ std::vector<Sample> JudgeSwitches(const Body& body, int count, std::uint64_t see
     const Grasp first = body.DrawGrasp(random);
     Grasp second = first;
     second.erase(second.begin());
-    second.push_back(body.Draw(random));
+    second.push_back(body.source().Draw(random));
     const auto critical = CriticalFriction(body, second);
     if (!critical) continue;
     const double ratio = DrawRatio(random);

@@ -1,17 +1,10 @@
 #include "bench/tight_aligns.h"
 
-#include <algorithm>
-#include <functional>
-#include <memory>
-
 #include "planner/base/random.h"
+#include "planner/general/surface_source.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/object/polygon.h"
-#include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "planner/plan/clearance.h"
-#include "planner/roadmap/surface_sample.h"
 
 namespace regrasp {
 
@@ -19,27 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-Contact DrawOnEdges(const Polygon& polygon, RandomStream& random) {
-  double length = 0;
-  for (int edge = 0; edge < polygon.face_count(); ++edge) length += polygon.face_measure(edge);
-  double left = random.Uniform() * length;
-  int edge = 0;
-  while (edge + 1 < polygon.face_count() && left > polygon.face_measure(edge)) {
-    left -= polygon.face_measure(edge++);
-  }
-  const auto [from, to] = polygon.edge(edge);
-  const double share = random.Uniform();
-  return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
-}
-
 class TightDraw {
  public:
   TightDraw(const Object& object, double half_angle, std::uint64_t seed)
-      : object_(object), half_angle_(half_angle), random_(seed, RandomUse::kStart) {
-    if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
-      sampler_ = std::make_unique<SurfaceSampler>(*solid);
-    }
-  }
+      : object_(object),
+        half_angle_(half_angle),
+        random_(seed, RandomUse::kStart),
+        source_(object) {}
 
   [[nodiscard]] Plan Draw() {
     for (;;) {
@@ -53,18 +32,11 @@ class TightDraw {
   }
 
  private:
-  [[nodiscard]] Contact DrawContact() {
-    for (;;) {
-      const Contact contact = sampler_
-                                  ? sampler_->Draw(random_)
-                                  : DrawOnEdges(dynamic_cast<const Polygon&>(object_), random_);
-      if (HasStandingRoom(object_, contact)) return contact;
-    }
-  }
-
   [[nodiscard]] Grasp DrawGrasp() {
     Grasp grasp;
-    for (int i = 0; i < (object_.dimension() == 3 ? 5 : 3); ++i) grasp.push_back(DrawContact());
+    for (int i = 0; i < (object_.dimension() == 3 ? 5 : 3); ++i) {
+      grasp.push_back(source_.Draw(random_));
+    }
     return grasp;
   }
 
@@ -109,7 +81,7 @@ class TightDraw {
   const Object& object_;
   double half_angle_;
   RandomStream random_;
-  std::unique_ptr<SurfaceSampler> sampler_;
+  SurfaceSource source_;
 };
 
 }  // namespace

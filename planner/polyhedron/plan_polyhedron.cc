@@ -140,6 +140,11 @@ class PolyhedronPlanner {
   std::vector<FocusGrasp> Locate(const GraspChoice& choice) {
     std::vector<FocusGrasp> at = geometry_.Locate(choice.grasp);
     if (!at.empty()) return at;
+    if (graph_.vertex_count() == 0) {
+      throw NoGrasp{choice.name +
+                    ": force closure, but the body has no focus cell, as the planner polyhedron "
+                    "needs them"};
+    }
     throw NoGrasp{choice.name + ": force closure, but in none of the " +
                   std::to_string(graph_.vertex_count()) +
                   " focus cells: its four contacts are not concurrent, as the planner polyhedron "

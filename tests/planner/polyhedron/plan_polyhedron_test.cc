@@ -175,7 +175,8 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
                        contact({0, 1, -0.2})};
   const PlanResult result = PlanOnPolyhedron(box, Given(grasp), Given(other), Options(25, 0));
   EXPECT_EQ(result.status, Status::kNoGrasp);
-  EXPECT_THAT(result.message, HasSubstr("given.json: force closure, but in none of the 0 focus"));
+  EXPECT_THAT(result.message,
+              HasSubstr("given.json: force closure, but the body has no focus cell"));
   EXPECT_EQ(PlanOnPolyhedron(box, Random(), Random(), Options(25, 0)).status, Status::kNoGrasp);
   EXPECT_FALSE(DescribeFocus(box, grasp, Radians(25)));
   // What the roadmap can do, auto does by it.
