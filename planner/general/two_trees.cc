@@ -26,6 +26,12 @@ constexpr double kNarrower = 0.7;
 /// the small faces of a mesh there are no others.
 constexpr double kLeastWay = 0.05;
 
+/// Contacts have no way to go on it.
+bool IsSmall(int face, const Object& object) {
+  const double way = kLeastWay * object.diameter();
+  return object.face_measure(face) < (object.dimension() == 3 ? way * way : way);
+}
+
 /// So many candidates later than the grasp before it on its tuple of faces a grasp gets its turn.
 constexpr int kBehind = 8;
 
@@ -231,7 +237,7 @@ void TwoTrees::GrowAcross(int side, std::int64_t until) {
     FaceTuple tuple;
     for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
     std::sort(tuple.begin(), tuple.end());
-    if (!trees_[side].reached.OnTuple(tuple).empty()) continue;
+    if (IsSmall(face, space_.object()) || !trees_[side].reached.OnTuple(tuple).empty()) continue;
     const auto found =
         FindTransition(before, leaving, source_.DrawOn(face, random_), source_, random_, space_);
     if (!found) continue;
