@@ -173,8 +173,10 @@ void TwoTrees::Meet(int side, int node) {
     join(any, *between);
     return;
   }
-  for (const auto& [way, there] : NearestOnTuple(1 - side, set, kAlignsToMeet)) {
-    if (auto align = AlignStraight(set, other[there], space_)) {
+  std::vector<NodeAt> near = NearestOnTuple(1 - side, set, kAlignsToMeet);
+  if (near.empty() && set.size() == space_.fingers()) near.push_back({0, any});
+  for (const auto& [way, there] : near) {
+    if (auto align = AlignBetween(set, other[there], space_)) {
       join(there, {set, {{other[there], std::move(align)}}});
       return;
     }
@@ -193,21 +195,24 @@ void TwoTrees::GrowAround(int side, std::int64_t until) {
 }
 
 bool TwoTrees::AlignAround(int side, int node, double reach) {
+  const ContactSet& from = trees_[side].reached[node];
+  // Of a full hand, which has no finger for a switch, one contact leaves its face.
+  const bool full = from.size() == space_.fingers();
+  const int leaving = full ? static_cast<int>(random_.Index(from.size())) : -1;
   Grasp drawn;
-  for (const int number : trees_[side].reached[node]) {
-    drawn.push_back(source_.DrawNear(space_.contact(number), reach, random_));
+  for (int i = 0; i < from.size(); ++i) {
+    const Contact& contact = space_.contact(from[i]);
+    drawn.push_back(i == leaving ? source_.DrawAround(contact, reach, random_)
+                                 : source_.DrawNear(contact, reach, random_));
   }
   const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
   if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
   const ContactSet set = space_.Add(drawn);
-  space_.Accept(set);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
     if (way < kLeastWay * space_.object().diameter()) return false;
-    auto align = AlignStraight(trees_[side].reached[near], set, space_);
-    if (!align) return false;
-    Reach(side, set, near, std::move(align));
+    node = near;
   }
-  return true;
+  return AlignTo(side, node, set) >= 0;
 }
 
 bool TwoTrees::SwitchAround(int side, int node, double reach) {
@@ -256,12 +261,10 @@ int TwoTrees::FaceAcross(int side) {
   return space_.contact(set[static_cast<int>(random_.Index(set.size()))]).face;
 }
 
-int TwoTrees::AlignTo(int side, int node, const Grasp& grasp) {
-  if (!space_.has_room()) return -1;
-  const ContactSet set = space_.Add(grasp);
+int TwoTrees::AlignTo(int side, int node, const ContactSet& set) {
   space_.Accept(set);
   if (trees_[side].reached.Find(set) < 0) {
-    auto align = AlignStraight(trees_[side].reached[node], set, space_);
+    auto align = AlignBetween(trees_[side].reached[node], set, space_);
     if (!align) return -1;
     Reach(side, set, node, std::move(align));
   }
@@ -270,7 +273,8 @@ int TwoTrees::AlignTo(int side, int node, const Grasp& grasp) {
 
 int TwoTrees::AlignAlong(int side, int node, std::span<const Grasp> way) {
   if (way.empty() || found_) return node;
-  if (const int end = AlignTo(side, node, way.back()); end >= 0) return end;
+  if (!space_.has_room()) return -1;
+  if (const int end = AlignTo(side, node, space_.Add(way.back())); end >= 0) return end;
   if (way.size() == 1) return -1;
   const int middle = AlignAlong(side, node, way.first(way.size() / 2));
   return middle < 0 ? -1 : AlignAlong(side, middle, way.subspan(way.size() / 2));

@@ -60,9 +60,8 @@ class TwoTrees {
   void GrowAcross(int side, std::int64_t until);
   /// Any face of the body, or one that the other tree's grasps are on.
   int FaceAcross(int side);
-  /// Reaches a grasp of a node's tuple of faces by a straight align.
-  /// @returns its node; −1 where the align was not proved.
-  int AlignTo(int side, int node, const Grasp& grasp);
+  /// Reaches a grasp by an align, whose node is returned; −1 where none was proved.
+  int AlignTo(int side, int node, const ContactSet& set);
   /// The same for the last of several grasps, over some of the others where it has to be.
   int AlignAlong(int side, int node, std::span<const Grasp> way);
   void TryCandidate(int side, int node, int candidate);
