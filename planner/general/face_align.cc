@@ -81,9 +81,7 @@ class Pairing {
   static Cost CostOf(const Contact& a, const Contact& b, const SearchSpace& space) {
     const double way = (a.p - b.p).norm();
     if (a.face == b.face) return {0, way};
-    const bool may =
-        way <= kNear * space.object().diameter() || space.object().AreNeighbours(a.face, b.face);
-    return may ? Cost{1, way} : kNever;
+    return MayGoOver(a, b, space.object()) ? Cost{1, way} : kNever;
   }
 
   void Assign(int i, unsigned taken, const Cost& cost) {
@@ -251,6 +249,11 @@ FaceTuple TupleOf(const ContactSet& set, const SearchSpace& space) {
   for (const int contact : set) tuple.push_back(space.contact(contact).face);
   std::sort(tuple.begin(), tuple.end());
   return tuple;
+}
+
+bool MayGoOver(const Contact& from, const Contact& to, const Object& object) {
+  return (from.p - to.p).norm() <= kNear * object.diameter() ||
+         object.AreNeighbours(from.face, to.face);
 }
 
 std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSet& to,

@@ -33,17 +33,20 @@ struct FaceAlign {
 using FaceTuple = std::vector<int>;
 [[nodiscard]] FaceTuple TupleOf(const ContactSet& set, const SearchSpace& space);
 
+/// Whether an align may take a contact to another face: to a neighbouring one, or near by (kNear).
+[[nodiscard]] bool MayGoOver(const Contact& from, const Contact& to, const Object& object);
+/// Of the diameter. On a fine mesh faces are small, and what is near is few edges away.
+inline constexpr double kNear = 0.15;
+
 using ContactPairs = std::vector<std::pair<int, int>>;
 
 /// Pairs the contacts of two grasps for an align: common ones stay, the others go to one on their
-/// own face, on a neighbouring face, or near them (kNear). Of all pairings the one with the fewest
+/// own face, or go over to another one (MayGoOver). Of all pairings the one with the fewest
 /// contacts that change their faces, of those the one with the least straight way in all.
 ///
 /// Takes well under a microsecond, most of all where there is none.
 [[nodiscard]] std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSet& to,
                                                        const SearchSpace& space);
-/// Of the diameter. On a fine mesh faces are small, and what is near is few edges away.
-inline constexpr double kNear = 0.15;
 
 /// The straight way of all contacts together from one grasp to another; infinite where they can't
 /// be paired.

@@ -13,8 +13,15 @@ namespace {
 /// Some of the contacts, by bits.
 using Mask = std::uint32_t;
 
-/// Optimistic aligns that turn out not to hold before the search does without any more of them.
+/// Optimistic aligns that turn out not to hold before the search does without any more of them, and
+/// before it does without those across edges.
 constexpr int kMostRefusals = 32;
+constexpr int kMostOverRefusals = 8;
+
+/// Contacts that an align takes to other faces, and for each contact so many to choose from, the
+/// nearest ones.
+constexpr int kMostOver = 2;
+constexpr int kOverChoices = 3;
 
 /// Half-angles that are closer than this count as equal when the least one is looked for, radians.
 constexpr double kEqualAngles = 1e-3;
@@ -47,12 +54,16 @@ class SubsetSearch {
         apart_[b] |= Mask{1} << a;
       }
     }
+    if (!aligns_) return;
+    FindTargets();
+    for (int i = 0; i < 2; ++i) sides_[i].may_stay_full = NeedsAll(i == 0 ? from : to);
   }
 
   /// At the half-angle that the space has now.
   std::optional<GraspPath> Search() {
     for (int refusals = 0;; ++refusals) {
       if (refusals == kMostRefusals) aligns_ = false;
+      if (over_refusals_ == kMostOverRefusals) over_ = 0;
       const auto middle = Meet();
       if (!middle) return std::nullopt;
       if (auto path = MakePath(*middle)) return path;
@@ -65,9 +76,10 @@ class SubsetSearch {
 
   /// What was reached from one end.
   struct Side {
-    std::vector<Mask> parents;  ///< by mask: where it was reached from, kUnseen or kNoGrasp
-    std::vector<Mask> level;    ///< the grasps reached last
-    std::vector<Mask> next;     ///< what can be reached from those, not tested yet
+    std::vector<Mask> parents;   ///< by mask: where it was reached from, kUnseen or kNoGrasp
+    std::vector<Mask> level;     ///< the grasps reached last
+    std::vector<Mask> next;      ///< what can be reached from those, not tested yet
+    bool may_stay_full = false;  ///< grasps of all fingers may be reached, by aligns
   };
 
   [[nodiscard]] Mask MaskOf(const ContactSet& set) const {
@@ -134,7 +146,7 @@ class SubsetSearch {
     side.next.clear();
     for (const Mask mask : side.level) {
       Place(mask, mask, 0, space_.fingers() - Count(mask), side);
-      if (aligns_) Align(mask, mask, 0, side);
+      if (aligns_) Align(mask, mask, 0, over_, side);
     }
   }
 
@@ -152,23 +164,50 @@ class SubsetSearch {
     }
   }
 
-  /// All grasps with each contact, from the `first` on, at itself or at another one of its face.
-  void Align(Mask mask, Mask moved, int first, Side& side) {
+  /// Whether a grasp of all fingers holds with no finger less. A hand that is full switches to
+  /// nothing but a part of what it holds, and its aligns have no spare finger to be carried out
+  /// with: full grasps are passed only where there is no other way.
+  [[nodiscard]] bool NeedsAll(const ContactSet& set) {
+    return set.size() == space_.fingers() && std::none_of(set.begin(), set.end(), [&](int contact) {
+             return space_.Admits(set.Without(contact));
+           });
+  }
+
+  void FindTargets() {
+    targets_.resize(count_);
+    for (int i = 0; i < count_; ++i) {
+      const Contact& from = space_.contact(contacts_[i]);
+      std::vector<std::pair<double, int>> over;
+      for (int k = 0; k < count_; ++k) {
+        const Contact& to = space_.contact(contacts_[k]);
+        if (k == i) continue;
+        if (to.face == from.face) {
+          targets_[i].push_back({k, 0});
+        } else if (MayGoOver(from, to, space_.object())) {
+          over.emplace_back((from.p - to.p).norm(), k);
+        }
+      }
+      std::sort(over.begin(), over.end());
+      over.resize(std::min<std::size_t>(over.size(), kOverChoices));
+      for (const auto& [way, k] : over) targets_[i].push_back({k, 1});
+    }
+  }
+
+  /// All grasps with each contact, from the `first` on, at itself or at another one of its face, or
+  /// with so many of them over an edge.
+  void Align(Mask mask, Mask moved, int first, int over, Side& side) {
     if (moved != mask && side.parents[moved] == kUnseen && AreApart(moved) &&
         !IsRefused(mask, moved)) {
       Reach(moved, mask, side);
     }
     for (int i = first; i < count_; ++i) {
       if ((mask >> i & 1) == 0) continue;
-      for (int k = 0; k < count_; ++k) {
-        const bool taken = ((mask | moved) >> k & 1) != 0;
-        if (taken || FaceOf(k) != FaceOf(i)) continue;
-        Align(mask, (moved & ~(Mask{1} << i)) | Mask{1} << k, i + 1, side);
+      for (const auto& [k, edges] : targets_[i]) {
+        if (((mask | moved) >> k & 1) != 0 || edges > over) continue;
+        Align(mask, (moved & ~(Mask{1} << i)) | Mask{1} << k, i + 1, over - edges, side);
       }
     }
   }
-
-  [[nodiscard]] int FaceOf(int i) const { return space_.contact(contacts_[i]).face; }
 
   [[nodiscard]] bool AreApart(Mask mask) const {
     for (Mask rest = mask; rest != 0; rest &= rest - 1) {
@@ -181,9 +220,8 @@ class SubsetSearch {
     if (side.parents[mask] != kUnseen) return;
     if (mask != ends_[0] && mask != ends_[1]) {
       const int held = Count(mask);
-      // A hand that is full switches to nothing but a part of what it holds, and its aligns have no
-      // spare finger to be carried out with.
-      if (held < space_.fewest_contacts() || held == space_.fingers()) return;
+      if (held < space_.fewest_contacts()) return;
+      if (held == space_.fingers() && !(side.may_stay_full && Count(parent) == held)) return;
     }
     side.parents[mask] = parent;
     side.next.push_back(mask);
@@ -209,9 +247,10 @@ class SubsetSearch {
       const Mask before = masks[i - 1];
       PathStep step{SetOf(masks[i]), std::nullopt};
       if (!IsSwitch(before, masks[i])) {
-        step.align = AlignStraight(SetOf(before), step.to, space_);
+        step.align = AlignBetween(SetOf(before), step.to, space_);
         if (!step.align) {
           refused_[{std::min(before, masks[i]), std::max(before, masks[i])}] = space_.half_angle();
+          if (TupleOf(SetOf(before), space_) != TupleOf(step.to, space_)) ++over_refusals_;
           return std::nullopt;
         }
       }
@@ -224,8 +263,12 @@ class SubsetSearch {
   const std::vector<int>& contacts_;
   int count_;
   bool aligns_;
+  int over_ = kMostOver;
+  int over_refusals_ = 0;
   int most_steps_;
   std::vector<Mask> apart_;  ///< by contact: those that it can't meet
+  /// By contact: where an align may take it, and whether to another face.
+  std::vector<std::vector<std::pair<int, int>>> targets_;
   std::array<Mask, 2> ends_;
   std::array<Side, 2> sides_;
   /// The largest half-angle at which an align was not proved.

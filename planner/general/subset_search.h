@@ -8,16 +8,18 @@
 
 namespace regrasp {
 
-/// Whether straight aligns are looked for beside finger switches.
+/// Whether aligns are looked for beside finger switches.
 enum class UseAligns { kNo, kYes };
 
 /// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search
 /// from both ends in which a subset is tested when it is first reached. In one step a hand of h
-/// fingers switches from A to B iff |A ∪ B| ≤ h; aligns go straight between grasps of one tuple of
-/// faces.
+/// fingers switches from A to B iff |A ∪ B| ≤ h. Aligns (AlignBetween) take contacts to others of
+/// their faces, and two at most to ones beyond edges near by. They are taken to hold until they are
+/// part of a way, and are proved then; after some that do not the search does without.
 ///
 /// Laws: none of the sets but the ends needs to be admitted; the fewest steps never grow with more
-/// contacts, more friction or aligns.
+/// contacts, more friction or aligns. (With aligns a way found is not always the shortest: see
+/// above.)
 /// @param contacts   those of the ends included, at most kMostSubsetContacts.
 /// @param most_steps the search ends there.
 /// @returns nullopt where there is no way.
