@@ -41,9 +41,10 @@ ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimensio
     layout.AddForces(0, i * dimension, balance);
     layout.AddTorques(contacts[i].p, dimension, i * dimension, balance);
   }
-  x = balance.Corrected(std::move(x));
+  const auto balanced = balance.Corrected(x);
+  if (!balanced) return Nothing("the forces cannot be balanced exactly");
   for (int i = 0; i < count; ++i) {
-    if (!IsInsideCone(layout.Force(x, i * dimension), contacts[i].n, mu)) {
+    if (!IsInsideCone(layout.Force(*balanced, i * dimension), contacts[i].n, mu)) {
       return Nothing("the force at contact " + std::to_string(i) +
                      ", balanced exactly, is not inside its cone");
     }

@@ -93,10 +93,11 @@ ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Ratio
     layout.AddTorques(moving.start[i].p, torque_row + 2 * layout.torques, end, balance);
     layout.AddTorques(moving.end[i].p, torque_row + 2 * layout.torques, start, balance);
   }
-  x = balance.Corrected(std::move(x));
+  const auto balanced = balance.Corrected(x);
+  if (!balanced) return Nothing("the forces cannot be balanced exactly");
   for (int i = 0; i < count; ++i) {
-    const std::array forces = {layout.Force(x, i * dimension),
-                               layout.Force(x, (count + i) * dimension)};
+    const std::array forces = {layout.Force(*balanced, i * dimension),
+                               layout.Force(*balanced, (count + i) * dimension)};
     if (!StaysInsideCone(forces, moving.start[i], moving.end[i], moving.turns[i], mu)) {
       return Nothing("the force at contact " + std::to_string(i) +
                      ", balanced exactly, is not inside its cone");

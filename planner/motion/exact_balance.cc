@@ -1,8 +1,102 @@
 #include "planner/motion/exact_balance.h"
 
-#include <cmath>
+#include <Eigen/LU>
+#include <algorithm>
 
 namespace regrasp::exact {
+
+namespace {
+
+using Integer = mpz_class;
+
+/// The least common denominator.
+Integer CommonDenominator(std::span<const Rational> numbers) {
+  Integer common = 1;
+  for (const Rational& number : numbers) common = lcm(common, number.get_den());
+  return common;
+}
+
+/// number · multiple, which is an integer.
+Integer Multiple(const Rational& number, const Integer& multiple) {
+  return number.get_num() * (multiple / number.get_den());
+}
+
+/// Linear equations of integers.
+class Elimination {
+ public:
+  Elimination(int rows, int columns) : rows_(rows), columns_(columns), m_(rows * (columns + 1)) {}
+
+  Integer& At(int row, int column) { return m_[row * (columns_ + 1) + column]; }
+  Integer& Right(int row) { return At(row, columns_); }
+
+  /// numerators / denominator, the denominator positive.
+  struct Solution {
+    std::vector<Integer> numerators;
+    Integer denominator = 1;
+  };
+
+  /// A solution with as many unknowns as pivots on the diagonal are not 0, the others being 0.
+  /// @returns nullopt where it leaves a row unsolved.
+  std::optional<Solution> Solve() {
+    int rank = 0;
+    Integer before = 1;
+    for (; rank < std::min(rows_, columns_) && At(rank, rank) != 0; ++rank) {
+      for (int r = rank + 1; r < rows_; ++r) EliminateRow(r, rank, before);
+      before = At(rank, rank);
+    }
+    for (int r = rank; r < rows_; ++r) {
+      if (Right(r) != 0) return std::nullopt;
+    }
+    Solution solution{std::vector<Integer>(rank), before};
+    for (int r = rank - 1; r >= 0; --r) {
+      Integer sum = before * Right(r);
+      for (int c = r + 1; c < rank; ++c) sum -= At(r, c) * solution.numerators[c];
+      solution.numerators[r] = sum / At(r, r);
+    }
+    if (before < 0) {
+      solution.denominator = -before;
+      for (Integer& numerator : solution.numerators) numerator = -numerator;
+    }
+    return solution;
+  }
+
+ private:
+  /// All entries stay minors of the equations, so that the division is exact.
+  void EliminateRow(int row, int pivot, const Integer& before) {
+    const Integer factor = At(row, pivot);
+    for (int c = pivot + 1; c <= columns_; ++c) {
+      Integer& entry = At(row, c);
+      if (entry != 0) entry *= At(pivot, pivot);
+      if (factor != 0 && At(pivot, c) != 0) entry -= factor * At(pivot, c);
+      if (entry != 0) mpz_divexact(entry.get_mpz_t(), entry.get_mpz_t(), before.get_mpz_t());
+    }
+    At(row, pivot) = 0;
+  }
+
+  int rows_;
+  int columns_;
+  std::vector<Integer> m_;  ///< each row with its right side at its end
+};
+
+/// Rows and columns of A by the pivots that floating point would take, the largest first.
+struct Order {
+  std::vector<int> rows;
+  std::vector<int> columns;
+};
+
+Order PivotsOf(std::span<const Rational> a, int rows, int columns) {
+  Eigen::MatrixXd rounded(rows, columns);
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) rounded(r, c) = a[r * columns + c].get_d();
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(rounded);
+  const auto of_row = (lu.permutationP() * Eigen::VectorXi::LinSpaced(rows, 0, rows - 1)).eval();
+  const auto of_column = lu.permutationQ().indices();
+  return {{of_row.begin(), of_row.end()},
+          {of_column.begin(), of_column.begin() + std::min(rows, columns)}};
+}
+
+}  // namespace
 
 Vector Exact(const Eigen::Vector3d& v) {
   return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
@@ -39,70 +133,47 @@ bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu) {
   return normal > 0 && normal * normal * (1 + mu * mu) > Dot(force, force) * Dot(n, n);
 }
 
-std::vector<Rational> Balance::Corrected(std::vector<Rational> x) const {
-  std::vector<Rational> a = a_;
-  std::vector<Rational> right(rows_);
-  for (int r = 0; r < rows_; ++r) {
-    for (int c = 0; c < columns_; ++c) right[r] -= a[r * columns_ + c] * x[c];
-  }
-  std::vector<int> column_of_row;
-  for (int step = 0; step < rows_; ++step) {
-    const auto pivot = Pivot(a, step);
-    if (!pivot) break;  // the rows that are left are zero, and so is what they must give
-    const auto [row, column] = *pivot;
+std::optional<std::vector<Rational>> Balance::Corrected(const std::vector<Rational>& x) const {
+  const Order order = PivotsOf(a_, rows_, columns_);
+  const Integer scale = CommonDenominator(x);
+  Elimination elimination(static_cast<int>(order.rows.size()),
+                          static_cast<int>(order.columns.size()));
+  for (std::size_t r = 0; r < order.rows.size(); ++r) {
+    const std::span row(a_.data() + order.rows[r] * columns_, static_cast<std::size_t>(columns_));
+    const Integer per_row = CommonDenominator(row);
+    Integer& right = elimination.Right(static_cast<int>(r));
     for (int c = 0; c < columns_; ++c) {
-      std::swap(a[row * columns_ + c], a[step * columns_ + c]);
+      if (row[c] != 0) right -= Multiple(row[c], per_row) * Multiple(x[c], scale);
     }
-    std::swap(right[row], right[step]);
-    Eliminate(a, right, step, column);
-    column_of_row.push_back(column);
-  }
-  for (std::size_t r = 0; r < column_of_row.size(); ++r) x[column_of_row[r]] += right[r];
-  return x;
-}
-
-/// The largest entry from row `step` on.
-std::optional<Balance::Place> Balance::Pivot(const std::vector<Rational>& a, int step) const {
-  std::optional<Place> best;
-  double largest = 0;
-  for (int r = step; r < rows_; ++r) {
-    for (int c = 0; c < columns_; ++c) {
-      const Rational& entry = a[r * columns_ + c];
-      if (entry == 0) continue;
-      const double size = std::abs(entry.get_d());
-      if (best && size <= largest) continue;
-      largest = size;
-      best = Place{r, c};
+    for (std::size_t c = 0; c < order.columns.size(); ++c) {
+      elimination.At(static_cast<int>(r), static_cast<int>(c)) =
+          Multiple(row[order.columns[c]], per_row);
     }
   }
-  return best;
-}
-
-/// Makes the pivot 1 and the rest of its column 0.
-void Balance::Eliminate(std::vector<Rational>& a, std::vector<Rational>& right, int step,
-                        int column) const {
-  const Rational inverse = 1 / a[step * columns_ + column];
-  for (int c = 0; c < columns_; ++c) a[step * columns_ + c] *= inverse;
-  right[step] *= inverse;
-  for (int r = 0; r < rows_; ++r) {
-    const Rational factor = a[r * columns_ + column];
-    if (r == step || factor == 0) continue;
-    for (int c = 0; c < columns_; ++c) {
-      if (a[step * columns_ + c] != 0) a[r * columns_ + c] -= factor * a[step * columns_ + c];
-    }
-    right[r] -= factor * right[step];
+  const auto change = elimination.Solve();
+  if (!change) return std::nullopt;
+  std::vector<Rational> corrected;
+  for (const Rational& number : x) {
+    corrected.emplace_back(Multiple(number, scale) * change->denominator);
   }
+  for (std::size_t c = 0; c < change->numerators.size(); ++c) {
+    corrected[order.columns[c]] += change->numerators[c];
+  }
+  return corrected;
 }
 
 void Layout::AddTorques(const Vector& p, int row, int column, Balance& balance) const {
-  for (int axis = 0; axis < dimension; ++axis) {
-    Vector unit;
-    unit[axis] = 1;
-    const Vector torque = Cross(p, unit);
-    for (int k = 0; k < torques; ++k) {
-      balance.At(row + k, column + axis) += torque[torques == 3 ? k : 2];
-    }
-  }
+  const auto add = [&](int torque, int axis, const Rational& arm) {
+    balance.At(row + torque, column + axis) += arm;
+  };
+  const int about_z = torques == 3 ? 2 : 0;
+  add(about_z, 0, -p[1]);
+  add(about_z, 1, p[0]);
+  if (dimension == 2) return;
+  add(0, 1, -p[2]);
+  add(0, 2, p[1]);
+  add(1, 0, p[2]);
+  add(1, 2, -p[0]);
 }
 
 void Layout::AddForces(int row, int column, Balance& balance) const {

@@ -44,20 +44,15 @@ class Balance {
 
   [[nodiscard]] Rational& At(int row, int column) { return a_[row * columns_ + column]; }
 
-  /// x with some of its numbers changed so that A x = 0 holds exactly: those of the columns that
-  /// Gaussian elimination picks as pivots.
-  [[nodiscard]] std::vector<Rational> Corrected(std::vector<Rational> x) const;
+  /// A positive multiple of x, of integers, with some numbers changed so that A x = 0 holds
+  /// exactly: those of columns that elimination in floating point picks as pivots. What they take
+  /// up is found by elimination of integers without fractions (Bareiss 1968), which needs no
+  /// greatest common divisors.
+  /// @returns nullopt where the columns picked cannot take up what is left.
+  [[nodiscard]] std::optional<std::vector<Rational>> Corrected(
+      const std::vector<Rational>& x) const;
 
  private:
-  struct Place {
-    int row;
-    int column;
-  };
-
-  [[nodiscard]] std::optional<Place> Pivot(const std::vector<Rational>& a, int step) const;
-  void Eliminate(std::vector<Rational>& a, std::vector<Rational>& right, int step,
-                 int column) const;
-
   int rows_;
   int columns_;
   std::vector<Rational> a_;
