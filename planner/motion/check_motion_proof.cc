@@ -133,9 +133,12 @@ std::vector<ExactContact> At(std::span<const Contact> from, std::span<const Cont
 
 }  // namespace
 
-ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Contact> to,
-                              int dimension, double mu, std::span<const MotionPiece> pieces) {
+ProofVerdict CheckPieceProof(std::span<const Contact> from, std::span<const Contact> to,
+                             int dimension, double mu, const MotionPiece& piece) {
   if (from.size() != to.size()) return Nothing("not as many contacts after as before");
+  if (!(piece.from >= 0 && piece.to > piece.from && piece.to <= 1)) {
+    return Nothing("a piece is not a part of the way");
+  }
   std::vector<bool> turns;
   for (std::size_t i = 0; i < from.size(); ++i) {
     turns.push_back(from[i].n != to[i].n);
@@ -143,14 +146,17 @@ ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Con
       return Nothing("the normal of contact " + std::to_string(i) + " turns by a half-turn");
     }
   }
+  return CheckPiece({At(from, to, piece.from), At(from, to, piece.to), turns}, dimension, mu,
+                    piece);
+}
+
+ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Contact> to,
+                              int dimension, double mu, std::span<const MotionPiece> pieces) {
   double reached = 0;
   for (const MotionPiece& piece : pieces) {
-    if (piece.from != reached || !(piece.to > piece.from) || !(piece.to <= 1)) {
-      return Nothing("the pieces do not follow each other");
-    }
-    const MovingContacts moving = {At(from, to, piece.from), At(from, to, piece.to), turns};
-    ProofVerdict verdict = CheckPiece(moving, dimension, mu, piece);
-    if (verdict.kind != Kind::kForceClosure) return verdict;
+    if (piece.from != reached) return Nothing("the pieces do not follow each other");
+    ProofVerdict verdict = CheckPieceProof(from, to, dimension, mu, piece);
+    if (!verdict.proves()) return verdict;
     reached = piece.to;
   }
   if (reached != 1) return Nothing("the pieces do not cover the whole way");

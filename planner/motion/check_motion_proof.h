@@ -24,6 +24,11 @@ namespace regrasp {
                                             std::span<const Contact> to, int dimension, double mu,
                                             std::span<const MotionPiece> pieces);
 
+/// The same of one piece, whose ends are anywhere in [0, 1].
+[[nodiscard]] ProofVerdict CheckPieceProof(std::span<const Contact> from,
+                                           std::span<const Contact> to, int dimension, double mu,
+                                           const MotionPiece& piece);
+
 /// Radians. Normals that turn farther, almost to the opposite, have no great circle to speak of:
 /// nothing is proved of them.
 inline constexpr double kMostTurn = std::numbers::pi - 1e-3;

@@ -38,24 +38,50 @@ struct Piece {
 template <int kSpace>
 class MotionProofSearch {
  public:
-  MotionProofSearch(const GraspMotion& motion, double half_angle, double shortest)
-      : motion_(motion), half_angle_(half_angle), shortest_(shortest) {}
+  MotionProofSearch(const GraspMotion& motion, double half_angle, double largest_weight)
+      : motion_(motion), half_angle_(half_angle), largest_weight_(largest_weight) {}
 
-  std::optional<std::vector<MotionPiece>> Find() {
-    if (!Cover({0, 1})) return std::nullopt;
-    return std::move(pieces_);
+  /// @param shortest  of the pieces that are looked at.
+  std::optional<std::vector<MotionPiece>> Find(double shortest) {
+    std::vector<MotionPiece> pieces;
+    if (!Cover({0, 1}, shortest, pieces)) return std::nullopt;
+    return pieces;
+  }
+
+  [[nodiscard]] std::optional<MotionPiece> Prove(const Piece& piece) const {
+    const MovingContacts contacts = ContactsOn(piece);
+    if (contacts.empty() || !Span(contacts)) return std::nullopt;
+    MovingForces<1> forces;
+    if (!FindMovingForces<kSpace, 1>(contacts, forces, largest_weight_)) return std::nullopt;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
+        return std::nullopt;
+      }
+    }
+    MotionPiece proved{piece.from, piece.to, {}, {}};
+    proved.start.reserve(forces.size());
+    proved.end.reserve(forces.size());
+    for (const ForceCoefficients<1>& coefficients : forces) {
+      proved.start.push_back(coefficients[0]);
+      proved.end.push_back(coefficients[1]);
+    }
+    return proved;
   }
 
  private:
   static constexpr int kDim = kSpace == 3 ? 6 : 3;
 
-  bool Cover(const Piece& piece) {
+  bool Cover(const Piece& piece, double shortest, std::vector<MotionPiece>& pieces) const {
     if (!IsForceClosureAt(piece.middle())) return false;
-    if (Prove(piece)) return true;
+    if (auto proved = Prove(piece)) {
+      pieces.push_back(*std::move(proved));
+      return true;
+    }
     const bool whole = piece.to - piece.from == 1;
     if (whole && !(IsForceClosureAt(0) && IsForceClosureAt(1))) return false;
-    if (piece.to - piece.from < 2 * shortest_) return false;
-    return Cover({piece.from, piece.middle()}) && Cover({piece.middle(), piece.to});
+    if (piece.to - piece.from < 2 * shortest) return false;
+    return Cover({piece.from, piece.middle()}, shortest, pieces) &&
+           Cover({piece.middle(), piece.to}, shortest, pieces);
   }
 
   [[nodiscard]] static Vector3d PointAt(const ContactMotion& contact, double t) {
@@ -138,41 +164,36 @@ class MotionProofSearch {
     return false;
   }
 
-  bool Prove(const Piece& piece) {
-    const MovingContacts contacts = ContactsOn(piece);
-    if (contacts.empty() || !Span(contacts)) return false;
-    MovingForces<1> forces;
-    if (!FindMovingForces<kSpace, 1>(contacts, forces)) return false;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
-        return false;
-      }
-    }
-    MotionPiece& proved = pieces_.emplace_back(MotionPiece{piece.from, piece.to, {}, {}});
-    proved.start.reserve(forces.size());
-    proved.end.reserve(forces.size());
-    for (const ForceCoefficients<1>& coefficients : forces) {
-      proved.start.push_back(coefficients[0]);
-      proved.end.push_back(coefficients[1]);
-    }
-    return true;
-  }
-
   const GraspMotion& motion_;
   double half_angle_;
-  double shortest_;
-  std::vector<MotionPiece> pieces_;
+  double largest_weight_;
 };
 
+/// Whether there is something to prove at all.
+bool CanBeProved(const GraspMotion& motion) {
+  const auto flips = [](const ContactMotion& contact) { return contact.turn() > kMostTurn; };
+  return !motion.empty() && std::none_of(motion.begin(), motion.end(), flips);
+}
+
 }  // namespace
+
+std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimension,
+                                          double half_angle, double from, double to) {
+  CheckHalfAngle(half_angle);
+  if (!CanBeProved(motion)) return std::nullopt;
+  const Piece piece{from, to};
+  const double weight = kLargestWeightNearLimit;
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, weight).Prove(piece)
+                        : MotionProofSearch<2>(motion, half_angle, weight).Prove(piece);
+}
 
 std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,
                                                         double half_angle, double shortest) {
   CheckHalfAngle(half_angle);
-  const auto flips = [](const ContactMotion& contact) { return contact.turn() > kMostTurn; };
-  if (motion.empty() || std::any_of(motion.begin(), motion.end(), flips)) return std::nullopt;
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, shortest).Find()
-                        : MotionProofSearch<2>(motion, half_angle, shortest).Find();
+  if (!CanBeProved(motion)) return std::nullopt;
+  const double weight = kLargestWeight;
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, weight).Find(shortest)
+                        : MotionProofSearch<2>(motion, half_angle, weight).Find(shortest);
 }
 
 }  // namespace regrasp

@@ -11,15 +11,24 @@ namespace regrasp {
 /// Of a motion of length 1: pieces are not halved below this.
 inline constexpr double kShortestPiece = 1.0 / 4096;
 
-/// Looks for proofs of force closure all along a motion: pieces from 0 to 1, each with forces of
-/// degree 1 that balance at every instant and keep strictly inside the cones (FindMovingForces). A
-/// piece without such forces is halved; an instant that is not force closure, looked for first in
-/// the middle of each piece, ends the search.
+/// Looks for a proof of force closure on the piece of a motion between two instants: forces of
+/// degree 1 that balance at every instant and keep strictly inside the cones (FindMovingForces).
 ///
 /// While a normal turns, forces must be inside the cones of all its directions. They are looked for
 /// in the largest circular cone inside those of both ends of the piece: about the direction between
 /// them, narrower by half of the turn. (A force inside both is inside all cones between, as the
 /// directions within θ of a force are a convex part of the sphere.)
+///
+/// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
+/// Looks closer to the limit than FindMotionProof does (kLargestWeightNearLimit).
+/// @returns nullopt where none was found; that is no proof of the opposite.
+/// @throws std::invalid_argument  half_angle out of range.
+[[nodiscard]] std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimension,
+                                                        double half_angle, double from, double to);
+
+/// Looks for proofs all along a motion: pieces from 0 to 1 that follow each other (FindPieceProof).
+/// A piece without a proof is halved; an instant that is not force closure, looked for first in the
+/// middle of each piece, ends the search.
 ///
 /// Takes about 10 µs for four contacts in space where one piece is enough.
 /// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).

@@ -29,10 +29,6 @@ constexpr double kImprovement = 1e-13;
 /// Proofs take 15 to 40 pivots in space; what takes more is close to the limit, and is halved.
 constexpr int kMaxPivots = 100;
 
-/// Forces with more weight than this beside the fixed part of 1 to 1.5 along each normal are not
-/// looked for: hardly any proof needs them, and to rule them out takes twice the pivots.
-constexpr double kLargestWeights = 1e4;
-
 /// What the balance may leave of forces of size 1: some roundings of each of their sums.
 constexpr double kUnbalanced = 1e-12;
 
@@ -74,7 +70,8 @@ struct Arms<2> {
 template <int kSpace, int kDegree>
 class ForceProgram {
  public:
-  explicit ForceProgram(std::span<const MovingContact> contacts) : contacts_(contacts) {
+  ForceProgram(std::span<const MovingContact> contacts, double largest_weight)
+      : contacts_(contacts), largest_weight_(largest_weight) {
     double fastest = 0;
     for (const MovingContact& contact : contacts) {
       fastest = std::max(fastest, (contact.end - contact.start).norm());
@@ -209,7 +206,7 @@ class ForceProgram {
     for (int r = 0; r < kRows; ++r) size += std::abs(tableau_(kRows, r));
     if (!(best > kImprovement * size)) return false;
     // Weights λ ≥ 0 with Σ λ w = b give y·b = Σ λ (y·w) ≤ best Σ λ for the dual y at hand.
-    if (best * kLargestWeights < tableau_(kRows, kRows)) return false;
+    if (best * largest_weight_ < tableau_(kRows, kRows)) return false;
     const Source& source = sources_[chosen];
     return Enter({chosen, SupportForce < kSpace == 3 ? 6 : 3 > (source.contact, velocity)});
   }
@@ -296,6 +293,7 @@ class ForceProgram {
   }
 
   std::span<const MovingContact> contacts_;
+  double largest_weight_;
   boost::container::small_vector<Source, kInlineContacts*(kDegree + 1)> sources_;
   std::array<Column, kRows> basis_;
   Row right_;
@@ -307,13 +305,14 @@ class ForceProgram {
 }  // namespace
 
 template <int kSpace, int kDegree>
-bool FindMovingForces(std::span<const MovingContact> contacts, MovingForces<kDegree>& forces) {
-  return ForceProgram<kSpace, kDegree>(contacts).Solve(forces);
+bool FindMovingForces(std::span<const MovingContact> contacts, MovingForces<kDegree>& forces,
+                      double largest_weight) {
+  return ForceProgram<kSpace, kDegree>(contacts, largest_weight).Solve(forces);
 }
 
-template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&);
-template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&);
-template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&);
-template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&);
+template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
+template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
+template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
+template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
 
 }  // namespace regrasp

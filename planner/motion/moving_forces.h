@@ -32,6 +32,15 @@ using ForceCoefficients = std::array<Eigen::Vector3d, kDegree + 1>;
 template <int kDegree>
 using MovingForces = boost::container::small_vector<ForceCoefficients<kDegree>, kInlineContacts>;
 
+/// Forces with more weight in all than this beside the fixed part of 1 to 1.5 along each normal are
+/// not looked for: hardly any motion needs them that is not close to the limit, and to rule them
+/// out takes twice the pivots.
+inline constexpr double kLargestWeight = 1e4;
+
+/// Enough for motions that are force closure with 1e-4 rad to spare: their forces are about the
+/// inverse of that times larger than what they keep off their cones.
+inline constexpr double kLargestWeightNearLimit = 1e7;
+
 /// Looks for forces of degree d in t that balance at every instant of a piece, all coefficients
 /// strictly inside their contacts' cones.
 ///
@@ -53,6 +62,7 @@ using MovingForces = boost::container::small_vector<ForceCoefficients<kDegree>, 
 /// @returns false where there are none, or none was found within the limit on pivots.
 template <int kSpace, int kDegree>
 [[nodiscard]] bool FindMovingForces(std::span<const MovingContact> contacts,
-                                    MovingForces<kDegree>& forces);
+                                    MovingForces<kDegree>& forces,
+                                    double largest_weight = kLargestWeight);
 
 }  // namespace regrasp

@@ -1,24 +1,28 @@
 #include "planner/motion/path_force_closure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <queue>
+#include <utility>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/motion/motion_certificate.h"
+#include "planner/motion/check_motion_proof.h"
+#include "planner/motion/find_motion_proof.h"
 
 namespace regrasp {
 
 namespace {
 
-/// So many intervals of one motion are looked at: a motion that needs more keeps within about 1e-5
-/// of the limit, and no file may keep the program busy for more than seconds.
-constexpr int kMostIntervals = 100'000;
-/// Each of these costs tens of force-closure tests.
-constexpr int kMostAngleIntervals = 20'000;
+/// So many intervals of one motion are looked at: one that needs more keeps within about 1e-5 of
+/// the limit, and no file may keep the program busy for more than seconds.
+constexpr int kMostIntervals = 20'000;
 
-/// Intervals shorter than this are given more room than kPathAngleAccuracy: twice as much with
-/// every halving, so that the search ends.
+/// Intervals shorter than this are given more room than kPathAngleAccuracy, twice as much with
+/// every halving; and all are once more with every kPatience intervals looked at. So the search
+/// ends.
 constexpr double kWidenBelow = 1e-4;
+constexpr int kPatience = 200;
 
 /// Required half-angles of single instants are found to this, radians.
 constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;
@@ -26,10 +30,32 @@ constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;
 /// ComputeRequiredHalfAngle looks no farther.
 constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
 
+/// Proofs of pieces of a motion that are found in floating point, and checked in exact arithmetic.
+class PieceProofs {
+ public:
+  PieceProofs(const GraspMotion& motion, int dimension) : motion_(motion), dimension_(dimension) {
+    for (const ContactMotion& contact : motion) {
+      from_.push_back(contact.from());
+      to_.push_back(contact.to());
+    }
+  }
+
+  [[nodiscard]] bool Prove(double half_angle, double from, double to) const {
+    const auto proof = FindPieceProof(motion_, dimension_, half_angle, from, to);
+    return proof && CheckPieceProof(from_, to_, dimension_, std::tan(half_angle), *proof).proves();
+  }
+
+ private:
+  const GraspMotion& motion_;
+  int dimension_;
+  Grasp from_;
+  Grasp to_;
+};
+
 class PathDecision {
  public:
   PathDecision(const GraspMotion& motion, const WrenchFrame& frame, double half_angle)
-      : motion_(motion), frame_(frame), half_angle_(half_angle) {}
+      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), half_angle_(half_angle) {}
 
   PathForceClosure Decide() {
     result_.holds = true;
@@ -42,10 +68,8 @@ class PathDecision {
     const double centre = from + (to - from) / 2;
     if (!result_.holds) return;
     if (++intervals_ > kMostIntervals) return Lose(centre);
-    if (CertifyForceClosure(motion_, frame_.dimension, half_angle_, centre, (to - from) / 2)) {
-      return;
-    }
     if (!HoldsAt(centre)) return Lose(centre);
+    if (proofs_.Prove(half_angle_, from, to)) return;
     if (to - from > kShortestInterval) {
       Decide(from, centre);
       Decide(centre, to);
@@ -67,50 +91,83 @@ class PathDecision {
   }
 
   const GraspMotion& motion_;
+  PieceProofs proofs_;
   const WrenchFrame& frame_;
   double half_angle_;
   int intervals_ = 0;
   PathForceClosure result_;
 };
 
+/// The search for a bound on the whole way: intervals with a proof are done with, others are
+/// halved, those with the largest required half-angle in their middle first. So the largest of all
+/// is known before what it covers easily is looked at.
 class PathAngle {
  public:
-  PathAngle(const GraspMotion& motion, const WrenchFrame& frame) : motion_(motion), frame_(frame) {}
+  PathAngle(const GraspMotion& motion, const WrenchFrame& frame)
+      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame) {}
 
   /// @returns false where an instant is force closure at no angle.
-  bool Include(double t) {
-    const auto required = ComputeRequiredHalfAngle(GraspAt(motion_, t), frame_, kInstantAccuracy);
-    if (!required) return false;
-    bounds_.lower = std::max(bounds_.lower, required->lower);
-    bounds_.upper = std::max(bounds_.upper, required->upper);
+  bool Search() {
+    // The ends first: the largest angle of all is often one of theirs.
+    if (!Include(0) || !Include(1) || !Add(0, 1)) return false;
+    while (!open_.empty() && complete_) {
+      const Interval interval = open_.top();
+      open_.pop();
+      if (!Cover(interval)) return false;
+    }
     return true;
   }
 
-  /// @returns false where an instant is force closure at no angle.
-  bool Cover(double from, double to) {
-    const double length = to - from;
-    const double centre = from + length / 2;
-    if (!complete_) return true;
-    if (++intervals_ > kMostAngleIntervals) complete_ = false;
-    if (!Include(centre)) return false;
-    const double room = kPathAngleAccuracy * std::max(1.0, kWidenBelow / length);
-    const double angle = std::min(bounds_.upper + room, kLargestHalfAngle);
-    if (CertifyForceClosure(motion_, frame_.dimension, angle, centre, length / 2)) {
-      certified_ = std::max(certified_, angle);
-      return true;
-    }
-    if (length <= kShortestInterval) complete_ = false;
-    return Cover(from, centre) && Cover(centre, to);
-  }
-
   [[nodiscard]] bool complete() const { return complete_; }
-  [[nodiscard]] RequiredHalfAngle bounds() const { return {bounds_.lower, certified_}; }
+  [[nodiscard]] RequiredHalfAngle bounds() const { return {bounds_.lower, proved_}; }
 
  private:
+  struct Interval {
+    double from;
+    double to;
+    double required;  ///< in the middle
+
+    [[nodiscard]] double length() const { return to - from; }
+    bool operator<(const Interval& other) const {
+      return std::pair(required, from) < std::pair(other.required, other.from);
+    }
+  };
+
+  /// The required half-angle of an instant; nullopt where it is force closure at none.
+  std::optional<double> Include(double t) {
+    const auto required = ComputeRequiredHalfAngle(GraspAt(motion_, t), frame_, kInstantAccuracy);
+    if (!required) return std::nullopt;
+    bounds_.lower = std::max(bounds_.lower, required->lower);
+    bounds_.upper = std::max(bounds_.upper, required->upper);
+    return required->upper;
+  }
+
+  bool Add(double from, double to) {
+    const auto required = Include(from + (to - from) / 2);
+    if (required) open_.push({from, to, *required});
+    return required.has_value();
+  }
+
+  bool Cover(const Interval& interval) {
+    const int widened = intervals_++ / kPatience;
+    const double room =
+        std::ldexp(kPathAngleAccuracy, widened) * std::max(1.0, kWidenBelow / interval.length());
+    const double angle = std::min(bounds_.upper + room, kLargestHalfAngle);
+    if (proofs_.Prove(angle, interval.from, interval.to)) {
+      proved_ = std::max(proved_, angle);
+      return true;
+    }
+    if (angle == kLargestHalfAngle || interval.length() <= kShortestInterval) complete_ = false;
+    const double middle = interval.from + interval.length() / 2;
+    return Add(interval.from, middle) && Add(middle, interval.to);
+  }
+
   const GraspMotion& motion_;
+  PieceProofs proofs_;
   const WrenchFrame& frame_;
   RequiredHalfAngle bounds_;  ///< of the instants seen so far
-  double certified_ = 0;
+  std::priority_queue<Interval> open_;
+  double proved_ = 0;
   bool complete_ = true;
   int intervals_ = 0;
 };
@@ -126,8 +183,7 @@ std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion&
                                                               const WrenchFrame& frame,
                                                               std::optional<double> proven) {
   PathAngle search(motion, frame);
-  // The ends first: the largest angle of all is often one of theirs.
-  if (!search.Include(0) || !search.Include(1) || !search.Cover(0, 1)) return std::nullopt;
+  if (!search.Search()) return std::nullopt;
   RequiredHalfAngle bounds = search.bounds();
   if (!search.complete()) {
     if (!proven) return std::nullopt;
