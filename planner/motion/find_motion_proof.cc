@@ -15,9 +15,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Forces stay this much of the largest one away from the cone's border, so that the exact
-/// correction of their rounding, and that of decimals, does not bring them out.
-constexpr double kSlack = 1e-9;
+/// How close to the limit forces are looked for.
+struct Nearness {
+  double largest_weight;  ///< of FindMovingForces
+  /// Forces stay this much of the largest one away from the cone's border, so that the exact
+  /// correction of their rounding, and that of decimals in files, does not bring them out.
+  double slack;
+};
+constexpr Nearness kForPlans = {kLargestWeight, 1e-9};
+/// For bounds, which are not written, and which exact arithmetic is to check.
+constexpr Nearness kForBounds = {kLargestWeightNearLimit, 1e-13};
 
 /// So much narrower, in radians, are the cones of normals that turn: more than the exact check
 /// takes off them.
@@ -38,8 +45,8 @@ struct Piece {
 template <int kSpace>
 class MotionProofSearch {
  public:
-  MotionProofSearch(const GraspMotion& motion, double half_angle, double largest_weight)
-      : motion_(motion), half_angle_(half_angle), largest_weight_(largest_weight) {}
+  MotionProofSearch(const GraspMotion& motion, double half_angle, const Nearness& nearness)
+      : motion_(motion), half_angle_(half_angle), nearness_(nearness) {}
 
   /// @param shortest  of the pieces that are looked at.
   std::optional<std::vector<MotionPiece>> Find(double shortest) {
@@ -52,7 +59,8 @@ class MotionProofSearch {
     const MovingContacts contacts = ContactsOn(piece);
     if (contacts.empty() || !Span(contacts)) return std::nullopt;
     MovingForces<1> forces;
-    if (!FindMovingForces<kSpace, 1>(contacts, forces, largest_weight_)) return std::nullopt;
+    if (!FindMovingForces<kSpace, 1>(contacts, forces, nearness_.largest_weight))
+      return std::nullopt;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
         return std::nullopt;
@@ -134,10 +142,10 @@ class MotionProofSearch {
     return contacts;
   }
 
-  [[nodiscard]] static bool IsInside(const Vector3d& force, const MovingContact& contact) {
+  [[nodiscard]] bool IsInside(const Vector3d& force, const MovingContact& contact) const {
     const double normal = force.dot(contact.n);
     return normal * contact.tangential - (force - normal * contact.n).norm() * contact.axial >
-           kSlack;
+           nearness_.slack;
   }
 
   /// Whether some three contacts (two in the plane) keep apart all along.
@@ -166,7 +174,7 @@ class MotionProofSearch {
 
   const GraspMotion& motion_;
   double half_angle_;
-  double largest_weight_;
+  Nearness nearness_;
 };
 
 /// Whether there is something to prove at all.
@@ -182,18 +190,16 @@ std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimensi
   CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   const Piece piece{from, to};
-  const double weight = kLargestWeightNearLimit;
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, weight).Prove(piece)
-                        : MotionProofSearch<2>(motion, half_angle, weight).Prove(piece);
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForBounds).Prove(piece)
+                        : MotionProofSearch<2>(motion, half_angle, kForBounds).Prove(piece);
 }
 
 std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,
                                                         double half_angle, double shortest) {
   CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
-  const double weight = kLargestWeight;
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, weight).Find(shortest)
-                        : MotionProofSearch<2>(motion, half_angle, weight).Find(shortest);
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForPlans).Find(shortest)
+                        : MotionProofSearch<2>(motion, half_angle, kForPlans).Find(shortest);
 }
 
 }  // namespace regrasp

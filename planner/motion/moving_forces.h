@@ -37,9 +37,9 @@ using MovingForces = boost::container::small_vector<ForceCoefficients<kDegree>, 
 /// out takes twice the pivots.
 inline constexpr double kLargestWeight = 1e4;
 
-/// Enough for motions that are force closure with 1e-4 rad to spare: their forces are about the
+/// Enough for motions that are force closure with 1e-8 rad to spare: their forces are about the
 /// inverse of that times larger than what they keep off their cones.
-inline constexpr double kLargestWeightNearLimit = 1e7;
+inline constexpr double kLargestWeightNearLimit = 1e10;
 
 /// Looks for forces of degree d in t that balance at every instant of a piece, all coefficients
 /// strictly inside their contacts' cones.

@@ -21,31 +21,32 @@ struct PathForceClosure {
   /// stay undecided. False where an instant is not force closure.
   bool holds = false;
   double lost_at = 0;  ///< where `holds` is false: the instant t that decided
-  /// Intervals no longer than kShortestInterval without a certificate, whose ends and centre are
-  /// force closure.
+  /// Intervals no longer than kShortestInterval without a proof, whose ends and centre are force
+  /// closure.
   int undecided = 0;
 };
 
-/// Decides force closure of a motion everywhere on the way, by bisection with CertifyForceClosure:
-/// an interval is halved until it is certified, an instant fails IsForceClosure, or it is shorter
-/// than kShortestInterval.
+/// Decides force closure of a motion everywhere on the way, by bisection: an interval is halved
+/// until it has a proof (FindPieceProof) that exact arithmetic accepts (CheckPieceProof), an
+/// instant fails IsForceClosure, or it is shorter than kShortestInterval.
 ///
 /// Laws: monotone in half_angle; a motion that is not force closure on an interval longer than
 /// kShortestInterval is never said to hold.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const WrenchFrame& frame, double half_angle);
 
-/// The accuracy of ComputePathRequiredHalfAngle, radians (0.006°), where the certificates reach far
-/// enough at it.
+/// The accuracy of ComputePathRequiredHalfAngle, radians (0.006°), where proofs reach far enough at
+/// it.
 inline constexpr double kPathAngleAccuracy = 1e-4;
 
 /// Bounds on the largest required half-angle along a motion: `lower` is attained at an instant,
-/// `upper` is certified for the whole way. `upper` is within kPathAngleAccuracy of `lower`, unless
-/// a narrow place of the path needs certificates with more room; then as far off as they need.
+/// `upper` is proved for the whole way, piece by piece, by proofs that exact arithmetic accepts.
+/// `upper` is within kPathAngleAccuracy of `lower`, unless a narrow place of the path needs proofs
+/// with more room, or the path needs hundreds of pieces at that room; then as far off as they need.
 /// @param proven  a half-angle at which the whole motion is known to be force closure, if any:
 ///                `upper` is never above it.
 /// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
-///          certified for the whole way.
+///          proved for the whole way.
 [[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven);
 

@@ -51,8 +51,8 @@ struct PlanCheck {
 /// Checks everything that docs/formats.md says of a plan, from the plan and the object alone.
 ///
 /// The first failing step ends the check; later ones are `skipped`. Force closure along an align is
-/// decided over the whole path by bisection with certified margins (path_force_closure.h). What is
-/// too close to call at an instant is not force closure.
+/// decided over the whole path by proofs of its pieces, checked exactly (path_force_closure.h).
+/// What is too close to call at an instant is not force closure.
 ///
 /// Laws: independent of the fingers' numbering and of the order of contacts, of rigid motion and of
 /// the unit of length; enlarging the friction never turns pass into fail.

@@ -17,11 +17,13 @@ constexpr unsigned kSeed = 20;
 /// Random motions of `count` contacts on the faces of a body: most slide, some turn at an edge.
 class RandomMotions {
  public:
-  explicit RandomMotions(int dimension) : dimension_(dimension) {}
+  /// @param turning  the share of contacts that turn.
+  explicit RandomMotions(int dimension, double turning = 0.2)
+      : dimension_(dimension), turning_(turning) {}
 
   GraspMotion Next(int count) {
     GraspMotion motion;
-    for (int i = 0; i < count; ++i) motion.push_back(Uniform(0, 1) < 0.2 ? Turn() : Slide());
+    for (int i = 0; i < count; ++i) motion.push_back(Uniform(0, 1) < turning_ ? Turn() : Slide());
     return motion;
   }
 
@@ -63,6 +65,7 @@ class RandomMotions {
   }
 
   int dimension_;
+  double turning_;
   std::mt19937 random_{kSeed};
 };
 
@@ -103,7 +106,7 @@ double LargestReach(const GraspMotion& motion, int dimension, double half_angle)
 TEST_P(PathForceClosureIn, ProvesOnlyWhatDenseSamplingConfirms) {
   RandomMotions motions(dimension());
   int proved = 0, samples = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const GraspMotion motion = motions.Next(dimension() + i % 3);
     // Close to the limit, where a proof that claims too much is found out.
     const auto required = ComputeRequiredHalfAngle(GraspAt(motion, 0.5), frame(), 1e-6);
@@ -118,7 +121,7 @@ TEST_P(PathForceClosureIn, ProvesOnlyWhatDenseSamplingConfirms) {
       ++samples;
     }
   }
-  EXPECT_GT(proved, 500);
+  EXPECT_GT(proved, 250);
   EXPECT_EQ(samples, 11 * proved);
 }
 
@@ -147,7 +150,7 @@ TEST_P(PathForceClosureIn, AgreesWithDenseSampling) {
 
 TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
   RandomMotions motions(dimension());
-  int checked = 0, accurate = 0;
+  int checked = 0;
   for (int i = 0; i < 60; ++i) {
     const GraspMotion motion = motions.Next(dimension() + 2);
     const auto bounds = ComputePathRequiredHalfAngle(motion, frame(), std::nullopt);
@@ -163,7 +166,6 @@ TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
     EXPECT_FALSE(none);
     EXPECT_LE(bounds->lower, bounds->upper);
     EXPECT_LE(largest, bounds->upper);
-    if (bounds->upper - bounds->lower <= 1.1 * kPathAngleAccuracy) ++accurate;
     EXPECT_TRUE(DecidePathForceClosure(motion, frame(), bounds->upper).holds);
     if (bounds->lower > kPathAngleAccuracy) {
       EXPECT_FALSE(
@@ -172,8 +174,53 @@ TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
   }
   RecordProperty("checked", checked);
   EXPECT_GT(checked, 20);
-  RecordProperty("accurate", accurate);
-  EXPECT_GE(accurate, checked * 95 / 100);
+}
+
+/// How many of random motions that are force closure at all have bounds as near as promised.
+struct Accuracy {
+  int bounded = 0;
+  int accurate = 0;
+};
+
+Accuracy CountAccurate(RandomMotions motions, int contacts, const WrenchFrame& frame) {
+  Accuracy count;
+  for (int i = 0; i < 60; ++i) {
+    const GraspMotion motion = motions.Next(contacts);
+    const auto bounds = ComputePathRequiredHalfAngle(motion, frame, std::nullopt);
+    if (!bounds) continue;
+    ++count.bounded;
+    if (bounds->upper - bounds->lower <= 1.1 * kPathAngleAccuracy) ++count.accurate;
+  }
+  return count;
+}
+
+TEST_P(PathForceClosureIn, BoundsAreNearlyAlwaysAsNearAsPromised) {
+  const int contacts = dimension() + 2;
+  const Accuracy slides = CountAccurate(RandomMotions(dimension(), 0), contacts, frame());
+  EXPECT_GT(slides.bounded, 20);
+  EXPECT_GE(slides.accurate, slides.bounded * 95 / 100);
+  // While normals turn, proofs keep forces inside the cones of both ends of a piece.
+  const Accuracy turns = CountAccurate(RandomMotions(dimension(), 0.2), contacts, frame());
+  EXPECT_GT(turns.bounded, 20);
+  EXPECT_GE(turns.accurate, turns.bounded * 80 / 100);
+}
+
+TEST(PathForceClosure, BoundsAnAlignThatWeakerProofsBoundByTheFrictionItWasPlannedWith) {
+  const auto contact = [](double x, double y, double z, const Eigen::Vector3d& n) {
+    return Contact{{x, y, z}, n};
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  const Contact third = contact(-0.03, -0.028, 0.025, x),
+                fourth = contact(0.03, -0.0275, 0.026, -x);
+  const GraspMotion motion = {
+      {contact(-0.03, -0.0155, -0.0255, x), contact(-0.03, 0.0063, 0.0296, x)},
+      {contact(-0.0152, 0.03, -0.014, -y), contact(0.0003, 0.03, -0.0229, -y)},
+      {third, third},
+      {fourth, fourth}};
+  const auto bounds = ComputePathRequiredHalfAngle(motion, FrameOf(3), Radians(25));
+  ASSERT_TRUE(bounds);
+  EXPECT_GT(bounds->lower, Radians(0.1));
+  EXPECT_LT(bounds->upper - bounds->lower, Radians(0.1));
 }
 
 /// Where the required half-angle of a motion peaks strictly inside, by sampling and refining.

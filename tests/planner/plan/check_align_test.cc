@@ -148,7 +148,7 @@ TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
   Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
   plan.half_angle = std::atan(0.25);
   EXPECT_FALSE(CheckPlan(square, plan).passed());
-  plan.half_angle += 1e-9;
+  plan.half_angle += 1e-8;
   EXPECT_TRUE(CheckPlan(square, plan).passed());
 }
 
