@@ -63,11 +63,4 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 [[nodiscard]] std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& to,
                                                     SearchSpace& space);
 
-/// The same, where both are on one tuple of faces: no contact then changes its face.
-[[nodiscard]] inline std::optional<FaceAlign> AlignStraight(const ContactSet& from,
-                                                            const ContactSet& to,
-                                                            SearchSpace& space) {
-  return AlignBetween(from, to, space);
-}
-
 }  // namespace regrasp

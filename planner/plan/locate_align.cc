@@ -17,6 +17,9 @@ namespace {
 /// nearest normals are as good as any.
 constexpr std::size_t kMostChoices = 16;
 
+/// Points this near each other, over the diameter, are one up to rounding.
+constexpr double kRounding = 1e-12;
+
 /// One place of a contact, and the best way of the finger to it.
 struct Choice {
   Contact place;
@@ -61,6 +64,17 @@ void Extend(const Object& object, const Choices& before, Choices& choices) {
   }
 }
 
+/// A point of an edge has its projections on both faces, which rounding may keep apart: a finger
+/// that turns there would move by next to nothing, and nothing could be proved of that. It keeps
+/// the first one.
+void KeepTurningPoints(const Object& object, const std::vector<Contact*>& chain) {
+  for (std::size_t j = 1; j < chain.size(); ++j) {
+    const Contact& before = *chain[j - 1];
+    if (before.face < 0 || chain[j]->face < 0 || before.face == chain[j]->face) continue;
+    if ((before.p - chain[j]->p).norm() <= kRounding * object.diameter()) chain[j]->p = before.p;
+  }
+}
+
 /// The contacts of one finger, in the order of the waypoints.
 void LocateChain(const Object& object, const std::vector<Contact*>& chain) {
   std::vector<Choices> choices;
@@ -74,6 +88,7 @@ void LocateChain(const Object& object, const std::vector<Contact*>& chain) {
     *chain[j] = choices[j][chosen].place;
     chosen = choices[j][chosen].previous;
   }
+  KeepTurningPoints(object, chain);
 }
 
 }  // namespace

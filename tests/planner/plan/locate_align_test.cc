@@ -1,0 +1,57 @@
+#include "planner/plan/locate_align.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "planner/object/object.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// One finger that turns over an edge, at two points that should be one.
+Align TurnOver(const Object& object, int face, const FaceBorder& edge, const Vector3d& p,
+               const Vector3d& q) {
+  return {{{{0, {p, object.inward_normal(face), -1}}},
+           {{0, {q, object.inward_normal(edge.beyond), -1}}}}};
+}
+
+TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
+  constexpr int kPoints = 16;
+  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/stone.obj");
+  const Object& stone = *file.object;
+  int rounded = 0;
+  for (int face = 0; face < stone.face_count(); ++face) {
+    for (const FaceBorder& edge : stone.BordersOf(face)) {
+      for (int i = 1; i < kPoints; ++i) {
+        const Vector3d p = edge.a + static_cast<double>(i) / kPoints * (edge.b - edge.a);
+        Align align = TurnOver(stone, face, edge, p, p);
+        LocateAlign(stone, align);
+        const Contact& before = align.waypoints[0][0].contact;
+        const Contact& after = align.waypoints[1][0].contact;
+        EXPECT_EQ(before.face, face);
+        EXPECT_EQ(after.face, edge.beyond);
+        EXPECT_EQ(before.p, after.p);
+        rounded += stone.ClosestPoint(face, p) != stone.ClosestPoint(edge.beyond, p) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(rounded, 0) << "the projections are not always the same";
+}
+
+TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
+  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const Object& cube = *file.object;
+  const FaceBorder edge = cube.BordersOf(0).front();
+  const Vector3d p = (edge.a + edge.b) / 2;
+  const double off = 1e-8 * cube.diameter();
+  Align align = TurnOver(cube, 0, edge, p, p + off * (edge.b - edge.a).normalized());
+  LocateAlign(cube, align);
+  const double apart = (align.waypoints[0][0].contact.p - align.waypoints[1][0].contact.p).norm();
+  EXPECT_NEAR(apart, off, off / 1000);
+}
+
+}  // namespace
+}  // namespace regrasp
