@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,11 @@ constexpr Nearness kForBounds = {kLargestWeightNearLimit, 1e-13};
 /// So much narrower, in radians, are the cones of normals that turn: more than the exact check
 /// takes off them.
 constexpr double kTurnRoom = 4 * kTurnedNormalBound;
+
+/// Instants that are looked at where the whole motion has no proof in one piece, the most telling
+/// ones first: where one is not force closure there is nothing to look for.
+constexpr std::array kProbes = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.0, 1.0};
+constexpr double kBetweenProbes = 0.125;
 
 /// Three contacts span a plane if the cross product of two sides keeps at least this far on one
 /// side, in the frame of the piece.
@@ -80,14 +86,17 @@ class MotionProofSearch {
   static constexpr int kDim = kSpace == 3 ? 6 : 3;
 
   bool Cover(const Piece& piece, double shortest, std::vector<MotionPiece>& pieces) const {
-    if (!IsForceClosureAt(piece.middle())) return false;
     if (auto proved = Prove(piece)) {
       pieces.push_back(*std::move(proved));
       return true;
     }
-    const bool whole = piece.to - piece.from == 1;
-    if (whole && !(IsForceClosureAt(0) && IsForceClosureAt(1))) return false;
-    if (piece.to - piece.from < 2 * shortest) return false;
+    const double length = piece.to - piece.from;
+    if (length < 2 * shortest) return false;
+    if (length == 1 && !std::all_of(kProbes.begin(), kProbes.end(),
+                                    [this](double t) { return IsForceClosureAt(t); })) {
+      return false;
+    }
+    if (length <= kBetweenProbes && !IsForceClosureAt(piece.middle())) return false;
     return Cover({piece.from, piece.middle()}, shortest, pieces) &&
            Cover({piece.middle(), piece.to}, shortest, pieces);
   }

@@ -23,6 +23,9 @@ constexpr double kPivot = 1e-9;
 /// larger pivot can be taken among nearly equal ratios.
 constexpr double kRatioSlack = 1e-13;
 
+/// In place of entries that are no pivots: no ratio over it is the least.
+constexpr double kNoDivisor = 1e-200;
+
 /// A column improves only if its reduced cost exceeds this, relative to the dual's size.
 constexpr double kImprovement = 1e-13;
 
@@ -140,26 +143,29 @@ class ForceProgram {
   static int TorqueRow(int block) { return kForceRows + kTorques * block; }
 
   /// Calls visit(row, value) on the entries of a column that can differ from 0.
-  Row ColumnOf(const Column& column) const {
-    Row row = Row::Zero();
+  template <typename Visit>
+  void VisitColumn(const Column& column, const Visit& visit) const {
     const Source& source = sources_[column.source];
-    row.template segment<kSpace>(kSpace * source.coefficient) =
-        column.force.template head<kSpace>();
+    for (int axis = 0; axis < kSpace; ++axis) {
+      visit(kSpace * source.coefficient + axis, column.force[axis]);
+    }
     for (int a = 0; a < kArms; ++a) {
       const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
       const Vector3d torque = source.arms[a].cross(column.force);
-      if constexpr (kSpace == 3) {
-        row.template segment<3>(at) += torque;
-      } else {
-        row[at] += torque.z();
-      }
+      for (int k = 0; k < kTorques; ++k) visit(at + k, torque[kSpace == 3 ? k : 2]);
     }
+  }
+  Row ColumnOf(const Column& column) const {
+    Row row = Row::Zero();
+    VisitColumn(column, [&](int r, double value) { row[r] += value; });
     return row;
   }
 
   void Start(const Row& right) {
     tableau_.setZero();
     basis_.fill({kArtificial, Vector3d::Zero()});
+    artificial_.setOnes();
+    artificial_[kRows] = 0;
     for (int r = 0; r < kRows; ++r) {
       const double sign = right[r] < 0 ? -1 : 1;
       tableau_(r, r) = sign;
@@ -170,19 +176,15 @@ class ForceProgram {
     right_ = right;
   }
 
-  [[nodiscard]] Vector3d VelocityOf(const Source& source) const {
-    const auto dual = [this](int row, int size) {
-      Vector3d y = Vector3d::Zero();
-      for (int i = 0; i < size; ++i) y[i] = tableau_(kRows, row + i);
-      return y;
-    };
-    Vector3d u = dual(kSpace * source.coefficient, kSpace);
+  [[nodiscard]] Vector3d VelocityOf(const Source& source, const Row& dual) const {
+    Vector3d u = Vector3d::Zero();
+    u.head<kSpace>() = dual.template segment<kSpace>(kSpace * source.coefficient);
     for (int a = 0; a < kArms; ++a) {
       const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
       if constexpr (kSpace == 3) {
-        u += dual(at, 3).cross(source.arms[a]);
+        u += dual.template segment<3>(at).cross(source.arms[a]);
       } else {
-        u += tableau_(kRows, at) * Vector3d(-source.arms[a].y(), source.arms[a].x(), 0);
+        u += dual[at] * Vector3d(-source.arms[a].y(), source.arms[a].x(), 0);
       }
     }
     return u;
@@ -190,55 +192,45 @@ class ForceProgram {
 
   /// Brings the column with the largest reduced cost into the basis. @returns false at the optimum.
   bool Improve() {
-    double best = -kInfinity;
-    int chosen = 0;
-    Vector3d velocity = Vector3d::Zero();
-    for (std::size_t s = 0; s < sources_.size(); ++s) {
-      const Vector3d u = VelocityOf(sources_[s]);
-      const double value = ConeSupport(sources_[s].contact, u);
-      if (value > best) {
-        best = value;
-        chosen = static_cast<int>(s);
-        velocity = u;
-      }
+    const Row dual = tableau_.row(kRows).template head<kRows>();
+    boost::container::small_vector<double, kInlineContacts*(kDegree + 1)> supports;
+    for (const Source& source : sources_) {
+      supports.push_back(ConeSupport(source.contact, VelocityOf(source, dual)));
     }
-    double size = 0;
-    for (int r = 0; r < kRows; ++r) size += std::abs(tableau_(kRows, r));
-    if (!(best > kImprovement * size)) return false;
+    const auto best = std::max_element(supports.begin(), supports.end());
+    if (!(*best > kImprovement * dual.template lpNorm<1>())) return false;
     // Weights λ ≥ 0 with Σ λ w = b give y·b = Σ λ (y·w) ≤ best Σ λ for the dual y at hand.
-    if (best * largest_weight_ < tableau_(kRows, kRows)) return false;
+    if (*best * largest_weight_ < tableau_(kRows, kRows)) return false;
+    const int chosen = static_cast<int>(best - supports.begin());
     const Source& source = sources_[chosen];
+    const Vector3d velocity = VelocityOf(source, dual);
     return Enter({chosen, SupportForce < kSpace == 3 ? 6 : 3 > (source.contact, velocity)});
   }
 
   bool Enter(const Column& column) {
-    const Row entries = ColumnOf(column);
     TableauColumn alpha = TableauColumn::Zero();
-    for (int r = 0; r < kRows; ++r) {
-      if (entries[r] != 0) alpha += entries[r] * tableau_.col(r);
-    }
+    VisitColumn(column, [&](int row, double entry) { alpha += entry * tableau_.col(row); });
     const int leaving = ChooseLeaving(alpha);
     if (leaving < 0) return false;
     Pivot(leaving, alpha);
     basis_[leaving] = column;
+    artificial_[leaving] = 0;
     return true;
   }
 
   int ChooseLeaving(const TableauColumn& alpha) const {
-    std::array<double, kRows> ratios;
-    double bound = kInfinity;
-    for (int r = 0; r < kRows; ++r) {
-      ratios[r] = kInfinity;
-      if (!(alpha[r] > kPivot)) continue;
-      const double inverse = 1 / alpha[r];
-      ratios[r] = std::max(tableau_(r, kRows), 0.0) * inverse;
-      bound = std::min(bound, ratios[r] + kRatioSlack * inverse);
-    }
+    // All rows at once: which entries can be pivots nobody predicts, and branches that are
+    // mispredicted took longer than the rest of a pivot.
+    TableauColumn divisors;
+    for (int r = 0; r < kTableau; ++r) divisors[r] = alpha[r] > kPivot ? alpha[r] : kNoDivisor;
+    divisors[kRows] = kNoDivisor;
+    const TableauColumn weights = tableau_.col(kRows).cwiseMax(0);
+    const double bound = ((weights.array() + kRatioSlack) / divisors.array()).minCoeff();
     int leaving = -1;
     double largest = 0;
     for (int r = 0; r < kRows; ++r) {
-      if (!(ratios[r] <= bound) || ratios[r] == kInfinity) continue;
-      const double preference = basis_[r].source == kArtificial ? 2 * alpha[r] : alpha[r];
+      if (!(weights[r] <= bound * alpha[r]) || !(alpha[r] > kPivot)) continue;
+      const double preference = (1 + artificial_[r]) * alpha[r];
       if (preference > largest) {
         largest = preference;
         leaving = r;
@@ -256,11 +248,7 @@ class ForceProgram {
 
   /// What artificial columns still carry.
   [[nodiscard]] double Unbalanced() const {
-    double sum = 0;
-    for (int r = 0; r < kRows; ++r) {
-      if (basis_[r].source == kArtificial) sum += std::max(tableau_(r, kRows), 0.0);
-    }
-    return sum;
+    return artificial_.dot(tableau_.col(kRows).cwiseMax(0));
   }
 
   /// The forces a n + g of the basic solution, refined by the inverse basis.
@@ -296,6 +284,7 @@ class ForceProgram {
   double largest_weight_;
   boost::container::small_vector<Source, kInlineContacts*(kDegree + 1)> sources_;
   std::array<Column, kRows> basis_;
+  TableauColumn artificial_;  ///< 1 for rows whose basic column is, otherwise 0
   Row right_;
   // Row r: the inverse basis's row and the weight of basis_[r]; the last row: the dual and the
   // objective's value.
