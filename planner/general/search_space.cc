@@ -5,7 +5,6 @@
 
 #include "planner/graph/grasp_choice.h"
 #include "planner/grasp/force_closure_core.h"
-#include "planner/grasp/quality.h"
 #include "planner/plan/reach.h"
 
 namespace regrasp {
@@ -15,6 +14,9 @@ namespace {
 /// The clock is looked at once in about a millisecond.
 constexpr std::int64_t kTestsBetweenLooks = 500;
 
+/// What rays for a quality cost, in force-closure tests.
+constexpr std::int64_t kShotCost = 40;
+
 }  // namespace
 
 SearchSpace::SearchSpace(const Object& object, const GraspDemands& demands)
@@ -22,6 +24,7 @@ SearchSpace::SearchSpace(const Object& object, const GraspDemands& demands)
       frame_(object.wrench_frame()),
       demands_(demands),
       half_angle_(demands.half_angle - demands.margin),
+      filter_(frame_, demands.half_angle),
       same_point_(kSamePoint * object.diameter()) {
   CheckHalfAngle(demands.half_angle);
   CheckHalfAngle(half_angle());
@@ -78,7 +81,7 @@ bool SearchSpace::IsSpent() {
 bool SearchSpace::Admits(const ContactSet& set) {
   if (set.size() < fewest_contacts()) return false;
   Known& known = known_[set.key()];
-  if (known.worth == Worth::kPoor || half_angle_ <= known.fails_at) return false;
+  if (half_angle_ <= known.fails_at || demands_.min_quality >= known.poor_at) return false;
   if (half_angle_ < known.holds_at) {
     UnitContacts contacts;
     for (const int number : set) contacts.push_back(units_[number]);
@@ -86,10 +89,10 @@ bool SearchSpace::Admits(const ContactSet& set) {
     (holds ? known.holds_at : known.fails_at) = half_angle_;
     if (!holds) return false;
   }
-  if (demands_.min_quality > 0 && known.worth == Worth::kUnknown) {
-    known.worth = IsGood(GraspOf(set)) ? Worth::kGood : Worth::kPoor;
-  }
-  return known.worth != Worth::kPoor;
+  if (demands_.min_quality <= known.good_at) return true;
+  const bool good = IsGood(GraspOf(set));
+  (good ? known.good_at : known.poor_at) = demands_.min_quality;
+  return good;
 }
 
 bool SearchSpace::IsAdmitted(const Grasp& grasp) {
@@ -115,9 +118,12 @@ bool SearchSpace::Holds(UnitContacts contacts) {
   return answer.decision == Decision::kYes;
 }
 
-bool SearchSpace::IsGood(const Grasp& grasp) const {
-  return demands_.min_quality == 0 ||
-         QualityClearlyAtLeast(grasp, frame_, demands_.half_angle, demands_.min_quality);
+bool SearchSpace::IsGood(const Grasp& grasp) {
+  if (demands_.min_quality == 0) return true;
+  const std::int64_t before = filter_.shot_count();
+  const bool good = filter_.IsClearlyAtLeast(grasp, demands_.min_quality);
+  tests_ += kShotCost * (filter_.shot_count() - before);
+  return good;
 }
 
 }  // namespace regrasp

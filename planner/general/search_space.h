@@ -9,6 +9,7 @@
 
 #include "planner/general/contact_set.h"
 #include "planner/grasp/contact.h"
+#include "planner/grasp/quality_filter.h"
 #include "planner/grasp/unit_contacts.h"
 #include "planner/object/object.h"
 
@@ -19,7 +20,7 @@ struct GraspDemands {
   double half_angle = 0;  ///< friction, radians
   /// Force closure is asked for at a half-angle smaller by this, radians.
   double margin = 0;
-  /// Grasps are at least this good (QualityClearlyAtLeast); 0: force closure is enough.
+  /// Grasps are clearly of at least this quality (QualityFilter); 0: force closure is enough.
   double min_quality = 0;
   /// Of fingers that are not points (KeepApart), the object's unit of length.
   double finger_radius = 0;
@@ -41,6 +42,8 @@ class SearchSpace {
   /// From now on force closure is asked for at this half-angle, radians. What is known of a grasp
   /// stays known: one that holds does so with more friction, one that does not neither with less.
   void SetHalfAngle(double half_angle);
+  /// From now on grasps are asked to be clearly of this quality (QualityFilter).
+  void SetMinQuality(double min_quality) { demands_.min_quality = min_quality; }
 
   [[nodiscard]] const Object& object() const { return object_; }
   [[nodiscard]] int dimension() const { return frame_.dimension; }
@@ -77,7 +80,7 @@ class SearchSpace {
   /// Force closure alone, at any half-angle, radians.
   [[nodiscard]] bool HoldsAt(const Grasp& grasp, double half_angle);
   /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
-  void Accept(const ContactSet& set) { known_[set.key()] = {0, 0, Worth::kGood}; }
+  void Accept(const ContactSet& set) { known_[set.key()] = kAccepted; }
 
   /// Tests of force closure so far, those of certificates included.
   [[nodiscard]] std::int64_t tests() const { return tests_; }
@@ -88,22 +91,25 @@ class SearchSpace {
   [[nodiscard]] bool out_of_time() const { return out_of_time_; }
 
  private:
-  enum class Worth : std::uint8_t { kUnknown, kGood, kPoor };
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   /// What is known of a grasp.
   struct Known {
     double fails_at = 0;  ///< half-angles at which it does not hold and does
-    double holds_at = std::numeric_limits<double>::infinity();
-    Worth worth = Worth::kUnknown;  ///< by its quality
+    double holds_at = kInfinity;
+    double good_at = 0;  ///< qualities that it clearly has and has not
+    double poor_at = kInfinity;
   };
+  static constexpr Known kAccepted = {0, 0, kInfinity, kInfinity};
 
   /// Force closure of contacts in the object's frame with their rims set.
   [[nodiscard]] bool Holds(UnitContacts contacts);
-  [[nodiscard]] bool IsGood(const Grasp& grasp) const;
+  [[nodiscard]] bool IsGood(const Grasp& grasp);
 
   const Object& object_;
   WrenchFrame frame_;
   GraspDemands demands_;
   double half_angle_;
+  QualityFilter filter_;
   double same_point_;
   std::vector<Contact> contacts_;
   UnitContacts units_;  ///< of the contacts, in the object's frame

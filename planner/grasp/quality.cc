@@ -1,6 +1,5 @@
 #include "planner/grasp/quality.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality_rays.h"
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_set.h"
 
@@ -86,100 +86,12 @@ QualityBounds Quality(const UnitContacts& contacts, double relative_gap) {
   return search.bounds();
 }
 
-/// Ray shooting ends at this part of the threshold, and where the set reaches this many times it:
-/// beyond, nothing that would change the decision is learned.
-constexpr double kShootGap = 0.02;
-constexpr double kShootEnough = 8;
-
-/// Frames of directions tried before Qhull is asked: one takes some 20 µs, Qhull a thousand times
-/// that.
-constexpr int kFrames = 8;
-
-/// Descents from the nearest boundary point found so far to a nearer one.
-constexpr int kDescents = 6;
-
-/// What ray shooting learns: the boundary points on ± the columns of an orthogonal frame span a
-/// cross-polytope inside the set, and each hit's normal bounds the ball from above.
-template <int kDim>
-class RaySearch {
- public:
-  using Vector = typename WrenchSet<kDim>::Vector;
-  using Frame = Eigen::Matrix<double, kDim, kDim>;
-
-  RaySearch(const WrenchSet<kDim>& set, double threshold) : set_(set), threshold_(threshold) {}
-
-  [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
-  [[nodiscard]] bool decided() const {
-    return bounds_.lower >= threshold_ || bounds_.upper < threshold_;
-  }
-
-  /// The ball inside the cross-polytope of the frame: its facets, one of each ± pair, are
-  /// 1 / √Σ 1/s² from the origin.
-  void ShootFrame(const Frame& frame) {
-    double sum = 0;
-    for (int axis = 0; axis < kDim && !decided(); ++axis) {
-      const double shorter = std::min(Shoot(frame.col(axis)), Shoot(-frame.col(axis)));
-      sum += 1 / (shorter * shorter);
-    }
-    if (!decided()) bounds_.lower = std::max(bounds_.lower, 1 / std::sqrt(sum));
-  }
-
-  /// The normal of the boundary at the nearest known supporting plane is where a nearer boundary
-  /// point is: shooting along it never gives a larger bound (the support function's descent).
-  void Descend() {
-    for (int step = 0; step < kDescents && !decided(); ++step) {
-      const double before = bounds_.upper;
-      Shoot(nearest_);
-      if (bounds_.upper > (1 - kShootGap) * before) break;
-    }
-  }
-
-  /// An orthogonal frame whose first axis is the nearest normal.
-  [[nodiscard]] Frame NearestFrame() const {
-    return Eigen::HouseholderQR<Vector>(nearest_).householderQ();
-  }
-
- private:
-  double Shoot(const Vector& direction) {
-    const auto hit = set_.Shoot(direction, kShootGap * threshold_, kShootEnough * threshold_);
-    const double size = hit.normal.norm();
-    if (size > 0) {
-      const Vector normal = hit.normal / size;
-      const double support = set_.Support(normal).value;
-      if (support < bounds_.upper) {
-        bounds_.upper = support;
-        nearest_ = normal;
-      }
-    }
-    return std::max(hit.distance, std::numeric_limits<double>::min());
-  }
-
-  const WrenchSet<kDim>& set_;
-  double threshold_;
-  Vector nearest_ = Vector::UnitX();
-  QualityBounds bounds_{0, std::numeric_limits<double>::infinity()};
-};
-
-template <int kDim>
-QualityBounds ShootFrames(const WrenchSet<kDim>& set, double threshold) {
-  RaySearch<kDim> rays(set, threshold);
-  rays.ShootFrame(RaySearch<kDim>::Frame::Identity());
-  for (int frame = 1; frame < kFrames && !rays.decided(); ++frame) {
-    rays.Descend();
-    if (!rays.decided()) rays.ShootFrame(rays.NearestFrame());
-  }
-  return rays.bounds();
-}
-
-template <int kDim>
-bool ClearlyAtLeast(const UnitContacts& contacts, double threshold) {
-  return ShootFrames<kDim>(WrenchSet<kDim>(contacts), threshold).lower >= threshold;
-}
-
 template <int kDim>
 bool AtLeast(const UnitContacts& contacts, double threshold) {
   const WrenchSet<kDim> set(contacts);
-  BallSearch<kDim> balls(set, ShootFrames<kDim>(set, threshold));
+  RaySearch<kDim> rays(set, threshold);
+  rays.Run();
+  BallSearch<kDim> balls(set, rays.bounds());
   const QualityBounds& bounds = balls.bounds();
   for (int round = 0; round < kMaxRounds; ++round) {
     if (bounds.lower >= threshold || bounds.upper < threshold) break;
@@ -212,16 +124,6 @@ bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
   if (threshold <= 0) return true;
   const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
   return frame.dimension == 3 ? AtLeast<6>(units, threshold) : AtLeast<3>(units, threshold);
-}
-
-bool QualityClearlyAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
-                           double half_angle, double threshold) {
-  if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
-  if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
-  if (threshold <= 0) return true;
-  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
-  return frame.dimension == 3 ? ClearlyAtLeast<6>(units, threshold)
-                              : ClearlyAtLeast<3>(units, threshold);
 }
 
 }  // namespace regrasp

@@ -29,10 +29,4 @@ struct QualityBounds {
 [[nodiscard]] bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
                                   double half_angle, double threshold);
 
-/// True only if ε ≥ threshold is certain by what costs a fifth of a millisecond at most; false
-/// where it is not so, and for a few grasps just above the threshold too.
-[[nodiscard]] bool QualityClearlyAtLeast(std::span<const Contact> contacts,
-                                         const WrenchFrame& frame, double half_angle,
-                                         double threshold);
-
 }  // namespace regrasp
