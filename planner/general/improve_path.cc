@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/general/least_travel.h"
+#include "planner/general/path_plan.h"
+#include "planner/general/stretch.h"
 #include "planner/general/subset_search.h"
 #include "planner/grasp/required_half_angle.h"
 
@@ -11,11 +14,15 @@ namespace regrasp {
 
 namespace {
 
-/// A stretch has at most so many contacts of its own; random ones fill it up to this.
-constexpr int kStretchContacts = 14;
+/// Passes over all stretches, each with other random contacts.
+constexpr int kPasses = 4;
 
-/// Passes over all stretches.
-constexpr int kPasses = 2;
+/// Passes in a row, each with other random contacts, that have not lessened the travel before it is
+/// left at that.
+constexpr int kIdlePasses = 4;
+
+/// A way that is shorter by a smaller part of itself is not worth another pass.
+constexpr double kLeastGain = 1e-3;
 
 /// Of required half-angles that are only compared, radians.
 constexpr double kAngleAccuracy = 1e-5;
@@ -24,51 +31,6 @@ double RequiredOf(const ContactSet& set, const SearchSpace& space) {
   const auto required =
       ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame(), kAngleAccuracy);
   return required ? required->upper : std::numbers::pi / 2;
-}
-
-/// Grasps `begin` to `end` of a path, its start being number 0.
-struct Stretch {
-  int begin;
-  int end;
-  std::vector<int> contacts;  ///< of all these grasps
-};
-
-const ContactSet& GraspNumber(const GraspPath& path, int number) {
-  return number == 0 ? path.start : path.steps[number - 1].to;
-}
-
-/// The longest stretch from `begin` on that has no more than kStretchContacts contacts.
-Stretch LongestStretch(const GraspPath& path, int begin) {
-  Stretch stretch{begin, begin, {}};
-  for (int end = begin; end <= static_cast<int>(path.steps.size()); ++end) {
-    std::vector<int> contacts = stretch.contacts;
-    for (const int contact : GraspNumber(path, end)) {
-      if (std::find(contacts.begin(), contacts.end(), contact) == contacts.end()) {
-        contacts.push_back(contact);
-      }
-    }
-    if (static_cast<int>(contacts.size()) > kStretchContacts) break;
-    stretch.contacts = std::move(contacts);
-    stretch.end = end;
-  }
-  return stretch;
-}
-
-void FillUp(Stretch& stretch, const SurfaceSource& source, RandomStream& random,
-            SearchSpace& space) {
-  while (static_cast<int>(stretch.contacts.size()) < kStretchContacts && space.has_room()) {
-    const int drawn = space.Add(source.Draw(random));
-    if (std::find(stretch.contacts.begin(), stretch.contacts.end(), drawn) ==
-        stretch.contacts.end()) {
-      stretch.contacts.push_back(drawn);
-    }
-  }
-}
-
-void Splice(const GraspPath& by, const Stretch& stretch, GraspPath& path) {
-  const auto first = path.steps.begin();
-  const auto place = path.steps.erase(first + stretch.begin, first + stretch.end);
-  path.steps.insert(place, by.steps.begin(), by.steps.end());
 }
 
 std::optional<GraspPath> SearchStretch(const GraspPath& path, const Stretch& stretch,
@@ -83,7 +45,7 @@ bool ShortenOnce(const SurfaceSource& source, RandomStream& random, SearchSpace&
     Stretch stretch = LongestStretch(path, begin);
     const int steps = stretch.end - stretch.begin;
     if (steps < 2) continue;
-    FillUp(stretch, source, random, space);
+    FillUp(stretch, kStretchContacts, source, random, space);
     if (const auto shorter = SearchStretch(path, stretch, steps - 1, space)) {
       Splice(*shorter, stretch, path);
       return true;
@@ -92,17 +54,41 @@ bool ShortenOnce(const SurfaceSource& source, RandomStream& random, SearchSpace&
   return false;
 }
 
+/// Lets stretches that cover the path be replaced, each overlapping the one before by half.
+template <typename Replace>
+void ForEachStretch(GraspPath& path, const Replace& replace) {
+  for (int begin = 0; begin < static_cast<int>(path.steps.size());) {
+    const Stretch stretch = LongestStretch(path, begin);
+    if (stretch.end == begin) return;
+    const bool last = stretch.end == static_cast<int>(path.steps.size());
+    begin += std::max(1, (stretch.end - begin) / 2);
+    replace(stretch);
+    if (last) return;
+  }
+}
+
 void WidenStretch(Stretch stretch, int more_steps, const SurfaceSource& source,
                   RandomStream& random, SearchSpace& space, GraspPath& path) {
-  const ContactSet& from = GraspNumber(path, stretch.begin);
-  const ContactSet& to = GraspNumber(path, stretch.end);
-  const double least = std::max(RequiredOf(from, space), RequiredOf(to, space));
-  FillUp(stretch, source, random, space);
-  const int steps = stretch.end - stretch.begin + more_steps;
-  if (const auto wider =
-          SearchWidest(from, to, stretch.contacts, UseAligns::kYes, steps, least, space)) {
-    Splice(*wider, stretch, path);
-  }
+  const GraspPath part = PartOf(path, stretch);
+  const double least = std::max(RequiredOf(part.start, space), RequiredOf(part.end(), space));
+  FillUp(stretch, kStretchContacts, source, random, space);
+  const auto wider = SearchWidest(part.start, part.end(), stretch.contacts, UseAligns::kYes,
+                                  static_cast<int>(part.steps.size()) + more_steps, least, space);
+  // Aligns of the part may have been refused to the search, being more than it takes on.
+  if (!wider || RequiredHalfAngleOf(*wider, space) > RequiredHalfAngleOf(part, space)) return;
+  Splice(*wider, stretch, path);
+}
+
+/// @returns whether anything was gained.
+bool ShortenWay(Stretch stretch, int more_steps, const SurfaceSource& source, RandomStream& random,
+                SearchSpace& space, GraspPath& path) {
+  const GraspPath part = PartOf(path, stretch);
+  FillAround(stretch, kStretchContacts, source, random, space);
+  const auto shorter = SearchLeastTravel(part.start, part.end(), stretch.contacts,
+                                         static_cast<int>(part.steps.size()) + more_steps,
+                                         (1 - kLeastGain) * TravelOf(part, space), space);
+  if (shorter) Splice(*shorter, stretch, path);
+  return shorter.has_value();
 }
 
 }  // namespace
@@ -134,17 +120,24 @@ GraspPath ShortenPath(GraspPath path, const SurfaceSource& source, RandomStream&
 
 GraspPath WidenPath(GraspPath path, int more_steps, const SurfaceSource& source,
                     RandomStream& random, SearchSpace& space) {
+  const int most_steps = static_cast<int>(path.steps.size()) + more_steps;
   for (int pass = 0; pass < kPasses; ++pass) {
-    for (int begin = 0; begin < static_cast<int>(path.steps.size());) {
-      const Stretch stretch = LongestStretch(path, begin);
-      if (stretch.end == begin) break;
-      const bool last = stretch.end == static_cast<int>(path.steps.size());
-      const int middle = begin + std::max(1, (stretch.end - begin) / 2);
-      WidenStretch(stretch, more_steps, source, random, space, path);
-      if (begin == 0 && last) return path;
-      if (last) break;
-      begin = middle;
-    }
+    ForEachStretch(path, [&](const Stretch& stretch) {
+      const int more = most_steps - static_cast<int>(path.steps.size());
+      WidenStretch(stretch, more, source, random, space, path);
+    });
+  }
+  return path;
+}
+
+GraspPath LessenTravel(GraspPath path, const SurfaceSource& source, RandomStream& random,
+                       SearchSpace& space) {
+  const auto most_steps = static_cast<int>(path.steps.size());
+  for (int idle = 0; idle < kIdlePasses; ++idle) {
+    ForEachStretch(path, [&](const Stretch& stretch) {
+      const int more = most_steps - static_cast<int>(path.steps.size());
+      if (ShortenWay(stretch, more, source, random, space, path)) idle = -1;
+    });
   }
   return path;
 }

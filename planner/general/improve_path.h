@@ -15,14 +15,19 @@ namespace regrasp {
 [[nodiscard]] GraspPath ShortenPath(GraspPath path, const SurfaceSource& source,
                                     RandomStream& random, SearchSpace& space);
 
-/// Widens a path, with at most `more_steps` steps more for each stretch: its weakest grasps and
-/// aligns come to need less friction. Stretches of it are replaced by ways over their contacts and
-/// some random ones that hold at a smaller half-angle, which is bisected. A stretch can't become
-/// better than its two ends.
+/// Widens a path, with at most `more_steps` steps more: its weakest grasps and aligns come to need
+/// less friction. Stretches of it are replaced by the widest ways (SearchWidest) over their
+/// contacts and some random ones. A stretch can't become better than its two ends.
 [[nodiscard]] GraspPath WidenPath(GraspPath path, int more_steps, const SurfaceSource& source,
                                   RandomStream& random, SearchSpace& space);
 /// So many are worth while where the margin counts more than the number of steps.
 inline constexpr int kMoreSteps = 2;
+
+/// Lessens the way of all fingers together (TravelOf), with no more steps than before: stretches of
+/// the path are replaced by the ways of the least travel (SearchLeastTravel) over their contacts
+/// and some random ones near those, as long as that gains anything.
+[[nodiscard]] GraspPath LessenTravel(GraspPath path, const SurfaceSource& source,
+                                     RandomStream& random, SearchSpace& space);
 
 /// The largest required half-angle of the path's grasps at rest, the ends included, radians.
 [[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, const SearchSpace& space);

@@ -1,11 +1,14 @@
 #include "planner/general/plan_general.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/general/improve_path.h"
+#include "planner/general/mend_path.h"
 #include "planner/general/path_plan.h"
 #include "planner/general/subset_search.h"
 #include "planner/general/two_trees.h"
@@ -27,8 +30,10 @@ constexpr int kRandomContacts = 4;
 constexpr int kFewestPlanar = 2;
 constexpr int kMostPlanar = 3;
 
-/// Sequences that are compared for the least travel.
-constexpr int kTravelTries = 16;
+/// Where the first sequence can't be mended to the quality that is asked for, others are looked for
+/// whose grasps have these shares of it from the beginning, each with this part of the effort.
+constexpr std::array kQualityShares = {0.6, 1.0};
+constexpr int kQualityEffortShare = 4;
 
 /// Bisections of the friction at which a sequence is found, and the largest that is tried, radians.
 constexpr int kExplainSteps = 8;
@@ -57,22 +62,19 @@ class Planner {
   PlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {
     const Grasp from = FixGrasp(object_, start, RandomUse::kStart, options_).grasp;
     const Grasp to = FixGrasp(object_, goal, RandomUse::kGoal, options_).grasp;
-    std::optional<Found> best = Find(from, to, 0);
-    if (!best) return NoSequence(from, to);
-    if (!IsGood(*best)) {
-      options_.progress("looking for grasps of a quality of " + FormatShort(options_.min_quality));
-      if (auto good = Find(from, to, options_.min_quality)) best = std::move(good);
-    }
-    PlanResult result = ResultOf(best->draft, judge_, "general", fingers_, to);
-    result.notes = std::move(best->notes);
+    SearchSpace wide = MakeSpace(options_.half_angle, 0, options_.effort);
+    const auto found = Search(from, to, wide);
+    if (!found) return NoSequence(from, to);
+    // The contacts of the path alone: the search may have come across thousands.
+    SearchSpace space = MakeSpace(options_.half_angle, options_.min_quality, options_.effort);
+    GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
+    std::vector<std::string> notes = Improve(path, space);
+    PlanResult result = ResultOf(MakeDraft(path, from, space), judge_, "general", fingers_, to);
+    result.notes = std::move(notes);
     return result;
   }
 
  private:
-  struct Found {
-    Draft draft;
-    std::vector<std::string> notes;
-  };
   /// What a search that found nothing came to.
   struct Reach {
     std::array<int, 2> grasps{};
@@ -80,11 +82,6 @@ class Planner {
     std::int64_t tests = 0;
     bool out_of_time = false;
   };
-
-  [[nodiscard]] bool IsGood(const Found& found) const {
-    return std::all_of(found.draft.rests.begin(), found.draft.rests.end(),
-                       [&](const Rest& rest) { return judge_.Score(rest.grasp) >= 0; });
-  }
 
   SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
     SearchSpace space(object_, {half_angle, 0, min_quality, options_.finger_radius});
@@ -112,37 +109,70 @@ class Planner {
     return path;
   }
 
-  std::optional<Found> Find(const Grasp& from, const Grasp& to, double min_quality) {
-    SearchSpace space = MakeSpace(options_.half_angle, min_quality, options_.effort);
-    const auto found = Search(from, to, space);
-    if (!found) return std::nullopt;
-    // The contacts of the path alone: the search may have come across thousands.
-    SearchSpace small = MakeSpace(options_.half_angle, min_quality, options_.effort);
-    return Improve(Renumber(*found, space, small), from, small);
+  /// The path, or one whose grasps all have the quality that is asked for; where none is found, one
+  /// whose weakest grasp is as good as could be reached, and no more is then asked for.
+  GraspPath MakeGood(GraspPath path, const Grasp& from, const Grasp& to, SearchSpace& space) {
+    if (AreAdmitted(path, space)) return path;
+    if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
+    options_.progress("looking for grasps of a quality of " + FormatShort(options_.min_quality));
+    double best = Mend(path, space);
+    for (const double share : kQualityShares) {
+      if (best == options_.min_quality) return path;
+      SearchSpace wide = MakeSpace(options_.half_angle, share * options_.min_quality,
+                                   options_.effort / kQualityEffortShare);
+      const auto found = Search(from, to, wide);
+      // What is not found with less asked for is not going to be found with more.
+      if (!found) break;
+      GraspPath other = Renumber(*found, wide, space);
+      const double reached = Mend(other, space);
+      if (reached <= best) continue;
+      best = reached;
+      path = std::move(other);
+    }
+    space.SetMinQuality(best);
+    return path;
   }
 
-  Found Improve(const GraspPath& found, const Grasp& from, SearchSpace& space) {
+  /// @returns the quality that all grasps of the path have then.
+  double Mend(GraspPath& path, SearchSpace& space) {
+    space.SetMinQuality(0);
+    path = ShortenPath(std::move(path), source_, random_, space);
+    path = WidenPath(std::move(path), kMoreSteps, source_, random_, space);
+    space.SetMinQuality(options_.min_quality);
+    return MendPath(source_, random_, space, path);
+  }
+
+  /// Whether the space admits what lies between the ends.
+  [[nodiscard]] static bool AreAdmitted(const GraspPath& path, SearchSpace& space) {
+    return std::all_of(path.steps.begin(), path.steps.end(), [&](const PathStep& step) {
+      return step.to == path.end() || space.Admits(step.to);
+    });
+  }
+
+  /// @returns what was gained.
+  std::vector<std::string> Improve(GraspPath& path, SearchSpace& space) {
     options_.progress("shortening and widening the sequence");
-    GraspPath path = ShortenPath(found, source_, random_, space);
-    Found best;
+    std::vector<std::string> notes;
+    const auto note = [&](const std::string& what, double before, double after,
+                          const std::string& unit) {
+      notes.push_back(what + ": " + FormatShort(before) + unit + " at first, " +
+                      FormatShort(after) + unit + " now");
+    };
+    const auto steps = static_cast<double>(path.steps.size());
+    const double margin = options_.half_angle - RequiredHalfAngleOf(path, space);
+    const double travel = TravelOf(path, space);
+    path = ShortenPath(std::move(path), source_, random_, space);
     if (options_.aim == GeneralAim::kTravel) {
-      const double before = TravelOf(path, space);
-      for (int i = 1; i < kTravelTries; ++i) {
-        const GraspPath other = ShortenPath(found, source_, random_, space);
-        if (TravelOf(other, space) < TravelOf(path, space)) path = other;
-      }
-      best.notes.push_back("the way of all fingers was " + FormatShort(before) + " and is " +
-                           FormatShort(TravelOf(path, space)));
+      path = LessenTravel(std::move(path), source_, random_, space);
     } else {
-      const double before = RequiredHalfAngleOf(path, space);
-      path = WidenPath(path, options_.aim == GeneralAim::kMargin ? kMoreSteps : 0, source_, random_,
-                       space);
-      best.notes.push_back("the weakest grasp needed " + FormatShort(Degrees(before)) +
-                           "° at first and needs " +
-                           FormatShort(Degrees(RequiredHalfAngleOf(path, space))) + "° now");
+      const int more = options_.aim == GeneralAim::kMargin ? kMoreSteps : 0;
+      path = WidenPath(std::move(path), more, source_, random_, space);
     }
-    best.draft = MakeDraft(path, from, space);
-    return best;
+    note("steps", steps, static_cast<double>(path.steps.size()), "");
+    note("margin of the weakest grasp", Degrees(margin),
+         Degrees(options_.half_angle - RequiredHalfAngleOf(path, space)), "°");
+    note("way of all fingers together", travel, TravelOf(path, space), "");
+    return notes;
   }
 
   PlanResult NoSequence(const Grasp& from, const Grasp& to) {

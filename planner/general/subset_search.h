@@ -5,21 +5,16 @@
 
 #include "planner/general/grasp_path.h"
 #include "planner/general/search_space.h"
+#include "planner/general/subset_graph.h"
 
 namespace regrasp {
 
-/// Whether aligns are looked for beside finger switches.
-enum class UseAligns { kNo, kYes };
-
 /// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search
-/// from both ends in which a subset is tested when it is first reached. In one step a hand of h
-/// fingers switches from A to B iff |A ∪ B| ≤ h. Aligns (AlignBetween) take contacts to others of
-/// their faces, and two at most to ones beyond edges near by. They are taken to hold until they are
-/// part of a way, and are proved then; after some that do not the search does without.
+/// from both ends, by steps of a SubsetGraph, in which a subset is tested when it is first reached.
 ///
 /// Laws: none of the sets but the ends needs to be admitted; the fewest steps never grow with more
-/// contacts, more friction or aligns. (With aligns a way found is not always the shortest: see
-/// above.)
+/// contacts, more friction or aligns. (With aligns a way found is not always the shortest: those
+/// across edges are given up after some that are not proved.)
 /// @param contacts   those of the ends included, at most kMostSubsetContacts.
 /// @param most_steps the search ends there.
 /// @returns nullopt where there is no way.
@@ -42,8 +37,5 @@ enum class UseAligns { kNo, kYes };
 /// all pairs.
 [[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from,
                                                         const ContactSet& to, SearchSpace& space);
-
-/// What is known of every subset is kept in an array of 2¹⁶ numbers at most.
-inline constexpr int kMostSubsetContacts = 16;
 
 }  // namespace regrasp

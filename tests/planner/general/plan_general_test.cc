@@ -12,6 +12,7 @@
 namespace regrasp {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 using Kind = GraspChoice::Kind;
@@ -42,7 +43,7 @@ TEST_P(PlanGeneralOnModel, RandomGraspsAreJoinedByGoodGraspsAndTheCheckerPasses)
     EXPECT_EQ(result.plan->planner, "general");
     EXPECT_EQ(result.plan->fingers, file.object->dimension() == 3 ? 5 : 4);
     EXPECT_GT(result.margin, 0);
-    EXPECT_THAT(result.notes, SizeIs(1));
+    EXPECT_THAT(result.notes, SizeIs(3));
     EXPECT_TRUE(CheckPlan(*file.object, *result.plan).passed()) << seed;
   }
 }
@@ -159,7 +160,10 @@ TEST(PlanGeneralTest, AimsAreWhatTheySay) {
     ASSERT_TRUE(steps.plan && margin.plan && travel.plan);
     EXPECT_LE(steps.plan->steps.size(), margin.plan->steps.size());
     wider += margin.margin - steps.margin;
-    EXPECT_THAT(travel.notes.front(), HasSubstr("the way of all fingers"));
+    for (const PlanResult* result : {&steps, &margin, &travel}) {
+      EXPECT_THAT(result->notes, ElementsAre(HasSubstr("steps: "), HasSubstr("margin "),
+                                             HasSubstr("way of all fingers")));
+    }
     EXPECT_TRUE(CheckPlan(*file.object, *travel.plan).passed());
     EXPECT_TRUE(CheckPlan(*file.object, *margin.plan).passed());
   }

@@ -1,0 +1,96 @@
+#include "planner/general/mend_path.h"
+
+#include <algorithm>
+
+#include "planner/general/stretch.h"
+#include "planner/general/subset_search.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Qualities on the way to the one that is asked for.
+constexpr int kLevels = 8;
+
+/// Attempts in a row without a gain after which a path is left as it is.
+constexpr int kMostFailures = 30;
+
+/// Steps before and behind the weakest grasp that are replaced.
+constexpr int kMostAround = 3;
+
+/// Steps that the replacement may have more.
+constexpr int kMoreSteps = 1;
+
+class Mender {
+ public:
+  Mender(const SurfaceSource& source, RandomStream& random, SearchSpace& space, GraspPath& path)
+      : source_(source),
+        random_(random),
+        space_(space),
+        path_(path),
+        quality_(space.demands().min_quality) {}
+
+  double Run() {
+    int failures = 0;
+    while (failures < kMostFailures && !space_.IsSpent()) {
+      const auto [weakest, level] = Weakest();
+      if (weakest < 0) break;
+      failures = Raise(weakest, level + 1) ? 0 : failures + 1;
+    }
+    const double reached = QualityOf(Weakest().second);
+    space_.SetMinQuality(quality_);
+    return reached;
+  }
+
+ private:
+  [[nodiscard]] double QualityOf(int level) const { return quality_ * level / kLevels; }
+
+  int LevelOf(const ContactSet& set) {
+    int level = kLevels;
+    for (; level > 0; --level) {
+      space_.SetMinQuality(QualityOf(level));
+      if (space_.Admits(set)) break;
+    }
+    return level;
+  }
+
+  /// The first of the grasps of the lowest level, and that level; -1 where all are good.
+  std::pair<int, int> Weakest() {
+    std::pair<int, int> weakest = {-1, kLevels};
+    for (int number = 1; number < static_cast<int>(path_.steps.size()); ++number) {
+      const int level = LevelOf(GraspNumber(path_, number));
+      if (level < weakest.second) weakest = {number, level};
+    }
+    return weakest;
+  }
+
+  bool Raise(int weakest, int level) {
+    const int around = 1 + static_cast<int>(random_.Index(kMostAround));
+    const int end = std::min(weakest + around, static_cast<int>(path_.steps.size()));
+    Stretch stretch = StretchBetween(path_, std::max(weakest - around, 0), end);
+    if (static_cast<int>(stretch.contacts.size()) >= kMostSubsetContacts) return false;
+    FillAround(stretch, kMostSubsetContacts, source_, random_, space_);
+    space_.SetMinQuality(QualityOf(level));
+    const auto better = SearchSubsets(
+        GraspNumber(path_, stretch.begin), GraspNumber(path_, stretch.end), stretch.contacts,
+        UseAligns::kYes, stretch.end - stretch.begin + kMoreSteps, space_);
+    if (!better) return false;
+    Splice(*better, stretch, path_);
+    return true;
+  }
+
+  const SurfaceSource& source_;
+  RandomStream& random_;
+  SearchSpace& space_;
+  GraspPath& path_;
+  double quality_;
+};
+
+}  // namespace
+
+double MendPath(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+                GraspPath& path) {
+  return Mender(source, random, space, path).Run();
+}
+
+}  // namespace regrasp
