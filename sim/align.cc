@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/motions.h"
+#include "sim/roll.h"
 #include "sim/slide.h"
 
 namespace regrasp {
@@ -56,6 +57,9 @@ AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
     if (const auto* fingers = std::get_if<FingersGoOver>(&move)) {
       over = true;
       GoOver(stage, *fingers);
+    } else if (const auto* roll = std::get_if<FingersRoll>(&move)) {
+      slid = true;
+      RollFingers(stage, roll->from, roll->to);
     } else {
       slid = true;
       const auto& grasps = std::get<FingersSlide>(move).grasps;

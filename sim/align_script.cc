@@ -61,7 +61,11 @@ class ScriptWriter {
         continue;
       }
       const double next = std::floor(at) + 1;
-      AddSlides(at, next, script);
+      if (limits_.spare.empty()) {
+        script.moves.emplace_back(FingersRoll{path_.At(at), path_.At(next)});
+      } else {
+        AddSlides(at, next, script);
+      }
       script.shares.best_effort += Share(at, next);
       at = next;
     }

@@ -23,14 +23,20 @@ struct FingersSlide {
   std::vector<FingerGrasp> grasps;
 };
 
-using AlignMove = std::variant<FingersGoOver, FingersSlide>;
+/// All fingers roll along the surface together (sim/roll.h), between two waypoints.
+struct FingersRoll {
+  FingerGrasp from;
+  FingerGrasp to;
+};
+
+using AlignMove = std::variant<FingersGoOver, FingersSlide, FingersRoll>;
 
 /// Shares of the way of an align, all contacts' ways added up, by how it is carried out. They sum
 /// to 1; for an align that only turns normals they are shares of the stretches between waypoints.
 struct AlignShares {
   double imitated = 0;
   double slid = 0;         ///< while the other fingers alone hold the object
-  double best_effort = 0;  ///< slid although they do not: nothing else serves
+  double best_effort = 0;  ///< slid although they do not, or rolled: nothing else serves
 };
 
 /// How the replay carries out an align.
@@ -70,8 +76,9 @@ struct AlignLimits {
 /// closure. A piece is at least a kSharesOfWay-th of the stretch; where there is none, fingers go
 /// over up to the next place where there is one.
 ///
-/// Where no piece serves at all the fingers slide to the next waypoint all the same, the way cut so
-/// that grasps between two slides are force closure where that is possible.
+/// Where no piece serves at all the fingers go to the next waypoint all the same: without a spare
+/// finger all of them roll at once, otherwise they slide, the way cut so that grasps between two
+/// slides are force closure where that is possible.
 [[nodiscard]] AlignScript WriteAlignScript(const Object& object, const Align& align,
                                            const AlignLimits& limits);
 

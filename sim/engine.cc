@@ -181,6 +181,13 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
   }
 }
 
+void Engine::ShiftTip(int finger, const Vector3d& offset) {
+  const int joint = impl_->First(finger);
+  for (int k = 0; k < impl_->slides; ++k) {
+    impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k];
+  }
+}
+
 void Engine::SetTarget(int finger, const Vector3d& target) {
   const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
   const int slides = impl_->slides;

@@ -45,6 +45,8 @@ class Engine {
 
   /// Moves a finger there at once, at rest.
   void PlaceTip(int finger, const Eigen::Vector3d& tip);
+  /// Moves a finger by an offset at once; its velocity stays.
+  void ShiftTip(int finger, const Eigen::Vector3d& offset);
   /// What the finger's servo steers for: its tip position at rest under no force.
   void SetTarget(int finger, const Eigen::Vector3d& target);
   /// The patches of this site, and no others, stop the finger; none where −1.

@@ -62,6 +62,12 @@ struct SiteCollector {
         }
         continue;
       }
+      if (const auto* roll = std::get_if<FingersRoll>(&move)) {
+        for (std::size_t k = 0; k < roll->from.size(); ++k) {
+          Add(roll->from[k].finger, roll->from[k].contact, roll->to[k].contact);
+        }
+        continue;
+      }
       const auto& grasps = std::get<FingersSlide>(move).grasps;
       for (std::size_t k = 0; k < grasps.front().size(); ++k) {
         Add(grasps.front()[k].finger, grasps.front()[k].contact, grasps.back()[k].contact);
@@ -177,11 +183,21 @@ AlignScript ToScene(const Object& object, double scale, AlignScript script) {
     if (auto* over = std::get_if<FingersGoOver>(&move)) {
       convert(over->stand_ins);
       convert(over->targets);
+    } else if (auto* roll = std::get_if<FingersRoll>(&move)) {
+      convert(roll->from);
+      convert(roll->to);
     } else {
       std::ranges::for_each(std::get<FingersSlide>(move).grasps, convert);
     }
   }
   return script;
+}
+
+double DistanceTo(const ContactSite& site, const Vector3d& point) {
+  const Vector3d path = site.to - site.from;
+  const double length = path.squaredNorm();
+  const double t = length > 0 ? std::clamp((point - site.from).dot(path) / length, 0.0, 1.0) : 0;
+  return (site.from + t * path - point).norm();
 }
 
 /// Names the first finger that has to come to rest where no ball fits.
@@ -327,23 +343,25 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   return scene;
 }
 
-int FindSite(const Scene& scene, const Contact& contact_S) {
+int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
+  // A finger that turns at an edge is at its new face's site already.
+  const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
     const ContactSite& site = scene.sites[i];
-    if (site.face != contact_S.face) continue;
-    const Vector3d path = site.to - site.from;
-    const double length = path.squaredNorm();
-    const double t =
-        length > 0 ? std::clamp((contact_S.p - site.from).dot(path) / length, 0.0, 1.0) : 0;
-    const double distance = (site.from + t * path - contact_S.p).norm();
+    if (site.face != to_S.face) continue;
+    const double distance = std::max(DistanceTo(site, begin), DistanceTo(site, to_S.p));
     if (distance < least) {
       least = distance;
       best = static_cast<int>(i);
     }
   }
   return best;
+}
+
+int FindSite(const Scene& scene, const Contact& contact_S) {
+  return FindSite(scene, contact_S, contact_S);
 }
 
 }  // namespace regrasp

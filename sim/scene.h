@@ -42,6 +42,9 @@ struct Scene {
 
 /// The site on `contact.face` whose path passes nearest to the contact.
 [[nodiscard]] int FindSite(const Scene& scene, const Contact& contact_S);
+/// The same for a way from one contact to another, straight inside one face or a turn to the next:
+/// the site that both belong to.
+[[nodiscard]] int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S);
 
 /// The scene as MJCF; every number reads back as the same double.
 /// @param hold  the control of every finger, newtons over stiffness, that holds the

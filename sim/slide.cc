@@ -120,7 +120,8 @@ void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact&
       std::max(kLeastStretchSteps, static_cast<int>(std::ceil(way / (stretches * kSlideStep))));
   const Vector3d direction = Direction(from_B, to_B);
   StageFinger& state = stage.fingers()[finger];
-  stage.engine().AddSite(finger, FindSite(stage.scene(), to_B));
+  const int site = FindSite(stage.scene(), from_B, to_B);
+  stage.engine().AddSite(finger, site);
   BlendTo(stage, ChooseSlide(stage, finger, from_B, direction).hand);
   state.sliding = true;
   Contact at = from_B;
@@ -131,7 +132,7 @@ void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact&
     at = next;
   }
   Settle(stage);
-  stage.engine().SetSite(finger, FindSite(stage.scene(), to_B));
+  stage.engine().SetSite(finger, site);
   state.sliding = false;
   state.touch_B = to_B.p;
   TransferForces(stage, stage.HoldingFingers());

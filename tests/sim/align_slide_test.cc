@@ -89,10 +89,11 @@ TEST(AlignSlide, IsImitationWhereEveryFingerIsNeeded) {
   EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
   EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
   ExpectShares(result.steps[1].align_shares, 1, 0);
-  // Without the spare finger nothing serves.
+  // Without the spare finger all roll together: nothing else serves.
   plan.fingers = 3;
   const ReplayResult alone = ReplayPlan(triangle, plan, Sliding());
   ASSERT_EQ(alone.steps.size(), 2u);
+  EXPECT_EQ(alone.steps[1].reason, Reason::kNone) << alone.steps[1].detail;
   EXPECT_EQ(alone.steps[1].align_mode, AlignMode::kSlid);
   ExpectShares(alone.steps[1].align_shares, 0, 0);
 }
