@@ -1,6 +1,7 @@
 """The planner general from the shell: plans on bodies of every kind, and their replay."""
 
 import json
+import math
 import re
 
 import program_case
@@ -8,6 +9,26 @@ from program_case import ProgramCase
 
 BODIES = ("cube.obj", "prism.obj", "l_block.obj", "hole_block.obj", "duck500.obj",
           "polygon20.wkt", "polygon_hole.wkt")
+
+# Grasps of all the fingers of a hand, at 10 degrees, none of which can be lifted.
+NEEDS_ALL = {
+    "square.wkt": ((0.03, 0.0278), (0.0116, 0.03), (-0.03, 0.004), (-0.0118, -0.03)),
+    "cube.obj": ((-0.02963, -0.03, -0.01778),
+                 (-0.03, 0.007751, 0.020926),
+                 (0.00272, -0.010241, 0.03),
+                 (0.03, 0.009617, -0.00386),
+                 (0.016154, -0.027091, -0.03)),
+}
+
+
+def turns(step):
+    """How often a normal turns between two waypoints of an align."""
+    count = 0
+    for before, after in zip(step["waypoints"], step["waypoints"][1:]):
+        normals = {held["finger"]: held["normal"] for held in after["contacts"]}
+        count += sum(math.dist(held["normal"], normals[held["finger"]]) > 1e-3
+                     for held in before["contacts"])
+    return count
 
 
 class General(ProgramCase):
@@ -53,6 +74,49 @@ class General(ProgramCase):
     def gain(self, done, pattern):
         self.assertRegex(done.stderr, pattern)
         return [float(number) for number in re.search(pattern, done.stderr).groups()]
+
+    def validate(self, body, align):
+        """Replays the plan; returns the report."""
+        replay = self.run_program(
+            "--object", self.model(body), "--plan", self.path("plan.json"), "--align", align,
+            "--no-frames", "--out", self.path("out"), program="validate")
+        self.assertEqual(replay.returncode, 0, f"{body} {align}\n{replay.stdout}")
+        with open(self.path("out/report.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_aligns_across_edges_pass_the_replay_in_space_and_in_the_plane(self):
+        for body, degrees, seeds in (("cube.obj", "25", range(1, 5)),
+                                     ("prism.obj", "25", range(1, 5)),
+                                     ("square.wkt", "10", range(1, 13))):
+            across = 0
+            for seed in seeds:
+                plan, _ = self.plan(body, seed, degrees=degrees)
+                if not any(turns(step) for step in plan["steps"] if step["kind"] == "align"):
+                    continue
+                across += 1
+                for align in ("imitate", "slide"):
+                    for step in self.validate(body, align)["steps"]:
+                        if step["kind"] == "align":
+                            self.assertEqual(step["certificate"], "holds")
+            self.assertGreater(across, 0, body)
+
+    def test_hands_that_need_all_their_fingers_walk_round_an_edge(self):
+        for body, points in NEEDS_ALL.items():
+            start = self.write_json("start.json", {
+                "format": "regrasp-grasp", "version": 1,
+                "contacts": [{"point": point} for point in points]})
+            for seed in range(12):
+                self.assert_done("--object", self.model(body), "--planner", "general",
+                                 "--friction-angle", "10", "--start", start, "--goal", "random",
+                                 "--seed", str(seed), "--output", self.path("plan.json"))
+                with open(self.path("plan.json"), encoding="utf-8") as file:
+                    first = json.load(file)["steps"][0]
+                self.assertEqual(first["kind"], "align", "no finger can be lifted")
+                self.assertEqual(len(first["waypoints"][0]["contacts"]), len(points))
+                if turns(first) > 0:
+                    break
+            self.assertGreater(turns(first), 0, body)
+            self.validate(body, "imitate")
 
     def test_the_summary_says_what_was_gained(self):
         for aim in ("steps", "margin", "travel"):
