@@ -1,7 +1,7 @@
 // Proofs of aligns: random pairs of force-closure grasps of four contacts on the same faces, joined
 // by straight segments. How many of the segments that hold are proved by forces of degree 1, of
 // degree 2, and of degree 1 with halving, in how many pieces, and what each takes; beside it the
-// decision by intervals with CertifyForceClosure, which is also the truth.
+// decision of the checker of plans, whose proofs are checked exactly, which is also the truth.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -223,7 +223,7 @@ void PrintRow(const std::string& body, double degrees) {
 int main() {
   std::printf(
       "| body | half-angle, degrees | segments that hold, %% | degree 1, %% | us | degree 2, %% | "
-      "us | halved, %% | pieces | us proved | us rejected | intervals, us |\n");
+      "us | halved, %% | pieces | us proved | us rejected | decided, us |\n");
   for (const char* body : kBodies) {
     for (const double degrees : kDegrees) PrintRow(body, degrees);
   }
