@@ -1,21 +1,18 @@
 #include "planner/general/improve_path.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "planner/general/least_travel.h"
 #include "planner/general/path_plan.h"
 #include "planner/general/stretch.h"
 #include "planner/general/subset_search.h"
-#include "planner/grasp/required_half_angle.h"
 
 namespace regrasp {
 
 namespace {
 
 /// Passes over all stretches, each with other random contacts.
-constexpr int kPasses = 4;
+constexpr int kPasses = 3;
 
 /// Passes in a row, each with other random contacts, that have not lessened the travel before it is
 /// left at that.
@@ -23,15 +20,6 @@ constexpr int kIdlePasses = 4;
 
 /// A way that is shorter by a smaller part of itself is not worth another pass.
 constexpr double kLeastGain = 1e-3;
-
-/// Of required half-angles that are only compared, radians.
-constexpr double kAngleAccuracy = 1e-5;
-
-double RequiredOf(const ContactSet& set, const SearchSpace& space) {
-  const auto required =
-      ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame(), kAngleAccuracy);
-  return required ? required->upper : std::numbers::pi / 2;
-}
 
 std::optional<GraspPath> SearchStretch(const GraspPath& path, const Stretch& stretch,
                                        int most_steps, SearchSpace& space) {
@@ -70,7 +58,8 @@ void ForEachStretch(GraspPath& path, const Replace& replace) {
 void WidenStretch(Stretch stretch, int more_steps, const SurfaceSource& source,
                   RandomStream& random, SearchSpace& space, GraspPath& path) {
   const GraspPath part = PartOf(path, stretch);
-  const double least = std::max(RequiredOf(part.start, space), RequiredOf(part.end(), space));
+  const double least =
+      std::max(space.RequiredHalfAngle(part.start), space.RequiredHalfAngle(part.end()));
   FillUp(stretch, kStretchContacts, source, random, space);
   const auto wider = SearchWidest(part.start, part.end(), stretch.contacts, UseAligns::kYes,
                                   static_cast<int>(part.steps.size()) + more_steps, least, space);
@@ -142,9 +131,11 @@ GraspPath LessenTravel(GraspPath path, const SurfaceSource& source, RandomStream
   return path;
 }
 
-double RequiredHalfAngleOf(const GraspPath& path, const SearchSpace& space) {
-  double required = RequiredOf(path.start, space);
-  for (const PathStep& step : path.steps) required = std::max(required, RequiredOf(step.to, space));
+double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space) {
+  double required = space.RequiredHalfAngle(path.start);
+  for (const PathStep& step : path.steps) {
+    required = std::max(required, space.RequiredHalfAngle(step.to));
+  }
   return required;
 }
 

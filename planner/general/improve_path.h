@@ -30,6 +30,6 @@ inline constexpr int kMoreSteps = 2;
                                      RandomStream& random, SearchSpace& space);
 
 /// The largest required half-angle of the path's grasps at rest, the ends included, radians.
-[[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, const SearchSpace& space);
+[[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space);
 
 }  // namespace regrasp

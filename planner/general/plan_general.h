@@ -16,7 +16,7 @@ namespace regrasp {
 enum class GeneralAim {
   kSteps,   ///< the fewest steps found, then the largest margin of the weakest grasp
   kMargin,  ///< the largest margin, with a few steps more where they help
-  kTravel,  ///< the least way of all fingers together
+  kTravel,  ///< the fewest steps found, then the least way of all fingers together (TravelOf)
 };
 
 struct GeneralPlanOptions {

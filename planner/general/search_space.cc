@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "planner/graph/grasp_choice.h"
 #include "planner/grasp/force_closure_core.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/plan/reach.h"
 
 namespace regrasp {
@@ -13,6 +15,9 @@ namespace {
 
 /// The clock is looked at once in about a millisecond.
 constexpr std::int64_t kTestsBetweenLooks = 500;
+
+/// Of required half-angles that are only compared, radians.
+constexpr double kAngleAccuracy = 1e-5;
 
 /// What rays for a quality cost, in force-closure tests.
 constexpr std::int64_t kShotCost = 40;
@@ -93,6 +98,15 @@ bool SearchSpace::Admits(const ContactSet& set) {
   const bool good = IsGood(GraspOf(set));
   (good ? known.good_at : known.poor_at) = demands_.min_quality;
   return good;
+}
+
+double SearchSpace::RequiredHalfAngle(const ContactSet& set) {
+  Known& known = known_[set.key()];
+  if (known.required == kUnknown) {
+    const auto required = ComputeRequiredHalfAngle(GraspOf(set), frame_, kAngleAccuracy);
+    known.required = required ? required->upper : std::numbers::pi / 2;
+  }
+  return known.required;
 }
 
 bool SearchSpace::IsAdmitted(const Grasp& grasp) {

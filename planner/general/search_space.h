@@ -79,6 +79,9 @@ class SearchSpace {
   [[nodiscard]] bool IsAdmitted(const Grasp& grasp);
   /// Force closure alone, at any half-angle, radians.
   [[nodiscard]] bool HoldsAt(const Grasp& grasp, double half_angle);
+  /// The half-angle at which it is force closure, to 1e-5, radians; π/2 where there is none.
+  /// Remembered.
+  [[nodiscard]] double RequiredHalfAngle(const ContactSet& set);
   /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
   void Accept(const ContactSet& set) { known_[set.key()] = kAccepted; }
 
@@ -98,8 +101,10 @@ class SearchSpace {
     double holds_at = kInfinity;
     double good_at = 0;  ///< qualities that it clearly has and has not
     double poor_at = kInfinity;
+    double required = kUnknown;  ///< half-angle
   };
-  static constexpr Known kAccepted = {0, 0, kInfinity, kInfinity};
+  static constexpr double kUnknown = -1;
+  static constexpr Known kAccepted = {0, 0, kInfinity, kInfinity, kUnknown};
 
   /// Force closure of contacts in the object's frame with their rims set.
   [[nodiscard]] bool Holds(UnitContacts contacts);

@@ -79,6 +79,27 @@ ContactSet SubsetGraph::SetOf(Mask mask) const {
   return set;
 }
 
+const std::vector<SubsetGraph::Move>& SubsetGraph::MovesFrom(Mask mask) {
+  const auto [entry, is_new] = moves_.try_emplace(mask);
+  if (is_new) AddMoves(mask, {mask, 0, 0}, 0, entry->second);
+  return entry->second;
+}
+
+void SubsetGraph::AddMoves(Mask mask, const Move& moved, int first,
+                           std::vector<Move>& moves) const {
+  const bool full = may_stay_full_ && Count(mask) == space_.fingers();
+  if (moved.to != mask && CanRest(moved.to, full) && AreApart(moved.to)) moves.push_back(moved);
+  for (int i = first; i < contact_count(); ++i) {
+    if ((mask >> i & 1) == 0) continue;
+    for (const Target& target : targets_[i]) {
+      const Mask bit = Mask{1} << target.contact;
+      if (((mask | moved.to) & bit) != 0 || moved.over + target.edges > over_) continue;
+      const Mask to = (moved.to & ~(Mask{1} << i)) | bit;
+      AddMoves(mask, {to, moved.over + target.edges, moved.way + target.way}, i + 1, moves);
+    }
+  }
+}
+
 std::optional<GraspPath> SubsetGraph::MakePath(const std::vector<Mask>& masks) {
   GraspPath path{SetOf(masks.front()), {}};
   for (std::size_t i = 1; i < masks.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -61,14 +62,12 @@ class SubsetGraph {
   /// than once where contacts can be paired in several ways.
   /// @param matters, visit  also told the way.
   template <typename Matters, typename Visit>
-  void ForEachAlign(Mask mask, const Matters& matters, const Visit& visit) const {
+  void ForEachAlign(Mask mask, const Matters& matters, const Visit& visit) {
     if (!aligns_) return;
-    const bool full = may_stay_full_ && Count(mask) == space_.fingers();
-    Align({mask, mask, 0, over_, 0}, [&](Mask next, double way) {
-      if (matters(next, way) && CanRest(next, full) && AreApart(next) && !IsRefused(mask, next)) {
-        visit(next, way);
-      }
-    });
+    for (const Move& move : MovesFrom(mask)) {
+      if (move.over > over_ || !matters(move.to, move.way) || IsRefused(mask, move.to)) continue;
+      visit(move.to, move.way);
+    }
   }
 
   /// Between two contacts.
@@ -126,29 +125,17 @@ class SubsetGraph {
     int edges;  ///< 1 where that is on another face
     double way;
   };
-  struct Moved {
-    Mask from;
+  /// An align that has not been proved.
+  struct Move {
     Mask to;
-    int first;  ///< contact that has not been moved yet
-    int over;   ///< contacts that may still go over an edge
+    int over;  ///< contacts that go over an edge
     double way;
   };
-
-  /// All grasps with each contact that has not been moved at itself or at another one of its face,
-  /// or over an edge.
-  template <typename Reach>
-  void Align(const Moved& moved, const Reach& reach) const {
-    if (moved.to != moved.from) reach(moved.to, moved.way);
-    for (int i = moved.first; i < contact_count(); ++i) {
-      if ((moved.from >> i & 1) == 0) continue;
-      for (const Target& target : targets_[i]) {
-        const Mask bit = Mask{1} << target.contact;
-        if (((moved.from | moved.to) & bit) != 0 || target.edges > moved.over) continue;
-        const Mask to = (moved.to & ~(Mask{1} << i)) | bit;
-        Align({moved.from, to, i + 1, moved.over - target.edges, moved.way + target.way}, reach);
-      }
-    }
-  }
+  /// All grasps with each contact at itself or at another one of its face, or over an edge.
+  /// Enumerated once: searches come back to the same grasps at other half-angles.
+  [[nodiscard]] const std::vector<Move>& MovesFrom(Mask mask);
+  /// The same with the contacts from the `first` on, others having been moved.
+  void AddMoves(Mask mask, const Move& moved, int first, std::vector<Move>& moves) const;
 
   [[nodiscard]] bool AreApart(Mask mask) const {
     for (Mask rest = mask; rest != 0; rest &= rest - 1) {
@@ -170,6 +157,7 @@ class SubsetGraph {
   bool may_stay_full_ = false;  ///< grasps of all fingers may be reached from others, by aligns
   std::vector<Mask> apart_;     ///< by contact: those that it can't meet
   std::vector<std::vector<Target>> targets_;  ///< by contact
+  std::unordered_map<Mask, std::vector<Move>> moves_;
   std::array<Mask, 2> ends_;
   /// The largest half-angle at which an align was not proved.
   std::map<std::pair<Mask, Mask>, double> refused_;

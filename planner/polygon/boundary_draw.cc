@@ -1,6 +1,7 @@
 #include "planner/polygon/boundary_draw.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/plan/clearance.h"
 #include "planner/plan/reach.h"
@@ -12,6 +13,18 @@ namespace {
 
 /// Contacts drawn before room is no longer asked for: on nearly all of a boundary fingers have it.
 constexpr int kMostDraws = 1000;
+
+/// Of a force-closure grasp of two contacts each lies in the other's cone, and so the two normals
+/// are opposed but for less than both half-angles.
+bool HasOpposedEdges(const Polygon& polygon, double half_angle) {
+  const double least = std::cos(2 * half_angle);
+  for (int a = 0; a < polygon.face_count(); ++a) {
+    for (int b = 0; b < a; ++b) {
+      if (-polygon.inward_normal(a).dot(polygon.inward_normal(b)) > least) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -42,6 +55,7 @@ std::optional<Grasp> DrawAnyGrasp(const Polygon& polygon, int least, int most,
   const int first = static_cast<int>(random.Index(numbers));
   for (int i = 0; i < numbers; ++i) {
     const int contacts = least + (first + i) % numbers;
+    if (contacts == 2 && !HasOpposedEdges(polygon, judge.half_angle())) continue;
     auto grasp = DrawGoodGrasp(
         [&] { return DrawOnBoundary(polygon, contacts, random, judge.finger_radius()); },
         judge.frame(), judge.half_angle(), judge.min_quality(), kSamePoint * polygon.diameter(),
