@@ -48,6 +48,16 @@ bool IsFree(const std::vector<Grasp>& waypoints, const SearchSpace& space) {
                            space.demands().finger_radius);
 }
 
+/// Whether the grasps at the turns and half-way between waypoints are as good as is asked.
+bool IsGoodOnTheWay(const std::vector<Grasp>& waypoints, const std::vector<GraspMotion>& motions,
+                    SearchSpace& space) {
+  if (space.demands().min_quality == 0) return true;
+  const auto admitted = [&](const Grasp& grasp) { return space.IsAdmitted(grasp); };
+  return std::all_of(waypoints.begin() + 1, waypoints.end() - 1, admitted) &&
+         std::ranges::all_of(
+             motions, [&](const GraspMotion& motion) { return admitted(GraspAt(motion, 0.5)); });
+}
+
 /// What remains of a set without the contacts of another.
 ContactSet Difference(const ContactSet& set, const ContactSet& other) {
   ContactSet rest;
@@ -209,7 +219,7 @@ std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
   for (const GraspMotion& motion : motions) {
     if (!HoldsAt(motion, kProbe, space)) return std::nullopt;
   }
-  if (!IsFree(waypoints, space)) return std::nullopt;
+  if (!IsFree(waypoints, space) || !IsGoodOnTheWay(waypoints, motions, space)) return std::nullopt;
   FaceAlign align{std::move(pairs), {}, {}};
   for (const GraspMotion& motion : motions) {
     space.CountTests(kTestsOfAProof);

@@ -18,6 +18,13 @@ namespace {
 /// Contacts drawn before room is no longer asked for: on nearly all of a surface fingers have it.
 constexpr int kMostDraws = 1000;
 
+/// Points this near a face, over the diameter, are on it: what rounding makes of them.
+constexpr double kOffFace = 1e-9;
+
+/// Fingers stand at least this far from the border of their face, over the diameter: on it the
+/// least slip takes them to the next face. Far more than a good grasp slips.
+constexpr double kFromBorder = 2e-4;
+
 /// The nearest face is looked for within this share of the reach first.
 constexpr double kFirstLook = 1.0 / 64;
 
@@ -43,7 +50,8 @@ SurfaceSource::SurfaceSource(const Object& object, double finger_radius)
 }
 
 bool SurfaceSource::Serves(const Contact& contact) const {
-  return HasStandingRoom(object_, contact) && CanReach(object_, contact, finger_radius_);
+  return object_.DistanceToBorder(contact.face, contact.p) >= kFromBorder * object_.diameter() &&
+         HasStandingRoom(object_, contact) && CanReach(object_, contact, finger_radius_);
 }
 
 void SurfaceSource::AddPiece(const Piece& piece, double measure) {
@@ -59,26 +67,33 @@ Contact SurfaceSource::DrawIn(const Piece& piece, RandomStream& random) const {
   return {object_.ClosestPoint(piece.face, q), object_.inward_normal(piece.face), piece.face};
 }
 
-Contact SurfaceSource::DrawBetween(double from, double to, RandomStream& random) const {
+Contact SurfaceSource::DrawOnce(const Range& range, RandomStream& random) const {
+  const double at = range.from + random.Uniform() * (range.to - range.from);
+  const auto above = std::upper_bound(up_to_.begin(), up_to_.end(), at);
+  const auto last = static_cast<std::ptrdiff_t>(up_to_.size()) - 1;
+  return DrawIn(pieces_[std::min(above - up_to_.begin(), last)], random);
+}
+
+Contact SurfaceSource::DrawServing(const Range& range, RandomStream& random) const {
   Contact contact;
   for (int draw = 0; draw < kMostDraws; ++draw) {
-    const double at = from + random.Uniform() * (to - from);
-    const auto above = std::upper_bound(up_to_.begin(), up_to_.end(), at);
-    const auto last = static_cast<std::ptrdiff_t>(up_to_.size()) - 1;
-    contact = DrawIn(pieces_[std::min(above - up_to_.begin(), last)], random);
+    contact = DrawOnce(range, random);
     if (Serves(contact)) break;
   }
   return contact;
 }
 
+SurfaceSource::Range SurfaceSource::RangeOf(int face) const {
+  const int first = first_piece_[face];
+  return {first == 0 ? 0 : up_to_[first - 1], up_to_[first_piece_[face + 1] - 1]};
+}
+
 Contact SurfaceSource::Draw(RandomStream& random) const {
-  return DrawBetween(0, up_to_.back(), random);
+  return DrawServing({0, up_to_.back()}, random);
 }
 
 Contact SurfaceSource::DrawOn(int face, RandomStream& random) const {
-  const int first = first_piece_[face];
-  return DrawBetween(first == 0 ? 0 : up_to_[first - 1], up_to_[first_piece_[face + 1] - 1],
-                     random);
+  return DrawServing(RangeOf(face), random);
 }
 
 Vector3d SurfaceSource::DrawBeside(const Contact& contact, double reach,
@@ -92,8 +107,11 @@ Vector3d SurfaceSource::DrawBeside(const Contact& contact, double reach,
 }
 
 Contact SurfaceSource::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
-  const Vector3d p = object_.ClosestPoint(contact.face, DrawBeside(contact, reach, random));
-  return {p, contact.n, contact.face};
+  const Vector3d beside = DrawBeside(contact, reach, random);
+  const Vector3d on_face = object_.ClosestPoint(contact.face, beside);
+  const bool is_inside = (on_face - beside).norm() <= kOffFace * object_.diameter();
+  return {is_inside ? beside : DrawInwards(contact.face, on_face, reach, random), contact.n,
+          contact.face};
 }
 
 Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
@@ -103,10 +121,24 @@ Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
     const std::vector<int> faces = object_.FacesNear(p, radius);
     if (faces.empty()) continue;
-    const int face = faces.front();
-    return {object_.ClosestPoint(face, p), object_.inward_normal(face), face};
+    // Where an edge is nearest, so are both of its faces.
+    const auto distance = [&](int face) { return (object_.ClosestPoint(face, p) - p).norm(); };
+    const double nearest = distance(faces.front()) + kOffFace * object_.diameter();
+    const auto farther = std::ranges::find_if(faces, [&](int f) { return distance(f) > nearest; });
+    const int face = faces[random.Index(static_cast<std::uint64_t>(farther - faces.begin()))];
+    const Vector3d n = object_.inward_normal(face);
+    const Vector3d on_face = object_.ClosestPoint(face, p);
+    const bool is_inside = (on_face - p).cross(n).norm() <= kOffFace * object_.diameter();
+    return {is_inside ? on_face : DrawInwards(face, on_face, reach, random), n, face};
   }
   return contact;
+}
+
+Vector3d SurfaceSource::DrawInwards(int face, const Vector3d& border, double reach,
+                                    RandomStream& random) const {
+  const Vector3d way = DrawOnce(RangeOf(face), random).p - border;
+  const double share = random.Uniform() * std::min(1.0, reach / way.norm());
+  return object_.ClosestPoint(face, border + share * way);
 }
 
 }  // namespace regrasp

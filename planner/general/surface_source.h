@@ -14,8 +14,8 @@ class SurfaceSource {
   /// @param object  outlives this object. @param finger_radius  its unit of length; 0: points.
   explicit SurfaceSource(const Object& object, double finger_radius = 0);
 
-  /// Whether a finger has room at a contact (HasStandingRoom) and, if it is no point, comes to it
-  /// (CanReach).
+  /// Whether a finger has room at a contact (HasStandingRoom), a little away from the border of its
+  /// face, and, if it is no point, comes to it (CanReach).
   [[nodiscard]] bool Serves(const Contact& contact) const;
 
   /// Evenly over the whole surface or over one face, where it serves.
@@ -23,8 +23,8 @@ class SurfaceSource {
   [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
 
   /// Near a contact, on its face: beside it by no more than `reach` along each axis of the face, or
-  /// where that is off the face at its border. May not serve: that costs more to find out than
-  /// whether the contact makes a grasp.
+  /// where that is off the face about as far from the border there. May not serve: that costs more
+  /// to find out than whether the contact makes a grasp.
   [[nodiscard]] Contact DrawNear(const Contact& contact, double reach, RandomStream& random) const;
   /// The same on whatever face is there; the contact itself where none is.
   [[nodiscard]] Contact DrawAround(const Contact& contact, double reach,
@@ -37,12 +37,22 @@ class SurfaceSource {
     int face;
   };
 
+  /// Of the running sums: some pieces that follow each other.
+  struct Range {
+    double from, to;
+  };
+
   /// A point of the plane that touches at the contact, in the plane of its line.
   [[nodiscard]] Eigen::Vector3d DrawBeside(const Contact& contact, double reach,
                                            RandomStream& random) const;
+  /// A point of the face no farther than `reach` from a point of its border.
+  [[nodiscard]] Eigen::Vector3d DrawInwards(int face, const Eigen::Vector3d& border, double reach,
+                                            RandomStream& random) const;
   void AddPiece(const Piece& piece, double measure);
   [[nodiscard]] Contact DrawIn(const Piece& piece, RandomStream& random) const;
-  [[nodiscard]] Contact DrawBetween(double from, double to, RandomStream& random) const;
+  [[nodiscard]] Range RangeOf(int face) const;
+  [[nodiscard]] Contact DrawOnce(const Range& range, RandomStream& random) const;
+  [[nodiscard]] Contact DrawServing(const Range& range, RandomStream& random) const;
 
   const Object& object_;
   double finger_radius_;

@@ -199,17 +199,21 @@ bool TwoTrees::AlignAround(int side, int node, double reach) {
   // Of a full hand, which has no finger for a switch, one contact leaves its face.
   const bool full = from.size() == space_.fingers();
   const int leaving = full ? static_cast<int>(random_.Index(from.size())) : -1;
+  const double least_way = kLeastWay * space_.object().diameter();
   Grasp drawn;
+  double straight = 0;
   for (int i = 0; i < from.size(); ++i) {
     const Contact& contact = space_.contact(from[i]);
     drawn.push_back(i == leaving ? source_.DrawAround(contact, reach, random_)
                                  : source_.DrawNear(contact, reach, random_));
+    straight += (drawn.back().p - contact.p).norm();
   }
+  if (straight < least_way) return false;
   const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
   if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
   const ContactSet set = space_.Add(drawn);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
-    if (way < kLeastWay * space_.object().diameter()) return false;
+    if (way < least_way) return false;
     node = near;
   }
   return AlignTo(side, node, set) >= 0;
