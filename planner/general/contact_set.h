@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container_hash/hash.hpp>
 #include <cassert>
 #include <cstdint>
-#include <functional>
-#include <span>
+#include <limits>
 
 namespace regrasp {
 
@@ -13,8 +13,8 @@ namespace regrasp {
 class ContactSet {
  public:
   static constexpr int kMostHeld = 5;
-  /// Numbers are smaller: a set is then one word.
-  static constexpr int kMostNumbers = 1 << 12;
+  /// Numbers are smaller.
+  static constexpr int kMostNumbers = std::numeric_limits<std::int16_t>::max();
 
   ContactSet() = default;
 
@@ -53,13 +53,6 @@ class ContactSet {
     return a.size() + b.size() - common;
   }
 
-  /// Different sets have different keys.
-  [[nodiscard]] std::uint64_t key() const {
-    std::uint64_t key = 0;
-    for (const int contact : *this) key = key * kMostNumbers + static_cast<unsigned>(contact) + 1;
-    return key;
-  }
-
   friend bool operator==(const ContactSet& a, const ContactSet& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
@@ -67,6 +60,13 @@ class ContactSet {
  private:
   std::array<std::int16_t, kMostHeld> numbers_{};
   std::int8_t size_ = 0;
+};
+
+/// For hash tables of contact sets.
+struct ContactSetHash {
+  std::size_t operator()(const ContactSet& set) const {
+    return boost::hash_range(set.begin(), set.end());
+  }
 };
 
 }  // namespace regrasp

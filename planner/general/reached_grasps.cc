@@ -9,7 +9,7 @@ ReachedGrasps::ReachedGrasps(const ContactSet& root, const SearchSpace& space) :
 }
 
 int ReachedGrasps::Find(const ContactSet& set) const {
-  const auto found = numbers_.find(set.key());
+  const auto found = numbers_.find(set);
   return found == numbers_.end() ? -1 : found->second;
 }
 
@@ -22,7 +22,7 @@ const std::vector<int>& ReachedGrasps::OnTuple(const FaceTuple& tuple) const {
 int ReachedGrasps::Reach(const ContactSet& set, int parent, std::optional<FaceAlign> align) {
   const int node = size();
   nodes_.push_back({set, parent, std::move(align)});
-  numbers_.emplace(set.key(), node);
+  numbers_.emplace(set, node);
   tuples_[TupleOf(set, space_)].push_back(node);
   return node;
 }

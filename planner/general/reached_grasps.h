@@ -40,7 +40,7 @@ class ReachedGrasps {
 
   const SearchSpace& space_;
   std::vector<Node> nodes_;
-  std::unordered_map<std::uint64_t, int> numbers_;
+  std::unordered_map<ContactSet, int, ContactSetHash> numbers_;
   std::map<FaceTuple, std::vector<int>> tuples_;
 };
 

@@ -85,7 +85,7 @@ bool SearchSpace::IsSpent() {
 
 bool SearchSpace::Admits(const ContactSet& set) {
   if (set.size() < fewest_contacts()) return false;
-  Known& known = known_[set.key()];
+  Known& known = known_[set];
   if (half_angle_ <= known.fails_at || demands_.min_quality >= known.poor_at) return false;
   if (half_angle_ < known.holds_at) {
     UnitContacts contacts;

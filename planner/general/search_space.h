@@ -83,7 +83,7 @@ class SearchSpace {
   /// Remembered.
   [[nodiscard]] double RequiredHalfAngle(const ContactSet& set);
   /// Takes a grasp as it is, whatever it is worth: the ends of a sequence.
-  void Accept(const ContactSet& set) { known_[set.key()] = kAccepted; }
+  void Accept(const ContactSet& set) { known_[set] = kAccepted; }
 
   /// Tests of force closure so far, those of certificates included.
   [[nodiscard]] std::int64_t tests() const { return tests_; }
@@ -118,7 +118,7 @@ class SearchSpace {
   double same_point_;
   std::vector<Contact> contacts_;
   UnitContacts units_;  ///< of the contacts, in the object's frame
-  std::unordered_map<std::uint64_t, Known> known_;
+  std::unordered_map<ContactSet, Known, ContactSetHash> known_;
   std::int64_t tests_ = 0;
   SearchLimits limits_;
   std::int64_t next_look_ = 0;  ///< at the clock, by tests
