@@ -75,8 +75,9 @@ struct PlanProgram {
     app.add_option(
            "--optimize", optimize,
            "The planner general: steps (the fewest found, then margin; the default), margin "
-           "(the weakest grasp's margin, with a few steps more), travel (the least way of "
-           "the fingers). The planner contour: regions (every switch where the smaller of "
+           "(the weakest grasp's margin, with two steps more at most), travel (the fewest "
+           "found, then the least way of the fingers). The planner contour: regions (every switch "
+           "where the smaller of "
            "its two grasps' contact regions is largest; default: well inside both sets)")
         ->check(CLI::IsMember({"steps", "margin", "travel", "regions"}))
         ->type_name("steps|margin|travel|regions");
