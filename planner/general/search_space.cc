@@ -101,7 +101,7 @@ bool SearchSpace::Admits(const ContactSet& set) {
 }
 
 double SearchSpace::RequiredHalfAngle(const ContactSet& set) {
-  Known& known = known_[set.key()];
+  Known& known = known_[set];
   if (known.required == kUnknown) {
     const auto required = ComputeRequiredHalfAngle(GraspOf(set), frame_, kAngleAccuracy);
     known.required = required ? required->upper : std::numbers::pi / 2;
