@@ -138,7 +138,8 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
          "How aligns are carried out. imitate: spare fingers take over for each finger while it "
          "goes "
          "to its target. slide: a finger slides along the surface while the others alone hold the "
-         "object, and is taken over for only where they do not (default imitate)")
+         "object, and is taken over for only where they do not (default imitate). Without a spare "
+         "finger those that cannot slide roll, all at once")
       ->check(CLI::IsMember({"imitate", "slide"}))
       ->type_name("imitate|slide");
 }
