@@ -48,16 +48,6 @@ bool IsFree(const std::vector<Grasp>& waypoints, const SearchSpace& space) {
                            space.demands().finger_radius);
 }
 
-/// Whether the grasps at the turns and half-way between waypoints are as good as is asked.
-bool IsGoodOnTheWay(const std::vector<Grasp>& waypoints, const std::vector<GraspMotion>& motions,
-                    SearchSpace& space) {
-  if (space.demands().min_quality == 0) return true;
-  const auto admitted = [&](const Grasp& grasp) { return space.IsAdmitted(grasp); };
-  return std::all_of(waypoints.begin() + 1, waypoints.end() - 1, admitted) &&
-         std::ranges::all_of(
-             motions, [&](const GraspMotion& motion) { return admitted(GraspAt(motion, 0.5)); });
-}
-
 /// What remains of a set without the contacts of another.
 ContactSet Difference(const ContactSet& set, const ContactSet& other) {
   ContactSet rest;
@@ -210,6 +200,17 @@ std::vector<Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& s
   return JointWay(routes).Waypoints();
 }
 
+/// Whether the grasps at the turns and half-way between waypoints are as good as is asked.
+bool AreGood(const std::vector<Grasp>& waypoints, SearchSpace& space) {
+  if (space.demands().min_quality == 0) return true;
+  for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
+    if (w > 0 && !space.IsAdmitted(waypoints[w])) return false;
+    const GraspMotion motion = MotionBetween(waypoints[w], waypoints[w + 1]);
+    if (!space.IsAdmitted(GraspAt(motion, 0.5))) return false;
+  }
+  return true;
+}
+
 std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
                                SearchSpace& space) {
   std::vector<GraspMotion> motions;
@@ -219,7 +220,7 @@ std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
   for (const GraspMotion& motion : motions) {
     if (!HoldsAt(motion, kProbe, space)) return std::nullopt;
   }
-  if (!IsFree(waypoints, space) || !IsGoodOnTheWay(waypoints, motions, space)) return std::nullopt;
+  if (!IsFree(waypoints, space) || !AreGood(waypoints, space)) return std::nullopt;
   FaceAlign align{std::move(pairs), {}, {}};
   for (const GraspMotion& motion : motions) {
     space.CountTests(kTestsOfAProof);
@@ -243,6 +244,10 @@ std::vector<Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space)
   waypoints.insert(waypoints.end(), align.between.begin(), align.between.end());
   waypoints.push_back(std::move(last));
   return waypoints;
+}
+
+bool AdmitsWay(const FaceAlign& align, SearchSpace& space) {
+  return AreGood(WaypointsOf(align, space), space);
 }
 
 double WayOf(const FaceAlign& align, const SearchSpace& space) {

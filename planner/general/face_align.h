@@ -26,6 +26,10 @@ struct FaceAlign {
 /// The grasps of an align from the first to the last, in the order of its contacts.
 [[nodiscard]] std::vector<Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space);
 
+/// Whether the grasps at the turns of an align and half-way between its waypoints are as good as
+/// the space asks. AlignBetween only returns such aligns.
+[[nodiscard]] bool AdmitsWay(const FaceAlign& align, SearchSpace& space);
+
 /// The way of all contacts of an align together; turns of normals add nothing.
 [[nodiscard]] double WayOf(const FaceAlign& align, const SearchSpace& space);
 

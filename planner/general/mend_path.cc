@@ -45,20 +45,24 @@ class Mender {
  private:
   [[nodiscard]] double QualityOf(int level) const { return quality_ * level / kLevels; }
 
-  int LevelOf(const ContactSet& set) {
+  /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the way there.
+  int LevelOf(const PathStep& step) {
+    const bool is_end = &step == &path_.steps.back();
     int level = kLevels;
     for (; level > 0; --level) {
       space_.SetMinQuality(QualityOf(level));
-      if (space_.Admits(set)) break;
+      if ((is_end || space_.Admits(step.to)) && (!step.align || AdmitsWay(*step.align, space_))) {
+        break;
+      }
     }
     return level;
   }
 
-  /// The first of the grasps of the lowest level, and that level; -1 where all are good.
+  /// The first of the steps of the lowest level, from 1, and that level; -1 where all are good.
   std::pair<int, int> Weakest() {
     std::pair<int, int> weakest = {-1, kLevels};
-    for (int number = 1; number < static_cast<int>(path_.steps.size()); ++number) {
-      const int level = LevelOf(GraspNumber(path_, number));
+    for (int number = 1; number <= static_cast<int>(path_.steps.size()); ++number) {
+      const int level = LevelOf(path_.steps[number - 1]);
       if (level < weakest.second) weakest = {number, level};
     }
     return weakest;

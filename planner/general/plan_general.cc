@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/general/face_align.h"
 #include "planner/general/improve_path.h"
 #include "planner/general/mend_path.h"
 #include "planner/general/path_plan.h"
@@ -145,7 +146,8 @@ class Planner {
   /// Whether the space admits what lies between the ends.
   [[nodiscard]] static bool AreAdmitted(const GraspPath& path, SearchSpace& space) {
     return std::all_of(path.steps.begin(), path.steps.end(), [&](const PathStep& step) {
-      return step.to == path.end() || space.Admits(step.to);
+      return (step.to == path.end() || space.Admits(step.to)) &&
+             (!step.align || AdmitsWay(*step.align, space));
     });
   }
 
