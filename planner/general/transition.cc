@@ -6,8 +6,8 @@ namespace regrasp {
 
 namespace {
 
-/// A move is kept if it lowers the required half-angle to this share of what it is above the
-/// space's own; smaller gains are not worth a test.
+/// A move is kept if it lowers the required half-angle to this share of what it is above the lowest
+/// of use; smaller gains are not worth a test.
 constexpr double kWorthwhile = 0.98;
 
 /// Moves go up to this share of the diameter at first, farther after one that was kept, less far
@@ -33,7 +33,8 @@ class Descent {
         space_(space),
         held_(before),
         placed_(placed),
-        way_{before} {}
+        way_{before},
+        lowest_(space.demands().min_quality == 0 ? space.half_angle() : 0) {}
 
   std::optional<Transition> Find() {
     if (!space_.HoldsAt(After(held_, placed_), kHighest)) return std::nullopt;
@@ -61,7 +62,7 @@ class Descent {
     Grasp held;
     for (const Contact& contact : held_) held.push_back(source_.DrawNear(contact, reach, random_));
     const Contact placed = source_.DrawNear(placed_, reach, random_);
-    const double aim = space_.half_angle() + kWorthwhile * (level_ - space_.half_angle());
+    const double aim = lowest_ + kWorthwhile * (level_ - lowest_);
     if (!space_.HoldsAt(After(held, placed), aim) || !space_.IsAdmitted(held)) return false;
     const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
     if (!serves(placed) || !std::ranges::all_of(held, serves)) return false;
@@ -76,8 +77,8 @@ class Descent {
   /// Brings the level down to what the later grasp requires, about.
   void Lower(const Grasp& held, const Contact& placed) {
     const Grasp after = After(held, placed);
-    double below = space_.half_angle();
-    if (space_.HoldsAt(after, below)) {
+    double below = lowest_;
+    if (below > 0 && space_.HoldsAt(after, below)) {
       level_ = below;
       return;
     }
@@ -103,6 +104,8 @@ class Descent {
   Grasp held_;
   Contact placed_;
   std::vector<Grasp> way_;
+  /// There is no use in less; for good grasps there may be.
+  double lowest_;
   double level_ = 0;
 };
 
