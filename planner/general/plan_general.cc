@@ -125,6 +125,7 @@ class Planner {
       // What is not found with less asked for is not going to be found with more.
       if (!found) break;
       GraspPath other = Renumber(*found, wide, space);
+      if (AreAdmitted(other, space)) return other;
       const double reached = Mend(other, space);
       if (reached <= best) continue;
       best = reached;

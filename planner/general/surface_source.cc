@@ -137,8 +137,10 @@ Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
 Vector3d SurfaceSource::DrawInwards(int face, const Vector3d& border, double reach,
                                     RandomStream& random) const {
   const Vector3d way = DrawOnce(RangeOf(face), random).p - border;
-  const double share = random.Uniform() * std::min(1.0, reach / way.norm());
-  return object_.ClosestPoint(face, border + share * way);
+  // The best grasps are the widest ones: most of the draws stay as near to the border as they may.
+  const double u = random.Uniform();
+  const double inwards = 5 * kFromBorder * object_.diameter() + u * u * u * u * reach;
+  return object_.ClosestPoint(face, border + std::min(1.0, inwards / way.norm()) * way);
 }
 
 }  // namespace regrasp
