@@ -104,8 +104,10 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
     obstacles.push_back({camera.Project(glyph.contact),
                          camera.Project(glyph.contact - glyph.outward * kConeLength),
                          kConeStrip * kConeLength * pixels, kConeWeight});
-    obstacles.push_back(
-        {camera.Project(glyph.previous), camera.Project(glyph.contact), 0, kFingerWeight});
+    for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+      obstacles.push_back(
+          {camera.Project(glyph.way[i - 1]), camera.Project(glyph.way[i]), 0, kFingerWeight});
+    }
   }
   return obstacles;
 }

@@ -59,18 +59,29 @@ void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes&
 
 /// Dashes along the way that a finger came, just off the surface, and a small ball at its start.
 void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes) {
-  const Vector3d lift = glyph.outward * kTrackRadius;
-  const Vector3d from = glyph.previous + lift;
-  const Vector3d way = glyph.contact - glyph.previous;
-  const double length = way.norm();
+  double length = 0;
+  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+    length += (glyph.way[i] - glyph.way[i - 1]).norm();
+  }
   if (length < kTrackDash) return;
-  shapes.push_back({Ball{from, 2 * kTrackRadius}, color});
-  const int dashes = static_cast<int>(length / (2 * kTrackDash));
-  for (int i = 0; i < dashes; ++i) {
-    const double start = (2 * i + 1) * kTrackDash;
-    const double end = std::min(start + kTrackDash, length);
-    shapes.push_back(
-        {Rod{from + way * (start / length), from + way * (end / length), kTrackRadius}, color});
+  const Vector3d lift = glyph.outward * kTrackRadius;
+  shapes.push_back({Ball{glyph.way.front() + lift, 2 * kTrackRadius}, color});
+  // Gaps and dashes take turns; a dash that goes round a corner is drawn in two.
+  double before = 0;
+  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+    const Vector3d from = glyph.way[i - 1] + lift;
+    const Vector3d leg = glyph.way[i] - glyph.way[i - 1];
+    const double after = before + leg.norm();
+    for (int k = static_cast<int>(before / (2 * kTrackDash)); (2 * k + 1) * kTrackDash < after;
+         ++k) {
+      const double start = std::max((2 * k + 1) * kTrackDash, before) - before;
+      const double end = std::min((2 * k + 2) * kTrackDash, after) - before;
+      if (start >= end) continue;
+      shapes.push_back(
+          {Rod{from + leg * (start / leg.norm()), from + leg * (end / leg.norm()), kTrackRadius},
+           color});
+    }
+    before = after;
   }
 }
 
@@ -102,7 +113,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const Pictur
     glyph.finger = state.finger;
     glyph.role = state.role;
     glyph.contact = frame.FromWorld(state.contact_W);
-    glyph.previous = frame.FromWorld(state.previous_W);
+    for (const Vector3d& p_W : state.way_W) glyph.way.push_back(frame.FromWorld(p_W));
     glyph.outward = -state.normal_W.normalized();
     glyph.force = state.force_W;
     const double room =

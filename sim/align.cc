@@ -72,16 +72,20 @@ AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
   return over ? AlignMode::kMixed : AlignMode::kSlid;
 }
 
-void TellMoved(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B) {
+void TellMoved(Stage& stage, const std::vector<FingerGrasp>& waypoints_B) {
   for (StageFinger& finger : stage.fingers()) {
     finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
   }
-  for (const FingerContact& start : from_B) {
-    const auto end = std::ranges::find(to_B, start.finger, &FingerContact::finger);
+  for (const FingerContact& start : waypoints_B.front()) {
+    const auto end = std::ranges::find(waypoints_B.back(), start.finger, &FingerContact::finger);
+    if (end == waypoints_B.back().end() || Stays(stage, start.contact, end->contact)) continue;
     StageFinger& finger = stage.fingers()[start.finger];
-    finger.previous_B = start.contact.p;
-    if (end == to_B.end() || Stays(stage, start.contact, end->contact)) continue;
     finger.role = FingerRole::kMoved;
+    finger.way_B.clear();
+    for (const FingerGrasp& grasp_B : waypoints_B) {
+      const auto at = std::ranges::find(grasp_B, start.finger, &FingerContact::finger);
+      if (at != grasp_B.end()) finger.way_B.push_back(at->contact.p);
+    }
   }
 }
 

@@ -22,8 +22,8 @@ namespace regrasp {
 /// Mixed: some of it one way, some the other.
 AlignMode PerformAlign(Stage& stage, const AlignScript& script_B);
 
-/// What the frame of an align shows: who moved, and from where.
-void TellMoved(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B);
+/// What the frame of an align shows: who moved, and which way.
+void TellMoved(Stage& stage, const std::vector<FingerGrasp>& waypoints_B);
 
 inline constexpr double kSlideForce = 0.01;  ///< least force of a sliding finger over the squeeze
 inline constexpr double kSlideStep = 3e-5;   ///< of D in a time step

@@ -34,7 +34,6 @@ void Touch(Stage& stage, int finger) {
 void Appear(Stage& stage, const FingerContact& placed_B, double gap) {
   StageFinger& state = stage.fingers()[placed_B.finger];
   state.contact = placed_B.contact;
-  state.previous_B = placed_B.contact.p;
   state.force_S.setZero();
   state.anchor_S = stage.TipAt_S(placed_B.contact, gap);
   stage.engine().PlaceTip(placed_B.finger, state.anchor_S);

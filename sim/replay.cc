@@ -18,7 +18,6 @@ namespace {
 void RestoreRoles(Stage& stage) {
   for (StageFinger& finger : stage.fingers()) {
     finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
-    finger.previous_B = finger.contact.p;
   }
 }
 
@@ -38,8 +37,11 @@ void Perform(Stage& stage, const Object& object, const Plan& plan, int index, St
   const AlignScript& script = *stage.scene().scripts[index - 1];
   result.align_mode = PerformAlign(stage, script);
   result.align_shares = script.shares;
-  TellMoved(stage, ToScene(object, plan.scale, waypoints.front()),
-            ToScene(object, plan.scale, waypoints.back()));
+  std::vector<FingerGrasp> waypoints_B;
+  for (const FingerGrasp& grasp : waypoints) {
+    waypoints_B.push_back(ToScene(object, plan.scale, grasp));
+  }
+  TellMoved(stage, waypoints_B);
 }
 
 /// The step as the judge saw it.

@@ -139,8 +139,9 @@ Snapshot Stage::TakeSnapshot() const {
     state.contact_W =
         p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
     state.force_W = engine_.contact_force(state.finger);
-    state.previous_W =
-        finger.role == FingerRole::kMoved ? p_WS_ + X_SB * finger.previous_B : state.contact_W;
+    if (finger.role == FingerRole::kMoved) {
+      for (const Vector3d& point_B : finger.way_B) state.way_W.push_back(p_WS_ + X_SB * point_B);
+    }
     snapshot.fingers.push_back(state);
   }
   return snapshot;

@@ -16,12 +16,12 @@ namespace regrasp {
 struct StageFinger {
   FingerRole role = FingerRole::kFree;
   bool holding = false;
-  bool sliding = false;                                  ///< moves along the surface on purpose
-  Contact contact;                                       ///< planned, in B
-  Eigen::Vector3d previous_B = Eigen::Vector3d::Zero();  ///< planned, before the step
-  Eigen::Vector3d touch_B = Eigen::Vector3d::Zero();     ///< where its slide counts from
-  Eigen::Vector3d anchor_S = Eigen::Vector3d::Zero();    ///< tip at which the servo pushes nothing
-  Eigen::Vector3d force_S = Eigen::Vector3d::Zero();     ///< feed-forward, on the object
+  bool sliding = false;                                ///< moves along the surface on purpose
+  Contact contact;                                     ///< planned, in B
+  std::vector<Eigen::Vector3d> way_B = {};             ///< planned, of a finger that moved
+  Eigen::Vector3d touch_B = Eigen::Vector3d::Zero();   ///< where its slide counts from
+  Eigen::Vector3d anchor_S = Eigen::Vector3d::Zero();  ///< tip at which the servo pushes nothing
+  Eigen::Vector3d force_S = Eigen::Vector3d::Zero();   ///< feed-forward, on the object
 };
 
 /// The object, the hand and the engine between them.

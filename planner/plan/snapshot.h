@@ -18,8 +18,8 @@ struct FingerState {
   Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();  ///< point of contact (planned, if free)
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();   ///< inward normal at the contact
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();    ///< on the object; zero while free
-  /// Where a finger that moved came from; equal to contact_W for the others.
-  Eigen::Vector3d previous_W = Eigen::Vector3d::Zero();
+  /// Points along which a finger that moved came, from the first to contact_W; empty for others.
+  std::vector<Eigen::Vector3d> way_W = {};
 };
 
 /// The object and the hand at one instant: what the replay measured and a frame shows.

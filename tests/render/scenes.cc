@@ -81,7 +81,7 @@ FingerState MakeFinger(int finger, FingerRole role, const Vector3d& contact,
   FingerState state;
   state.finger = finger;
   state.role = role;
-  state.contact_W = state.previous_W = contact;
+  state.contact_W = contact;
   state.normal_W = inward_normal;
   state.tip_W = contact - kTipRadius * inward_normal;
   if (role == FingerRole::kReleased || role == FingerRole::kFree) return state;
@@ -102,7 +102,7 @@ std::vector<Snapshot> MakeCubeSequence() {
   FingerState f4 = placed;
   f4.role = kHolding;
   FingerState moved = MakeFinger(2, FingerRole::kMoved, {0.03, 0.012, -0.012}, -x);
-  moved.previous_W = f2.contact_W;
+  moved.way_W = {f2.contact_W, moved.contact_W};
   return {MakeSnapshot({f0, f1, f2, f3}), MakeSnapshot({released, f1, f2, f3, placed}),
           MakeSnapshot({f1, moved, f3, f4})};
 }

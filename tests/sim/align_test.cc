@@ -35,7 +35,9 @@ TEST(ReplayAlign, IsImitatedWithASpareFingerAndEveryFingerEndsAtItsTarget) {
       EXPECT_EQ(state.role, FingerRole::kMoved);
       EXPECT_LT((shown.X_WO.inverse() * state.contact_W - target.contact.p).norm(),
                 kGood * cube.object.diameter());
-      EXPECT_GT((state.contact_W - state.previous_W).norm(), 1e-3);
+      ASSERT_EQ(state.way_W.size(), 2u);
+      EXPECT_GT((state.way_W.front() - state.contact_W).norm(), 1e-3);
+      EXPECT_LT((state.way_W.back() - state.contact_W).norm(), kGood * cube.object.diameter());
       ++arrived;
     }
   }
