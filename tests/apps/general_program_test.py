@@ -105,7 +105,7 @@ class General(ProgramCase):
             start = self.write_json("start.json", {
                 "format": "regrasp-grasp", "version": 1,
                 "contacts": [{"point": point} for point in points]})
-            for seed in range(12):
+            for seed in range(40):
                 self.assert_done("--object", self.model(body), "--planner", "general",
                                  "--friction-angle", "10", "--start", start, "--goal", "random",
                                  "--seed", str(seed), "--output", self.path("plan.json"))

@@ -350,7 +350,7 @@ class Plan(ProgramCase):
         refused = 0
         for start, goal in zip(starts, starts[1:]):
             command = self.polygon_arguments(object=shape, start=start, goal=goal,
-                                             friction_angle="0.5", output="-")
+                                             planner="polygon", friction_angle="0.5", output="-")
             if self.run_program(*command).returncode == 0:
                 continue
             said = self.assert_refused(1, "no sequence of switches and aligns", *command).stderr
