@@ -174,6 +174,7 @@ void TwoTrees::Meet(int side, int node) {
     return;
   }
   std::vector<NodeAt> near = NearestOnTuple(1 - side, set, kAlignsToMeet);
+  // A full hand, which can switch to nothing, may still come to the other's faces across edges.
   if (near.empty() && set.size() == space_.fingers()) near.push_back({0, any});
   for (const auto& [way, there] : near) {
     if (auto align = AlignBetween(set, other[there], space_)) {
