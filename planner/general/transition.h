@@ -21,7 +21,8 @@ struct Transition {
 /// Looks for a switch of one finger between two tuples of faces, where hardly any grasp of the
 /// first tuple allows one: all contacts, the one that is to be placed included, move together on
 /// their faces at random, and every move that lowers the half-angle that the later grasp requires
-/// is kept, as long as the earlier grasp is admitted, until the later one is admitted too.
+/// is kept, as long as the earlier grasp is admitted, until the later one is admitted too. Where a
+/// quality is asked for, the half-angle is lowered below the space's own as well.
 ///
 /// @param before   a grasp that the space admits.
 /// @param leaving  the place in it of the contact that leaves.
