@@ -1,5 +1,6 @@
 #include "apps/validate_batch.h"
 
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -25,6 +26,9 @@ namespace fs = std::filesystem;
 
 constexpr char kSummaryName[] = "summary.json";
 constexpr char kWarning[] = "warning: ";
+
+/// Before the number of the signal that stopped a batch, as shells count it.
+constexpr int kSignalled = 128;
 
 /// Of a child: the earlier run's report stays. Beyond every ExitCode.
 constexpr int kExitKept = 4;
@@ -89,10 +93,11 @@ class Batch {
     }
   }
 
+  /// @returns the exit code.
   int Run() {
     PrepareFolder(folder_);
     ShowProgress();
-    RunInChildren(
+    stop_ = RunInChildren(
         static_cast<int>(library_.plans.size()),
         {options_.jobs, options_.time_limit_s
                             ? std::optional(std::chrono::duration<double>(*options_.time_limit_s))
@@ -100,11 +105,15 @@ class Batch {
         [this](int index) { return ValidateOne(options_, library_.plans[index], folder_); },
         [this](int index, const ChildExit& exit) { Take(index, exit); });
     progress_.Clear();
+    if (stop_ != 0) return kSignalled + stop_;
     WriteFile(folder_ / kSummaryName, FormatSummaryJson(summary_));
     if (!options_.junit.empty()) WriteFile(options_.junit, FormatSummaryJunit(summary_));
     if (!options_.quiet) std::cout << FormatSummaryTable(summary_);
     return static_cast<int>(summary_.verdict());
   }
+
+  /// The signal that stopped it; 0 where all plans were looked at.
+  [[nodiscard]] int stop() const { return stop_; }
 
  private:
   void ShowProgress() {
@@ -155,10 +164,22 @@ class Batch {
   BatchSummary summary_;
   int done_ = 0;
   int not_passed_ = 0;
+  int stop_ = 0;
 };
 
 }  // namespace
 
-int RunBatch(const ValidateOptions& options) { return Batch(options).Run(); }
+int RunBatch(const ValidateOptions& options) {
+  int exit_code = 0;
+  int stop = 0;
+  {
+    Batch batch(options);
+    exit_code = batch.Run();
+    stop = batch.stop();
+  }
+  // As the first process of a container this one goes on: the kernel spares it.
+  if (stop != 0) raise(stop);
+  return exit_code;
+}
 
 }  // namespace regrasp

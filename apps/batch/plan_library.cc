@@ -21,9 +21,11 @@ constexpr char kPlanFormat[] = "regrasp-plan";
 std::string WhyNoPlan(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return "is a folder";
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostLookedAtBytes) {
-    return "";
-  }
+  // A missing one may have been a plan.
+  if (!fs::exists(path, error)) return "";
+  // A pipe or a device may have no end.
+  if (!fs::is_regular_file(path, error)) return "is not a regular file";
+  if (fs::file_size(path, error) > kMostLookedAtBytes) return "";
   try {
     const Json json = ParseJson(ReadFile(path), path.string());
     const auto format = json.find("format");

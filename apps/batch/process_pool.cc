@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,7 +24,14 @@ namespace regrasp {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = PoolOptions::Clock;
+
+/// How long a wait lasts at most where time is limited.
+constexpr std::chrono::milliseconds kLongestWait{200};
+/// More time between two looks at the clock was not spent waiting: this process was stopped, most
+/// likely by the terminal and with its children. A look late by as much is counted, so that a busy
+/// machine stretches no limit.
+constexpr std::chrono::milliseconds kMostCounted = 2 * kLongestWait;
 
 [[noreturn]] void FailWith(const std::string& what) {
   throw EnvironmentError(what + ": " + std::strerror(errno));
@@ -104,7 +110,7 @@ struct Child {
   int index;
   pid_t process;
   Descriptor errors;
-  Clock::time_point deadline;
+  Clock::duration left;  ///< until the time limit
   bool timed_out = false;
   std::string text;
 };
@@ -113,7 +119,7 @@ class Pool {
  public:
   Pool(const PoolOptions& options, const std::function<int(int)>& work,
        const std::function<void(int, ChildExit)>& on_exit)
-      : options_(options), work_(work), on_exit_(on_exit) {}
+      : options_(options), work_(work), on_exit_(on_exit), last_look_(options.now()) {}
   ~Pool() { KillAll(); }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -125,6 +131,7 @@ class Pool {
       while (next < count && static_cast<int>(children_.size()) < options_.jobs) Start(next++);
       Wait();
       if (const int stop = signals_.TakeStop(); stop != 0) return stop;
+      CountTime();
       KillLate();
       Reap();
     }
@@ -135,6 +142,7 @@ class Pool {
   void Start(int index);
   [[noreturn]] void RunChild(int index, pid_t parent, int errors);
   void Wait();
+  void CountTime();
   void KillLate();
   void Reap();
   void KillAll();
@@ -144,6 +152,7 @@ class Pool {
   const std::function<int(int)>& work_;
   const std::function<void(int, ChildExit)>& on_exit_;
   SignalEvents signals_;
+  Clock::time_point last_look_;
   std::vector<Child> children_;
 };
 
@@ -160,11 +169,14 @@ void Pool::Start(int index) {
   const pid_t process = fork();
   if (process < 0) FailWith("no child process");
   if (process == 0) RunChild(index, parent, out.get());
-  auto deadline = Clock::time_point::max();
-  if (options_.time_limit) {
-    deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(*options_.time_limit);
-  }
-  children_.push_back({index, process, std::move(in), deadline, false, {}});
+  CountTime();  // what has passed is not this child's
+  const auto limit = options_.time_limit.value_or(std::chrono::duration<double>::zero());
+  children_.push_back({index,
+                       process,
+                       std::move(in),
+                       std::chrono::duration_cast<Clock::duration>(limit),
+                       false,
+                       {}});
 }
 
 void Pool::RunChild(int index, pid_t parent, int errors) {
@@ -188,17 +200,16 @@ void Pool::RunChild(int index, pid_t parent, int errors) {
 
 void Pool::Wait() {
   std::vector<pollfd> waited = {{signals_.descriptor(), POLLIN, 0}};
-  auto deadline = Clock::time_point::max();
+  Clock::duration longest = kLongestWait;
   for (const Child& child : children_) {
     // A closed pipe is always ready; its child is then waited for by signal.
     if (child.errors.get() >= 0) waited.push_back({child.errors.get(), POLLIN, 0});
-    if (!child.timed_out) deadline = std::min(deadline, child.deadline);
+    if (!child.timed_out) longest = std::min(longest, child.left);
   }
   int milliseconds = -1;
-  if (deadline != Clock::time_point::max()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    milliseconds = static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(
-        left.count(), 0, std::numeric_limits<int>::max()));
+  if (options_.time_limit) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(longest);
+    milliseconds = std::max(0, static_cast<int>(left.count()));
   }
   poll(waited.data(), waited.size(), milliseconds);
   for (Child& child : children_) Drain(child);
@@ -219,10 +230,17 @@ void Pool::Drain(Child& child) {
   }
 }
 
+void Pool::CountTime() {
+  const Clock::time_point now = options_.now();
+  const auto passed = std::min<Clock::duration>(now - last_look_, kMostCounted);
+  last_look_ = now;
+  for (Child& child : children_) child.left -= passed;
+}
+
 void Pool::KillLate() {
-  const auto now = Clock::now();
+  if (!options_.time_limit) return;
   for (Child& child : children_) {
-    if (child.timed_out || now < child.deadline) continue;
+    if (child.timed_out || child.left > Clock::duration::zero()) continue;
     child.timed_out = true;
     kill(child.process, SIGKILL);
   }
@@ -260,10 +278,9 @@ void Pool::KillAll() {
 
 }  // namespace
 
-void RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
-                   const std::function<void(int, ChildExit)>& on_exit) {
-  const int stop = Pool(options, work, on_exit).Run(count);
-  if (stop != 0) raise(stop);
+int RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
+                  const std::function<void(int, ChildExit)>& on_exit) {
+  return Pool(options, work, on_exit).Run(count);
 }
 
 }  // namespace regrasp

@@ -23,8 +23,11 @@ struct ChildExit {
 inline constexpr std::size_t kLongestErrors = std::size_t{1} << 16;
 
 struct PoolOptions {
-  int jobs = 1;                                             ///< children at a time, ≥ 1
-  std::optional<std::chrono::duration<double>> time_limit;  ///< of each child, by the clock
+  using Clock = std::chrono::steady_clock;
+  int jobs = 1;  ///< children at a time, ≥ 1
+  /// Of each child, by the clock; time in which this process was stopped does not count.
+  std::optional<std::chrono::duration<double>> time_limit;
+  std::function<Clock::time_point()> now = Clock::now;
 };
 
 /// Calls `work(0)` … `work(count − 1)`, each in a forked child of its own, in this order and at
@@ -35,9 +38,11 @@ struct PoolOptions {
 /// read nothing from standard input, print nothing on standard output, leave no core file and run
 /// no destructor or exit handler of this process. They die when this process does, however it dies.
 ///
-/// SIGINT, SIGTERM and SIGHUP stop all children, then take their usual effect on this process.
+/// SIGINT, SIGTERM and SIGHUP stop all children, and then this function.
+/// @returns the signal that stopped it, which the caller owes its usual effect; 0 where all ended.
 /// @throws EnvironmentError  no process or pipe can be made; no child is left then.
-void RunInChildren(int count, const PoolOptions& options, const std::function<int(int)>& work,
-                   const std::function<void(int, ChildExit)>& on_exit);
+[[nodiscard]] int RunInChildren(int count, const PoolOptions& options,
+                                const std::function<int(int)>& work,
+                                const std::function<void(int, ChildExit)>& on_exit);
 
 }  // namespace regrasp

@@ -124,15 +124,18 @@ class Batch(ProgramCase):
     def verdicts(self, out="result"):
         return {plan["name"]: plan["verdict"] for plan in self.summary(out)["plans"]}
 
-    def start_hanging(self, *more):
-        """Starts a batch whose plan square.json never ends; returns it and that plan's process."""
-        pipe = self.path("plans/square.json")
-        os.mkfifo(pipe)
+    def start_hanging(self, *more, before=(), **options):
+        """Starts a batch whose plan square.json, the last one, never ends, and waits until all
+        others are done; returns the batch and that plan's process."""
+        os.makedirs(self.path("hanging"), exist_ok=True)
+        pipe = self.path("hanging/square.json")
+        if not os.path.exists(pipe):
+            os.mkfifo(pipe)
         batch = subprocess.Popen(
-            [os.path.join(program_case.ARGUMENTS.programs, "validate"),
-             *self.arguments("--jobs", "1", *more)],
+            [*before, os.path.join(program_case.ARGUMENTS.programs, "validate"),
+             *self.arguments("--jobs", "1", "--plan", "hanging/square.json", *more)],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            cwd=self.folder)
+            cwd=self.folder, **options)
         self.addCleanup(self.end, batch)
 
         def opened():
@@ -299,8 +302,10 @@ class Batch(ProgramCase):
 
     def test_a_plan_without_end_is_stopped_at_the_time_limit(self):
         names = self.use_few()
-        os.mkfifo(self.path("plans/square.json"))
-        done = self.run_batch(3, "--time-limit", LIMIT_SECONDS, "--jobs", "2")
+        os.mkdir(self.path("hanging"))
+        os.mkfifo(self.path("hanging/square.json"))
+        done = self.run_batch(3, "--plan", "hanging/square.json", "--time-limit", LIMIT_SECONDS,
+                              "--jobs", "2")
         verdicts = self.verdicts()
         self.assertEqual(verdicts.pop("square"), "error")
         self.assertEqual(verdicts.pop("weak"), "fail")
@@ -323,13 +328,16 @@ class Batch(ProgramCase):
 
     def test_a_killed_batch_goes_on_where_it_was_and_comes_to_the_same(self):
         done_before = [f"polygon15_{seed:02}.json" for seed in range(4)]
-        self.use(done_before + [f"square_{seed:02}.json" for seed in range(4)])
+        names = done_before + [f"square_{seed:02}.json" for seed in range(4)]
+        self.use(names)
         self.run_batch(0, out="whole")
+        for name in names[4:]:
+            os.remove(self.path("plans/" + name))
         batch, child = self.start_hanging()
         batch.kill()
         batch.communicate()
         wait_until(lambda: not is_alive(child))
-        os.remove(self.path("plans/square.json"))
+        self.use(names)
         self.assertEqual(sorted(os.listdir(self.path("result"))), [n[:-5] for n in done_before])
         # As one is left that is killed while it writes.
         os.rename(self.path("result/polygon15_01/report.json"),
@@ -398,8 +406,35 @@ class Batch(ProgramCase):
             batch.communicate(timeout=HANG_SECONDS)
             self.assertEqual(batch.returncode, -stop)
             wait_until(lambda: not is_alive(child))
-            os.remove(self.path("plans/square.json"))
             shutil.rmtree(self.path("result"))
+
+    def test_a_stop_that_the_kernel_does_not_carry_out_still_ends_the_batch(self):
+        self.use_few()
+        batch, child = self.start_hanging("--junit", "junit.xml", preexec_fn=lambda:
+                                          signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM}))
+        batch.send_signal(signal.SIGTERM)
+        output, errors = batch.communicate(timeout=HANG_SECONDS)
+        self.assertEqual(batch.returncode, 128 + signal.SIGTERM, errors)
+        self.assertEqual(output + errors, "")
+        wait_until(lambda: not is_alive(child))
+        self.assertFalse(os.path.exists(self.path("result/summary.json")))
+        self.assertFalse(os.path.exists(self.path("junit.xml")))
+
+    def test_a_stopped_container_writes_no_summary(self):
+        space = ["unshare", "--pid", "--fork", "--kill-child", "--mount-proc"]
+        try:
+            subprocess.run([*space, "true"], check=True, capture_output=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            self.skipTest(f"no process namespace can be made here: {error}")
+        self.use_few()
+        outside, _ = self.start_hanging("--junit", "junit.xml", before=space)
+        first = children_of(outside.pid)[0]
+        os.kill(first, signal.SIGTERM)
+        output, errors = outside.communicate(timeout=HANG_SECONDS)
+        self.assertEqual(outside.returncode, 128 + signal.SIGTERM, errors)
+        self.assertEqual(output + errors, "")
+        self.assertFalse(os.path.exists(self.path("result/summary.json")))
+        self.assertFalse(os.path.exists(self.path("junit.xml")))
 
     # Bad usage.
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -69,6 +70,18 @@ TEST_F(PlanLibraryTest, AFolderGivesItsPlansByNameAndSaysWhatItSkips) {
   EXPECT_EQ(library.skipped[1].why, "says no format");
   EXPECT_EQ(library.skipped[2].why, "says no format");
   EXPECT_EQ(library.skipped[3].why, "is a folder");
+}
+
+TEST_F(PlanLibraryTest, PipesAndDevicesOfAFolderAreSkippedUnread) {
+  Write("a.json", kPlan);
+  ASSERT_EQ(mkfifo((folder_ / "b.json").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "c.json");
+  fs::create_symlink("a.json", folder_ / "d.json");
+  fs::create_symlink("nowhere.json", folder_ / "e.json");
+  const PlanLibrary library = FindPlans({folder_.string()});
+  EXPECT_THAT(Names(library), ElementsAre("a", "d", "e"));
+  ASSERT_EQ(library.skipped.size(), 2u);
+  for (const SkippedFile& file : library.skipped) EXPECT_EQ(file.why, "is not a regular file");
 }
 
 TEST_F(PlanLibraryTest, WhatCannotBeParsedMayHaveBeenAPlan) {

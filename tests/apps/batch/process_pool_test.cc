@@ -8,8 +8,11 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <stdexcept>
@@ -23,10 +26,11 @@ constexpr std::chrono::seconds kHang{120};
 
 std::map<int, ChildExit> RunAll(int count, int jobs, const std::function<int(int)>& work) {
   std::map<int, ChildExit> exits;
-  RunInChildren(count, {jobs, kHang}, work, [&](int index, ChildExit exit) {
+  const int stop = RunInChildren(count, {jobs, kHang}, work, [&](int index, ChildExit exit) {
     EXPECT_FALSE(exits.contains(index));
     exits[index] = std::move(exit);
   });
+  EXPECT_EQ(stop, 0);
   EXPECT_EQ(static_cast<int>(exits.size()), count);
   return exits;
 }
@@ -117,7 +121,7 @@ TEST(ProcessPoolTest, AChildThatNeverEndsIsStoppedAtTheLimit) {
     return 0;
   };
   const PoolOptions options{2, std::chrono::milliseconds(50)};
-  RunInChildren(3, options, work, [&](int index, ChildExit exit) { exits[index] = exit; });
+  (void)RunInChildren(3, options, work, [&](int index, ChildExit exit) { exits[index] = exit; });
   ASSERT_EQ(exits.size(), 3u);
   for (const auto& [index, exit] : exits) EXPECT_EQ(exit.kind, ChildExit::Kind::kTimedOut) << index;
 }
@@ -133,7 +137,7 @@ TEST(ProcessPoolTest, AChildThatClosesItsMessagesIsStillWaitedFor) {
 
 TEST(ProcessPoolTest, NoChildIsLeftWhereTheCallerThrows) {
   const auto run = [] {
-    RunInChildren(
+    (void)RunInChildren(
         4, {4, kHang},
         [](int index) {
           while (index != 0) pause();
@@ -146,19 +150,84 @@ TEST(ProcessPoolTest, NoChildIsLeftWhereTheCallerThrows) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-TEST(ProcessPoolTest, ASignalStopsTheChildrenAndThenThisProcess) {
-  const auto run = [] {
-    RunInChildren(
-        2, {2, kHang},
-        [parent = getpid()](int index) {
-          if (index == 0) kill(parent, SIGTERM);
-          while (true) pause();
-          return 0;
-        },
-        [](int, const ChildExit&) {});
-    std::exit(0);
+TEST(ProcessPoolTest, ASignalStopsTheChildrenAndIsTheAnswer) {
+  const int stop = RunInChildren(
+      2, {2, kHang},
+      [parent = getpid()](int index) {
+        if (index == 0) kill(parent, SIGTERM);
+        while (true) pause();
+        return 0;
+      },
+      [](int, const ChildExit&) { ADD_FAILURE() << "none ends by itself"; });
+  EXPECT_EQ(stop, SIGTERM);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+/// What a process that was stopped and its helper both see.
+struct Stop {
+  std::atomic<std::int64_t> clock_ns{0};
+  std::atomic<bool> over{false};
+};
+
+bool IsStopped(pid_t process) {
+  std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  return text.substr(text.rfind(')') + 2, 1) == "T";
+}
+
+/// Stops this process for an hour by the clock that it is given while one child waits for the end.
+/// @returns how that child ended.
+ChildExit::Kind RunThroughAStop(Stop& stop) {
+  PoolOptions options{2, std::chrono::minutes(1)};
+  options.now = [&] {
+    return PoolOptions::Clock::time_point(std::chrono::nanoseconds(stop.clock_ns));
   };
-  EXPECT_EXIT(run(), testing::KilledBySignal(SIGTERM), "");
+  const auto work = [&, parent = getpid()](int index) {
+    if (index == 0) {
+      while (!stop.over) usleep(1000);
+      return 0;
+    }
+    kill(parent, SIGSTOP);
+    while (!IsStopped(parent)) usleep(1000);
+    stop.clock_ns += std::chrono::nanoseconds(std::chrono::hours(1)).count();
+    kill(parent, SIGCONT);
+    return 0;
+  };
+  ChildExit::Kind kind = ChildExit::Kind::kSignalled;
+  (void)RunInChildren(2, options, work, [&](int index, const ChildExit& exit) {
+    // By now this process has looked at its clock.
+    if (index == 1) stop.over = true;
+    if (index == 0) kind = exit.kind;
+  });
+  return kind;
+}
+
+TEST(ProcessPoolTest, TimeInWhichThisProcessIsStoppedDoesNotCount) {
+  void* memory =
+      mmap(nullptr, sizeof(Stop), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  auto* stop = new (memory) Stop;
+  // In a process of its own: whoever started the tests must not see them stop.
+  const auto run = [&] { std::exit(RunThroughAStop(*stop) == ChildExit::Kind::kExited ? 0 : 1); };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
+  EXPECT_TRUE(stop->over);
+  munmap(memory, sizeof(Stop));
+}
+
+TEST(ProcessPoolTest, TimeThatPassesInSmallStepsCounts) {
+  PoolOptions options{1, std::chrono::minutes(1)};
+  int looks = 0;
+  options.now = [&] { return PoolOptions::Clock::time_point(std::chrono::seconds(++looks) / 5); };
+  ChildExit::Kind kind = ChildExit::Kind::kExited;
+  const auto work = [](int) {
+    // Messages make the parent look at its clock.
+    while (true) std::cerr << "still here" << std::endl;
+    return 0;
+  };
+  (void)RunInChildren(1, options, work, [&](int, const ChildExit& exit) { kind = exit.kind; });
+  EXPECT_EQ(kind, ChildExit::Kind::kTimedOut);
+  EXPECT_GT(looks, 5 * 60);
 }
 
 TEST(ProcessPoolTest, SignalsAreAsTheyWereAfterwards) {
