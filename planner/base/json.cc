@@ -12,8 +12,9 @@ Json ParseJson(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   // nlohmann takes a NUL for the end of its input and does not look behind it.
   if (text.find('\0') != std::string_view::npos) throw InputError(name + ": not JSON: a NUL byte");
-  // nlohmann keeps the last of two equal keys without a word, and recurses into any depth when a
-  // value is destroyed: the callback sees both before they do harm.
+  // nlohmann keeps the last of two equal keys without a word, recurses into any depth when a value
+  // is destroyed, and compares a key with all before it: the callback sees them before they do
+  // harm.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
     using Event = Json::parse_event_t;
@@ -28,6 +29,10 @@ Json ParseJson(std::string_view text, const std::string& name) {
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) {
       const std::string key = value.dump(-1, ' ', /*ensure_ascii=*/true);
       throw InputError(name + ": the key " + key + " is repeated");
+    }
+    if (event == Event::key && keys.back().size() > kMaxJsonMembers) {
+      throw InputError(name + ": an object of more than " + std::to_string(kMaxJsonMembers) +
+                       " members");
     }
     return true;
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -12,9 +13,13 @@ using Json = nlohmann::ordered_json;
 /// Deepest nesting that a file may have; our own formats need eight.
 inline constexpr int kMaxJsonDepth = 64;
 
+/// Most members that an object may have; our own formats need twenty. A member of `Json` is found
+/// by going through those before it, so without a limit an object takes the square of its size.
+inline constexpr std::size_t kMaxJsonMembers = 256;
+
 /// Parses JSON strictly: a byte-order mark is skipped; a repeated key, nesting deeper than
-/// `kMaxJsonDepth`, a number out of range, invalid UTF-8, a NUL byte and text behind the value
-/// are errors.
+/// `kMaxJsonDepth`, an object of more than `kMaxJsonMembers`, a number out of range, invalid UTF-8,
+/// a NUL byte and text behind the value are errors.
 /// @param name  how messages call the input, usually the file's path.
 /// @throws InputError
 [[nodiscard]] Json ParseJson(std::string_view text, const std::string& name);

@@ -94,6 +94,30 @@ TEST(ParseJson, ReadsTheDeepestNestingAndRefusesMore) {
   EXPECT_THROW(static_cast<void>(ParseJson(objects, "t")), InputError);
 }
 
+std::string ObjectOf(std::size_t members) {
+  std::string text = "{";
+  for (std::size_t i = 0; i < members; ++i) {
+    text += (i > 0 ? ",\"" : "\"") + std::to_string(i) + "\":0";
+  }
+  return text + "}";
+}
+
+TEST(ParseJson, ReadsTheLargestObjectAndRefusesALargerOneAnywhere) {
+  EXPECT_EQ(ParseJson(ObjectOf(kMaxJsonMembers), "t").size(), kMaxJsonMembers);
+  EXPECT_NO_THROW(static_cast<void>(
+      ParseJson("[" + ObjectOf(kMaxJsonMembers) + "," + ObjectOf(kMaxJsonMembers) + "]", "t")));
+  for (const std::string& large : {ObjectOf(kMaxJsonMembers + 1), ObjectOf(1'000'000)}) {
+    for (const std::string& text : {large, "{\"a\": [" + large + "]}"}) {
+      try {
+        static_cast<void>(ParseJson(text, "large.json"));
+        ADD_FAILURE() << text.size() << " bytes were read";
+      } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "large.json: an object of more than 256 members");
+      }
+    }
+  }
+}
+
 TEST(FormatJson, DoublesComeBackAsTheSameBits) {
   for (const double value : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -2.5, 12345678.9}) {
     const Json back = ParseJson(FormatJson(Json{{"x", value}}), "t");
