@@ -1,16 +1,69 @@
 #include "planner/object/assimp_scene.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
+#include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/object/text_scanner.h"
 
 namespace regrasp {
 
 namespace {
+
+/// Endings of files that assimp's readers look for beside the object's and that hold nothing of its
+/// surface: pictures, palettes, materials, skeletons and (lists of) animations.
+constexpr auto kNothingOfSurface = std::to_array<std::string_view>(
+    {".bmp",     ".dds",       ".exr",      ".gif",  ".hdr", ".jpeg", ".jpg",  ".ktx", ".ktx2",
+     ".lmp",     ".mat",       ".material", ".mtl",  ".pal", ".pcx",  ".png",  ".psd", ".shader",
+     ".md5anim", ".md5camera", ".skeleton", ".skin", ".tga", ".tif",  ".tiff", ".txt", ".webp"});
+
+/// The files that assimp sees: one, in memory. Notes the first other that it asks for and that the
+/// surface may come from.
+class OneFile : public Assimp::IOSystem {
+ public:
+  OneFile(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  bool Exists(const char* path) const override {
+    if (path == name_) return true;
+    Note(path);
+    return false;
+  }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
+    if (path == name_) {
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()),
+                                        bytes_.size());
+    }
+    Note(path);
+    return nullptr;
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+  bool ComparePaths(const char* one, const char* other) const override {
+    return std::string_view(one) == other;
+  }
+
+  [[nodiscard]] const std::string& missed() const { return missed_; }
+
+ private:
+  void Note(const std::string& path) const {
+    const std::string ending = LowerCase(std::filesystem::path(path).extension().string());
+    const bool matters = std::ranges::find(kNothingOfSurface, ending) == kNothingOfSurface.end();
+    if (matters && missed_.empty()) missed_ = path;
+  }
+
+  std::string_view bytes_;
+  std::string name_;
+  mutable std::string missed_;  // Exists is const
+};
 
 /// Adds a mesh as one node places it. A node that mirrors turns facets inside out: turned back.
 void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup) {
@@ -38,11 +91,17 @@ void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup
 
 }  // namespace
 
-PolygonSoup ReadAssimpScene(const std::string& path) {
+PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   Assimp::Importer importer;
+  auto* files = new OneFile(bytes, file);
+  importer.SetIOHandler(files);  // which owns it from here on
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   constexpr unsigned int kNoPostProcessing = 0;
-  const aiScene* scene = importer.ReadFile(path, kNoPostProcessing);
+  const aiScene* scene = importer.ReadFile(file, kNoPostProcessing);
+  if (const std::string& other = files->missed(); !other.empty()) {
+    throw InputError("its surface comes from another file, " + Quoted(other) +
+                     "; an object is one file: convert it (to .glb or .ply)");
+  }
   if (scene == nullptr) throw InputError(importer.GetErrorString());
   PolygonSoup soup;
   struct Visit {

@@ -28,9 +28,9 @@ struct ChildLimits {
 
 /// Runs `task` in a forked child with limits and returns the bytes that it returned there.
 ///
-/// For code that may crash, hang or exhaust memory. The child prints nothing, leaves no core file
-/// and runs no destructor or exit handler of this process. Where the program is built with the
-/// address sanitizer, memory is not limited: it reserves more than any limit.
+/// For code that may crash, hang or exhaust memory. The child prints nothing, opens no file, leaves
+/// no core file and runs no destructor or exit handler of this process. Where the program is built
+/// with the address sanitizer, memory is not limited: it reserves more than any limit.
 /// @throws EnvironmentError  the process or the pipe cannot be made.
 [[nodiscard]] ChildResult RunInLimitedChild(const std::function<std::string()>& task,
                                             const ChildLimits& limits);

@@ -19,7 +19,7 @@ PolygonSoup ReadSoup(const std::filesystem::path& path, const std::string& endin
   if (ending == ".off") return ReadOff(bytes, name);
   if (ending == ".ply") return ReadPly(bytes, name);
   if (ending == ".stl") return ReadStl(bytes, name);
-  return ReadWithAssimp(path);
+  return ReadWithAssimp(bytes, path);
 }
 
 }  // namespace

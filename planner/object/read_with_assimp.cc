@@ -20,11 +20,12 @@ std::string Cleaned(std::string message) {
 
 }  // namespace
 
-PolygonSoup ReadWithAssimp(const std::filesystem::path& path, const AssimpLimits& limits) {
+PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& path,
+                           const AssimpLimits& limits) {
   const std::string name = path.string();
-  const ChildResult result =
-      RunInLimitedChild([&] { return SoupToBytes(ReadAssimpScene(name)); },
-                        {limits.memory_bytes, limits.processor, limits.wall});
+  const ChildResult result = RunInLimitedChild(
+      [&] { return SoupToBytes(ReadAssimpScene(bytes, path.filename().string())); },
+      {limits.memory_bytes, limits.processor, limits.wall});
   switch (result.end) {
     case ChildEnd::kDone:
       break;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <string_view>
 
 #include "planner/object/polygon_soup.h"
 
@@ -15,15 +16,18 @@ struct AssimpLimits {
   std::chrono::milliseconds wall{30'000};
 };
 
-/// Reads any surface format that assimp knows (glTF, 3MF, COLLADA, …), in a child process.
+/// Reads the bytes of any surface format that assimp knows (glTF, 3MF, COLLADA, …), in a child
+/// process.
 ///
 /// assimp 5.2 crashes, hangs or exhausts memory on some hostile files: the child has limits of
 /// memory, processor and wall time, and what it sends back is checked. It is asked for nothing but
 /// the scene: meshes are placed by their nodes, points and lines are dropped. Coordinates are
-/// 32-bit floats there.
-/// @throws InputError  the file cannot be read by assimp, or not within the limits.
+/// 32-bit floats there. The child opens no file: the surface is that of the bytes.
+/// @param path  where they come from: its ending tells the format, and messages name it.
+/// @throws InputError  the file cannot be read by assimp, or not within the limits, or its surface
+///                     comes from other files.
 /// @throws EnvironmentError  no process can be started.
-[[nodiscard]] PolygonSoup ReadWithAssimp(const std::filesystem::path& path,
+[[nodiscard]] PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& path,
                                          const AssimpLimits& limits = {});
 
 }  // namespace regrasp

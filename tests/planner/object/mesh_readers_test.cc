@@ -7,6 +7,7 @@
 #include <atomic>
 #include <clocale>
 #include <filesystem>
+#include <fstream>
 #include <locale>
 
 #include "planner/base/error.h"
@@ -14,7 +15,6 @@
 #include "planner/object/limited_child.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/read_with_assimp.h"
 #include "planner/object/soup_bytes.h"
 
 namespace regrasp {
@@ -102,26 +102,6 @@ TEST(MeshReaders, ReadTheSameUnderAnyLocale) {
   EXPECT_EQ(read, 13);
 }
 
-TEST(ReadWithAssimp, PlacesMeshesByTheirNodesAndTurnsMirroredOnes) {
-  const Polyhedron body =
-      Polyhedron::FromSoup(ReadWithAssimp(kGood / "placed.gltf"), "placed.gltf");
-  EXPECT_EQ(body.face_count(), 4);
-  // Turned a quarter about z, then scaled by (2, 2, −2), then moved to x = 5.
-  EXPECT_NEAR((body.mass_properties().centroid - Vector3d(4.5, 0.5, -0.5)).norm(), 0, 1e-6);
-}
-
-TEST(ReadWithAssimp, JoinsTheMeshesThatItMakesOfGroups) {
-  const Polyhedron body =
-      Polyhedron::FromSoup(ReadWithAssimp(kGood / "two_groups.obj"), "two_groups.obj");
-  EXPECT_EQ(body.vertices().size(), 4u);
-}
-
-TEST(ReadWithAssimp, GivesUpAtItsLimits) {
-  AssimpLimits limits;
-  limits.wall = std::chrono::milliseconds(0);
-  EXPECT_THROW(static_cast<void>(ReadWithAssimp(kGood / "placed.gltf", limits)), InputError);
-}
-
 constexpr ChildLimits kLimits{std::size_t{4} << 30, std::chrono::seconds(5),
                               std::chrono::milliseconds(20000)};
 
@@ -137,6 +117,15 @@ TEST(LimitedChild, ReturnsTheMessageOfAnException) {
       RunInLimitedChild([]() -> std::string { throw std::runtime_error("no"); }, kLimits);
   EXPECT_EQ(result.end, ChildEnd::kThrew);
   EXPECT_EQ(result.bytes, "no");
+}
+
+TEST(LimitedChild, OpensNoFile) {
+  const auto open_file = [] {
+    const bool opened = std::ifstream(kGood / "plain.off").is_open();
+    return std::string(opened ? "opened" : "not opened");
+  };
+  EXPECT_EQ(open_file(), "opened");
+  EXPECT_EQ(RunInLimitedChild(open_file, kLimits).bytes, "not opened");
 }
 
 TEST(LimitedChild, SurvivesACrash) {

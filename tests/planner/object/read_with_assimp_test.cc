@@ -1,0 +1,131 @@
+#include "planner/object/read_with_assimp.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const fs::path kGood = fs::path(REGRASP_TEST_DATA) / "objects/good";
+
+PolygonSoup Read(const fs::path& path, const AssimpLimits& limits = {}) {
+  return ReadWithAssimp(ReadFile(path), path, limits);
+}
+
+TEST(ReadWithAssimp, PlacesMeshesByTheirNodesAndTurnsMirroredOnes) {
+  const Polyhedron body = Polyhedron::FromSoup(Read(kGood / "placed.gltf"), "placed.gltf");
+  EXPECT_EQ(body.face_count(), 4);
+  // Turned a quarter about z, then scaled by (2, 2, −2), then moved to x = 5.
+  EXPECT_NEAR((body.mass_properties().centroid - Vector3d(4.5, 0.5, -0.5)).norm(), 0, 1e-6);
+}
+
+TEST(ReadWithAssimp, JoinsTheMeshesThatItMakesOfGroups) {
+  const Polyhedron body = Polyhedron::FromSoup(Read(kGood / "two_groups.obj"), "two_groups.obj");
+  EXPECT_EQ(body.vertices().size(), 4u);
+}
+
+TEST(ReadWithAssimp, GivesUpAtItsLimits) {
+  AssimpLimits limits;
+  limits.wall = std::chrono::milliseconds(0);
+  EXPECT_THROW(static_cast<void>(Read(kGood / "placed.gltf", limits)), InputError);
+}
+
+/// A glTF of one triangle that takes its numbers from `uri`.
+std::string GltfWithBuffer(const std::string& uri) {
+  std::string text = ReadFile(kGood / "placed.gltf");
+  const std::size_t first = text.find("data:");
+  return text.replace(first, text.find('"', first) - first, uri);
+}
+
+/// What reading the bytes as a file of that name says; empty where they are read.
+std::string Complaint(const std::string& bytes, const fs::path& path) {
+  try {
+    static_cast<void>(ReadWithAssimp(bytes, path));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+class FilesBesideTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "regrasp_beside_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path Write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
+  static_cast<void>(Write("body.bin", std::string(72, '\0')));
+  static_cast<void>(Write("body.obj", ReadFile(kGood / "split_vertices.obj")));
+  const std::string beside = (folder_ / "body.obj").string();
+  const std::string scene = "LWSC\n3\n\nLoadObject ";
+  struct Case {
+    std::string name, bytes, other;
+  };
+  const std::vector<Case> cases = {
+      {"a.gltf", GltfWithBuffer("body.bin"), "body.bin"},
+      {"b.gltf", GltfWithBuffer("missing.bin"), "missing.bin"},
+      {"c.gltf", GltfWithBuffer("../c.gltf"), "../c.gltf"},
+      {"d.lws", scene + "body.obj\n", "body.obj"},
+      {"e.lws", scene + beside + "\n", "/"},
+  };
+  for (const auto& [name, bytes, other] : cases) {
+    const fs::path path = Write(name, bytes);
+    try {
+      static_cast<void>(ReadObject(path));
+      ADD_FAILURE() << name << " was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  StartsWith(path.string() + ": its surface comes from another file, \"" + other));
+      EXPECT_THAT(error.what(), HasSubstr("convert it"));
+    }
+  }
+}
+
+TEST_F(FilesBesideTest, WhatDoesNotMatterForTheSurfaceMayBeMissing) {
+  std::string textured = ReadFile(kGood / "placed.gltf");
+  textured.insert(1, R"("images": [{"uri": "wood.png"}], )");
+  EXPECT_EQ(Complaint(textured, folder_ / "textured.gltf"), "");
+  const std::string painted = "mtllib paint.mtl\n" + ReadFile(kGood / "two_groups.obj");
+  EXPECT_EQ(Complaint(painted, folder_ / "painted.obj"), "");
+}
+
+TEST_F(FilesBesideTest, AnObjectIsReadFromItsFileOnce) {
+  const std::string bytes = ReadFile(kGood / "placed.gltf");
+  const fs::path pipe = folder_ / "pipe.gltf";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+  const ObjectFile file = ReadObject(pipe);
+  writer.join();
+  EXPECT_EQ(file.object->face_count(), 4);
+  EXPECT_EQ(file.sha256, Sha256(bytes));
+}
+
+}  // namespace
+}  // namespace regrasp
