@@ -28,7 +28,7 @@ std::string OverviewCaption(const ContactSpaceMap& map, double half_angle) {
 
 std::string SwitchCaption(const ContactSwitch& step, const Plan& plan, int finger, double place) {
   const auto& [before, after] = step.sides;
-  const auto half_width = [](const SwitchSide& side) {
+  const auto half_width = [](const ContactSwitchSide& side) {
     return "±" + FormatShort(side.size, kDigits) + " about grasp " +
            std::to_string(side.grasp_entry);
   };

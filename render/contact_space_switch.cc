@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-std::optional<SwitchSide> DescribeSide(SetGeometry& geometry, const AxisGrasp& grasp,
+std::optional<ContactSwitchSide> DescribeSide(SetGeometry& geometry, const AxisGrasp& grasp,
                                        int shared_axis, const std::map<int, int>& names) {
   const Contact& shared = grasp[shared_axis].contact;
   const Contact& other = grasp[1 - shared_axis].contact;
@@ -18,7 +18,7 @@ std::optional<SwitchSide> DescribeSide(SetGeometry& geometry, const AxisGrasp& g
   const ContourGraph& graph = geometry.graph();
   const GraspPiece& piece = graph.pieces()[at->piece];
   const int upright = piece.edges[0] == shared.face ? 0 : 1;
-  SwitchSide side;
+  ContactSwitchSide side;
   side.name = names.at(graph.set_of(at->piece));
   side.stretching = piece.stretching;
   side.other_ring = graph.boundary().ring_of(other.face);

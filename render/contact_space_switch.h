@@ -14,7 +14,7 @@ namespace regrasp {
 
 /// One of the two sets of a switch, unfolded: the place of the contact that stays upwards, that of
 /// the other one to the right.
-struct SwitchSide {
+struct ContactSwitchSide {
   int name = 0;  ///< of the set (SetName)
   bool stretching = false;
   int grasp_entry = 0;  ///< of the plan: the grasp after it
@@ -29,7 +29,7 @@ struct SwitchSide {
 struct ContactSwitch {
   int entry = 0;
   int shared_ring = 0;
-  std::array<SwitchSide, 2> sides;  ///< before and after
+  std::array<ContactSwitchSide, 2> sides;  ///< before and after
   PlaceRange overlap;               ///< of the two projections, about the contact that stays
 };
 

@@ -45,7 +45,7 @@ struct Extent {
   Vector2d high = -low;
 };
 
-Extent ExtentOf(const SwitchSide& side) {
+Extent ExtentOf(const ContactSwitchSide& side) {
   Extent extent;
   for (const Outline& outline : side.set.pieces) {
     for (const Vector2d& p : outline) {
@@ -63,7 +63,7 @@ double FitWidths(double a, double b, double room) {
   return std::min((room - kNarrowest) / std::max(a, b), kNarrowest / std::min(a, b));
 }
 
-void DrawSet(cairo_t* cr, const SwitchSide& side, const PlotWindow& window) {
+void DrawSet(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& window) {
   FillPieces(cr, window, side.set.pieces, PlanSetTint(side.name));
   if (side.stretching) HatchPieces(cr, window, side.set.pieces, kHatchInk);
   StrokeSegments(cr, window, side.set.diagram, kDiagramInk, kDiagramLine);
@@ -73,7 +73,7 @@ void DrawSet(cairo_t* cr, const SwitchSide& side, const PlotWindow& window) {
   ClearDash(cr);
 }
 
-void DrawGrasp(cairo_t* cr, const SwitchSide& side, const PlotWindow& window) {
+void DrawGrasp(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& window) {
   const Vector2d at = window.ToPage(side.grasp);
   const double half = side.size * window.scale.x();
   cairo_new_path(cr);

@@ -178,7 +178,7 @@ class ScriptWriter {
       if (steps < reach) Lengthen(begin, Place(steps + 1), demand, *piece);
       return piece;
     }
-    for (double end = (begin + Place(first)) / 2; end - begin >= kShortestPiece;
+    for (double end = (begin + Place(first)) / 2; end - begin >= kShortestAlignPiece;
          end = (begin + end) / 2) {
       if (std::optional<Piece> piece = TryPiece(begin, end, demand)) return piece;
     }
@@ -301,7 +301,7 @@ class ScriptWriter {
       if (easier && 2 * (easier->end - begin) >= length) return *std::move(easier);
     }
     for (const double share : kShorter) {
-      if (share * length < kShortestPiece) break;
+      if (share * length < kShortestAlignPiece) break;
       const Demand demand{limits_.half_angle, limits_.clearance, false};
       std::optional<Piece> shorter = TryPiece(begin, begin + share * length, demand);
       if (shorter) return *std::move(shorter);
@@ -332,7 +332,7 @@ class ScriptWriter {
         }
       } else {
         length /= 2;
-        if (length < kShortestPiece) return std::nullopt;
+        if (length < kShortestAlignPiece) return std::nullopt;
       }
     }
     return cuts;

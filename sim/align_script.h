@@ -88,7 +88,7 @@ inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers 
 /// pulls along: force and torque on the object are at most √2 √(1 + μ²) of that. Twice it is what
 /// the others can balance in every direction.
 inline constexpr double kSlideQuality = 0.02;
-inline constexpr double kShortestPiece = 1.0 / 256;  ///< of the way between two waypoints
+inline constexpr double kShortestAlignPiece = 1.0 / 256;  ///< of the way between two waypoints
 inline constexpr int kHopelessPieces = 8;            ///< where no number of them serves
 inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that serves
 

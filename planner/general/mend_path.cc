@@ -19,7 +19,7 @@ constexpr int kMostFailures = 30;
 constexpr int kMostAround = 3;
 
 /// Steps that the replacement may have more.
-constexpr int kMoreSteps = 1;
+constexpr int kMoreMendingSteps = 1;
 
 class Mender {
  public:
@@ -77,7 +77,7 @@ class Mender {
     space_.SetMinQuality(QualityOf(level));
     const auto better = SearchSubsets(
         GraspNumber(path_, stretch.begin), GraspNumber(path_, stretch.end), stretch.contacts,
-        UseAligns::kYes, stretch.end - stretch.begin + kMoreSteps, space_);
+        UseAligns::kYes, stretch.end - stretch.begin + kMoreMendingSteps, space_);
     if (!better) return false;
     Splice(*better, stretch, path_);
     return true;

@@ -9,7 +9,7 @@
 namespace regrasp {
 
 /// Of a motion of length 1: pieces are not halved below this.
-inline constexpr double kShortestPiece = 1.0 / 4096;
+inline constexpr double kShortestProofPiece = 1.0 / 4096;
 
 /// Looks for a proof of force closure on the piece of a motion between two instants: forces of
 /// degree 1 that balance at every instant and keep strictly inside the cones (FindMovingForces).
@@ -36,6 +36,6 @@ inline constexpr double kShortestPiece = 1.0 / 4096;
 /// @returns nullopt where none was found; that is no proof of the opposite.
 /// @throws std::invalid_argument  half_angle out of range.
 [[nodiscard]] std::optional<std::vector<MotionPiece>> FindMotionProof(
-    const GraspMotion& motion, int dimension, double half_angle, double shortest = kShortestPiece);
+    const GraspMotion& motion, int dimension, double half_angle, double shortest = kShortestProofPiece);
 
 }  // namespace regrasp

@@ -214,7 +214,7 @@ bool FaceIndex::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
   const double within = std::max(tolerance, kRounding * impl_->diameter);
   // The points near one triangle form an interval, as the distance to a convex set is convex along
   // a line: the segment is on the face iff the intervals of all triangles cover it.
-  std::vector<Interval> near;
+  std::vector<ParameterInterval> near;
   impl_->surface[face].VisitNear(Around(a, b, within), [&](const Triangle& triangle) {
     const auto distance = [&](double t) { return DistanceTo(triangle, a + t * (b - a)); };
     if (const auto interval = SublevelInterval(distance, within)) near.push_back(*interval);

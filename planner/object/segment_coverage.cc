@@ -51,7 +51,7 @@ double FindEnd(const std::function<double(double)>& distance, double threshold, 
 
 }  // namespace
 
-std::optional<Interval> SublevelInterval(const std::function<double(double)>& distance,
+std::optional<ParameterInterval> SublevelInterval(const std::function<double(double)>& distance,
                                          double threshold) {
   for (const double end : {0.0, 1.0}) {
     if (distance(end) > threshold) continue;
@@ -60,10 +60,10 @@ std::optional<Interval> SublevelInterval(const std::function<double(double)>& di
   }
   const double low = FindLow(distance, threshold);
   if (distance(low) > threshold) return std::nullopt;
-  return Interval{FindEnd(distance, threshold, low, 0), FindEnd(distance, threshold, low, 1)};
+  return ParameterInterval{FindEnd(distance, threshold, low, 0), FindEnd(distance, threshold, low, 1)};
 }
 
-bool CoverUnitInterval(std::vector<Interval> intervals) {
+bool CoverUnitInterval(std::vector<ParameterInterval> intervals) {
   std::ranges::sort(intervals);
   double covered = 0;
   for (const auto& [from, to] : intervals) {

@@ -173,7 +173,7 @@ ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>
 
 }  // namespace
 
-void FocusCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
+void ConcurrentCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
   const std::array<int, 2> first_two = {candidate.edges[0], candidate.edges[1]};
   if (first_two == first_two_ && candidate.tangent == tangent_) return;
   first_two_ = first_two;
@@ -187,7 +187,7 @@ void FocusCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
   }
 }
 
-std::vector<FocusComponent> FocusCellFinder::Find(const ConcurrentCandidate& candidate) {
+std::vector<FocusComponent> ConcurrentCellFinder::Find(const ConcurrentCandidate& candidate) {
   SeeFirstTwo(candidate);
   std::array<std::optional<SightRegion<Interval>>, 2> seeing_third;
   std::array<std::optional<FilteredRegion>, kSidePatterns> parts;

@@ -25,9 +25,9 @@ struct FocusComponent {
 };
 
 /// Finds focus cells. Inside an IntervalScope; the edges must outlive the finder and its cells.
-class FocusCellFinder {
+class ConcurrentCellFinder {
  public:
-  explicit FocusCellFinder(const EdgeTable& edges) : edges_(edges) {}
+  explicit ConcurrentCellFinder(const EdgeTable& edges) : edges_(edges) {}
 
   /// The components of the focus cell F(i,j,k) (Phoka 2010, Def. 3.7): points from which each of
   /// the three edges is seen inside its double-sided cone.

@@ -40,7 +40,7 @@ std::vector<std::vector<Eigen::Vector2d>> FocusCell(const Polygon& polygon, cons
   const EdgeTable edges(polygon, set.tangent);
   const ConcurrentCandidate candidate = {{set.edges[0], set.edges[1], set.edges[2]}, set.tangent};
   std::vector<std::vector<Eigen::Vector2d>> parts;
-  for (const FocusComponent& component : FocusCellFinder(edges).Find(candidate)) {
+  for (const FocusComponent& component : ConcurrentCellFinder(edges).Find(candidate)) {
     for (const FocusPart& part : component.parts) {
       if (std::find(set.parts.begin(), set.parts.end(), part.sides) == set.parts.end()) continue;
       ConvexRegion<Exact> region = part.region.exact();

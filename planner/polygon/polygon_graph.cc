@@ -123,7 +123,7 @@ class GraphBuilder {
   void FindConcurrent(GraspTypeCounts& counts) {
     const auto candidates = FindConcurrentCandidates(edges_, spanning_);
     counts.candidates = std::ssize(candidates);
-    FocusCellFinder finder(edges_);
+    ConcurrentCellFinder finder(edges_);
     for (const ConcurrentCandidate& candidate : candidates) {
       std::vector<FocusComponent> cell = finder.Find(candidate);
       if (!cell.empty()) ++counts.combinations;
