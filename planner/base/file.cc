@@ -1,7 +1,6 @@
 #include "planner/base/file.h"
 
 #include <openssl/evp.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -14,13 +13,6 @@
 namespace regrasp {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Before the number of the process that writes.
-constexpr char kAsideMark[] = ".tmp";
-
-}  // namespace
 
 std::string ReadFile(const fs::path& path) {
   std::error_code error;
@@ -44,35 +36,6 @@ std::string ReadFile(const fs::path& path) {
   }
   if (stream.bad()) throw InputError(path.string() + ": cannot be read");
   return bytes;
-}
-
-void WriteFile(const fs::path& path, std::string_view bytes) {
-  fs::path aside = path;
-  aside += kAsideMark + std::to_string(getpid());
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    fs::remove(aside, ignored);
-    throw EnvironmentError(path.string() + ": cannot be written: " + why);
-  };
-  {
-    std::ofstream stream(aside, std::ios::binary | std::ios::trunc);
-    if (!stream) fail(std::strerror(errno));
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    stream.flush();
-    if (!stream) fail(std::strerror(errno));
-  }
-  std::error_code error;
-  fs::rename(aside, path, error);
-  if (error) fail(error.message());
-}
-
-std::string NameBesideAside(const std::string& name) {
-  const std::size_t mark = name.rfind(kAsideMark);
-  if (mark == std::string::npos) return "";
-  const std::size_t digits = mark + std::strlen(kAsideMark);
-  const bool number =
-      digits < name.size() && name.find_first_not_of("0123456789", digits) == std::string::npos;
-  return number ? name.substr(0, mark) : "";
 }
 
 std::string Sha256(std::string_view bytes) {
