@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/text_table.h"
 
 namespace regrasp {
 
@@ -95,7 +96,7 @@ std::string GraphTable(const GraphSummary& summary, const std::string& title) {
   const std::string queries = summary.queries ? QueryText(*summary.queries) : "";
   const std::string unclear =
       summary.unclear > 0 ? cell(summary.unclear) + " decisions were too close to call\n" : "";
-  return title + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
+  return OneLine(title) + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
          FormatShort(summary.vertex_seconds, 3) + " s, edges " +
          FormatShort(summary.edge_seconds, 3) + " s\n" + unclear + queries;
 }

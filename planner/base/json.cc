@@ -51,6 +51,8 @@ Json ParseJson(std::string_view text, const std::string& name) {
   }
 }
 
-std::string FormatJson(const Json& json) { return json.dump(1) + "\n"; }
+std::string FormatJson(const Json& json) {
+  return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace regrasp

@@ -24,7 +24,8 @@ inline constexpr std::size_t kMaxJsonMembers = 256;
 /// @throws InputError
 [[nodiscard]] Json ParseJson(std::string_view text, const std::string& name);
 
-/// Writes JSON with an indent of 1 and a final newline; doubles read back as the same bits.
+/// Writes JSON with an indent of 1 and a final newline; doubles read back as the same bits. Bytes
+/// that are not UTF-8, which a file's name may have, become U+FFFD.
 [[nodiscard]] std::string FormatJson(const Json& json);
 
 }  // namespace regrasp

@@ -1,32 +1,20 @@
 #include "planner/base/markup.h"
 
-#include "planner/base/json.h"
+#include "planner/base/utf8.h"
 
 namespace regrasp {
 
 namespace {
 
-constexpr char kReplacement[] = "\xEF\xBF\xBD";  // U+FFFD
-
-/// Valid UTF-8: the JSON library replaces what is not.
-std::string RepairUtf8(std::string_view text) {
-  const std::string json =
-      Json(std::string(text))
-          .dump(/*indent=*/-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
-  return Json::parse(json).get<std::string>();
-}
-
-bool IsControl(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7F;
-}
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
 }  // namespace
 
 std::string EscapeMarkup(std::string_view text) {
   std::string out;
-  for (const char c : RepairUtf8(text)) {
-    switch (c) {
+  while (!text.empty()) {
+    const Utf8Character character = TakeCharacter(text);
+    switch (character.code) {
       case '&':
         out += "&amp;";
         break;
@@ -42,8 +30,12 @@ std::string EscapeMarkup(std::string_view text) {
       case '\'':
         out += "&#39;";
         break;
+      case '\t':
+      case '\n':
+        out += character.bytes;
+        break;
       default:
-        IsControl(c) ? out += kReplacement : out += c;
+        out += !character.is_valid || IsInvisible(character.code) ? kReplacement : character.bytes;
     }
   }
   return out;

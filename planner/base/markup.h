@@ -6,7 +6,8 @@
 namespace regrasp {
 
 /// Text as it can stand in HTML, XML, SVG and in a quoted attribute: & < > " ' are escaped;
-/// bytes that are not UTF-8, and control characters other than tab and line feed, become U+FFFD.
+/// bytes that are not UTF-8, and invisible characters (IsInvisible) other than tab and line feed,
+/// become U+FFFD. What is left are characters that XML 1.0 allows (its production Char).
 [[nodiscard]] std::string EscapeMarkup(std::string_view text);
 
 /// <name attributes>content</name>.

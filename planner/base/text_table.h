@@ -1,13 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace regrasp {
 
-/// Text without control characters: they become spaces, and those at the end go. File names may
-/// hold line breaks, and scripts count on lines.
+/// Characters of the longest line that OneLine returns: some twenty lines of a terminal.
+inline constexpr std::size_t kLongestLine = 2000;
+
+/// Text as one line that shows all that is in it: ASCII's control characters become spaces, and
+/// those at the end go; other invisible characters (IsInvisible) and bytes that are not UTF-8 are
+/// written as \u202e and \xff. More than `kLongestLine` characters lose those in the middle to "…".
+/// File names may hold any bytes, terminals act on some of them, and scripts count on lines.
 [[nodiscard]] std::string OneLine(std::string_view text);
 
 using TextRow = std::vector<std::string>;

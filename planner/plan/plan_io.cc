@@ -88,6 +88,10 @@ std::string ReadSha256(const JsonReader& json) {
 
 void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.object_file = json.Member("file").String();
+  if (plan.object_file.find('\0') != std::string::npos) {
+    // Behind it the name would go on for us and not for the system.
+    json.Member("file").Fail("a file name cannot hold a NUL character");
+  }
   plan.object_sha256 = ReadSha256(json.Member("sha256"));
   plan.scale = json.Member("scale").Number();
   if (!(plan.scale > 0)) json.Member("scale").Fail("must be positive");

@@ -125,6 +125,13 @@ TEST(FormatJson, DoublesComeBackAsTheSameBits) {
   }
 }
 
+TEST(FormatJson, BytesThatAreNoUtf8BecomeReplacements) {
+  EXPECT_EQ(FormatJson(Json("cu\xFF"
+                            "be.obj")),
+            "\"cu\uFFFD"
+            "be.obj\"\n");
+}
+
 TEST(FormatJson, EndsWithALineEnd) { EXPECT_EQ(FormatJson(Json{{"x", 1}}), "{\n \"x\": 1\n}\n"); }
 
 }  // namespace

@@ -18,6 +18,12 @@ TEST(MarkupTest, BytesThatAreNoUtf8AndControlCharactersBecomeReplacements) {
   EXPECT_EQ(EscapeMarkup("\xC0\xBC").find('<'), std::string::npos);
 }
 
+TEST(MarkupTest, WhatIsLeftIsAllowedInXmlAndSeen) {
+  EXPECT_EQ(EscapeMarkup("a\uFFFEb\uFFFFc"), "a\uFFFDb\uFFFDc");
+  EXPECT_EQ(EscapeMarkup("\u0085\u009B\u202Egpj\u2066"), "\uFFFD\uFFFD\uFFFDgpj\uFFFD");
+  EXPECT_EQ(EscapeMarkup("ü\u00A0漢\u2009🤏\uFFFD"), "ü\u00A0漢\u2009🤏\uFFFD");
+}
+
 TEST(MarkupTest, AnAttributeCannotBeLeft) {
   EXPECT_EQ(Attribute("alt", "\" onload=\"x"), "alt=\"&quot; onload=&quot;x\"");
 }

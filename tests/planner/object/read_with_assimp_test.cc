@@ -46,7 +46,7 @@ TEST(ReadWithAssimp, GivesUpAtItsLimits) {
   EXPECT_THROW(static_cast<void>(Read(kGood / "placed.gltf", limits)), InputError);
 }
 
-/// A glTF of one triangle that takes its numbers from `uri`.
+/// A glTF that takes its numbers from `uri`.
 std::string GltfWithBuffer(const std::string& uri) {
   std::string text = ReadFile(kGood / "placed.gltf");
   const std::size_t first = text.find("data:");

@@ -200,6 +200,8 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
        "plan.json: /format: expected \"regrasp-plan\", found \"regrasp-grasp\""},
       {"/version", 2, "plan.json: /version: expected 1, found 2"},
       {"/version", "1", "plan.json: /version: expected a number, found \"1\""},
+      {"/object/file", std::string("cube.obj\0.wkt", 13),
+       "plan.json: /object/file: a file name cannot hold a NUL character"},
       {"/object/scale", 0, "plan.json: /object/scale: must be positive"},
       {"/finger_radius", 0, "plan.json: /finger_radius: must be positive, found 0"},
       {"/finger_radius", -1, "plan.json: /finger_radius: must be positive, found -1"},
