@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/options.h"
+#include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -49,6 +50,7 @@ struct FigureProgram {
 
  private:
   void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
+  void CheckOut() const;
   [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
   void CheckHasContactSpace(const Plan& plan) const;
   void WriteFigures(const Polygon& polygon, const Plan& plan) const;
@@ -109,6 +111,8 @@ bool IsFigureName(const std::string& name, const std::string& format) {
   return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
          (rest == "_hold." + format || rest == "_switch." + format || rest == "_align." + format);
 }
+
+std::string SheetName(const std::string& format) { return "sheet." + format; }
 
 /// Removes the figures of an earlier run that this one has not written again.
 void RemoveOthers(const std::filesystem::path& folder, const std::string& format,
@@ -182,12 +186,22 @@ void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const
     WriteFile(folder / name, DrawStepFigure(polygon, diagrams, i, file_format));
     written.insert(name);
   }
-  WriteFile(folder / ("sheet." + format), DrawSheet(polygon, diagrams, file_format));
+  WriteFile(folder / SheetName(format), DrawSheet(polygon, diagrams, file_format));
   if (contact_space) WriteContactSpace(polygon, plan, file_format, written);
   RemoveOthers(folder, format, written);
 }
 
+void FigureProgram::CheckOut() const {
+  OutputFiles outputs;
+  outputs.folders.push_back({"--out", out, [this](const std::string& name) {
+                               return name == SheetName(format) || IsFigureName(name, format);
+                             }});
+  CheckOutputsDiffer({{"--object", object_path}, {"--plan", plan_path}}, outputs);
+  CheckOutputsWritable(outputs);
+}
+
 int FigureProgram::Run() {
+  CheckOut();
   const ObjectFile object = ReadObject(object_path);
   const Plan plan = ReadPlan(plan_path);
   CheckPlanFits(plan, object);

@@ -65,6 +65,10 @@ bool IsPictureName(const std::string& name) {
          (rest == "_hold.png" || rest == "_switch.png" || rest == "_align.png");
 }
 
+bool IsValidationFile(const std::string& name) {
+  return name == kReportName || name == kPageName || IsPictureName(name);
+}
+
 std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
                                      const FrameOptions& options,
                                      const std::filesystem::path& folder, Report& report) {

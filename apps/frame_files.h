@@ -23,6 +23,10 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// …, the contact sheet, the animation).
 [[nodiscard]] bool IsPictureName(const std::string& name);
 
+/// Whether a validation writes, or removes as an earlier one's, a file of this name in its folder:
+/// report, page and pictures.
+[[nodiscard]] bool IsValidationFile(const std::string& name);
+
 /// Draws a frame of every replayed step into `folder` and names it in the report, and all of them,
 /// small, into the contact sheet overview.png. The frame of a step that failed in the replay shows
 /// what the replay saw at its end.

@@ -5,6 +5,7 @@
 
 #include "apps/graph_summary.h"
 #include "apps/graph_text.h"
+#include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -66,6 +67,12 @@ struct GraphProgram {
       throw InputError("--queries: the planner " + common.planner + " answers none; roadmap does");
     }
     if (no_lazy && queries == 0) throw InputError("--no-lazy: needs --queries");
+    if (json != "-") {
+      OutputFiles outputs;
+      outputs.Add("--json", json);
+      CheckOutputsDiffer({{"--object", common.object}}, outputs);
+      CheckOutputsWritable(outputs);
+    }
     const ObjectFile object = ReadObject(common.object);
     const double half_angle = common.friction.required_half_angle();
     const GraphSummary summary = Summarize(object);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -27,6 +28,12 @@ constexpr char kProgram[] = "plan";
 
 /// A day's work.
 constexpr std::int64_t kMostEffort = 100'000'000'000;
+
+/// Instead of a grasp file.
+constexpr char kRandom[] = "random";
+constexpr char kRandomAny[] = "random-any";
+
+bool IsRandom(const std::string& grasp) { return grasp == kRandom || grasp == kRandomAny; }
 
 using ProgressReport = std::function<void(std::string_view)>;
 
@@ -109,6 +116,7 @@ struct PlanProgram {
   PlanResult PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const;
   PlanResult PlanAnyGrasps(const Object& object, const ProgressReport& report) const;
   void CheckUsage() const;
+  void CheckOutput() const;
   [[nodiscard]] bool AsksForRoadmap() const {
     return no_lazy || common.contacts.has_value() || common.clusters.has_value();
   }
@@ -122,10 +130,9 @@ struct PlanProgram {
 GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
                                 const Object& object) const {
   using Kind = GraspChoice::Kind;
-  const bool any = value == "random-any" || (value == "random" && common.planner == "auto");
-  if (any) return {Kind::kRandomAny, {}, option + " " + value};
-  if (value == "random") return {Kind::kRandom, {}, option + " " + value};
-  return {Kind::kGiven, ReadGrasp(value, object), value};
+  if (!IsRandom(value)) return {Kind::kGiven, ReadGrasp(value, object), value};
+  const bool any = value == kRandomAny || common.planner == "auto";
+  return {any ? Kind::kRandomAny : Kind::kRandom, {}, option + " " + value};
 }
 
 PlanResult PlanProgram::Find(const ObjectFile& object) const {
@@ -217,9 +224,21 @@ void PlanProgram::CheckUsage() const {
   }
 }
 
+void PlanProgram::CheckOutput() const {
+  if (output == "-") return;
+  std::vector<NamedFile> inputs = {{"--object", common.object}};
+  if (!IsRandom(start)) inputs.push_back({"--start", start});
+  if (!IsRandom(goal)) inputs.push_back({"--goal", goal});
+  OutputFiles outputs;
+  outputs.Add("--output", output);
+  CheckOutputsDiffer(inputs, outputs);
+  CheckOutputsWritable(outputs);
+}
+
 int PlanProgram::Run() const {
   const auto begin = std::chrono::steady_clock::now();
   CheckUsage();
+  CheckOutput();
   const ObjectFile object = ReadObject(common.object);
   CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   PlanResult result = Find(object);

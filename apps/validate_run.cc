@@ -8,6 +8,7 @@
 
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
+#include "apps/output_files.h"
 #include "apps/page/report_page.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
@@ -43,6 +44,26 @@ struct Samples {
   std::vector<Snapshot> animation;
 };
 
+OutputFiles OutputsOf(const ValidateOptions& options) {
+  OutputFiles outputs;
+  if (!options.verify.empty()) return outputs;
+  outputs.Add("--junit", options.junit);
+  outputs.Add("--trajectory", options.trajectory);
+  outputs.Add("--export-mjcf", options.mjcf);
+  outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
+  return outputs;
+}
+
+void CheckOutputs(const ValidateOptions& options) {
+  const OutputFiles outputs = OutputsOf(options);
+  CheckOutputsDiffer({{"--object", options.object_path},
+                      {options.for_grasp() ? "--grasp" : "--plan", options.InputPath()},
+                      {"--start", options.start},
+                      {"--goal", options.goal}},
+                     outputs);
+  CheckOutputsWritable(outputs);
+}
+
 /// The object is read first, where the plan is not needed to find it.
 void ReadPlanTask(const ValidateOptions& options, Task& task) {
   std::error_code error;
@@ -51,7 +72,10 @@ void ReadPlanTask(const ValidateOptions& options, Task& task) {
   task.file_text = ReadFile(options.plan_path);
   task.plan = ParsePlan(task.file_text, options.plan_path);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
-  if (named_by_plan) task.object = ReadObject(object_path);
+  if (named_by_plan) {
+    CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
+    task.object = ReadObject(object_path);
+  }
   CheckPlanFits(task.plan, task.object,
                 {options.plan_path, object_path, options.allow_object_change, options.scale});
 }
@@ -202,6 +226,7 @@ void WriteResults(const ValidateOptions& options, const FrameOptions& frame, con
 }  // namespace
 
 int RunValidation(const ValidateOptions& options) {
+  CheckOutputs(options);
   const Task task = ReadTask(options);
   if (!options.verify.empty()) return Verify(options, task);
   const FrameOptions frame = FrameOptionsFor(options, task);

@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 namespace {
 
 std::optional<ContactSwitchSide> DescribeSide(SetGeometry& geometry, const AxisGrasp& grasp,
-                                       int shared_axis, const std::map<int, int>& names) {
+                                              int shared_axis, const std::map<int, int>& names) {
   const Contact& shared = grasp[shared_axis].contact;
   const Contact& other = grasp[1 - shared_axis].contact;
   const auto at = geometry.Locate({shared, other});

@@ -30,7 +30,7 @@ struct ContactSwitch {
   int entry = 0;
   int shared_ring = 0;
   std::array<ContactSwitchSide, 2> sides;  ///< before and after
-  PlaceRange overlap;               ///< of the two projections, about the contact that stays
+  PlaceRange overlap;                      ///< of the two projections, about the contact that stays
 };
 
 /// @param entry  of the track, a switch.

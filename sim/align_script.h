@@ -89,7 +89,7 @@ inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers 
 /// the others can balance in every direction.
 inline constexpr double kSlideQuality = 0.02;
 inline constexpr double kShortestAlignPiece = 1.0 / 256;  ///< of the way between two waypoints
-inline constexpr int kHopelessPieces = 8;            ///< where no number of them serves
+inline constexpr int kHopelessPieces = 8;                 ///< where no number of them serves
 inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that serves
 
 }  // namespace regrasp

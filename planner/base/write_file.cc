@@ -180,9 +180,9 @@ fs::path AsideName(const fs::path& path) {
 class FileAside {
  public:
   /// @param target  a file or nothing.
-  explicit FileAside(const Target& target)
-      : target_(target),
-        path_(AsideName(target.path)),
+  explicit FileAside(Target target)
+      : target_(std::move(target)),
+        path_(AsideName(target_.path)),
         file_(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
                    replaces() ? kOwnMode : kNewMode)) {}
   ~FileAside() {
@@ -225,7 +225,7 @@ class FileAside {
     close(folder);
   }
 
-  const Target& target_;
+  Target target_;
   fs::path path_;
   Descriptor file_;
   bool renamed_ = false;
@@ -296,6 +296,22 @@ void CheckWritable(const fs::path& path) {
   });
 }
 
+void CheckFolderWritable(const fs::path& folder) {
+  NamingPath(folder, [&] {
+    fs::path at = folder;
+    struct stat status;
+    while (lstat(at.c_str(), &status) != 0) {
+      if (errno != ENOENT) FailWith(errno);
+      if (at == ".") FailWith(ENOENT);
+      at = at.has_parent_path() ? at.parent_path() : ".";
+    }
+    if (stat(at.c_str(), &status) != 0) FailWith(errno);
+    if (!S_ISDIR(status.st_mode)) FailWith(ENOTDIR);
+    const StopsHeld held;
+    const FileAside tried({Target::Kind::kNew, at / ""});
+  });
+}
+
 fs::path EndOfLinks(const fs::path& path) {
   try {
     return Resolve(path).path;
@@ -308,9 +324,8 @@ std::string NameBesideAside(const std::string& name) {
   const std::size_t ending = kAsideMark.size() + kAsideDigits;
   if (name.size() <= ending) return "";
   const std::size_t mark = name.size() - ending;
-  const bool aside =
-      name.compare(mark, kAsideMark.size(), kAsideMark) == 0 &&
-      name.find_first_not_of(kDigits, mark + kAsideMark.size()) == std::string::npos;
+  const bool aside = name.compare(mark, kAsideMark.size(), kAsideMark) == 0 &&
+                     name.find_first_not_of(kDigits, mark + kAsideMark.size()) == std::string::npos;
   return aside ? name.substr(0, mark) : "";
 }
 

@@ -29,6 +29,11 @@ void WriteFile(const std::filesystem::path& path, std::string_view bytes,
 /// @throws EnvironmentError  as WriteFile.
 void CheckWritable(const std::filesystem::path& path);
 
+/// Finds out whether files could be written into a folder now or, where it does not exist, whether
+/// it could be made with the folders above it; leaves everything as it is.
+/// @throws EnvironmentError  they could not, or it is no folder.
+void CheckFolderWritable(const std::filesystem::path& folder);
+
 /// What WriteFile(path) replaces or makes: the end of the path's links, whether it exists or not.
 /// `path` itself where that cannot be told.
 [[nodiscard]] std::filesystem::path EndOfLinks(const std::filesystem::path& path);

@@ -36,6 +36,7 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 /// @returns nullopt where none was found; that is no proof of the opposite.
 /// @throws std::invalid_argument  half_angle out of range.
 [[nodiscard]] std::optional<std::vector<MotionPiece>> FindMotionProof(
-    const GraspMotion& motion, int dimension, double half_angle, double shortest = kShortestProofPiece);
+    const GraspMotion& motion, int dimension, double half_angle,
+    double shortest = kShortestProofPiece);
 
 }  // namespace regrasp

@@ -52,7 +52,7 @@ double FindEnd(const std::function<double(double)>& distance, double threshold, 
 }  // namespace
 
 std::optional<ParameterInterval> SublevelInterval(const std::function<double(double)>& distance,
-                                         double threshold) {
+                                                  double threshold) {
   for (const double end : {0.0, 1.0}) {
     if (distance(end) > threshold) continue;
     const double other = FindEnd(distance, threshold, end, 1 - end);
@@ -60,7 +60,8 @@ std::optional<ParameterInterval> SublevelInterval(const std::function<double(dou
   }
   const double low = FindLow(distance, threshold);
   if (distance(low) > threshold) return std::nullopt;
-  return ParameterInterval{FindEnd(distance, threshold, low, 0), FindEnd(distance, threshold, low, 1)};
+  return ParameterInterval{FindEnd(distance, threshold, low, 0),
+                           FindEnd(distance, threshold, low, 1)};
 }
 
 bool CoverUnitInterval(std::vector<ParameterInterval> intervals) {

@@ -360,11 +360,10 @@ TEST_F(WriteFileTest, NamesAsideAreNeverTheSameAndTellTheirFile) {
 
 TEST_F(WriteFileTest, OnlyNamesAsideAreTakenForSuch) {
   EXPECT_EQ(NameBesideAside("a.tmp0123456789abcdef"), "a");
-  EXPECT_EQ(NameBesideAside("a.tmp0123456789abcdef.tmp0123456789abcdef"),
-            "a.tmp0123456789abcdef");
-  for (const char* name : {"report.json", "report.json.tmp", "report.json.tmp123", "",
-                           ".tmp0123456789abcdef", "a.tmp0123456789abcdeF",
-                           "a.tmp0123456789abcdef0", "a.tmp123456789abcdef"}) {
+  EXPECT_EQ(NameBesideAside("a.tmp0123456789abcdef.tmp0123456789abcdef"), "a.tmp0123456789abcdef");
+  for (const char* name :
+       {"report.json", "report.json.tmp", "report.json.tmp123", "", ".tmp0123456789abcdef",
+        "a.tmp0123456789abcdeF", "a.tmp0123456789abcdef0", "a.tmp123456789abcdef"}) {
     EXPECT_EQ(NameBesideAside(name), "") << name;
   }
 }

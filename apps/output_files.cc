@@ -1,0 +1,131 @@
+#include "apps/output_files.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/write_file.h"
+
+namespace regrasp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using FileId = std::pair<dev_t, ino_t>;
+
+/// Of a regular file, after links.
+std::optional<FileId> IdOf(const fs::path& path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return FileId(status.st_dev, status.st_ino);
+}
+
+/// One path for all that name the same place, whether or not something is there.
+fs::path PlaceOf(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(EndOfLinks(path), error);
+  const fs::path place = fs::weakly_canonical(whole, error);
+  const fs::path& found = error ? whole : place;
+  return found.has_filename() ? found : found.parent_path();
+}
+
+bool IsInside(const fs::path& folder, const fs::path& place) {
+  return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first ==
+         folder.end();
+}
+
+/// What is known to be read or written.
+class KnownFiles {
+ public:
+  explicit KnownFiles(const std::vector<NamedFile>& inputs) {
+    for (const NamedFile& input : inputs) {
+      if (const auto id = IdOf(input.path)) inputs_.emplace(*id, input.option);
+    }
+  }
+
+  /// @throws InputError  it is an input.
+  void RefuseInput(const std::string& option, const fs::path& path) const {
+    const auto id = IdOf(path);
+    const auto input = id ? inputs_.find(*id) : inputs_.end();
+    if (input == inputs_.end()) return;
+    throw InputError(path.string() + ": is the file of " + input->second + ", and " + option +
+                     " would overwrite it; write elsewhere");
+  }
+
+  /// @throws InputError  another output is written there.
+  void AddOutput(const NamedFile& output) {
+    RefuseInput(output.option, output.path);
+    std::error_code error;
+    const fs::file_type type = fs::status(output.path, error).type();
+    if (type != fs::file_type::regular && type != fs::file_type::not_found) return;
+    const auto id = IdOf(output.path);
+    RefuseTwice(output.path, output.option,
+                id ? ids_.emplace(*id, output.option).first->second
+                   : places_.emplace(PlaceOf(output.path), output.option).first->second);
+  }
+
+  /// After all single files.
+  void AddFolder(const OutputFolder& folder) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder.path, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (!folder.takes(entry->path().filename().string())) continue;
+      RefuseInput(folder.option, entry->path());
+      const auto id = IdOf(entry->path());
+      const auto output = id ? ids_.find(*id) : ids_.end();
+      if (output != ids_.end()) RefuseTwice(entry->path(), folder.option, output->second);
+    }
+    const fs::path place = PlaceOf(folder.path);
+    for (const auto& [file, option] : places_) {
+      if (file.parent_path() == place && folder.takes(file.filename().string())) {
+        RefuseTwice(file, folder.option, option);
+      }
+    }
+  }
+
+ private:
+  static void RefuseTwice(const fs::path& path, const std::string& option,
+                          const std::string& other) {
+    if (option == other) return;
+    throw InputError(path.string() + ": " + other + " and " + option +
+                     " would both be written there; write elsewhere");
+  }
+
+  std::map<FileId, std::string> inputs_;
+  std::map<FileId, std::string> ids_;       ///< of outputs that exist
+  std::map<fs::path, std::string> places_;  ///< of outputs that do not
+};
+
+}  // namespace
+
+void OutputFiles::Add(const std::string& option, const std::string& path) {
+  if (!path.empty()) files.push_back({option, path});
+}
+
+void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles& outputs) {
+  KnownFiles known(inputs);
+  for (const NamedFile& file : outputs.files) known.AddOutput(file);
+  for (const OutputFolder& folder : outputs.folders) known.AddFolder(folder);
+}
+
+void CheckOutputsWritable(const OutputFiles& outputs) {
+  for (const OutputFolder& folder : outputs.folders) CheckFolderWritable(folder.path);
+  for (const NamedFile& file : outputs.files) {
+    const fs::path parent = PlaceOf(file.path).parent_path();
+    std::error_code error;
+    const bool to_be_made =
+        !fs::exists(parent, error) &&
+        std::ranges::any_of(outputs.folders, [&](const OutputFolder& folder) {
+          return IsInside(parent, PlaceOf(folder.path));
+        });
+    if (!to_be_made) CheckWritable(file.path);
+  }
+}
+
+}  // namespace regrasp
