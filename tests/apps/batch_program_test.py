@@ -341,7 +341,7 @@ class Batch(ProgramCase):
         self.assertEqual(sorted(os.listdir(self.path("result"))), [n[:-5] for n in done_before])
         # As one is left that is killed while it writes.
         os.rename(self.path("result/polygon15_01/report.json"),
-                  self.path("result/polygon15_01/report.json.tmp12345"))
+                  self.path("result/polygon15_01/report.json.tmp0123456789abcdef"))
         self.write("result/polygon15_02/report.json", "{ half")
         done = self.run_batch(0, "--jobs", "2")
         self.assertIn("8 plans: 8 pass, 0 fail, 0 bad-input, 0 error; 2 kept from an earlier run",
