@@ -157,7 +157,7 @@ void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
   progress.Report("contact space");
   ContactSpaceFigures figures(polygon, plan);
   const auto write = [&](const std::string& name, const std::string& bytes) {
-    WriteFile(folder / name, bytes);
+    WriteFile(folder / name, bytes, Durability::kCached);
     written.insert(name);
   };
   write(std::string(kContactSpace) + "." + format, figures.DrawOverview(file_format));
@@ -183,10 +183,12 @@ void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
     const std::string name = FileName(i, diagrams[i].kind, format);
-    WriteFile(folder / name, DrawStepFigure(polygon, diagrams, i, file_format));
+    WriteFile(folder / name, DrawStepFigure(polygon, diagrams, i, file_format),
+              Durability::kCached);
     written.insert(name);
   }
-  WriteFile(folder / SheetName(format), DrawSheet(polygon, diagrams, file_format));
+  WriteFile(folder / SheetName(format), DrawSheet(polygon, diagrams, file_format),
+            Durability::kCached);
   if (contact_space) WriteContactSpace(polygon, plan, file_format, written);
   RemoveOthers(folder, format, written);
 }

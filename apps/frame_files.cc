@@ -100,7 +100,8 @@ void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Sn
   if (rests.empty()) return;
   if (object.dimension() == 2) options.thickness = RelativeThickness(report);
   WriteFile(folder / kAnimationName,
-            RenderAnimation(object, plan, report.half_angle, samples, rests, options));
+            RenderAnimation(object, plan, report.half_angle, samples, rests, options),
+            Durability::kCached);
 }
 
 }  // namespace regrasp

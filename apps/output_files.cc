@@ -119,11 +119,10 @@ void CheckOutputsWritable(const OutputFiles& outputs) {
   for (const NamedFile& file : outputs.files) {
     const fs::path parent = PlaceOf(file.path).parent_path();
     std::error_code error;
-    const bool to_be_made =
-        !fs::exists(parent, error) &&
-        std::ranges::any_of(outputs.folders, [&](const OutputFolder& folder) {
-          return IsInside(parent, PlaceOf(folder.path));
-        });
+    const bool to_be_made = !fs::exists(parent, error) &&
+                            std::ranges::any_of(outputs.folders, [&](const OutputFolder& folder) {
+                              return IsInside(parent, PlaceOf(folder.path));
+                            });
     if (!to_be_made) CheckWritable(file.path);
   }
 }

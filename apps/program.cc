@@ -1,5 +1,9 @@
 #include "apps/program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -10,6 +14,25 @@
 namespace regrasp {
 
 namespace {
+
+/// A file that is opened while a standard stream is closed would get its number, and with it what
+/// is printed. Opened the wrong way round, they stay as good as closed.
+void TakeClosedStreams() {
+  const auto take = [](int stream, int flags) {
+    if (fcntl(stream, F_GETFD) >= 0) return;
+    // The lowest free number is this one.
+    if (open("/dev/null", flags) != stream) throw EnvironmentError("/dev/null cannot be opened");
+  };
+  take(STDIN_FILENO, O_WRONLY);
+  take(STDOUT_FILENO, O_RDONLY);
+  take(STDERR_FILENO, O_RDONLY);
+}
+
+/// At the limit of a file's size (ulimit -f) writing then fails like on a full disk.
+void PrepareProcess() {
+  TakeClosedStreams();
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 /// A full disk behind standard output must not look like success.
 int FlushResults(const std::string& program, int exit_code) {
@@ -64,7 +87,10 @@ int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::func
   const std::string program = app.get_name();
   app.set_version_flag("--version", program + " " + ProgramVersion(), "Print the version and exit");
   app.get_help_ptr()->description("Print this text and exit");
-  return RunGuarded(program, [&] { return Run(app, argc, argv, run); });
+  return RunGuarded(program, [&] {
+    PrepareProcess();
+    return Run(app, argc, argv, run);
+  });
 }
 
 }  // namespace regrasp

@@ -20,7 +20,8 @@ enum ExitCode : int {
 ///
 /// Bad usage and InputError give 2. EnvironmentError, exhausted memory and a standard output that
 /// cannot be written give 3, and so does an error that nobody foresaw, which is ours. --help and
-/// --version print to standard output and give 0.
+/// --version print to standard output and give 0. Closed standard streams are taken, so that no
+/// file gets their place; SIGXFSZ is ignored, so that a file that may not grow is an error.
 /// @param app  with all its options; its name is the program's. --version is added here.
 /// @param run  called after parsing; returns the exit code.
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);

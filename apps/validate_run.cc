@@ -202,6 +202,19 @@ void WritePictures(const ValidateOptions& options, const FrameOptions& frame, co
   WriteFile(folder / kPageName, FormatReportHtml(report, task.plan, pictures));
 }
 
+/// What is written last says that all of it is there.
+void CheckPictures(const std::filesystem::path& folder, const Report& report) {
+  std::vector<std::string> names = {kPageName};
+  for (const ReportStep& step : report.steps) {
+    if (!step.frame.empty()) names.push_back(step.frame);
+  }
+  for (const std::string& name : names) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / name, error)) continue;
+    throw EnvironmentError((folder / name).string() + ": was removed during the run");
+  }
+}
+
 void WriteResults(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
                   const Samples& samples, Report& report) {
   const std::filesystem::path folder = options.Folder();
@@ -220,6 +233,7 @@ void WriteResults(const ValidateOptions& options, const FrameOptions& frame, con
     replay.half_angle = options.friction.half_angle();
     WriteFile(options.mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
   }
+  CheckPictures(folder, report);
   WriteFile(folder / kReportName, FormatReportJson(report));
 }
 

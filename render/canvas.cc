@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -127,7 +128,7 @@ class OffscreenContext {
       : width_(width),
         height_(height),
         pixels_(std::size_t{kBytesPerPixel} * width * height),
-        context_(OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr)) {
+        context_(CreateContext()) {
     if (context_ == nullptr) {
       throw EnvironmentError("no off-screen rendering context (OSMesa)");
     }
@@ -150,6 +151,16 @@ class OffscreenContext {
   }
 
  private:
+  static OSMesaContext CreateContext() {
+    // Mesa would keep shaders in the home folder. Its versions have two names for this.
+    constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
+    constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
+    if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
+      for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
+    }
+    return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
+  }
+
   int width_, height_;
   std::vector<unsigned char> pixels_;
   OSMesaContext context_;

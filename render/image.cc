@@ -61,7 +61,7 @@ void WritePng(const std::filesystem::path& path, const Image& image) {
     fail();
   }
   bytes.resize(size);
-  WriteFile(path, bytes);
+  WriteFile(path, bytes, Durability::kCached);
 }
 
 }  // namespace regrasp

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import time
 
 import program_case
 from program_case import ProgramCase
@@ -19,8 +20,8 @@ class Outputs(ProgramCase):
         options.update({"--" + key: value for key, value in changes.items()})
         return [word for pair in options.items() for word in pair]
 
-    def graph_arguments(self, json):
-        return ["--object", self.model("square.wkt"), "--friction-angle", "20", "--json", json]
+    def graph_arguments(self, output):
+        return ["--object", self.model("square.wkt"), "--friction-angle", "20", "--json", output]
 
     # What stands at the path.
 
@@ -166,6 +167,79 @@ class Outputs(ProgramCase):
                 self.assert_refused(3, [out, "cannot be written"], "--object", broken, "--plan",
                                     broken, "--out", out)
         self.assertEqual(self.read("taken"), b"")
+
+    def test_a_folder_that_vanished_during_the_run_is_an_error(self):
+        self.make_inputs()
+        os.mkfifo(self.path("pipe"))
+        for made_again in (False, True):
+            # It waits for a reader of its pipe, when only the report is still to be written.
+            run = subprocess.Popen(
+                [os.path.join(program_case.ARGUMENTS.programs, "validate"), "--object",
+                 "square.wkt", "--plan", "plan.json", "--out", "result", "--no-frames",
+                 "--trajectory", "pipe"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            while run.poll() is None and not os.path.exists(self.path("result/report.html")):
+                time.sleep(0.01)
+            shutil.rmtree(self.path("result"))
+            if made_again:
+                os.mkdir(self.path("result"))
+            self.read("pipe")
+            _, errors = run.communicate(timeout=program_case.HANG_SECONDS)
+            self.assertEqual(run.returncode, 3, errors)
+            self.assertIn("result/report.html: was removed during the run", errors)
+            self.assertFalse(os.path.exists(self.path("result/report.json")))
+
+    # The process and its surroundings.
+
+    def shell(self, program, arguments, ending, before=""):
+        """Runs a program through the shell, which sets what the words before and behind say."""
+        command = " ".join([before, os.path.join(program_case.ARGUMENTS.programs, program),
+                            *arguments, ending])
+        return subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, timeout=program_case.HANG_SECONDS,
+                              check=False)
+
+    def test_closed_streams_get_into_no_file(self):
+        self.make_inputs()
+        plan = self.read("plan.json")
+        os.remove(self.path("plan.json"))
+        closed = "<&- >&- 2>&-"
+        done = self.shell("plan", self.plan_arguments("plan.json"), closed)
+        self.assertEqual((done.returncode, self.read("plan.json")), (0, plan))
+        done = self.shell("plan", self.plan_arguments("-"), ">&-")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn(b"standard output", done.stderr)
+        os.mkdir(self.path("plans"))
+        shutil.copy(self.path("plan.json"), self.path("plans/good.json"))
+        self.write("plans/bad.json", plan[:-100])
+        # What its children say goes through pipes.
+        batch = ["--object", "square.wkt", "--plan", "plans", "--no-frames", "--out"]
+        self.assertEqual(self.shell("validate", [*batch, "open"], "").returncode, 2)
+        for streams, code in (("<&-", 2), ("2>&-", 2), (">&-", 3), (">&- 2>&-", 3), (closed, 3)):
+            done = self.shell("validate", [*batch, "result"], streams)
+            self.assertEqual(self.read("result/summary.json"), self.read("open/summary.json"),
+                             streams)
+            self.assertEqual(done.returncode, code, (streams, done.stderr))
+            shutil.rmtree(self.path("result"))
+
+    def test_a_limit_on_files_is_an_error_that_leaves_nothing(self):
+        before = sorted(os.listdir(self.folder))
+        done = self.shell("plan", self.plan_arguments("plan.json"), "", "ulimit -f 1;")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr, b"plan: plan.json: cannot be written: File too large\n")
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_the_rendering_library_keeps_nothing(self):
+        self.make_inputs()
+        # Where it would; it takes the home folder itself from the system.
+        cache = self.path("cache")
+        os.mkdir(cache)
+        self.assert_done(
+            "--object", "square.wkt", "--plan", "plan.json", "--size", "160x120",
+            program="validate", environment={
+                "XDG_CACHE_HOME": cache, "MESA_SHADER_CACHE_DIR": None,
+                "MESA_SHADER_CACHE_DISABLE": None, "MESA_GLSL_CACHE_DISABLE": None})
+        self.assertNotIn("mesa_shader_cache", os.listdir(cache))
 
 
 if __name__ == "__main__":

@@ -53,7 +53,8 @@ class ProgramCase(unittest.TestCase):
         return subprocess.run(
             command, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, text=True,
             cwd=self.folder, timeout=HANG_SECONDS, check=False,
-            env=dict(os.environ, **(environment or {})))
+            env={name: value for name, value in dict(os.environ, **(environment or {})).items()
+                 if value is not None})
 
     def assert_done(self, *arguments, **options):
         """Exit code 0; returns what ran."""
