@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "planner/motion/exact_balance.h"
 
@@ -21,86 +23,210 @@ struct MovingContacts {
   std::vector<ExactContact> start;
   std::vector<ExactContact> end;
   std::vector<bool> turns;
+
+  [[nodiscard]] std::size_t size() const { return start.size(); }
 };
 
-/// The cross product of two directions that go linearly stays on one side: its three Bernstein
-/// coefficients do.
-bool StaysTurned(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
-  const std::array coefficients = {Cross(a0, b0), Cross(a0, b1) + Cross(a1, b0), Cross(a1, b1)};
-  const Vector side = coefficients[0] + coefficients[1] + coefficients[2];
-  return std::all_of(coefficients.begin(), coefficients.end(),
-                     [&](const Vector& c) { return Dot(c, side) > 0; });
+/// A point or a difference of points that goes linearly from one end of a piece to the other.
+struct Linear {
+  Vector start;
+  Vector end;
+};
+
+Linear Difference(const MovingContacts& moving, std::size_t to, std::size_t from) {
+  return {moving.start[to].p - moving.start[from].p, moving.end[to].p - moving.end[from].p};
 }
 
-/// Contacts that span all along the piece.
-bool SpanAllAlong(const MovingContacts& moving, int dimension) {
-  const std::size_t count = moving.start.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const Vector a0 = moving.start[j].p - moving.start[i].p;
-      const Vector a1 = moving.end[j].p - moving.end[i].p;
-      if (dimension == 2) {
-        const Vector side = a0 + a1;
-        if (Dot(a0, side) > 0 && Dot(a1, side) > 0) return true;
-        continue;
-      }
-      for (std::size_t k = j + 1; k < count; ++k) {
-        if (StaysTurned(a0, a1, moving.start[k].p - moving.start[i].p,
-                        moving.end[k].p - moving.end[i].p)) {
-          return true;
-        }
+/// The Bernstein coefficients of a(t) × b(t).
+std::array<Vector, 3> CrossCoefficients(const Linear& a, const Linear& b) {
+  const Vector middle = Cross(a.start, b.end) + Cross(a.end, b.start);
+  return {Cross(a.start, b.start), Rational(1, 2) * middle, Cross(a.end, b.end)};
+}
+
+/// A lower bound on |v(t)|², v with these Bernstein coefficients: its part along their sum. 0 where
+/// that does not keep to one side.
+template <std::size_t kCount>
+Rational LeastSquaredLength(const std::array<Vector, kCount>& coefficients) {
+  Vector side;
+  for (const Vector& c : coefficients) side = side + c;
+  Rational least = Dot(coefficients[0], side);
+  for (const Vector& c : coefficients) least = std::min<Rational>(least, Dot(c, side));
+  return least > 0 ? least * least / SquaredNorm(side) : Rational(0);
+}
+
+/// Contacts that can apply any wrench all along a piece, three or in the plane two of them: to
+/// apply a force r and a torque τ about their middle takes forces no larger than per_force · |r| +
+/// per_torque · |τ|.
+struct Support {
+  std::vector<std::size_t> contacts;
+  Rational per_force;
+  Rational per_torque_squared;
+};
+
+/// Two opposite forces at a distance d apply the torque d · force.
+std::optional<Rational> PairTorqueFactor(const MovingContacts& moving, std::size_t i,
+                                         std::size_t j) {
+  const Linear side = Difference(moving, j, i);
+  const Rational length = LeastSquaredLength(std::array{side.start, side.end});
+  if (length == 0) return std::nullopt;
+  return Rational(1 / length);
+}
+
+/// Forces ω × d_i at arms d_i from the middle of three contacts apply the torque J ω, and the sum
+/// of their squares is ω·J ω ≤ |τ|² / λ, λ the least eigenvalue of J = Σ (|d|² 1 − d dᵀ). With c
+/// the cross product of two sides λ ≥ Σ_{i<j} |d_i × d_j|² / Σ |d|² = |c|² / (3 Σ |d|²), and 3 Σ
+/// |d|² is the sum over the sides, convex in t.
+std::optional<Rational> TripleTorqueFactor(const MovingContacts& moving, std::size_t i,
+                                           std::size_t j, std::size_t k) {
+  const std::array sides = {Difference(moving, j, i), Difference(moving, k, i),
+                            Difference(moving, k, j)};
+  const Rational area = LeastSquaredLength(CrossCoefficients(sides[0], sides[1]));
+  if (area == 0) return std::nullopt;
+  Rational start = 0;
+  Rational end = 0;
+  for (const Linear& side : sides) {
+    start += SquaredNorm(side.start);
+    end += SquaredNorm(side.end);
+  }
+  return Rational(std::max(start, end) / area);
+}
+
+/// A point at both ends of a piece, in floating point.
+struct RoundedEnds {
+  Eigen::Vector3d start;
+  Eigen::Vector3d end;
+};
+
+Eigen::Vector3d Rounded(const Vector& v) { return {v[0].get_d(), v[1].get_d(), v[2].get_d()}; }
+
+/// The inverse of the pair's torque factor, roughly: the shorter of both distances.
+double PairMerit(const RoundedEnds& a, const RoundedEnds& b) {
+  const Eigen::Vector3d start = b.start - a.start;
+  const Eigen::Vector3d end = b.end - a.end;
+  return start.dot(end) > 0 ? std::min(start.norm(), end.norm()) : 0;
+}
+
+/// The inverse of the triple's torque factor, roughly.
+double TripleMerit(const RoundedEnds& a, const RoundedEnds& b, const RoundedEnds& c) {
+  const Eigen::Vector3d ab[] = {b.start - a.start, b.end - a.end};
+  const Eigen::Vector3d ac[] = {c.start - a.start, c.end - a.end};
+  const Eigen::Vector3d first = ab[0].cross(ac[0]);
+  const Eigen::Vector3d last = ab[1].cross(ac[1]);
+  const Eigen::Vector3d middle = (ab[0].cross(ac[1]) + ab[1].cross(ac[0])) / 2;
+  const Eigen::Vector3d side = first + middle + last;
+  const double least = std::min({first.dot(side), middle.dot(side), last.dot(side)});
+  const double sides = std::max(ab[0].squaredNorm() + ac[0].squaredNorm(),
+                                ab[1].squaredNorm() + ac[1].squaredNorm());
+  return least > 0 && sides > 0 ? least / side.norm() / std::sqrt(sides) : 0;
+}
+
+/// The pair or triple that supports best, found in floating point.
+std::vector<std::size_t> BestSupport(const MovingContacts& moving, int dimension) {
+  std::vector<RoundedEnds> points;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    points.push_back({Rounded(moving.start[i].p - moving.start[0].p),
+                      Rounded(moving.end[i].p - moving.start[0].p)});
+  }
+  std::vector<std::size_t> best;
+  double largest = 0;
+  const auto consider = [&](double merit, std::vector<std::size_t> contacts) {
+    if (!(merit > largest)) return;
+    largest = merit;
+    best = std::move(contacts);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (dimension == 2) consider(PairMerit(points[i], points[j]), {i, j});
+      for (std::size_t k = j + 1; dimension == 3 && k < points.size(); ++k) {
+        consider(TripleMerit(points[i], points[j], points[k]), {i, j, k});
       }
     }
   }
-  return false;
+  return best;
 }
 
-/// Both forces are inside the cones of the normals at both ends.
-bool StaysInsideCone(const std::array<Vector, 2>& forces, const ExactContact& start,
-                     const ExactContact& end, bool turns, const Rational& mu) {
-  if (!turns) {
-    return IsInsideCone(forces[0], start.n, mu) && IsInsideCone(forces[1], start.n, mu);
+/// @returns nullopt where the contacts are on one line somewhere, or not surely off it.
+std::optional<Support> FindSupport(const MovingContacts& moving, int dimension) {
+  const std::vector<std::size_t> best = BestSupport(moving, dimension);
+  if (best.empty()) return std::nullopt;
+  const auto factor = dimension == 2 ? PairTorqueFactor(moving, best[0], best[1])
+                                     : TripleTorqueFactor(moving, best[0], best[1], best[2]);
+  if (!factor) return std::nullopt;
+  return Support{best, Rational(1, static_cast<long>(best.size())), *factor};
+}
+
+/// The contacts' forces at both ends of a piece.
+std::vector<Linear> ForcesOf(const MotionPiece& piece, int dimension) {
+  std::vector<Linear> forces;
+  for (std::size_t i = 0; i < piece.start.size(); ++i) {
+    Linear& force = forces.emplace_back(Linear{Exact(piece.start[i]), Exact(piece.end[i])});
+    if (dimension == 2) force.start[2] = force.end[2] = 0;
   }
+  return forces;
+}
+
+/// The middle of the supporting contacts.
+Linear MiddleOf(const MovingContacts& moving, const Support& support) {
+  Linear middle{};
+  for (const std::size_t i : support.contacts) {
+    middle.start = middle.start + moving.start[i].p;
+    middle.end = middle.end + moving.end[i].p;
+  }
+  const Rational share(1, static_cast<long>(support.contacts.size()));
+  return {share * middle.start, share * middle.end};
+}
+
+/// The length of the largest force that the supporting contacts need to take up what the forces
+/// leave unbalanced anywhere on a piece, from above.
+Rational LargestCorrection(const MovingContacts& moving, const std::vector<Linear>& forces,
+                           const Support& support) {
+  const Linear middle = MiddleOf(moving, support);
+  Linear force{};
+  std::array<Vector, 3> torque{};
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const Linear arm = {moving.start[i].p - middle.start, moving.end[i].p - middle.end};
+    const auto of_contact = CrossCoefficients(arm, forces[i]);
+    for (std::size_t k = 0; k < torque.size(); ++k) torque[k] = torque[k] + of_contact[k];
+    force.start = force.start + forces[i].start;
+    force.end = force.end + forces[i].end;
+  }
+  const Rational force_squared = std::max(SquaredNorm(force.start), SquaredNorm(force.end));
+  Rational torque_squared = 0;
+  for (const Vector& c : torque)
+    torque_squared = std::max<Rational>(torque_squared, SquaredNorm(c));
+  return support.per_force * RootAbove(force_squared) +
+         RootAbove(support.per_torque_squared * torque_squared);
+}
+
+/// A force at one end of a piece, and all within `room` of it, are inside the cones of the normals
+/// at both ends.
+bool StaysInsideCone(const Vector& force, const Rational& room, const ExactContact& start,
+                     const ExactContact& end, bool turns, const Rational& mu) {
+  if (!turns) return IsInsideCone(force, start.n, mu, room);
   // tan(θ − δ) ≥ tan θ − δ (1 + tan² θ), as the tangent is convex.
   const Rational narrower = mu - Rational(kTurnedNormalBound) * (1 + mu * mu);
-  return narrower > 0 && std::all_of(forces.begin(), forces.end(), [&](const Vector& force) {
-           return IsInsideCone(force, start.n, narrower) && IsInsideCone(force, end.n, narrower);
-         });
+  return narrower > 0 && IsInsideCone(force, start.n, narrower, room) &&
+         IsInsideCone(force, end.n, narrower, room);
 }
 
 ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Rational& mu,
                         const MotionPiece& piece) {
-  const int count = static_cast<int>(moving.start.size());
-  if (piece.start.size() != moving.start.size() || piece.end.size() != moving.start.size()) {
+  if (piece.start.size() != moving.size() || piece.end.size() != moving.size()) {
     return Nothing("not one force a contact");
   }
   if (!AllFinite(piece.start) || !AllFinite(piece.end)) return Nothing("a force is not finite");
-  if (!SpanAllAlong(moving, dimension)) return Nothing("the contacts may come to be on one line");
-  const Layout layout(dimension);
-  // Rows: forces at the start and at the end, torques at the start, at the end, and between.
-  const int torque_row = 2 * dimension;
-  Balance balance(2 * dimension + 3 * layout.torques, 2 * dimension * count);
-  std::vector<Rational> x;
-  layout.Append(piece.start, x);
-  layout.Append(piece.end, x);
-  for (int i = 0; i < count; ++i) {
-    const int start = i * dimension;
-    const int end = (count + i) * dimension;
-    layout.AddForces(0, start, balance);
-    layout.AddForces(dimension, end, balance);
-    layout.AddTorques(moving.start[i].p, torque_row, start, balance);
-    layout.AddTorques(moving.end[i].p, torque_row + layout.torques, end, balance);
-    layout.AddTorques(moving.start[i].p, torque_row + 2 * layout.torques, end, balance);
-    layout.AddTorques(moving.end[i].p, torque_row + 2 * layout.torques, start, balance);
-  }
-  const auto balanced = balance.Corrected(x);
-  if (!balanced) return Nothing("the forces cannot be balanced exactly");
-  for (int i = 0; i < count; ++i) {
-    const std::array forces = {layout.Force(*balanced, i * dimension),
-                               layout.Force(*balanced, (count + i) * dimension)};
-    if (!StaysInsideCone(forces, moving.start[i], moving.end[i], moving.turns[i], mu)) {
-      return Nothing("the force at contact " + std::to_string(i) +
-                     ", balanced exactly, is not inside its cone");
+  const std::optional<Support> support = FindSupport(moving, dimension);
+  if (!support) return Nothing("the contacts may come to be on one line");
+  const std::vector<Linear> forces = ForcesOf(piece, dimension);
+  const Rational correction = LargestCorrection(moving, forces, *support);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const bool supports = std::ranges::find(support->contacts, i) != support->contacts.end();
+    const Rational room = supports ? correction : Rational(0);
+    for (const Vector& force : {forces[i].start, forces[i].end}) {
+      if (!StaysInsideCone(force, room, moving.start[i], moving.end[i], moving.turns[i], mu)) {
+        return Nothing("the force at contact " + std::to_string(i) +
+                       ", balanced exactly, may leave its cone");
+      }
     }
   }
   return {Kind::kForceClosure, ""};

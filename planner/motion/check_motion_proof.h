@@ -12,9 +12,12 @@ namespace regrasp {
 /// Checks in exact rational arithmetic, as CheckGraspProof, that a grasp is force closure all along
 /// a motion: contacts move straight from `from` to `to`, and normals turn evenly on great circles.
 ///
-/// The pieces must follow each other from 0 to 1. With forces f₀ and f₁ at the ends of a piece, p
-/// and p' the points there, balance for all t is Σ f₀ = Σ f₁ = 0, Σ p × f₀ = Σ p' × f₁ = 0 and Σ (p
-/// × f₁ + p' × f₀) = 0, again made exact by elimination.
+/// The pieces must follow each other from 0 to 1. On a piece forces go linearly, f₀ to f₁, and may
+/// leave a force r(t) and a torque τ(t) unbalanced by rounding, with Bernstein coefficients that are
+/// known exactly. Three contacts that keep off one line (two in the plane that keep apart) can take
+/// those up at every instant, with forces of bounded length: their forces must have more than that
+/// to spare inside the cones. So the equations for the coefficients of balanced forces, which are
+/// dependent where all contacts are in one plane, need not be solved.
 ///
 /// Where a normal turns, f₀ and f₁ must both lie inside the cones of the normals at both ends of
 /// the piece. The directions within θ of a force are a convex part of the sphere for θ < π/2, so

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 namespace regrasp::exact {
 
@@ -19,6 +20,17 @@ Integer CommonDenominator(std::span<const Rational> numbers) {
 /// number · multiple, which is an integer.
 Integer Multiple(const Rational& number, const Integer& multiple) {
   return number.get_num() * (multiple / number.get_den());
+}
+
+/// x · 2^exponent.
+Rational Shifted(const Rational& x, long exponent) {
+  Rational shifted;
+  if (exponent >= 0) {
+    mpq_mul_2exp(shifted.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  } else {
+    mpq_div_2exp(shifted.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  }
+  return shifted;
 }
 
 /// Linear equations of integers.
@@ -114,6 +126,17 @@ Vector Cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 bool IsZero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
+Rational SquaredNorm(const Vector& a) { return Dot(a, a); }
+
+Rational RootAbove(const Rational& x) {
+  if (x == 0) return 0;
+  // Scaled to about 1, where doubles neither overflow nor vanish; roots halve an even exponent.
+  long exponent = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
+                  static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
+  exponent -= exponent % 2;
+  constexpr double kAbove = 1 + 5e-7;
+  return Shifted(Rational(std::sqrt(Shifted(x, -exponent).get_d()) * kAbove), exponent / 2);
+}
 
 std::vector<ExactContact> Exact(std::span<const Contact> contacts) {
   std::vector<ExactContact> exact;
@@ -128,9 +151,11 @@ bool AllFinite(std::span<const Eigen::Vector3d> vectors) {
   return true;
 }
 
-bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu) {
+bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu, const Rational& room) {
   const Rational normal = Dot(force, n);
-  return normal > 0 && normal * normal * (1 + mu * mu) > Dot(force, force) * Dot(n, n);
+  // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
+  const Rational reach = mu * normal - room * RootAbove((1 + mu * mu) * Dot(n, n));
+  return reach > 0 && reach * reach > Dot(force, force) * Dot(n, n) - normal * normal;
 }
 
 std::optional<std::vector<Rational>> Balance::Corrected(const std::vector<Rational>& x) const {

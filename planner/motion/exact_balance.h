@@ -25,6 +25,10 @@ using Vector = std::array<Rational, 3>;
 [[nodiscard]] Rational Dot(const Vector& a, const Vector& b);
 [[nodiscard]] Vector Cross(const Vector& a, const Vector& b);
 [[nodiscard]] bool IsZero(const Vector& a);
+[[nodiscard]] Rational SquaredNorm(const Vector& a);
+
+/// √x from above, larger by a millionth of it at most. @param x  not negative.
+[[nodiscard]] Rational RootAbove(const Rational& x);
 
 struct ExactContact {
   Vector p;
@@ -34,8 +38,11 @@ struct ExactContact {
 
 [[nodiscard]] bool AllFinite(std::span<const Eigen::Vector3d> vectors);
 
-/// Strictly inside the cone of friction μ about n, which need not be unit.
-[[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu);
+/// A force, and all that differ from it by no more than `room`, are strictly inside the cone of
+/// friction μ about n, which need not be unit. Where `room` is 0 the answer is exact; otherwise it
+/// may be no where less than a millionth of `room` is missing.
+[[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
+                                const Rational& room = 0);
 
 /// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
 class Balance {

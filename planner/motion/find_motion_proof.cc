@@ -22,10 +22,12 @@ struct Nearness {
   /// Forces stay this much of the largest one away from the cone's border, so that the exact
   /// correction of their rounding, and that of decimals in files, does not bring them out.
   double slack;
+  /// Where nothing is found, redundant equations are left out: that takes as long again.
+  bool without_redundancy;
 };
-constexpr Nearness kForPlans = {kLargestWeight, 1e-9};
+constexpr Nearness kForPlans = {kLargestWeight, 1e-9, false};
 /// For bounds, which are not written, and which exact arithmetic is to check.
-constexpr Nearness kForBounds = {kLargestWeightNearLimit, 1e-13};
+constexpr Nearness kForBounds = {kLargestWeightNearLimit, 1e-13, true};
 
 /// So much narrower, in radians, are the cones of normals that turn: more than the exact check
 /// takes off them.
@@ -65,13 +67,7 @@ class MotionProofSearch {
     const MovingContacts contacts = ContactsOn(piece);
     if (contacts.empty() || !Span(contacts)) return std::nullopt;
     MovingForces<1> forces;
-    if (!FindMovingForces<kSpace, 1>(contacts, forces, nearness_.largest_weight))
-      return std::nullopt;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
-        return std::nullopt;
-      }
-    }
+    if (!FindForces(contacts, forces)) return std::nullopt;
     MotionPiece proved{piece.from, piece.to, {}, {}};
     proved.start.reserve(forces.size());
     proved.end.reserve(forces.size());
@@ -125,15 +121,18 @@ class MotionProofSearch {
   [[nodiscard]] MovingContacts ContactsOn(const Piece& piece) const {
     Vector3d start_centre = Vector3d::Zero();
     Vector3d end_centre = Vector3d::Zero();
+    Vector3d velocity = Vector3d::Zero();
     MovingContacts contacts;
     for (const ContactMotion& contact : motion_) {
       double angle = half_angle_;
       if (Turns(contact)) angle -= contact.turn() * (piece.to - piece.from) / 2 + kTurnRoom;
       if (!(angle > 0)) return {};
       contacts.push_back({PointAt(contact, piece.from), PointAt(contact, piece.to),
-                          NormalAt(contact, piece.middle()), std::cos(angle), std::sin(angle)});
+                          contact.velocity(), NormalAt(contact, piece.middle()), std::cos(angle),
+                          std::sin(angle)});
       start_centre += contacts.back().start;
       end_centre += contacts.back().end;
+      velocity += contacts.back().velocity;
     }
     // Torques of balanced forces are the same about every point, so about one that moves along.
     const double share = 1 / static_cast<double>(motion_.size());
@@ -141,6 +140,7 @@ class MotionProofSearch {
     for (MovingContact& contact : contacts) {
       contact.start -= share * start_centre;
       contact.end -= share * end_centre;
+      contact.velocity -= share * velocity;
       radius = std::max({radius, contact.start.norm(), contact.end.norm()});
     }
     if (!(radius > 0)) return {};
@@ -149,6 +149,26 @@ class MotionProofSearch {
       contact.end /= radius;
     }
     return contacts;
+  }
+
+  bool FindForces(const MovingContacts& contacts, MovingForces<1>& forces) const {
+    const double most = nearness_.largest_weight;
+    if (FindMovingForces<kSpace, 1>(contacts, forces, most) && AreInside(forces, contacts)) {
+      return true;
+    }
+    return nearness_.without_redundancy &&
+           FindMovingForcesWithoutRedundancy<kSpace>(contacts, forces, most) &&
+           AreInside(forces, contacts);
+  }
+
+  [[nodiscard]] bool AreInside(const MovingForces<1>& forces,
+                               const MovingContacts& contacts) const {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!IsInside(forces[i][0], contacts[i]) || !IsInside(forces[i][1], contacts[i])) {
+        return false;
+      }
+    }
+    return true;
   }
 
   [[nodiscard]] bool IsInside(const Vector3d& force, const MovingContact& contact) const {

@@ -1,6 +1,7 @@
 #include "planner/motion/moving_forces.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,6 +35,10 @@ constexpr int kMaxPivots = 100;
 
 /// What the balance may leave of forces of size 1: some roundings of each of their sums.
 constexpr double kUnbalanced = 1e-12;
+
+/// Equations that the others imply up to this, relative to the largest, are taken to be implied:
+/// rounding makes some 1e-15 of them, geometry hardly ever as little as this.
+constexpr double kRedundant = 1e-11;
 
 /// Multiples of the golden ratio, modulo 1, never repeat: no two coefficients weigh the same, and
 /// symmetric grasps cause no degenerate pivots.
@@ -75,12 +80,12 @@ class ForceProgram {
  public:
   ForceProgram(std::span<const MovingContact> contacts, double largest_weight)
       : contacts_(contacts), largest_weight_(largest_weight) {
+    kept_.fill(true);
     double fastest = 0;
     for (const MovingContact& contact : contacts) {
-      fastest = std::max(fastest, (contact.end - contact.start).norm());
+      fastest = std::max(fastest, contact.velocity.norm());
     }
     const double per_speed = fastest > 0 ? 1 / fastest : 0;
-    Row right = Row::Zero();
     for (const MovingContact& contact : contacts) {
       for (int k = 0; k <= kDegree; ++k) {
         Source& source = sources_.emplace_back();
@@ -90,14 +95,27 @@ class ForceProgram {
           source.arms[a] = Arms<kDegree>::kOf[k][a].factor *
                            ArmOf(contact, Arms<kDegree>::kOf[k][a].kind, per_speed);
         }
-        const double weight = UnevenWeight(static_cast<int>(sources_.size()) - 1);
-        right -= ColumnOf({static_cast<int>(sources_.size()) - 1, weight * contact.n});
       }
     }
-    Start(right);
+  }
+
+  /// Leaves out equations that the others imply. @returns false where there are none.
+  bool LeaveOutRedundant() {
+    const int unit_forces = static_cast<int>(sources_.size()) * kSpace;
+    Eigen::MatrixXd columns(unit_forces, kRows);
+    for (int c = 0; c < unit_forces; ++c) {
+      columns.row(c) = ColumnOf({c / kSpace, Vector3d::Unit(c % kSpace)});
+    }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rows(columns);
+    rows.setThreshold(kRedundant);
+    for (int r = static_cast<int>(rows.rank()); r < kRows; ++r) {
+      kept_[rows.colsPermutation().indices()[r]] = false;
+    }
+    return rows.rank() < kRows;
   }
 
   bool Solve(MovingForces<kDegree>& forces) {
+    Start();
     for (int pivot = 0; Unbalanced() > kUnbalanced; ++pivot) {
       if (pivot == kMaxPivots || !Improve()) return false;
     }
@@ -137,7 +155,7 @@ class ForceProgram {
       case Arm::Kind::kVelocity:
         break;
     }
-    return per_speed * (contact.end - contact.start);
+    return per_speed * contact.velocity;
   }
 
   static int TorqueRow(int block) { return kForceRows + kTorques * block; }
@@ -146,13 +164,16 @@ class ForceProgram {
   template <typename Visit>
   void VisitColumn(const Column& column, const Visit& visit) const {
     const Source& source = sources_[column.source];
+    const auto visit_kept = [&](int row, double value) {
+      if (kept_[row]) visit(row, value);
+    };
     for (int axis = 0; axis < kSpace; ++axis) {
-      visit(kSpace * source.coefficient + axis, column.force[axis]);
+      visit_kept(kSpace * source.coefficient + axis, column.force[axis]);
     }
     for (int a = 0; a < kArms; ++a) {
       const int at = TorqueRow(Arms<kDegree>::kOf[source.coefficient][a].block);
       const Vector3d torque = source.arms[a].cross(column.force);
-      for (int k = 0; k < kTorques; ++k) visit(at + k, torque[kSpace == 3 ? k : 2]);
+      for (int k = 0; k < kTorques; ++k) visit_kept(at + k, torque[kSpace == 3 ? k : 2]);
     }
   }
   Row ColumnOf(const Column& column) const {
@@ -161,12 +182,17 @@ class ForceProgram {
     return row;
   }
 
-  void Start(const Row& right) {
+  void Start() {
+    Row right = Row::Zero();
+    for (int s = 0; s < static_cast<int>(sources_.size()); ++s) {
+      right -= ColumnOf({s, UnevenWeight(s) * sources_[s].contact.n});
+    }
     tableau_.setZero();
     basis_.fill({kArtificial, Vector3d::Zero()});
-    artificial_.setOnes();
-    artificial_[kRows] = 0;
+    artificial_.setZero();
     for (int r = 0; r < kRows; ++r) {
+      if (!kept_[r]) continue;
+      artificial_[r] = 1;
       const double sign = right[r] < 0 ? -1 : 1;
       tableau_(r, r) = sign;
       tableau_(r, kRows) = sign * right[r];
@@ -283,6 +309,7 @@ class ForceProgram {
   std::span<const MovingContact> contacts_;
   double largest_weight_;
   boost::container::small_vector<Source, kInlineContacts*(kDegree + 1)> sources_;
+  std::array<bool, kRows> kept_;  ///< equations that are not left out
   std::array<Column, kRows> basis_;
   TableauColumn artificial_;  ///< 1 for rows whose basic column is, otherwise 0
   Row right_;
@@ -299,9 +326,20 @@ bool FindMovingForces(std::span<const MovingContact> contacts, MovingForces<kDeg
   return ForceProgram<kSpace, kDegree>(contacts, largest_weight).Solve(forces);
 }
 
+template <int kSpace>
+bool FindMovingForcesWithoutRedundancy(std::span<const MovingContact> contacts,
+                                       MovingForces<1>& forces, double largest_weight) {
+  ForceProgram<kSpace, 1> program(contacts, largest_weight);
+  return program.LeaveOutRedundant() && program.Solve(forces);
+}
+
 template bool FindMovingForces<2, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
 template bool FindMovingForces<3, 1>(std::span<const MovingContact>, MovingForces<1>&, double);
 template bool FindMovingForces<2, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
 template bool FindMovingForces<3, 2>(std::span<const MovingContact>, MovingForces<2>&, double);
+template bool FindMovingForcesWithoutRedundancy<2>(std::span<const MovingContact>, MovingForces<1>&,
+                                                   double);
+template bool FindMovingForcesWithoutRedundancy<3>(std::span<const MovingContact>, MovingForces<1>&,
+                                                   double);
 
 }  // namespace regrasp

@@ -14,6 +14,9 @@ namespace regrasp {
 struct MovingContact {
   Eigen::Vector3d start;
   Eigen::Vector3d end;
+  /// end − start, times any factor that is the same for all contacts. On short pieces the
+  /// difference of rounded points would lose the digits that say which torques are redundant.
+  Eigen::Vector3d velocity;
   Eigen::Vector3d n;
   /// The rim of the cone, axial · n + tangential · t, of unit length.
   double axial;
@@ -64,5 +67,14 @@ template <int kSpace, int kDegree>
 [[nodiscard]] bool FindMovingForces(std::span<const MovingContact> contacts,
                                     MovingForces<kDegree>& forces,
                                     double largest_weight = kLargestWeight);
+
+/// The same of degree 1 for contacts whose equations are not independent, as where all of them are
+/// in one plane: rounding makes equations of what the others imply that nothing can satisfy. Those
+/// are left out.
+/// @returns false also where the equations are independent.
+template <int kSpace>
+[[nodiscard]] bool FindMovingForcesWithoutRedundancy(std::span<const MovingContact> contacts,
+                                                     MovingForces<1>& forces,
+                                                     double largest_weight = kLargestWeight);
 
 }  // namespace regrasp

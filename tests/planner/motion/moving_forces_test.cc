@@ -24,8 +24,8 @@ MovingContacts MovingContactsOf(const Grasp& from, const Grasp& to) {
   for (const Contact& contact : from) centre += contact.p / static_cast<double>(from.size());
   MovingContacts contacts;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    contacts.push_back({from[i].p - centre, to[i].p - centre, from[i].n, std::cos(kHalfAngle),
-                        std::sin(kHalfAngle)});
+    contacts.push_back({from[i].p - centre, to[i].p - centre, to[i].p - from[i].p, from[i].n,
+                        std::cos(kHalfAngle), std::sin(kHalfAngle)});
   }
   return contacts;
 }
