@@ -232,6 +232,9 @@ void ValidateOptions::AddTo(CLI::App& app) {
   AddBatch(app, *this);
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
+  app.add_flag("--allow-undecided", allow_undecided,
+               "Pass aligns of which up to a thousandth of a stretch between two waypoints is "
+               "neither proved nor refuted; otherwise they fail as not-proved");
   AddQuiet(app, quiet);
 }
 

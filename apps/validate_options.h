@@ -42,6 +42,7 @@ struct ValidateOptions {
   bool show_clusters = false;
   bool certificates = false;
   bool allow_object_change = false;
+  bool allow_undecided = false;
   bool quiet = false;
   int jobs;  ///< plans at a time
   std::optional<double> time_limit_s;

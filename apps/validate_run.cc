@@ -128,6 +128,7 @@ Report Check(const ValidateOptions& options, const Task& task, Samples& samples)
   CheckOptions check;
   check.half_angle = options.friction.half_angle();
   check.finger_radius = options.replay.finger_radius;
+  check.allow_undecided = options.allow_undecided;
   Grasp start;
   Grasp goal;
   if (!options.start.empty()) {

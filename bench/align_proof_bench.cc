@@ -137,8 +137,10 @@ MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
   }
   MovingContacts contacts;
   for (int i = 0; i < kContacts; ++i) {
-    contacts.push_back({(segment.from[i].p - start) / radius, (segment.to[i].p - end) / radius,
-                        segment.from[i].n, std::cos(half_angle), std::sin(half_angle)});
+    const Eigen::Vector3d from = (segment.from[i].p - start) / radius;
+    const Eigen::Vector3d to = (segment.to[i].p - end) / radius;
+    contacts.push_back(
+        {from, to, to - from, segment.from[i].n, std::cos(half_angle), std::sin(half_angle)});
   }
   return contacts;
 }
@@ -195,7 +197,7 @@ void PrintRow(const std::string& body, double degrees) {
   const double half_angle = Radians(degrees);
   const std::vector<Segment> segments = DrawSegments(solid, half_angle);
   const Outcome truth = Measure(segments, [&](const Segment& segment) {
-    return DecidePathForceClosure(segment.motion, frame, half_angle).holds ? 1 : 0;
+    return DecidePathForceClosure(segment.motion, frame, half_angle).holds() ? 1 : 0;
   });
   const Outcome first = MeasureOnePiece<1>(segments, half_angle);
   const Outcome second = MeasureOnePiece<2>(segments, half_angle);

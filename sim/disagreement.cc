@@ -196,7 +196,7 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
 }
 
 Disagreement ExplainAnalysis(const ExaminedStep& step) {
-  if (step.check.reason != Reason::kNotForceClosure) {
+  if (step.check.reason != Reason::kNotForceClosure && step.check.reason != Reason::kNotProved) {
     return {.cause = Cause::kNotSimulated,
             .text = "the replay does not look at " + std::string(ReasonName(step.check.reason))};
   }

@@ -182,7 +182,8 @@ void AddProofs(const Plan& located, Report& report) {
   int entries = 0;
   for (const ReportStep& step : report.steps) {
     const Reason reason = step.check.reason;
-    const bool judged = reason == Reason::kNone || reason == Reason::kNotForceClosure;
+    const bool judged = reason == Reason::kNone || reason == Reason::kNotForceClosure ||
+                        reason == Reason::kNotProved;
     if (step.check.skipped || !judged) break;
     ++entries;
   }

@@ -332,8 +332,11 @@ class Page {
 
   [[nodiscard]] static std::string Required(const ReportStep& step) {
     if (step.check.skipped) return kNothing;
-    if (!step.check.required)
-      return step.check.reason == Reason::kNotForceClosure ? "none" : kNothing;
+    if (!step.check.required) {
+      const bool judged =
+          step.check.reason == Reason::kNotForceClosure || step.check.reason == Reason::kNotProved;
+      return judged ? "none" : kNothing;
+    }
     return DegreesText(Degrees(step.check.required->upper));
   }
 

@@ -58,7 +58,7 @@ class PathDecision {
       : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), half_angle_(half_angle) {}
 
   PathForceClosure Decide() {
-    result_.holds = true;
+    result_.decision = Decision::kYes;
     Decide(0, 1);
     return result_;
   }
@@ -66,8 +66,8 @@ class PathDecision {
  private:
   void Decide(double from, double to) {
     const double centre = from + (to - from) / 2;
-    if (!result_.holds) return;
-    if (++intervals_ > kMostIntervals) return Lose(centre);
+    if (Ended()) return;
+    if (++intervals_ > kMostIntervals) return EndEarly(centre);
     if (!HoldsAt(centre)) return Lose(centre);
     if (proofs_.Prove(half_angle_, from, to)) return;
     if (to - from > kShortestInterval) {
@@ -77,7 +77,12 @@ class PathDecision {
     }
     if (!HoldsAt(from)) return Lose(from);
     if (!HoldsAt(to)) return Lose(to);
-    if (++result_.undecided > kMostUndecided) Lose(centre);
+    LeaveOpen(centre);
+    if (++result_.undecided > kMostUndecided) EndEarly(centre);
+  }
+
+  [[nodiscard]] bool Ended() const {
+    return result_.decision == Decision::kNo || result_.ended_early;
   }
 
   [[nodiscard]] bool HoldsAt(double t) const {
@@ -85,9 +90,19 @@ class PathDecision {
   }
 
   void Lose(double t) {
-    if (!result_.holds) return;
-    result_.holds = false;
-    result_.lost_at = t;
+    result_.decision = Decision::kNo;
+    result_.at = t;
+  }
+
+  void LeaveOpen(double t) {
+    if (result_.decision != Decision::kYes) return;
+    result_.decision = Decision::kTooClose;
+    result_.at = t;
+  }
+
+  void EndEarly(double t) {
+    LeaveOpen(t);
+    result_.ended_early = true;
   }
 
   const GraspMotion& motion_;

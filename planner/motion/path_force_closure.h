@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
 #include "planner/object/wrench_frame.h"
@@ -11,27 +12,32 @@ namespace regrasp {
 /// Force closure is decided down to intervals of this length, the motion being 1 long.
 inline constexpr double kShortestInterval = 1e-6;
 
-/// A motion of which more than this many of its shortest intervals, a thousandth of the path, stay
-/// undecided keeps too close to the limit to be called force closure.
+/// Where more than this many of the shortest intervals, a thousandth of the path, stay undecided
+/// the search ends: the motion keeps too close to the limit.
 inline constexpr int kMostUndecided = 1000;
 
 /// What is known of force closure along a motion.
 struct PathForceClosure {
-  /// No instant was found that is not force closure, and no more than kMostUndecided intervals
-  /// stay undecided. False where an instant is not force closure.
-  bool holds = false;
-  double lost_at = 0;  ///< where `holds` is false: the instant t that decided
+  /// kYes: proved everywhere. kNo: an instant is not force closure. kTooClose: neither.
+  Decision decision = Decision::kTooClose;
+  /// After kNo the instant t that decided; after kTooClose the first one that nothing is known of.
+  double at = 0;
   /// Intervals no longer than kShortestInterval without a proof, whose ends and centre are force
   /// closure.
   int undecided = 0;
+  /// Of kTooClose: the search ended before it came to the end of the motion.
+  bool ended_early = false;
+
+  /// Proved everywhere.
+  [[nodiscard]] bool holds() const { return decision == Decision::kYes; }
 };
 
 /// Decides force closure of a motion everywhere on the way, by bisection: an interval is halved
 /// until it has a proof (FindPieceProof) that exact arithmetic accepts (CheckPieceProof), an
 /// instant fails IsForceClosure, or it is shorter than kShortestInterval.
 ///
-/// Laws: monotone in half_angle; a motion that is not force closure on an interval longer than
-/// kShortestInterval is never said to hold.
+/// Laws: monotone in half_angle; a motion that is not force closure at some instant, however short
+/// the interval, is never said to hold.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const WrenchFrame& frame, double half_angle);
 

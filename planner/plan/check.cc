@@ -63,7 +63,8 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
   result.located = LocatePlan(object, plan);
   const CheckContext context{
       object, result.located, options.half_angle.value_or(plan.half_angle),
-      options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0)};
+      options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),
+      options.allow_undecided};
   result.steps.push_back(CheckHold(context));
   CheckStart(context, options, result.steps.back());
   FingerGrasp holding = context.plan.initial;

@@ -19,15 +19,17 @@ struct StepCheck {
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
   bool skipped = false;  ///< a step before it failed
-  /// Every grasp of the step, everywhere on the way, is force closure at the friction. False, and
-  /// `required` nullopt, also where the step is skipped or has a fault that comes before force
-  /// closure: then there is no sequence of grasps to judge.
+  /// Every grasp of the step, everywhere on the way, is proved to be force closure at the friction
+  /// (with CheckOptions::allow_undecided: but for `undecided` intervals). False, and `required`
+  /// nullopt, also where the step is skipped or has a fault that comes before force closure: then
+  /// there is no sequence of grasps to judge.
   bool force_closure = false;
   /// The smallest half-angle at which every grasp of the step is force closure; nullopt where none.
+  /// Where `force_closure` is true by proofs alone, `upper` is no larger than the friction's.
   std::optional<RequiredHalfAngle> required;
   /// Intervals of an align's path, each no longer than 1e-6 of the way between two waypoints, on
-  /// which force closure stayed undecided. They do not fail the step: no instant was found that is
-  /// not force closure.
+  /// which force closure stayed undecided: no proof was found, and no instant that is not force
+  /// closure. They fail the step (kNotProved) unless CheckOptions::allow_undecided is set.
   int undecided = 0;
 };
 
@@ -38,6 +40,8 @@ struct CheckOptions {
   std::optional<double> finger_radius = std::nullopt;
   const Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
   const Grasp* goal = nullptr;   ///< and its goal this one
+  /// Aligns pass with up to kMostUndecided undecided intervals in each stretch.
+  bool allow_undecided = false;
 };
 
 struct PlanCheck {
@@ -52,7 +56,7 @@ struct PlanCheck {
 ///
 /// The first failing step ends the check; later ones are `skipped`. Force closure along an align is
 /// decided over the whole path by proofs of its pieces, checked exactly (path_force_closure.h).
-/// What is too close to call at an instant is not force closure.
+/// What is too close to call at an instant is not force closure; what is not proved does not pass.
 ///
 /// Laws: independent of the fingers' numbering and of the order of contacts, of rigid motion and of
 /// the unit of length; enlarging the friction never turns pass into fail.

@@ -93,6 +93,19 @@ std::string AngleNeeded(const CheckContext& context,
          " degrees, has " + FormatShort(Degrees(context.half_angle));
 }
 
+void LeaveUnproved(const std::string& why, StepCheck& check, StepFault& fault) {
+  check.force_closure = false;
+  fault.Add(Reason::kNotProved, why);
+}
+
+/// Where force closure holds at the friction, the smallest half-angle is no larger than that.
+std::optional<RequiredHalfAngle> Within(std::optional<RequiredHalfAngle> required,
+                                        double half_angle) {
+  if (!required) return std::nullopt;
+  return RequiredHalfAngle{std::min(required->lower, half_angle),
+                           std::min(required->upper, half_angle)};
+}
+
 /// Includes a grasp at rest in a step's force closure and required half-angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
@@ -103,12 +116,16 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
   if (!contacts.empty()) {
     required = ComputeRequiredHalfAngle(contacts, frame);
     holds = IsForceClosure(contacts, frame, context.half_angle);
+    if (holds) required = Within(required, context.half_angle);
   }
   check.required = Larger(check.required, required);
   check.force_closure = check.force_closure && holds;
   if (!holds) {
     fault.Add(Reason::kNotForceClosure,
               std::string(name) + " is not force closure: " + AngleNeeded(context, required));
+  } else if (!required) {
+    LeaveUnproved(std::string(name) + " is force closure at no half-angle that is surely below 90",
+                  check, fault);
   }
 }
 
@@ -187,22 +204,43 @@ GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to) {
   return motion;
 }
 
+std::string UnprovedText(const PathForceClosure& path, const std::string& way,
+                         const std::optional<RequiredHalfAngle>& required) {
+  const std::string at = FormatShort(path.at) + " of the way " + way;
+  if (path.ended_early) {
+    return "force closure is not proved: the search for proofs ended at " + at +
+           ", where it needs more pieces than are looked at";
+  }
+  return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
+         " pieces, a millionth of it each, neither a proof nor a loss is found" +
+         (required ? ", and all of it surely holds only from " +
+                         FormatShort(Degrees(required->upper)) + " degrees"
+                   : "");
+}
+
 /// Includes the way from one waypoint to the next in an align's force closure.
 void IncludeMotion(const CheckContext& context, const GraspMotion& motion, std::size_t waypoint,
                    StepCheck& check, StepFault& fault) {
   const WrenchFrame frame = context.object.wrench_frame();
   const PathForceClosure path = DecidePathForceClosure(motion, frame, context.half_angle);
   std::optional<double> proven;
-  if (path.holds && path.undecided == 0) proven = context.half_angle;
-  check.required = Larger(check.required, ComputePathRequiredHalfAngle(motion, frame, proven));
-  check.force_closure = check.force_closure && path.holds;
+  if (path.holds()) proven = context.half_angle;
+  const auto required = ComputePathRequiredHalfAngle(motion, frame, proven);
+  check.required = Larger(check.required, required);
   check.undecided += path.undecided;
-  if (!path.holds) {
-    const auto there = ComputeRequiredHalfAngle(GraspAt(motion, path.lost_at), frame);
+  const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);
+  const bool allowed = context.allow_undecided && !path.ended_early;
+  if (path.decision == Decision::kNo) {
+    const auto there = ComputeRequiredHalfAngle(GraspAt(motion, path.at), frame);
+    check.force_closure = false;
     fault.Add(Reason::kNotForceClosure,
-              "at " + FormatShort(path.lost_at) + " of the way from " + WaypointName(waypoint) +
-                  " to " + WaypointName(waypoint + 1) +
+              "at " + FormatShort(path.at) + " of the way " + way +
                   " the grasp is not force closure: " + AngleNeeded(context, there));
+  } else if (path.decision == Decision::kTooClose && !allowed) {
+    LeaveUnproved(UnprovedText(path, way, required), check, fault);
+  } else if (!required && !allowed) {
+    LeaveUnproved("on the way " + way + " no bound on the half-angle that it needs is proved",
+                  check, fault);
   }
 }
 

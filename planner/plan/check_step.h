@@ -26,8 +26,9 @@ class StepFault {
 struct CheckContext {
   const Object& object;
   const Plan& plan;
-  double half_angle;         ///< friction, radians
-  double finger_radius = 0;  ///< the object's unit of length; 0: points
+  double half_angle;             ///< friction, radians
+  double finger_radius = 0;      ///< the object's unit of length; 0: points
+  bool allow_undecided = false;  ///< CheckOptions
 
   [[nodiscard]] double tolerance() const { return kPointTolerance * object.diameter(); }
 

@@ -24,6 +24,8 @@ std::string_view ReasonName(Reason reason) {
       return "leaves-face";
     case Reason::kNotForceClosure:
       return "not-force-closure";
+    case Reason::kNotProved:
+      return "not-proved";
     case Reason::kUnreachable:
       return "unreachable";
     case Reason::kSimulationUnstable:

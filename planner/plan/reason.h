@@ -16,6 +16,7 @@ enum class Reason {
   kDiscontinuous,
   kLeavesFace,
   kNotForceClosure,
+  kNotProved,
   kUnreachable,
   kSimulationUnstable,
   kContactLost,

@@ -344,6 +344,32 @@ class Validate(ProgramCase):
 
     # Further outputs.
 
+    def test_what_is_not_proved_does_not_pass_unless_that_is_allowed(self):
+        # Finger 2 passes finger 1's place, where all are on one line for an instant.
+        def grasp(y):
+            places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
+                      ([0.03, y, 0], [-1, 0, 0])]
+            return {"contacts": [{"finger": finger, "point": point, "normal": normal}
+                                 for finger, (point, normal) in enumerate(places)]}
+        waypoints = [grasp(-0.009), grasp(0.012)]
+        self.plan["steps"] = [{"kind": "align", "waypoints": waypoints}]
+        self.plan["initial"] = waypoints[0]
+        self.plan["goal"] = waypoints[1]
+        self.write_plan()
+        report = self.assert_fails(1, "not-proved", junit="junit.xml")
+        step = report["steps"][1]
+        self.assertEqual(step["force_closure"], {"holds": False, "required_half_angle_deg": None})
+        self.assertGreater(step["undecided"], 0)
+        self.assertIn("force closure is not proved near 0.4286 of the way", step["detail"])
+        suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")
+        self.assertEqual(suite.find("testcase/failure").get("message"), "not-proved")
+        self.assertIn("not-proved", self.page_text())
+        self.run_program(*self.arguments("--no-frames", "--allow-undecided"))
+        step = self.report()["steps"][1]
+        self.assertTrue(step["force_closure"]["holds"])
+        self.assertGreater(step["undecided"], 0)
+        self.assertNotEqual(step["reason"], "not-proved")
+
     def test_junit_is_well_formed_and_has_a_case_for_each_step(self):
         self.assert_passes("--no-frames", junit="junit.xml")
         suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")

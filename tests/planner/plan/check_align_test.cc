@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bodies.h"
@@ -150,6 +151,62 @@ TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
   EXPECT_FALSE(CheckPlan(square, plan).passed());
   plan.half_angle += 1e-8;
   EXPECT_TRUE(CheckPlan(square, plan).passed());
+}
+
+/// Three fingers hold a cube; the third passes the first one's place, where all are on one line and
+/// no friction serves, between its waypoints.
+Plan CollinearForAnInstant(double from, double to) {
+  const auto grasp = [](double y) {
+    return FingerGrasp{
+        {0, {{1, 0, 0}, {-1, 0, 0}}}, {1, {{-1, 0, 0}, {1, 0, 0}}}, {2, {{1, y, 0}, {-1, 0, 0}}}};
+  };
+  return AlignPlan(EmptyPlan(3, 5, 30), {grasp(from), grasp(to)});
+}
+
+TEST(CheckAlign, DoesNotPassWhatItCannotProve) {
+  const Polyhedron cube = MakeCube();
+  const PlanCheck check = CheckPlan(cube, CollinearForAnInstant(-0.3, 0.4));
+  const StepCheck& step = check.steps[1];
+  EXPECT_FALSE(check.passed());
+  EXPECT_EQ(step.reason, Reason::kNotProved);
+  EXPECT_FALSE(step.force_closure);
+  EXPECT_FALSE(step.required);
+  EXPECT_GT(step.undecided, 0);
+  EXPECT_THAT(step.detail, testing::HasSubstr("0.4286 of the way from waypoint 0 to waypoint 1"));
+  // Where bisection meets the instant it is lost.
+  EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4)).steps[1].reason,
+            Reason::kNotForceClosure);
+  EXPECT_TRUE(CheckPlan(cube, CollinearForAnInstant(0.1, 0.8)).passed());
+}
+
+TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
+  const Polyhedron cube = MakeCube();
+  const CheckOptions allowed = {.allow_undecided = true};
+  const PlanCheck check = CheckPlan(cube, CollinearForAnInstant(-0.3, 0.4), allowed);
+  EXPECT_TRUE(check.passed());
+  EXPECT_TRUE(check.steps[1].force_closure);
+  EXPECT_GT(check.steps[1].undecided, 0);
+  EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4), allowed).steps[1].reason,
+            Reason::kNotForceClosure);
+}
+
+TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
+  const Polygon square = MakeSquare();
+  // At friction hardly above the critical one the bounds of single grasps are wider than the gap.
+  int passed = 0;
+  for (const double above : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3}) {
+    Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
+    plan.half_angle = std::atan(0.25) + above;
+    const PlanCheck check = CheckPlan(square, plan);
+    if (!check.passed()) continue;
+    ++passed;
+    for (const StepCheck& step : check.steps) {
+      ASSERT_TRUE(step.required);
+      EXPECT_LE(step.required->lower, step.required->upper);
+      EXPECT_LE(step.required->upper, plan.half_angle);
+    }
+  }
+  EXPECT_GE(passed, 4);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ bool IsForceClosureBetween(const Polygon& polygon, const Grasp& from, const Gras
                            double half_angle) {
   GraspMotion motion;
   for (std::size_t k = 0; k < from.size(); ++k) motion.emplace_back(from[k], to[k]);
-  return DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds;
+  return DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds();
 }
 
 struct AlignCount {
