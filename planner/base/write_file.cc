@@ -200,7 +200,6 @@ class FileAside {
     file_.Close();
     if (rename(path_.c_str(), target_.path.c_str()) != 0) FailWith(errno);
     renamed_ = true;
-    if (durability == Durability::kSynced) SyncFolder();
   }
 
  private:
@@ -214,15 +213,6 @@ class FileAside {
       mode &= ~static_cast<mode_t>(S_IRWXG);  // was for another group
     }
     if (fchmod(file_.get(), mode) != 0) FailWith(errno);
-  }
-  /// The file is whole in any case; some file systems have no such call for folders.
-  void SyncFolder() const {
-    const fs::path parent = target_.path.parent_path();
-    const int folder =
-        open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return;
-    fsync(folder);
-    close(folder);
   }
 
   Target target_;

@@ -6,8 +6,10 @@
 
 namespace regrasp {
 
-/// Whether WriteFile returns only when the bytes are on the disk, so that a machine that stops
-/// then leaves the old file or the new one, never an empty one.
+/// Whether WriteFile waits for the disk before it renames, so that a machine that stops then leaves
+/// the old file or the new one, never an empty one. That takes 3 ms a file (measured on ext4, a
+/// virtual disk): in a batch of 500 of the smallest plans 3 s, beside 14 s of computing. The folder
+/// is not waited for: that would take as long again, and an old file is no harm.
 enum class Durability { kSynced, kCached };
 
 /// Writes a file as a whole: bytes go into a new file aside, which is renamed into place, so that
