@@ -33,6 +33,18 @@ std::vector<Vector3d> AllPoints(const PolygonRings& rings) {
   return points;
 }
 
+void CheckEdges(const PolygonRings& rings, double diameter, const std::string& name) {
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    for (std::size_t i = 0; i < rings[r].size(); ++i) {
+      const Vector2d& next = rings[r][(i + 1) % rings[r].size()];
+      const std::string complaint = EdgeComplaint(InSpace(rings[r][i]), InSpace(next), diameter);
+      if (complaint.empty()) continue;
+      throw InputError(name + ": ring " + std::to_string(r) + ": edge " + std::to_string(i) + ": " +
+                       complaint);
+    }
+  }
+}
+
 }  // namespace
 
 Polygon Polygon::FromRings(PolygonRings rings, const std::string& name) {
@@ -42,6 +54,7 @@ Polygon Polygon::FromRings(PolygonRings rings, const std::string& name) {
   if (const std::string complaint = SizeComplaint(points, diameter); !complaint.empty()) {
     throw InputError(name + ": vertices: " + complaint);
   }
+  CheckEdges(rings, diameter, name);
   const MassProperties mass = ComputeMassProperties(rings);
   if (!(mass.volume > 0)) throw InputError(name + ": ring 0: no area");
   return Polygon(std::move(rings), diameter, mass);
@@ -81,9 +94,7 @@ double Polygon::face_measure(int face) const {
 Vector3d Polygon::ClosestPoint(int face, const Vector3d& point) const {
   const auto [a, b] = edge(face);
   const Vector3d along = b - a;
-  const double length_squared = along.squaredNorm();
-  if (!(length_squared > 0)) return a;  // an edge so short that its square underflows is a point
-  const double t = (point - a).dot(along) / length_squared;
+  const double t = (point - a).dot(along) / along.squaredNorm();
   if (t <= 0) return a;
   if (t >= 1) return b;
   return a + t * along;

@@ -25,6 +25,20 @@ namespace {
 /// a body is slivers, which join whatever lies beside them, do they cancel.
 constexpr double kLeastFlatness = 0.5;
 
+void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& name) {
+  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
+      const std::string complaint = EdgeComplaint(mesh.vertices[from], mesh.vertices[to], diameter);
+      if (complaint.empty()) continue;
+      throw MeshError(MeshDefect::kBadSize, name + ": " + FacetName(mesh, t) +
+                                                ": the edge from vertex " + std::to_string(from) +
+                                                " to vertex " + std::to_string(to) + ": " +
+                                                complaint);
+    }
+  }
+}
+
 /// Areas and borders of the faces.
 /// @throws MeshError  kBadSize where a face has no normal.
 std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
@@ -76,6 +90,7 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
     throw MeshError(MeshDefect::kBadSize, name + ": vertices: " + complaint);
   }
   TriangleMesh mesh = TriangulateFacets(welded, diameter, name);
+  CheckEdges(mesh, diameter, name);
   SurfaceTopology topology = ComputeTopology(mesh, name);
   CheckSelfIntersection(mesh, name);
   OrientSolid(mesh, topology, name);

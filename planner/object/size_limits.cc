@@ -17,4 +17,11 @@ std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices, double d
          FormatShort(diameter);
 }
 
+std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double diameter) {
+  const double length = (to - from).stableNorm();
+  if (length >= kMinEdge * diameter) return "";
+  return "shorter (" + FormatShort(length) + ") than " + FormatDouble(kMinEdge) +
+         " of the diameter (" + FormatShort(diameter) + "); make its ends one point";
+}
+
 }  // namespace regrasp

@@ -18,6 +18,11 @@ inline constexpr double kMinDiameter = 1e-15;
 /// rounded to 1e-9 of the diameter, a thousandth of the tolerance of points.
 inline constexpr double kMaxOffset = 1e7;
 
+/// Edges shorter than this times the diameter are refused: their products of up to five factors
+/// stay within double's range. Two corners that a program made the same but for rounding are 1e-17
+/// apart.
+inline constexpr double kMinEdge = 1e-30;
+
 /// Meshes with more facets and polygons with more edges are refused: far above any that can be
 /// planned on.
 inline constexpr std::size_t kMaxFacets = 1'000'000;
@@ -28,6 +33,10 @@ inline constexpr std::size_t kMaxOverlaps = 30'000'000;
 
 /// What is wrong with the size or place of these vertices; empty where nothing is.
 [[nodiscard]] std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices,
+                                        double diameter);
+
+/// What is wrong with the length of an edge; empty where nothing is.
+[[nodiscard]] std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                         double diameter);
 
 }  // namespace regrasp

@@ -36,6 +36,8 @@ const std::map<std::string, std::string> kBadFiles = {
     {"control_character.ply", "the file ends inside \"a?b\" 0"},
     {"corner_twice.obj", "facet 0: degenerate: two of its corners are vertex 1"},
     {"crossing.obj", "self-intersecting: meets facet"},
+    {"edge_of_1e-162.obj", "facet 0: the edge from vertex 0 to vertex 1: shorter (1e-162) than"},
+    {"edge_of_1e-162.wkt", "ring 0: edge 0: shorter (1e-162) than 1e-30 of the diameter"},
     {"edge_of_three.obj", "not manifold: 3 facets meet"},
     {"empty.glb", "No suitable reader"},
     {"empty.obj", "empty: no facet"},

@@ -117,11 +117,15 @@ TEST(Polygon, QueriesMeasureToTheEdge) {
   EXPECT_TRUE(frame.FacesNear({2, 0.1, 1}, 0.3).empty()) << "off the plane";
 }
 
-TEST(Polygon, AnEdgeWhoseSquaredLengthUnderflowsIsAPoint) {
-  const Polygon polygon =
-      Polygon::FromRings({{{0, 0}, {1e-310, 0}, {1, 1}, {0, 1}}}, "underflow.wkt");
-  EXPECT_EQ(polygon.ClosestPoint(0, {0.3, 0.4, 0}), Vector3d(0, 0, 0));
-  EXPECT_EQ(polygon.FacesNear({0, 0, 0}, 1e-9), (std::vector<int>{0, 1, 3}));
+TEST(Polygon, AnEdgeWhoseSquaredLengthUnderflowsIsRefusedAndALongerOneIsNot) {
+  for (const double length : {1e-310, 1e-162, 1e-31}) {
+    EXPECT_THROW(static_cast<void>(
+                     Polygon::FromRings({{{0, 0}, {length, 0}, {1, 1}, {0, 1}}}, "underflow.wkt")),
+                 InputError);
+  }
+  const Polygon polygon = Polygon::FromRings({{{0, 0}, {1e-29, 0}, {1, 1}, {0, 1}}}, "short.wkt");
+  EXPECT_EQ(polygon.ClosestPoint(0, {-0.3, 0.4, 0}), Vector3d(0, 0, 0));
+  EXPECT_EQ(polygon.FacesNear({0, 0, 0}, 1e-9), (std::vector<int>{0, 3, 1}));
 }
 
 TEST(Polygon, WktIsReadInAnyCaseAndLayout) {
