@@ -13,6 +13,8 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/polygon/graph_memory.h"
+#include "planner/polyhedron/graph_memory.h"
 
 namespace {
 
@@ -102,17 +104,21 @@ struct GraphProgram {
     if (queries > 0 && planar) {
       throw InputError("--queries: " + common.object + " is planar; only a roadmap answers them");
     }
+    const double half_angle = common.friction.required_half_angle();
     if (common.planner == "polyhedron") {
+      const Polyhedron& solid = SolidOf(object, common);
+      common.CheckMemory(EstimatePolyhedronGraph(solid, half_angle, common.spanning_value()));
       progress.Report("building the switching graph");
-      summary = SummarizePolyhedron(SolidOf(object, common), common.friction.required_half_angle(),
-                                    common.spanning_value(), sampling, common.seed);
+      summary =
+          SummarizePolyhedron(solid, half_angle, common.spanning_value(), sampling, common.seed);
     } else if (common.planner == "contour") {
       progress.Report("building the switching graph");
-      summary = SummarizeContour(PolygonOf(object, common), common.friction.required_half_angle());
+      summary = SummarizeContour(PolygonOf(object, common), half_angle);
     } else if (common.planner == "polygon" || (common.planner == "auto" && planar)) {
+      const Polygon& polygon = PolygonOf(object, common);
+      common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, common.spanning_value()));
       progress.Report("building the switching graph");
-      summary = SummarizePolygon(PolygonOf(object, common), common.friction.required_half_angle(),
-                                 common.spanning_value());
+      summary = SummarizePolygon(polygon, half_angle, common.spanning_value());
     } else {
       const Polyhedron& solid = SolidOf(object, common);
       RoadmapOptions options = common.roadmap(solid);

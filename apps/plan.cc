@@ -18,6 +18,8 @@
 #include "planner/general/plan_auto.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reach.h"
+#include "planner/polygon/graph_memory.h"
+#include "planner/polyhedron/graph_memory.h"
 #include "planner/polyhedron/plan_spatial.h"
 
 namespace {
@@ -165,6 +167,7 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   if (common.planner == "auto") {
     return PlanSpatial(solid, from, to, common.spanning_value(), options);
   }
+  common.CheckMemory(EstimatePolyhedronGraph(solid, options.half_angle, common.spanning_value()));
   return PlanOnPolyhedron(solid, from, to,
                           {options.half_angle, common.spanning_value(), options.seed, min_quality,
                            report, finger_radius});
@@ -185,7 +188,8 @@ PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport
   const GraspChoice from = Choose("--start", start, object);
   const GraspChoice to = Choose("--goal", goal, object);
   if (common.planner == "general") return PlanGeneral(object, from, to, options);
-  return PlanAuto(object, from, to, {options, common.spanning_value(), contour_aim()});
+  return PlanAuto(object, from, to,
+                  {options, common.spanning_value(), contour_aim(), common.memory()});
 }
 
 PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {
@@ -194,7 +198,10 @@ PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport
   const double half_angle = common.friction.required_half_angle();
   const PolygonPlanOptions options = {
       half_angle, common.spanning_value(), common.seed, min_quality, report, finger_radius};
-  if (common.planner == "polygon") return PlanOnPolygon(polygon, from, to, options);
+  if (common.planner == "polygon") {
+    common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, options.spanning));
+    return PlanOnPolygon(polygon, from, to, options);
+  }
   return PlanOnContour(
       polygon, from, to,
       {half_angle, common.seed, min_quality, contour_aim(), report, finger_radius});

@@ -1,5 +1,7 @@
 #include "apps/planner_options.h"
 
+#include <limits>
+
 #include "planner/base/error.h"
 
 namespace regrasp {
@@ -52,6 +54,9 @@ void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
                  std::to_string(kMaxRoadmapContacts) +
                  " contact points to choose or faces, otherwise none)");
   AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
+  app.add_flag("--force", force,
+               "Builds the graph of polygon or polyhedron also where it would take more than half "
+               "of the memory, which is refused otherwise");
   AddScale(app, scale);
   AddQuiet(app, quiet);
 }
@@ -64,6 +69,15 @@ RoadmapOptions PlannerOptions::roadmap(const Polyhedron& solid) const {
   options.clusters = size.clusters;
   options.seed = seed;
   return options;
+}
+
+double PlannerOptions::memory() const {
+  return force ? std::numeric_limits<double>::infinity() : UsableMemory();
+}
+
+void PlannerOptions::CheckMemory(const MemoryNeed& need) const {
+  const std::string why = MemoryComplaint(need, memory());
+  if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
 }
 
 Spanning PlannerOptions::spanning_value() const {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/options.h"
+#include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/polygon/grasp_set.h"
@@ -28,6 +29,7 @@ struct PlannerOptions {
   std::optional<int> contacts;
   std::optional<int> clusters;
   double scale = 1;
+  bool force = false;
   bool quiet = false;
 
   void AddTo(CLI::App& app, const AutomaticPlanner& automatic);
@@ -37,6 +39,11 @@ struct PlannerOptions {
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
   ///                     plain roadmap takes, and no clusters.
   [[nodiscard]] RoadmapOptions roadmap(const Polyhedron& solid) const;
+
+  /// Bytes that a graph may take: UsableMemory, or any number with --force.
+  [[nodiscard]] double memory() const;
+  /// @throws InputError  the graph would take more than that.
+  void CheckMemory(const MemoryNeed& need) const;
 };
 
 /// The object as a polygon, which the planners `polygon` and `contour` need.

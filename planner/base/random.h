@@ -16,6 +16,8 @@ enum class RandomUse : std::uint32_t {
   kTrialWorld = 6,
   kTrialContacts = 7,
   kCandidates = 8,
+  kCountedEdges = 9,
+  kCountedFaces = 10,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the

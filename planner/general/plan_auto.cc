@@ -50,6 +50,7 @@ ExactAnswer AskPolyhedron(const Polyhedron& solid, const GraspChoice& start,
   exact.min_quality = common.min_quality;
   exact.progress = common.progress;
   exact.finger_radius = common.finger_radius;
+  exact.memory = options.memory;
   return Judge(PlanOnPolyhedron(solid, start, goal, exact), "polyhedron");
 }
 
@@ -70,6 +71,7 @@ ExactAnswer AskPlanar(const Polygon& polygon, const GraspChoice& start, const Gr
   exact.polygon.min_quality = common.min_quality;
   exact.polygon.progress = common.progress;
   exact.polygon.finger_radius = common.finger_radius;
+  exact.polygon.memory = options.memory;
   exact.aim = options.contour_aim;
   return Judge(PlanPlanar(polygon, start, goal, exact), "polygon");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "planner/contour/plan_planar.h"
 #include "planner/general/plan_general.h"
 #include "planner/polygon/grasp_set.h"
@@ -10,6 +12,9 @@ struct AutoPlanOptions {
   GeneralPlanOptions general;  ///< friction, seed, quality and progress count for all
   Spanning spanning = Spanning::kAdaptive;
   SwitchAim contour_aim = SwitchAim::kRoom;
+  /// Bytes that the graph of an exact planner may take; where it would take more, that planner is
+  /// not asked.
+  double memory = std::numeric_limits<double>::infinity();
 };
 
 /// Plans with the planner that fits: an exact one (polyhedron in space; contour, then polygon in

@@ -17,4 +17,14 @@ EdgeTable::EdgeTable(const Polygon& polygon, double tangent) : tangent_(tangent)
   }
 }
 
+EdgeTable EdgeTable::Of(const std::vector<int>& edges) const {
+  EdgeTable table(tangent_);
+  for (const int edge : edges) {
+    table.ends_.push_back(ends_[edge]);
+    table.vertices_.push_back(vertices_[edge]);
+    table.frames_.push_back(frames_[edge]);
+  }
+  return table;
+}
+
 }  // namespace regrasp

@@ -14,6 +14,10 @@ class EdgeTable {
   /// @param tangent  tan θ of the friction half-angle.
   EdgeTable(const Polygon& polygon, double tangent);
 
+  /// The table of some of the edges, as though the polygon had no others.
+  /// @param edges  ascending; they get the numbers 0, 1, …
+  [[nodiscard]] EdgeTable Of(const std::vector<int>& edges) const;
+
   [[nodiscard]] int size() const { return static_cast<int>(ends_.size()); }
   [[nodiscard]] double tangent() const { return tangent_; }
   [[nodiscard]] const EdgeEnds& ends(int edge) const { return ends_[edge]; }
@@ -34,6 +38,8 @@ class EdgeTable {
   }
 
  private:
+  explicit EdgeTable(double tangent) : tangent_(tangent) {}
+
   double tangent_;
   std::vector<EdgeEnds> ends_;
   std::vector<std::array<int, 2>> vertices_;

@@ -1,6 +1,7 @@
 #include "planner/polygon/plan_polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -14,6 +15,7 @@
 #include "planner/polygon/boundary_draw.h"
 #include "planner/polygon/draft.h"
 #include "planner/polygon/graph_cells.h"
+#include "planner/polygon/graph_memory.h"
 
 namespace regrasp {
 
@@ -227,6 +229,11 @@ PlanResult PlanOnPolygon(const Polygon& polygon, const GraspChoice& start, const
                          const PolygonPlanOptions& options) {
   if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
   try {
+    if (std::isfinite(options.memory)) {
+      const MemoryNeed need = EstimatePolygonGraph(polygon, options.half_angle, options.spanning);
+      const std::string why = MemoryComplaint(need, options.memory);
+      if (!why.empty()) return ResultOf(NoGrasp{why});
+    }
     return PolygonPlanner(polygon, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return ResultOf(none);

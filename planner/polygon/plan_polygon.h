@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string_view>
 
 #include "planner/graph/grasp_choice.h"
@@ -20,6 +21,8 @@ struct PolygonPlanOptions {
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
+  /// Bytes that the graph may take; where it would take more there is no plan.
+  double memory = std::numeric_limits<double>::infinity();
 };
 
 /// Plans a sequence of switches and aligns from start to goal on the switching graph of a polygon

@@ -1,11 +1,13 @@
 #include "planner/polyhedron/plan_polyhedron.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "planner/base/number.h"
 #include "planner/graph/plan_search.h"
 #include "planner/plan/same_grasp.h"
+#include "planner/polyhedron/graph_memory.h"
 #include "planner/polyhedron/polyhedron_draft.h"
 #include "planner/roadmap/surface_draw.h"
 
@@ -196,6 +198,11 @@ class PolyhedronPlanner {
 
 PlanResult PlanOnPolyhedron(const Polyhedron& solid, const GraspChoice& start,
                             const GraspChoice& goal, const PolyhedronPlanOptions& options) {
+  if (std::isfinite(options.memory)) {
+    const MemoryNeed need = EstimatePolyhedronGraph(solid, options.half_angle, options.spanning);
+    const std::string why = MemoryComplaint(need, options.memory);
+    if (!why.empty()) return ResultOf(NoGrasp{why});
+  }
   options.progress("building the switching graph");
   PolyhedronGraph graph(solid, options.half_angle, options.spanning);
   return PlanOnPolyhedron(solid, graph, start, goal, options);

@@ -1,6 +1,7 @@
 """The program graph from the shell: good, missing and illegal input."""
 
 import json
+import math
 
 import program_case
 from program_case import ProgramCase
@@ -49,6 +50,20 @@ class Graph(ProgramCase):
                          tables["representative-representative"])
         self.assertGreaterEqual(graph["seconds"]["vertices"], 0)
         self.assertGreaterEqual(graph["seconds"]["edges"], 0)
+
+    def test_a_graph_that_takes_more_than_half_of_the_memory_is_refused_unless_forced(self):
+        count = 3000  # terabytes
+        corners = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
+                   for k in range(count + 1)]
+        ring = ", ".join(f"{x!r} {y!r}" for x, y in corners[:-1] + corners[:1])
+        large = self.write("large.wkt", f"POLYGON (({ring}))")
+        self.assert_refused(2, ["large.wkt: the graph of the planner polygon takes about",
+                                "for 3000 edges", "edges would fit", "--force"],
+                            "--object", large, "--friction-angle", "15")
+        self.assert_refused(2, ["the graph of the planner polyhedron", "for 999 faces"],
+                            "--object", self.model("ellipsoid1000.obj"), "--friction-angle", "15",
+                            "--planner", "polyhedron")
+        self.assert_done(*self.polygon("--friction-angle", "10", "--force"))
 
     def polygon(self, *more):
         return ["--object", self.model("square.wkt"), *more]

@@ -1,0 +1,62 @@
+#include "planner/base/memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <utility>
+
+#include "planner/base/number.h"
+
+namespace regrasp {
+
+namespace {
+
+/// The rest is for the system, other programs and what else the process holds.
+constexpr double kUsableShare = 0.5;
+
+/// Limits of the control group, as version 2 and version 1 of the kernel's interface have them.
+/// Without a limit the first says "max", the second a number that is larger than any memory.
+constexpr std::array kGroupLimits = {"/sys/fs/cgroup/memory.max",
+                                     "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
+
+}  // namespace
+
+double UsableMemory() {
+  double bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+  }
+  for (const char* path : kGroupLimits) {
+    double of_group = 0;
+    if (std::ifstream(path) >> of_group) bytes = std::min(bytes, of_group);
+  }
+  return kUsableShare * bytes;
+}
+
+std::string FormatBytes(double bytes) {
+  constexpr auto kUnits = std::to_array<std::pair<double, const char*>>(
+      {{1e12, " TB"}, {1e9, " GB"}, {1e6, " MB"}, {1e3, " kB"}});
+  for (const auto& [unit, name] : kUnits) {
+    if (bytes >= unit) return FormatShort(bytes / unit, 3) + name;
+  }
+  return FormatShort(bytes, 3) + " bytes";
+}
+
+std::string MemoryComplaint(const MemoryNeed& need, double limit) {
+  if (need.bytes() <= limit) return "";
+  int fitting = 0;
+  for (int step = need.count; step > 0; step /= 2) {
+    while (need.bytes_for(fitting + step) <= limit) fitting += step;
+  }
+  return need.what + " takes about " + FormatBytes(need.bytes()) + " for " +
+         std::to_string(need.count) + " " + need.units + ", and no more than " +
+         FormatBytes(limit) + " may be used, half of the memory: some " + std::to_string(fitting) +
+         " " + need.units + " would fit";
+}
+
+}  // namespace regrasp

@@ -1,0 +1,54 @@
+#include "planner/base/memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace regrasp {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Whether UsableMemory is half of `bytes` where the process may have no more address space.
+bool HalvesItsAddressSpace(rlim_t bytes) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_AS, &limit);
+    _exit(UsableMemory() == static_cast<double>(bytes) / 2 ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(Memory, HalfOfWhatThereIsMayBeUsed) {
+  const double installed =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  EXPECT_GT(UsableMemory(), 0);
+  EXPECT_LE(UsableMemory(), installed / 2);
+#if !defined(__SANITIZE_ADDRESS__)  // which has more address space than any limit
+  EXPECT_TRUE(HalvesItsAddressSpace(rlim_t{1} << 29));
+#endif
+}
+
+TEST(Memory, BytesAreSaidInTheirUnits) {
+  EXPECT_EQ(FormatBytes(15.83e9), "15.8 GB");
+  EXPECT_EQ(FormatBytes(2e13), "20 TB");
+  EXPECT_EQ(FormatBytes(12), "12 bytes");
+}
+
+TEST(Memory, WhatDoesNotFitIsRefusedWithWhatWould) {
+  const MemoryNeed need{"the graph", 1000, "edges", [](double n) { return 8 * n * n * n; }};
+  EXPECT_EQ(need.bytes(), 8e9);
+  EXPECT_EQ(MemoryComplaint(need, 8e9), "");
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("the graph takes about 8 GB for 1000 edges"));
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("1 GB may be used"));
+  EXPECT_THAT(MemoryComplaint(need, 1e9), HasSubstr("some 500 edges would fit"));
+  EXPECT_THAT(MemoryComplaint(need, 1), HasSubstr("some 0 edges would fit"));
+}
+
+}  // namespace
+}  // namespace regrasp
