@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/plan/plan_io.h"
+#include "sim/report_seal.h"
 
 namespace regrasp {
 
@@ -29,22 +32,44 @@ std::string DigestOfNow(const ValidateOptions& options) {
                    {fs::path(object_path).filename().string(), Sha256(ReadFile(object_path))});
 }
 
-bool IsComplete(const fs::path& folder, const ReportSummary& report, bool animated) {
-  std::vector<std::string> files = {kPageName};
-  for (const ReportSummary::Entry& entry : report.entries) {
-    if (!entry.frame.empty()) files.push_back(entry.frame);
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// Empty where there is no such file.
+std::string TextOf(const fs::path& path) {
+  if (!IsFile(path)) return "";
+  try {
+    return ReadFile(path);
+  } catch (const InputError&) {
+    return "";
   }
-  const bool replayed = files.size() > 1;
-  if (replayed) files.emplace_back(kOverviewName);
-  if (replayed && animated) files.emplace_back(kAnimationName);
-  return std::ranges::all_of(files, [&](const std::string& file) {
-    std::error_code error;
-    return fs::is_regular_file(folder / file, error);
+}
+
+/// Whether the files beside a report are those that it names.
+bool AreUnchanged(const fs::path& folder, const std::vector<FileDigest>& files) {
+  return std::ranges::all_of(files, [&](const FileDigest& file) {
+    const fs::path path = folder / file.name;
+    return IsFile(path) && Sha256(ReadFile(path)) == file.sha256;
   });
 }
 
-bool IsResultName(const std::string& name) {
-  return name == kReportName || name == kPageName || IsPictureName(name);
+bool Holds(std::string_view text, const std::string& word) {
+  return text.find('"' + word + '"') != std::string_view::npos;
+}
+
+/// The names of results that a report says stand beside it. It may be cut or edited until it is no
+/// JSON any more: what it names is removed all the same.
+std::vector<std::string> NamesIn(const std::string& report) {
+  const std::size_t begin = report.find("\"files\"");
+  if (begin == std::string::npos) return {};
+  std::vector<std::string> names;
+  std::istringstream list(report.substr(begin, report.find(']', begin) - begin));
+  for (std::string piece; std::getline(list, piece, '"');) {
+    if (IsValidationFile(piece)) names.push_back(piece);
+  }
+  return names;
 }
 
 }  // namespace
@@ -52,31 +77,69 @@ bool IsResultName(const std::string& name) {
 bool HasSameRun(const ValidateOptions& options) {
   const fs::path folder = options.Folder();
   std::error_code error;
-  if (!fs::is_regular_file(folder / kReportName, error)) return false;
+  const bool finished =
+      fs::symlink_status(folder / kRunFileName, error).type() == fs::file_type::not_found;
+  if (!finished || !IsFile(folder / kReportName)) return false;
   try {
-    const ReportSummary report = ReadReportSummary(folder / kReportName);
-    return IsComplete(folder, report, options.animate) && report.run == DigestOfNow(options);
+    const std::string text = ReadFile(folder / kReportName);
+    if (!IsSealed(text)) return false;
+    const ReportSummary report = SummarizeReport(ParseJson(text, kReportName), kReportName);
+    return AreUnchanged(folder, report.files) && report.run == DigestOfNow(options);
   } catch (const InputError&) {
     return false;  // the run itself says what is wrong
   }
 }
 
-void RemoveEarlierRun(const fs::path& folder) {
+std::set<std::string> OwnResults(const HeldFolder& folder) {
+  std::set<std::string> own;
+  for (const std::string& name : folder.left_behind()) {
+    if (IsValidationFile(name)) own.insert(name);
+  }
+  const std::string report = TextOf(folder.path() / kReportName);
+  if (!Holds(report, "regrasp-report") || !Holds(report, "run")) return own;
+  own.insert(kReportName);
+  for (const std::string& name : NamesIn(report)) own.insert(name);
+  return own;
+}
+
+std::set<std::string> OwnSummary(const HeldFolder& folder) {
+  const bool ours = folder.left_behind().contains(kSummaryName) ||
+                    Holds(TextOf(folder.path() / kSummaryName), "regrasp-summary");
+  return ours ? std::set<std::string>{kSummaryName} : std::set<std::string>{};
+}
+
+void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
+                const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const fs::path path = folder.path() / name;
+    std::error_code error;
+    const fs::file_type there = fs::symlink_status(path, error).type();
+    if (there == fs::file_type::not_found) continue;
+    if (there != fs::file_type::directory && own.contains(name)) continue;
+    throw InputError(path.string() +
+                     ": is in the way of a result, and no earlier run wrote it: move it away, or "
+                     "give another --out");
+  }
+}
+
+void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own) {
+  if (own.empty()) return;
+  folder.Announce({own.begin(), own.end()});
   std::vector<fs::path> files;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(folder.path(), error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (IsResultName(name) || IsResultName(NameBesideAside(name))) files.push_back(entry->path());
+    const bool ours = own.contains(name) || own.contains(NameBesideAside(name));
+    if (ours && !entry->is_directory(error)) files.push_back(entry->path());
   }
-  if (error == std::errc::no_such_file_or_directory) return;
   // The report first: it never stands beside half of its pictures.
   std::ranges::partition(files,
                          [](const fs::path& file) { return file.filename() == kReportName; });
   for (const fs::path& file : files) {
     if (!error) fs::remove(file, error);
   }
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+  if (error) throw EnvironmentError(folder.path().string() + ": " + error.message());
 }
 
 }  // namespace regrasp

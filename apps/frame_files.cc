@@ -17,10 +17,10 @@ namespace {
 /// Steps are numbered with this many digits, so that names sort.
 constexpr std::size_t kDigits = 3;
 
-std::string FrameName(const ReportStep& step) {
-  const std::string index = std::to_string(step.check.index);
-  const std::size_t zeros = kDigits - std::min(kDigits, index.size());
-  return std::string(zeros, '0') + index + "_" + step.check.kind + ".png";
+std::string FrameName(std::size_t index, const std::string& kind) {
+  const std::string number = std::to_string(index);
+  const std::size_t zeros = kDigits - std::min(kDigits, number.size());
+  return std::string(zeros, '0') + number + "_" + kind + ".png";
 }
 
 std::string Caption(const Plan& plan, const ReportStep& step) {
@@ -56,6 +56,18 @@ PagePicture MakePicture(const Image& image, int width) {
 
 }  // namespace
 
+std::vector<std::string> ResultNames(const Plan& plan, bool frames, bool animation) {
+  std::vector<std::string> names = {kReportName, kPageName};
+  if (animation) names.emplace_back(kAnimationName);
+  if (!frames) return names;
+  names.emplace_back(kOverviewName);
+  names.push_back(FrameName(0, "hold"));
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    names.push_back(FrameName(i + 1, StepKind(plan.steps[i])));
+  }
+  return names;
+}
+
 bool IsPictureName(const std::string& name) {
   if (name == kOverviewName || name == kAnimationName) return true;
   const auto digits = std::find_if_not(name.begin(), name.end(),
@@ -82,7 +94,7 @@ std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
   ContactSheet sheet(count, frame.width, frame.height);
   for (ReportStep& step : report.steps) {
     if (!step.replay) continue;
-    const std::string name = FrameName(step);
+    const std::string name = FrameName(step.check.index, step.check.kind);
     const Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
     WritePng(folder / name, image);
     step.frame = name;

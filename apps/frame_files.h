@@ -19,6 +19,10 @@ inline constexpr char kPageName[] = "report.html";
 inline constexpr char kOverviewName[] = "overview.png";
 inline constexpr char kAnimationName[] = "replay.webp";
 
+/// The names of all files that a validation of the plan may write into its folder; fewer where
+/// steps are not replayed.
+[[nodiscard]] std::vector<std::string> ResultNames(const Plan& plan, bool frames, bool animation);
+
 /// Whether a file of this name is a picture that a validation writes (000_hold.png, 001_switch.png,
 /// …, the contact sheet, the animation).
 [[nodiscard]] bool IsPictureName(const std::string& name);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "apps/build_id.h"
 #include "apps/program.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -13,7 +14,7 @@ namespace regrasp {
 
 namespace {
 
-Json FileJson(const RunFile& file) { return {{"file", file.name}, {"sha256", file.sha256}}; }
+Json FileJson(const FileDigest& file) { return {{"file", file.name}, {"sha256", file.sha256}}; }
 
 Json DigestOf(const std::string& path) {
   return path.empty() ? Json(nullptr) : Json(Sha256(ReadFile(path)));
@@ -33,11 +34,12 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
                    "\" in " + options.object_path);
 }
 
-std::string RunDigest(const ValidateOptions& options, const RunFile& input, const RunFile& object) {
-  const Json json = {{"version", ProgramVersion()},      {"engine", EngineVersion()},
-                     {"input", FileJson(input)},         {"object", FileJson(object)},
-                     {"start", DigestOf(options.start)}, {"goal", DigestOf(options.goal)},
-                     {"options", options.given}};
+std::string RunDigest(const ValidateOptions& options, const FileDigest& input,
+                      const FileDigest& object) {
+  const Json json = {{"version", ProgramVersion()},    {"build", BuildId()},
+                     {"engine", EngineVersion()},      {"input", FileJson(input)},
+                     {"object", FileJson(object)},     {"start", DigestOf(options.start)},
+                     {"goal", DigestOf(options.goal)}, {"options", options.given}};
   // File names and values may be any bytes.
   return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
 }

@@ -1,9 +1,11 @@
 #include "apps/validate_batch.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -11,6 +13,9 @@
 #include "apps/batch/plan_library.h"
 #include "apps/batch/process_pool.h"
 #include "apps/earlier_run.h"
+#include "apps/frame_files.h"
+#include "apps/held_folder.h"
+#include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/validate_run.h"
@@ -24,7 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kSummaryName[] = "summary.json";
 constexpr char kWarning[] = "warning: ";
 
 /// Before the number of the signal that stopped a batch, as shells count it.
@@ -32,14 +36,6 @@ constexpr int kSignalled = 128;
 
 /// Of a child: the earlier run's report stays. Beyond every ExitCode.
 constexpr int kExitKept = 4;
-
-void PrepareFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  // A summary never stands beside the results of another run.
-  if (!error) fs::remove(folder / kSummaryName, error);
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
-}
 
 /// What a child does.
 int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path& folder) {
@@ -49,7 +45,10 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
   options.quiet = true;
   return RunGuarded(kValidateName, [&] {
     if (!options.fresh && HasSameRun(options)) return kExitKept;
-    RemoveEarlierRun(options.out);
+    {
+      HeldFolder results(options.out);
+      RemoveEarlierRun(results, OwnResults(results));
+    }
     return RunValidation(options);
   });
 }
@@ -78,11 +77,41 @@ std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
   return "";
 }
 
+/// In a folder of objects each file may be that of a plan.
+std::vector<NamedFile> InputsOf(const ValidateOptions& options, const PlanLibrary& library) {
+  std::vector<NamedFile> inputs = {
+      {"--object", options.object_path}, {"--start", options.start}, {"--goal", options.goal}};
+  std::error_code error;
+  for (fs::directory_iterator entry(options.object_path, error), end; !error && entry != end;
+       entry.increment(error)) {
+    inputs.push_back({"--object", entry->path()});
+  }
+  for (const LibraryPlan& plan : library.plans) inputs.push_back({"--plan", plan.path});
+  return inputs;
+}
+
+PlanLibrary FindLibrary(const ValidateOptions& options) {
+  PlanLibrary library = FindPlans(options.plans);
+  const fs::path folder = options.Folder();
+  OutputFiles outputs;
+  outputs.Add("--junit", options.junit);
+  outputs.folders.push_back(
+      {"--out", folder, [](const std::string& name) { return name == kSummaryName; }});
+  for (const LibraryPlan& plan : library.plans) {
+    outputs.folders.push_back({"--out", folder / plan.name, IsValidationFile});
+  }
+  CheckOutputsDiffer(InputsOf(options, library), outputs);
+  // That of a plan is its own matter.
+  outputs.folders.resize(1);
+  CheckOutputsWritable(outputs);
+  return library;
+}
+
 class Batch {
  public:
   explicit Batch(const ValidateOptions& options)
       : options_(options),
-        library_(FindPlans(options.plans)),
+        library_(FindLibrary(options)),
         folder_(options.Folder()),
         progress_(options.quiet) {
     summary_.skipped = library_.skipped;
@@ -95,18 +124,19 @@ class Batch {
 
   /// @returns the exit code.
   int Run() {
-    PrepareFolder(folder_);
+    PrepareFolder();
     ShowProgress();
     stop_ = RunInChildren(
         static_cast<int>(library_.plans.size()),
         {options_.jobs, options_.time_limit_s
                             ? std::optional(std::chrono::duration<double>(*options_.time_limit_s))
                             : std::nullopt},
-        [this](int index) { return ValidateOne(options_, library_.plans[index], folder_); },
+        [this](int index) { return ValidateOne(options_, library_.plans[index], folder_.path()); },
         [this](int index, const ChildExit& exit) { Take(index, exit); });
     progress_.Clear();
     if (stop_ != 0) return kSignalled + stop_;
-    WriteFile(folder_ / kSummaryName, FormatSummaryJson(summary_));
+    ExpectResults();
+    WriteFile(folder_.path() / kSummaryName, FormatSummaryJson(summary_));
     if (!options_.junit.empty()) WriteFile(options_.junit, FormatSummaryJunit(summary_));
     if (!options_.quiet) std::cout << FormatSummaryTable(summary_);
     return static_cast<int>(summary_.verdict());
@@ -116,6 +146,14 @@ class Batch {
   [[nodiscard]] int stop() const { return stop_; }
 
  private:
+  /// A summary never stands beside the results of another run.
+  void PrepareFolder() {
+    const std::set<std::string> own = OwnSummary(folder_);
+    ExpectFree(folder_, own, {kSummaryName});
+    RemoveEarlierRun(folder_, own);
+    folder_.Announce({kSummaryName});
+  }
+
   void ShowProgress() {
     progress_.Report(std::to_string(done_) + " of " + std::to_string(library_.plans.size()) +
                      " plans, " + std::to_string(not_passed_) + " not passed");
@@ -145,10 +183,29 @@ class Batch {
     ShowProgress();
   }
 
+  /// What is reported is there: others may have removed it since.
+  void ExpectResults() {
+    for (PlanOutcome& outcome : summary_.plans) {
+      if (!outcome.report) continue;
+      std::vector<std::string> names = {kReportName};
+      for (const FileDigest& file : outcome.report->files) names.push_back(file.name);
+      const auto gone = std::ranges::find_if_not(names, [&](const std::string& name) {
+        std::error_code error;
+        return fs::is_regular_file(folder_.path() / outcome.name / name, error);
+      });
+      if (gone == names.end()) continue;
+      outcome.report.reset();
+      outcome.kept = false;
+      outcome.verdict = PlanVerdict::kError;
+      outcome.message = "its " + *gone + " was removed while the batch ran";
+      PrintMessage(kValidateName, outcome.name + ": " + outcome.message);
+    }
+  }
+
   /// New and kept results are told from the same file.
   void TakeReport(bool kept, PlanOutcome& outcome) {
     try {
-      outcome.report = ReadReportSummary(folder_ / outcome.name / "report.json");
+      outcome.report = ReadReportSummary(folder_.path() / outcome.name / kReportName);
       outcome.kept = kept;
       outcome.verdict = outcome.report->passed ? PlanVerdict::kPass : PlanVerdict::kFail;
       outcome.message.clear();
@@ -159,7 +216,7 @@ class Batch {
 
   const ValidateOptions& options_;
   PlanLibrary library_;
-  fs::path folder_;
+  HeldFolder folder_;
   ProgressLine progress_;
   BatchSummary summary_;
   int done_ = 0;

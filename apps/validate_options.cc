@@ -206,7 +206,8 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
   app.add_flag(
       "--fresh", options.fresh,
       "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
-      "run where plan, object, options and version are the same");
+      "run where plan, object, options and the program's build are the same and no result was "
+      "edited");
 }
 
 /// Options that say where things come from, where they go and how fast; --start and --goal count

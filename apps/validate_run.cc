@@ -8,6 +8,7 @@
 
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
+#include "apps/held_folder.h"
 #include "apps/output_files.h"
 #include "apps/page/report_page.h"
 #include "apps/plan_object.h"
@@ -186,6 +187,10 @@ int Verify(const ValidateOptions& options, const Task& task) {
   return found.proved ? kExitDone : kExitNegative;
 }
 
+std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Task& task) {
+  return ResultNames(task.plan, !options.no_frames, options.animate);
+}
+
 void WritePictures(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
                    const Samples& samples, const std::filesystem::path& folder, Report& report) {
   const Object& object = *task.object.object;
@@ -216,14 +221,24 @@ void CheckPictures(const std::filesystem::path& folder, const Report& report) {
   }
 }
 
+/// Those of the files that were written.
+std::vector<FileDigest> DigestFiles(const std::filesystem::path& folder,
+                                    const std::vector<std::string>& names) {
+  std::vector<FileDigest> files;
+  for (const std::string& name : names) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(folder / name, error)) continue;
+    files.push_back({name, Sha256(ReadFile(folder / name))});
+  }
+  return files;
+}
+
 void WriteResults(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
-                  const Samples& samples, Report& report) {
-  const std::filesystem::path folder = options.Folder();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
-  RemoveEarlierRun(folder);
-  WritePictures(options, frame, task, samples, folder, report);
+                  const Samples& samples, HeldFolder& folder, Report& report) {
+  const std::vector<std::string> names = NamesOfResults(options, task);
+  RemoveEarlierRun(folder, OwnResults(folder));
+  folder.Announce(names);
+  WritePictures(options, frame, task, samples, folder.path(), report);
   if (!options.junit.empty()) WriteFile(options.junit, FormatJunit({MakeJunitSuite(report)}));
   if (!options.trajectory.empty()) {
     WriteFile(options.trajectory, FormatTrajectory(samples.trajectory));
@@ -234,8 +249,9 @@ void WriteResults(const ValidateOptions& options, const FrameOptions& frame, con
     replay.half_angle = options.friction.half_angle();
     WriteFile(options.mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
   }
-  CheckPictures(folder, report);
-  WriteFile(folder / kReportName, FormatReportJson(report));
+  CheckPictures(folder.path(), report);
+  report.run->files = DigestFiles(folder.path(), names);
+  WriteFile(folder.path() / kReportName, FormatReportJson(report));
 }
 
 }  // namespace
@@ -245,6 +261,8 @@ int RunValidation(const ValidateOptions& options) {
   const Task task = ReadTask(options);
   if (!options.verify.empty()) return Verify(options, task);
   const FrameOptions frame = FrameOptionsFor(options, task);
+  HeldFolder folder(options.Folder());
+  ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
   const Object& object = *task.object.object;
   Samples samples;
   Report report = Check(options, task, samples);
@@ -252,11 +270,12 @@ int RunValidation(const ValidateOptions& options) {
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
-  report.run_sha256 = RunDigest(options, {report.plan_file, report.plan_sha256},
-                                {report.object_file, report.object_sha256});
+  report.run = RunRecord{RunDigest(options, {report.plan_file, report.plan_sha256},
+                                   {report.object_file, report.object_sha256}),
+                         {}};
   AddTrials(options, task, report);
   if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);
-  WriteResults(options, frame, task, samples, report);
+  WriteResults(options, frame, task, samples, folder, report);
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }

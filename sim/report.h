@@ -52,11 +52,22 @@ struct GraspReport {
   std::vector<FingerFriction> fingers;
 };
 
+/// A file, told by its content.
+struct FileDigest {
+  std::string name;
+  std::string sha256;
+};
+
+/// What a report comes from and what stands beside it.
+struct RunRecord {
+  std::string sha256;             ///< of all that the report comes from
+  std::vector<FileDigest> files;  ///< the other results of the same run
+};
+
 /// Everything that `validate` says of a plan; report.json is this.
 struct Report {
   std::string object_file, object_sha256;
   std::string plan_file, plan_sha256;  ///< or those of the grasp
-  std::string run_sha256;              ///< of all that the report comes from; empty: not told
   std::string planner;
   double scale = 1;
   int dimension = 3;
@@ -70,6 +81,7 @@ struct Report {
   /// Repeats with noise, where they were asked for and the nominal replay passes. They do not
   /// change the verdict.
   std::optional<TrialSummary> trials = std::nullopt;
+  std::optional<RunRecord> run = std::nullopt;  ///< none: not told
 
   [[nodiscard]] bool passed() const;
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1

@@ -1,8 +1,10 @@
 #include <cmath>
+#include <utility>
 
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
 #include "sim/report.h"
+#include "sim/report_seal.h"
 #include "sim/simulation_json.h"
 #include "sim/stress_table.h"
 #include "sim/trials_report.h"
@@ -153,6 +155,14 @@ Json MakeGrasp(const Report& report) {
           {"fingers", fingers}};
 }
 
+Json RunJson(const RunRecord& run) {
+  Json files = Json::array();
+  for (const FileDigest& file : run.files) {
+    files.push_back({{"file", file.name}, {"sha256", file.sha256}});
+  }
+  return {{"sha256", run.sha256}, {"files", files}};
+}
+
 }  // namespace
 
 std::string FormatReportJson(const Report& report) {
@@ -166,7 +176,7 @@ std::string FormatReportJson(const Report& report) {
                  {"dimension", report.dimension}}},
                {"plan", MakePlan(report)},
                {"settings", MakeSettings(report)}};
-  if (!report.run_sha256.empty()) json["run"] = {{"sha256", report.run_sha256}};
+  if (report.run) json["run"] = RunJson(*report.run);
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
   const int weakest = report.weakest_step();
@@ -174,8 +184,7 @@ std::string FormatReportJson(const Report& report) {
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();
   for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
-  // File names may be any bytes; JSON must be UTF-8.
-  return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+  return SealReport(std::move(json));
 }
 
 }  // namespace regrasp

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/descriptor.h"
 #include "planner/base/error.h"
 
 namespace regrasp {
@@ -36,24 +37,6 @@ constexpr std::chrono::milliseconds kMostCounted = 2 * kLongestWait;
 [[noreturn]] void FailWith(const std::string& what) {
   throw EnvironmentError(what + ": " + std::strerror(errno));
 }
-
-/// A file descriptor that is closed when it goes.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  [[nodiscard]] int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// Signals become readable events while this lives: children that ended, and wishes to stop that
 /// nobody has set to be ignored.

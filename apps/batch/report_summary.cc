@@ -21,6 +21,14 @@ ReportSummary::Entry ReadEntry(const JsonReader& step) {
           TextOrNothing(step, "detail"), TextOrNothing(step, "frame")};
 }
 
+void ReadRun(const JsonReader& run, ReportSummary& summary) {
+  summary.run = run.Member("sha256").String();
+  if (!run.Has("files")) return;
+  for (const JsonReader& file : run.Member("files").Elements()) {
+    summary.files.push_back({file.Member("file").String(), file.Member("sha256").String()});
+  }
+}
+
 }  // namespace
 
 std::optional<int> ReportSummary::failed_step() const {
@@ -34,7 +42,7 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   root.ExpectFormat("regrasp-report");
   ReportSummary summary;
   summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
-  if (root.Has("run")) summary.run = root.Member("run").Member("sha256").String();
+  if (root.Has("run")) ReadRun(root.Member("run"), summary);
   const JsonReader list = root.Member("steps");
   const std::vector<JsonReader> steps = list.Elements();
   if (steps.empty()) list.Fail("is empty");

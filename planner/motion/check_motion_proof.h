@@ -13,11 +13,11 @@ namespace regrasp {
 /// a motion: contacts move straight from `from` to `to`, and normals turn evenly on great circles.
 ///
 /// The pieces must follow each other from 0 to 1. On a piece forces go linearly, f₀ to f₁, and may
-/// leave a force r(t) and a torque τ(t) unbalanced by rounding, with Bernstein coefficients that are
-/// known exactly. Three contacts that keep off one line (two in the plane that keep apart) can take
-/// those up at every instant, with forces of bounded length: their forces must have more than that
-/// to spare inside the cones. So the equations for the coefficients of balanced forces, which are
-/// dependent where all contacts are in one plane, need not be solved.
+/// leave a force r(t) and a torque τ(t) unbalanced by rounding, with Bernstein coefficients that
+/// are known exactly. Three contacts that keep off one line (two in the plane that keep apart) can
+/// take those up at every instant, with forces of bounded length: their forces must have more than
+/// that to spare inside the cones. So the equations for the coefficients of balanced forces, which
+/// are dependent where all contacts are in one plane, need not be solved.
 ///
 /// Where a normal turns, f₀ and f₁ must both lie inside the cones of the normals at both ends of
 /// the piece. The directions within θ of a force are a convex part of the sphere for θ < π/2, so

@@ -1,6 +1,7 @@
 """The program validate on a library of plans: results, isolation, resuming, bad input."""
 
 import errno
+import fcntl
 import json
 import os
 import shutil
@@ -338,11 +339,15 @@ class Batch(ProgramCase):
         batch.communicate()
         wait_until(lambda: not is_alive(child))
         self.use(names)
-        self.assertEqual(sorted(os.listdir(self.path("result"))), [n[:-5] for n in done_before])
-        # As one is left that is killed while it writes.
+        self.assertEqual(sorted(os.listdir(self.path("result"))),
+                         [".regrasp-run", *[name[:-5] for name in done_before]])
+        # As one is left that is killed while it writes, and one that was cut since.
         os.rename(self.path("result/polygon15_01/report.json"),
                   self.path("result/polygon15_01/report.json.tmp0123456789abcdef"))
-        self.write("result/polygon15_02/report.json", "{ half")
+        self.write("result/polygon15_01/.regrasp-run", "regrasp: process 7 on elsewhere\n"
+                   "regrasp: writes report.json\nregrasp: writes report.html\n")
+        self.write("result/polygon15_02/report.json",
+                   self.read("result/polygon15_02/report.json")[:-1000])
         done = self.run_batch(0, "--jobs", "2")
         self.assertIn("8 plans: 8 pass, 0 fail, 0 bad-input, 0 error; 2 kept from an earlier run",
                       done.stdout)
@@ -371,9 +376,49 @@ class Batch(ProgramCase):
         # A file that is missing, a report that is broken.
         os.remove(self.path("result/weak/report.html"))
         self.assertEqual(count(1), 3)
-        self.write("result/weak/report.json", "[]")
-        self.assertEqual(count(1), 3)
         self.assertEqual(count(1), 4)
+
+    def test_no_result_that_was_edited_is_kept(self):
+        self.use(["square_01.json"])
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+                     "--size", "64x48"]
+        self.assert_done(*arguments)
+        results = tree(self.path("result/square_01"))
+        self.assertGreater(len(results), 3)
+        report = results["report.json"]
+        edits = [("report.json", report.replace(b'"verdict": "pass"', b'"verdict": "fail"', 1)),
+                 ("report.json", report.replace(b"\n}", b"\n }")),
+                 ("report.json", report[:-300]),
+                 ("report.json", report.replace(b'"sha256": "', b'"sha256": "0', 1)),
+                 ("report.html", results["report.html"][:-300])]
+        for name, text in results.items():
+            middle = len(text) // 2
+            edits.append((name, text[:middle] + bytes([text[middle] ^ 1]) + text[middle + 1:]))
+        for name, text in edits:
+            self.assertNotEqual(text, results[name])
+            self.write("result/square_01/" + name, text)
+            self.assertNotIn("kept", self.assert_done(*arguments).stdout, name)
+            self.assertEqual(tree(self.path("result/square_01")), results)
+        self.assertIn("1 kept", self.assert_done(*arguments).stdout)
+
+    def test_another_build_of_the_program_keeps_nothing(self):
+        self.use(["square_01.json"])
+        self.run_batch(0)
+        before = json.loads(self.read("result/square_01/report.json"))
+        with open(os.path.join(program_case.ARGUMENTS.programs, "validate"), "rb") as file:
+            program = bytearray(file.read())
+        # The first byte of the build id, behind its note's header: sizes, type and owner.
+        note = program.index(b"\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0") + 16
+        program[note] ^= 1
+        os.chmod(self.write("validate", bytes(program)), 0o755)
+        other = [self.path("validate"), *self.arguments()]
+        for kept in (False, True):
+            done = subprocess.run(other, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                  cwd=self.folder, timeout=HANG_SECONDS, check=True)
+            self.assertEqual("kept" in done.stdout, kept)
+        after = json.loads(self.read("result/square_01/report.json"))
+        self.assertNotEqual(before.pop("run"), after.pop("run"))
+        self.assertEqual(before, after)
 
     def test_pictures_are_part_of_what_is_kept(self):
         self.use(["square_01.json"])
@@ -435,6 +480,122 @@ class Batch(ProgramCase):
         self.assertEqual(output + errors, "")
         self.assertFalse(os.path.exists(self.path("result/summary.json")))
         self.assertFalse(os.path.exists(self.path("junit.xml")))
+
+    # What lies around the results.
+
+    def test_a_second_run_into_the_folder_is_told_of_the_first(self):
+        self.use_few()
+        batch, child = self.start_hanging()
+        before = tree(self.path("result"))
+        for arguments in (self.arguments(), self.arguments("--fresh")):
+            done = self.run_program(*arguments)
+            self.assertEqual(done.returncode, 3)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn(f"result: process {batch.pid} on ", done.stderr)
+            self.assertEqual(done.stdout, "")
+        self.assertEqual(tree(self.path("result")), before)
+        os.kill(child, signal.SIGKILL)
+        _, errors = batch.communicate(timeout=HANG_SECONDS)
+        self.assertEqual(errors, "validate: square: crashed: Killed\n")
+        self.run_batch(1)
+
+    def test_a_plan_whose_folder_another_run_holds_is_an_error(self):
+        self.use_few()
+        os.makedirs(self.path("result/square_01"))
+        path = self.write("result/square_01/.regrasp-run", "regrasp: process 7 on elsewhere\n")
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            done = self.run_batch(3)
+        self.assertIn("validate: square_01: result/square_01: process 7 on elsewhere", done.stderr)
+        self.assertEqual(self.verdicts()["square_01"], "error")
+        self.assertEqual(self.verdicts()["triangle_00"], "pass")
+        self.run_batch(1)
+        self.assertEqual(self.verdicts()["square_01"], "pass")
+
+    def test_a_plan_that_has_the_name_of_the_summary_stays(self):
+        self.write("summary.json", Batch.plans["square_01.json"])
+        self.use_few()
+        for words, plans in [("summary.json: is the file of --plan", "."),
+                             ("summary.json: is in the way", "plans")]:
+            self.assert_refused(2, words, "--object", self.model("square.wkt"), "--plan", plans,
+                                "--out", ".", "--no-frames")
+            self.assertEqual(self.read("summary.json"), Batch.plans["square_01.json"])
+        # An own summary is replaced.
+        self.run_batch(1)
+        self.write("result/summary.json", self.read("result/summary.json").replace(b"fail", b"pass"))
+        self.run_batch(1)
+        self.assertEqual(self.verdicts()["weak"], "fail")
+
+    def test_files_of_others_stay_and_are_named_where_they_are_in_the_way(self):
+        self.use(["square_01.json", "square_02.json"])
+        arguments = ["--object", self.model("square.wkt"), "--plan", "plans", "--out", "result",
+                     "--size", "64x48"]
+        os.makedirs(self.path("result/square_01/123_align.png"))
+        others = {"notes.txt": b"mine", "017_align.png": b"my picture", "replay.webp": b"film"}
+        for name, text in others.items():
+            self.write("result/square_01/" + name, text)
+        self.assert_done(*arguments)
+        refused = 0
+        for name in ("report.json", "report.html", "overview.png", "000_hold.png"):
+            self.write("result/square_02/" + name, b"mine, too")
+            for own in tree(self.path("result/square_02")):
+                if own != name:
+                    os.remove(self.path("result/square_02/" + own))
+            done = self.run_program(*arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"result/square_02/{name}: is in the way", done.stderr)
+            self.assertEqual(tree(self.path("result/square_02")), {name: b"mine, too"})
+            self.assertEqual(self.verdicts(), {"square_01": "pass", "square_02": "bad-input"})
+            refused += 1
+            os.remove(self.path("result/square_02/" + name))
+            self.assert_done(*arguments)
+        self.assertEqual(refused, 4)
+        # A folder is no result, even where a report names one like it.
+        os.remove(self.path("result/square_02/overview.png"))
+        os.mkdir(self.path("result/square_02/overview.png"))
+        self.assertEqual(self.run_program(*arguments).returncode, 2)
+        self.assertTrue(os.path.isdir(self.path("result/square_02/overview.png")))
+        self.assertTrue(os.path.isdir(self.path("result/square_01/123_align.png")))
+        for name, text in others.items():
+            self.assertEqual(self.read("result/square_01/" + name), text)
+
+    def test_no_output_is_an_input(self):
+        self.use_few()
+        shutil.copytree(program_case.ARGUMENTS.source + "/models", self.path("models"))
+        os.makedirs(self.path("result/triangle_00"))
+        self.write("result/triangle_00/report.json", Batch.plans["triangle_00.json"])
+        before = tree(self.folder)
+        refused = 0
+        for words, *arguments in [
+                ["weak.json: is the file of --plan, and --junit", "--junit", "plans/weak.json"],
+                ["square.wkt: is the file of --object, and --junit", "--junit",
+                 "models/square.wkt"],
+                ["report.json: is the file of --plan, and --out", "--plan",
+                 "result/triangle_00/report.json"],
+        ]:
+            self.assert_refused(2, words, "--object", "models", "--plan", "plans", "--out",
+                                "result", "--no-frames", *arguments)
+            refused += 1
+        self.assertEqual(refused, 3)
+        self.assertEqual(tree(self.folder), before)
+
+    def test_an_unwritable_junit_is_found_before_the_plans(self):
+        self.use_few()
+        self.assert_refused(3, "missing/junit.xml", *self.arguments("--junit", "missing/junit.xml"))
+
+    def test_results_that_vanished_meanwhile_are_errors(self):
+        self.use_few()
+        batch, child = self.start_hanging()
+        shutil.rmtree(self.path("result/square_01"))
+        os.remove(self.path("result/weak/report.html"))
+        os.kill(child, signal.SIGKILL)
+        _, errors = batch.communicate(timeout=HANG_SECONDS)
+        self.assertEqual(batch.returncode, 3, errors)
+        self.assertEqual(self.verdicts(), {"polygon15_03": "pass", "square": "error",
+                                           "square_01": "error", "triangle_00": "pass",
+                                           "weak": "error"})
+        self.assertIn("validate: square_01: its report.json was removed", errors)
+        self.assertIn("validate: weak: its report.html was removed", errors)
 
     # Bad usage.
 

@@ -2,6 +2,7 @@
 
 import copy
 import csv
+import fcntl
 import hashlib
 import json
 import math
@@ -209,12 +210,38 @@ class Validate(ProgramCase):
 
     def test_frames_of_an_earlier_run_do_not_stay(self):
         self.assert_passes(size="64x48")
-        self.write("result/017_align.png", b"old")
+        self.write("result/017_align.png", b"of another")
         self.write("result/mine.png", b"kept")
         self.assertIn("000_hold.png", self.frames())
         _, report = self.assert_passes("--no-frames")
-        self.assertEqual(self.frames(), ["mine.png"])
+        self.assertEqual(self.frames(), ["017_align.png", "mine.png"])
         self.assertTrue(all(step["frame"] is None for step in report["steps"]))
+
+    def test_the_report_tells_what_stands_beside_it(self):
+        _, report = self.assert_passes(size="64x48")
+        files = {file["file"]: file["sha256"] for file in report["run"]["files"]}
+        self.assertEqual(sorted([*files, "report.json"]), sorted(os.listdir(self.path("result"))))
+        for name, digest in files.items():
+            self.assertEqual(hashlib.sha256(self.read("result/" + name)).hexdigest(), digest)
+
+    def test_files_of_others_are_not_replaced(self):
+        os.mkdir(self.path("result"))
+        for name in ("report.json", "overview.png", "report.html"):
+            self.write("result/" + name, b"mine")
+            self.refuse(f"result/{name}: is in the way")
+            self.assertEqual(os.listdir(self.path("result")), [name])
+            self.assertEqual(self.read("result/" + name), b"mine")
+            os.remove(self.path("result/" + name))
+
+    def test_a_folder_that_another_run_holds_is_refused(self):
+        os.mkdir(self.path("result"))
+        path = self.write("result/.regrasp-run", "regrasp: process 7 on elsewhere\n")
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            self.assert_refused(3, "result: process 7 on elsewhere is writing",
+                                *self.arguments("--no-frames"))
+        self.assert_passes("--no-frames")
+        self.assertFalse(os.path.exists(path))
 
     def test_start_and_goal_files_are_those_of_the_plan(self):
         self.assert_passes("--no-frames", start=self.model("cube.start.json"),

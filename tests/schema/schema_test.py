@@ -50,7 +50,8 @@ REPORT = {
     "object": {"file": "cube.obj"},
     "plan": {"file": "plan.json"},
     "settings": {"mu": 0.5},
-    "run": {"sha256": "0" * 64},
+    "run": {"sha256": "0" * 64, "files": [{"file": "report.html", "sha256": "1" * 64}],
+            "report_sha256": "2" * 64},
     "steps": [
         {
             "index": 0, "kind": "hold", "verdict": "pass", "reason": None,
@@ -297,6 +298,11 @@ class SchemaTest(unittest.TestCase):
             *[([key], REMOVED) for key in REPORT if key != "run"],
             (["run"], "0" * 64),
             (["run", "sha256"], "abc"),
+            (["run", "files"], REMOVED),
+            (["run", "files", 0, "file"], REMOVED),
+            (["run", "files", 0, "sha256"], "1"),
+            (["run", "report_sha256"], REMOVED),
+            (["run", "report_sha256"], 2),
             *[(["steps", 0, key], REMOVED) for key in REPORT["steps"][0]],
             (["verdict"], "maybe"),
             (["verdict"], "pass"),

@@ -110,7 +110,7 @@ TEST_F(PlanLibraryTest, TwoPlansOfOneNameAreRefused) {
 TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
   Write("x/grasp.json", R"({"format": "regrasp-grasp"})");
   EXPECT_THAT(Refusal({(folder_ / "x").string()}), HasSubstr("holds no plan"));
-  for (const char* name : {"..json", "...json", "summary.json.json"}) {
+  for (const char* name : {"..json", "...json", "summary.json.json", ".regrasp-run.json"}) {
     EXPECT_THAT(Refusal({Write(name, kPlan), "other.json"}), HasSubstr("names the folder")) << name;
   }
 }

@@ -1,0 +1,67 @@
+#include "apps/build_id.h"
+
+#include <elf.h>
+#include <link.h>
+
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace regrasp {
+
+namespace {
+
+constexpr std::string_view kOwner{ELF_NOTE_GNU, sizeof ELF_NOTE_GNU};
+
+std::string Hexadecimal(std::string_view bytes) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+/// @param notes  one behind the other: a header, the owner's name, the content, each padded.
+std::string FindBuildId(std::string_view notes, std::size_t alignment) {
+  const auto padded = [alignment](std::size_t size) {
+    return (size + alignment - 1) / alignment * alignment;
+  };
+  ElfW(Nhdr) header;
+  while (notes.size() >= sizeof header) {
+    std::memcpy(&header, notes.data(), sizeof header);
+    const std::size_t content = sizeof header + padded(header.n_namesz);
+    const std::size_t end = content + padded(header.n_descsz);
+    if (end > notes.size()) break;
+    const bool is_id =
+        header.n_type == NT_GNU_BUILD_ID && notes.substr(sizeof header, header.n_namesz) == kOwner;
+    if (is_id) return Hexadecimal(notes.substr(content, header.n_descsz));
+    notes.remove_prefix(end);
+  }
+  return "";
+}
+
+/// Called for the program first, and stops there.
+int TakeProgram(dl_phdr_info* object, std::size_t /*size*/, void* id) {
+  for (int i = 0; i < object->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& part = object->dlpi_phdr[i];
+    if (part.p_type != PT_NOTE) continue;
+    const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
+    // Notes are padded to 4 bytes, or to 8 where their segment says so.
+    const std::string found = FindBuildId({notes, part.p_memsz}, part.p_align == 8 ? 8 : 4);
+    if (!found.empty()) *static_cast<std::string*>(id) = found;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string BuildId() {
+  std::string id;
+  dl_iterate_phdr(TakeProgram, &id);
+  return id;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace regrasp {
+
+/// The linker's digest of the running program (the ELF note NT_GNU_BUILD_ID), hexadecimal: builds
+/// of other sources, by another compiler or with other options have another one. Empty where the
+/// linker wrote none.
+[[nodiscard]] std::string BuildId();
+
+}  // namespace regrasp

@@ -1,0 +1,162 @@
+#include "apps/held_folder.h"
+
+#include <fcntl.h>
+#include <limits.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every line of the file begins so; nobody else's file does.
+constexpr std::string_view kOurs = "regrasp: ";
+constexpr std::string_view kHolder = "regrasp: process ";
+constexpr std::string_view kWrites = "regrasp: writes ";
+
+/// Between two looks at a folder that is held.
+constexpr std::chrono::milliseconds kPause{10};
+
+/// Files of ours are far smaller.
+constexpr off_t kMostBytes = off_t{1} << 24;
+
+std::string HostName() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string ReadAll(const Descriptor& file) {
+  std::string text;
+  std::array<char, 1 << 12> piece;
+  ssize_t count = 0;
+  while (static_cast<off_t>(text.size()) < kMostBytes &&
+         (count = pread(file.get(), piece.data(), piece.size(), static_cast<off_t>(text.size()))) >
+             0) {
+    text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  return text;
+}
+
+/// What follows `mark` in the lines that begin with it.
+std::vector<std::string> LinesWith(std::string_view mark, const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(mark)) found.push_back(line.substr(mark.size()));
+  }
+  return found;
+}
+
+[[noreturn]] void FailWith(const fs::path& path, int error) {
+  throw EnvironmentError(path.string() + ": " + std::strerror(error));
+}
+
+/// Makes what is missing. The folder may go at any time: another process removes one that is empty.
+Descriptor OpenRunFile(const fs::path& folder, const fs::path& file) {
+  constexpr mode_t kMode = 0666;
+  constexpr int kTries = 1000;
+  for (int tries = 0; tries < kTries; ++tries) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) FailWith(folder, error.value());
+    Descriptor opened(open(
+        file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, kMode));
+    if (opened.get() >= 0) return opened;
+    if (errno != ENOENT) FailWith(file, errno);
+  }
+  FailWith(file, ENOENT);
+}
+
+/// Whether the path still leads to the open file: it is removed with its lock held, so that one who
+/// waited for that lock holds nothing.
+bool IsAt(const fs::path& path, const Descriptor& file) {
+  struct stat open, there;
+  return fstat(file.get(), &open) == 0 && lstat(path.c_str(), &there) == 0 &&
+         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+
+/// The folder's run file, locked.
+Descriptor Lock(const fs::path& folder, const fs::path& file, std::chrono::milliseconds patience) {
+  for (auto waited = std::chrono::milliseconds(0);; waited += kPause) {
+    Descriptor opened = OpenRunFile(folder, file);
+    // A file system without locks goes without.
+    const bool held = flock(opened.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!held && IsAt(file, opened)) return opened;
+    if (waited >= patience) {
+      const std::vector<std::string> holders = LinesWith(kHolder, ReadAll(opened));
+      throw EnvironmentError(folder.string() + ": " +
+                             (holders.empty() ? "another process" : "process " + holders.back()) +
+                             " is writing into this folder; wait for it, or give another --out");
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace
+
+HeldFolder::MadeFolders::MadeFolders(const fs::path& folder) {
+  std::error_code error;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) {
+    folders_.push_back(at);
+  }
+  std::ranges::reverse(folders_);
+}
+
+HeldFolder::MadeFolders::~MadeFolders() {
+  // One that holds something stays.
+  for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
+    if (rmdir(folder->c_str()) != 0 && errno != ENOENT) return;
+  }
+}
+
+HeldFolder::HeldFolder(fs::path path, std::chrono::milliseconds patience)
+    : path_(std::move(path)),
+      made_(path_),
+      file_(path_ / kRunFileName),
+      descriptor_(Lock(path_, file_, patience)) {
+  struct stat status = {};
+  fstat(descriptor_.get(), &status);
+  const std::string text = ReadAll(descriptor_);
+  if (!S_ISREG(status.st_mode) || (!text.empty() && !text.starts_with(kOurs))) {
+    throw InputError(file_.string() + ": is in the way of a file of this program: move it away");
+  }
+  for (const std::string& name : LinesWith(kWrites, text)) left_behind_.insert(name);
+  Append(std::string(kHolder) + std::to_string(getpid()) + " on " + HostName() + "\n");
+}
+
+HeldFolder::~HeldFolder() {
+  if (IsAt(file_, descriptor_)) unlink(file_.c_str());
+}
+
+void HeldFolder::Announce(const std::vector<std::string>& names) {
+  std::string lines;
+  for (const std::string& name : names) lines += std::string(kWrites) + name + "\n";
+  Append(lines);
+}
+
+void HeldFolder::Append(const std::string& lines) {
+  std::string_view rest = lines;
+  while (!rest.empty()) {
+    const ssize_t count = write(descriptor_.get(), rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) FailWith(file_, count < 0 ? errno : ENOSPC);
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace regrasp

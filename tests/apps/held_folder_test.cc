@@ -1,0 +1,194 @@
+#include "apps/held_folder.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+
+namespace regrasp {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr milliseconds kAtOnce{0};
+/// Far above what anyone here holds a folder.
+constexpr milliseconds kHang{120'000};
+
+/// What a forked child returns, which it cannot leave by an exception or a test's failure.
+int InChild(const std::function<int()>& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    int code = 99;
+    try {
+      code = work();
+    } catch (const std::exception&) {
+    }
+    _exit(code);
+  }
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+class HeldFolderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "regrasp_out_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  template <class Error>
+  std::string Refusal() const {
+    try {
+      HeldFolder(folder_, kAtOnce);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(HeldFolderTest, OneWhoComesLaterIsToldWhoHoldsIt) {
+  const std::string process = std::to_string(getpid());
+  {
+    const HeldFolder held(folder_);
+    const std::string said = Refusal<EnvironmentError>();
+    EXPECT_THAT(said, HasSubstr(folder_.string() + ": process " + process + " on "));
+    EXPECT_THAT(said, HasSubstr("is writing into this folder"));
+    EXPECT_EQ(InChild([&] { return HeldFolder(folder_, kAtOnce).left_behind().empty(); }), 99);
+  }
+  EXPECT_EQ(Refusal<EnvironmentError>(), "nothing was refused");
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(HeldFolderTest, AFolderIsMadeAndGoesWhereNothingWasPutIntoIt) {
+  const fs::path outer = folder_ / "a";
+  const fs::path inner = outer / "b" / "c";
+  { const HeldFolder folder(inner); }
+  EXPECT_FALSE(fs::exists(outer));
+  {
+    const HeldFolder folder(inner);
+    WriteFile(outer / "mine", "");
+  }
+  EXPECT_FALSE(fs::exists(outer / "b"));
+  EXPECT_TRUE(fs::exists(outer / "mine"));
+  { const HeldFolder folder(outer); }
+  EXPECT_TRUE(fs::exists(outer / "mine"));
+  fs::create_directory(folder_ / "empty");
+  { const HeldFolder folder(folder_ / "empty"); }
+  EXPECT_TRUE(fs::exists(folder_ / "empty"));
+}
+
+TEST_F(HeldFolderTest, AKilledProcessLeavesNoLockButWhatItAnnounced) {
+  const auto announce = [&](const std::vector<std::string>& names) {
+    return InChild([&] {
+      HeldFolder folder(folder_, kAtOnce);
+      folder.Announce(names);
+      return raise(SIGKILL);
+    });
+  };
+  EXPECT_EQ(announce({"a.png", "b.png"}), -SIGKILL);
+  // One that is killed too adds to it.
+  EXPECT_EQ(announce({"c d.png"}), -SIGKILL);
+  {
+    const HeldFolder folder(folder_, kAtOnce);
+    EXPECT_THAT(folder.left_behind(), ElementsAre("a.png", "b.png", "c d.png"));
+  }
+  EXPECT_THAT(HeldFolder(folder_, kAtOnce).left_behind(), IsEmpty());
+}
+
+TEST_F(HeldFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  pid_t child = -1;
+  {
+    const HeldFolder folder(folder_, kAtOnce);
+    child = fork();
+    if (child == 0) {
+      char byte = 0;
+      close(ends[1]);
+      _exit(static_cast<int>(read(ends[0], &byte, 1)));
+    }
+    WriteFile(folder_ / "copy", ReadFile(folder_ / kRunFileName));
+    // As it is after a kill: the file stays.
+    fs::create_hard_link(folder_ / kRunFileName, folder_ / "kept");
+  }
+  fs::rename(folder_ / "kept", folder_ / kRunFileName);
+  EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr("is writing into this folder"));
+  close(ends[1]);
+  waitpid(child, nullptr, 0);
+  close(ends[0]);
+  EXPECT_EQ(Refusal<EnvironmentError>(), "nothing was refused");
+}
+
+TEST_F(HeldFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
+  constexpr int kProcesses = 4;
+  constexpr int kTurns = 50;
+  const auto take_turns = [&] {
+    int turns = 0;
+    for (int i = 0; i < kTurns; ++i) {
+      const HeldFolder folder(folder_ / "out", kHang);
+      const std::string mark = folder_ / "mark";
+      const int alone = open(mark.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+      turns += alone >= 0;
+      sched_yield();
+      close(alone);
+      unlink(mark.c_str());
+    }
+    return turns;
+  };
+  std::vector<pid_t> children;
+  for (int i = 0; i < kProcesses; ++i) {
+    children.push_back(fork());
+    if (children.back() == 0) _exit(InChild(take_turns));
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), kTurns);
+  }
+}
+
+TEST_F(HeldFolderTest, WhatIsNotOursIsRefusedAndStays) {
+  const fs::path file = folder_ / kRunFileName;
+  WriteFile(file, "shopping list\n");
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("is in the way"));
+  EXPECT_EQ(ReadFile(file), "shopping list\n");
+  fs::remove(file);
+  WriteFile(folder_ / "other", "");
+  fs::create_symlink("other", file);
+  EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr(file.string()));
+  EXPECT_EQ(ReadFile(folder_ / "other"), "");
+  fs::remove(file);
+  fs::create_directory(file);
+  EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr(file.string()));
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("is in the way"));
+  EXPECT_TRUE(fs::is_fifo(file));
+}
+
+TEST_F(HeldFolderTest, AFolderThatCannotBeMadeIsNamed) {
+  WriteFile(folder_ / "file", "");
+  EXPECT_THROW(HeldFolder(folder_ / "file" / "out", kAtOnce), EnvironmentError);
+  EXPECT_THROW(HeldFolder(folder_ / "file", kAtOnce), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace regrasp
