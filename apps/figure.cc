@@ -121,7 +121,10 @@ void RemoveOthers(const std::filesystem::path& folder, const std::string& format
   std::vector<std::filesystem::path> others;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (IsFigureName(name, format) && !written.contains(name)) others.push_back(entry.path());
+    const bool file = entry.symlink_status(error).type() == std::filesystem::file_type::regular;
+    if (file && IsFigureName(name, format) && !written.contains(name)) {
+      others.push_back(entry.path());
+    }
   }
   for (const std::filesystem::path& other : others) {
     if (!error) std::filesystem::remove(other, error);
