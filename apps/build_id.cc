@@ -7,22 +7,13 @@
 #include <cstring>
 #include <string_view>
 
+#include "planner/base/hexadecimal.h"
+
 namespace regrasp {
 
 namespace {
 
 constexpr std::string_view kOwner{ELF_NOTE_GNU, sizeof ELF_NOTE_GNU};
-
-std::string Hexadecimal(std::string_view bytes) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
-}
 
 /// @param notes  one behind the other: a header, the owner's name, the content, each padded.
 std::string FindBuildId(std::string_view notes, std::size_t alignment) {

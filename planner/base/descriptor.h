@@ -20,6 +20,8 @@ class Descriptor {
     if (number_ >= 0) close(number_);
   }
   [[nodiscard]] int get() const { return number_; }
+  /// Gives it away, open.
+  [[nodiscard]] int Release() { return std::exchange(number_, -1); }
 
  private:
   int number_;

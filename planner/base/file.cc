@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "planner/base/error.h"
+#include "planner/base/hexadecimal.h"
 
 namespace regrasp {
 
@@ -44,13 +45,7 @@ std::string Sha256(std::string_view bytes) {
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
     throw EnvironmentError("SHA-256 is not available from OpenSSL");
   }
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < size; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15];
-  }
-  return text;
+  return Hexadecimal({reinterpret_cast<const char*>(digest.data()), size});
 }
 
 }  // namespace regrasp

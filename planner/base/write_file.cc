@@ -8,15 +8,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdint>
 #include <system_error>
-#include <utility>
 
+#include "planner/base/descriptor.h"
 #include "planner/base/error.h"
+#include "planner/base/hexadecimal.h"
 
 namespace regrasp {
 
@@ -103,27 +103,16 @@ Target Resolve(fs::path at) {
   FailWith(ELOOP);
 }
 
-/// A file descriptor that is closed when it goes.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {
-    if (number < 0) FailWith(errno);
-  }
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+/// @param number  what open() returned.
+Descriptor Opened(int number) {
+  if (number < 0) FailWith(errno);
+  return Descriptor(number);
+}
 
-  [[nodiscard]] int get() const { return number_; }
-  /// Some file systems say only now that bytes were lost.
-  void Close() {
-    if (close(std::exchange(number_, -1)) != 0) FailWith(errno);
-  }
-
- private:
-  int number_;
-};
+/// Some file systems say only now that bytes were lost.
+void Close(Descriptor& file) {
+  if (close(file.Release()) != 0) FailWith(errno);
+}
 
 void WriteAll(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -157,16 +146,11 @@ class StopsHeld {
 };
 
 std::string RandomDigits() {
-  std::array<unsigned char, kAsideDigits / 2> random;
+  std::string random(kAsideDigits / 2, '\0');
   if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
     FailWith(errno);
   }
-  std::string digits;
-  for (const unsigned char byte : random) {
-    digits += kDigits[byte >> 4];
-    digits += kDigits[byte & 15];
-  }
-  return digits;
+  return Hexadecimal(random);
 }
 
 /// Beside the file, so that it can be renamed; nobody can guess the name and be there first.
@@ -183,8 +167,8 @@ class FileAside {
   explicit FileAside(Target target)
       : target_(std::move(target)),
         path_(AsideName(target_.path)),
-        file_(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                   replaces() ? kOwnMode : kNewMode)) {}
+        file_(Opened(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                          replaces() ? kOwnMode : kNewMode))) {}
   ~FileAside() {
     if (!renamed_) unlink(path_.c_str());
   }
@@ -197,7 +181,7 @@ class FileAside {
   }
   void TakePlace(Durability durability) {
     if (durability == Durability::kSynced && fsync(file_.get()) != 0) FailWith(errno);
-    file_.Close();
+    Close(file_);
     if (rename(path_.c_str(), target_.path.c_str()) != 0) FailWith(errno);
     renamed_ = true;
   }
@@ -249,9 +233,9 @@ void WriteTo(const Target& target, std::string_view bytes, Durability durability
     WriteAll(target.descriptor, bytes);
   } else if (target.kind == Target::Kind::kOther) {
     // Without O_CREAT: what is there is written to, or nothing.
-    Descriptor other(open(target.path.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC));
+    Descriptor other = Opened(open(target.path.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC));
     WriteAll(other.get(), bytes);
-    other.Close();
+    Close(other);
   } else {
     const StopsHeld held;
     FileAside aside(target);
