@@ -75,7 +75,7 @@ struct GraphProgram {
       CheckOutputsDiffer({{"--object", common.object}}, outputs);
       CheckOutputsWritable(outputs);
     }
-    const ObjectFile object = ReadObject(common.object);
+    const ObjectFile object = common.ReadObjectFile();
     const double half_angle = common.friction.required_half_angle();
     const GraphSummary summary = Summarize(object);
     const std::string text = FormatJson(GraphJson(summary, half_angle));

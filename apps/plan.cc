@@ -50,6 +50,7 @@ struct PlanProgram {
   bool no_lazy = false;
   std::int64_t effort = GeneralPlanOptions::kDefaultEffort;
   std::optional<double> time_limit_s;
+  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   bool explain = false;
 
   void AddTo(CLI::App& app) {
@@ -100,9 +101,10 @@ struct PlanProgram {
                        std::to_string(GeneralPlanOptions::kDefaultEffort) + ")")
         ->check(CLI::Range(std::int64_t{1}, kMostEffort))
         ->type_name("N");
-    AddNumber(app, "--time-limit", time_limit_s, NumberRange::Positive(),
-              "The planner general: seconds after which it gives up; the plan then depends on the "
-              "machine")
+    AddNumber(
+        app, "--time-limit", time_limit_s, NumberRange::Positive(),
+        "The planner general: seconds from the program's start after which it gives up; the plan "
+        "then depends on the machine")
         ->type_name("S");
     app.add_flag("--explain", explain,
                  "The planner general: where it finds no sequence, looks for the smallest friction "
@@ -180,7 +182,10 @@ PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport
   options.min_quality = min_quality;
   options.effort = effort;
   options.finger_radius = finger_radius;
-  options.time_limit_s = time_limit_s;
+  if (time_limit_s) {
+    options.deadline = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                   std::chrono::duration<double>(*time_limit_s));
+  }
   options.explain = explain;
   options.progress = report;
   if (optimize == "margin") options.aim = GeneralAim::kMargin;
@@ -243,10 +248,9 @@ void PlanProgram::CheckOutput() const {
 }
 
 int PlanProgram::Run() const {
-  const auto begin = std::chrono::steady_clock::now();
   CheckUsage();
   CheckOutput();
-  const ObjectFile object = ReadObject(common.object);
+  const ObjectFile object = common.ReadObjectFile();
   CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   PlanResult result = Find(object);
   if (!result.plan) {

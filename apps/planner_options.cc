@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "apps/progress.h"
 #include "planner/base/error.h"
 
 namespace regrasp {
@@ -69,6 +70,12 @@ RoadmapOptions PlannerOptions::roadmap(const Polyhedron& solid) const {
   options.clusters = size.clusters;
   options.seed = seed;
   return options;
+}
+
+ObjectFile PlannerOptions::ReadObjectFile() const {
+  ProgressLine progress(quiet);
+  progress.Report("reading " + object);
+  return ReadObject(object);
 }
 
 double PlannerOptions::memory() const {

@@ -34,6 +34,9 @@ struct PlannerOptions {
 
   void AddTo(CLI::App& app, const AutomaticPlanner& automatic);
 
+  /// Reads the object and says so while it does.
+  [[nodiscard]] ObjectFile ReadObjectFile() const;
+
   [[nodiscard]] Spanning spanning_value() const;
 
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a

@@ -3,13 +3,16 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <string>
+
+#include "planner/base/text_table.h"
 
 namespace regrasp {
 
 namespace {
 
 /// Back to the first column, and erase to the end of the line (ECMA-48 EL).
-constexpr std::string_view kEraseLine = "\r\x1b[K";
+const std::string kEraseLine = "\r\x1b[K";
 
 }  // namespace
 
@@ -17,7 +20,7 @@ ProgressLine::ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) 
 
 void ProgressLine::Report(std::string_view text) {
   if (!shown_) return;
-  std::cerr << kEraseLine << text << std::flush;
+  std::cerr << kEraseLine + OneLine(text) << std::flush;
   dirty_ = true;
 }
 

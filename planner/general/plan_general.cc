@@ -52,13 +52,7 @@ class Planner {
         options_(options),
         judge_(object, options.half_angle, options.min_quality, options.finger_radius),
         source_(object, options.finger_radius),
-        random_(options.seed, RandomUse::kCandidates) {
-    if (options.time_limit_s) {
-      deadline_ = std::chrono::steady_clock::now() +
-                  std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                      std::chrono::duration<double>(*options.time_limit_s));
-    }
-  }
+        random_(options.seed, RandomUse::kCandidates) {}
 
   PlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {
     const Grasp from = FixGrasp(object_, start, RandomUse::kStart, options_).grasp;
@@ -86,7 +80,7 @@ class Planner {
 
   SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
     SearchSpace space(object_, {half_angle, 0, min_quality, options_.finger_radius});
-    space.SetLimits({effort, deadline_});
+    space.SetLimits({effort, options_.deadline});
     return space;
   }
 
@@ -217,7 +211,6 @@ class Planner {
   SurfaceSource source_;
   RandomStream random_;
   int fingers_ = FingersOf(object_);
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   Reach reach_;
 };
 
@@ -235,12 +228,16 @@ GraspChoice FixGrasp(const Object& object, const GraspChoice& choice, RandomUse 
   }
   GraspChoice fixed{Kind::kGiven, {}, choice.name};
   RandomStream random(options.seed, use);
+  const auto check_time = [&] {
+    if (!options.deadline || std::chrono::steady_clock::now() < *options.deadline) return;
+    throw NoGrasp{choice.name + ": the time was up before a grasp was drawn"};
+  };
   if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
-    fixed.grasp = DrawOnSurface(*solid, kRandomContacts, judge, random, choice.name);
+    fixed.grasp = DrawOnSurface(*solid, kRandomContacts, judge, random, choice.name, check_time);
     return fixed;
   }
   const auto& polygon = dynamic_cast<const Polygon&>(object);
-  const auto grasp = DrawAnyGrasp(polygon, kFewestPlanar, kMostPlanar, judge, random);
+  const auto grasp = DrawAnyGrasp(polygon, kFewestPlanar, kMostPlanar, judge, random, check_time);
   if (!grasp) {
     throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                   " grasps drawn on the boundary is force closure with a quality of at least " +

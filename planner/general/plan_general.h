@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -28,8 +29,8 @@ struct GeneralPlanOptions {
   GeneralAim aim = GeneralAim::kSteps;
   /// Force-closure tests after which a search gives up; about two microseconds each.
   std::int64_t effort = kDefaultEffort;
-  std::optional<double>
-      time_limit_s;  ///< of the whole search; then the plan depends on the machine
+  /// When drawing and searching make an end; the plan then depends on the machine.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
   /// Where there is no sequence: looks for the smallest friction at which one is found.
   bool explain = false;
   /// Told what is being done.

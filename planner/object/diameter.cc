@@ -4,6 +4,7 @@
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -28,10 +29,42 @@ double LargestSquaredByPairs(std::span<const Eigen::Vector3d> points) {
   return largest;
 }
 
+/// Roundings of distances, relative to them.
+constexpr double kSlack = 1e-9;
+
+const Eigen::Vector3d& FarthestFrom(const Eigen::Vector3d& point,
+                                    std::span<const Eigen::Vector3d> points) {
+  return *std::ranges::max_element(
+      points, {}, [&](const Eigen::Vector3d& p) { return (p - point).squaredNorm(); });
+}
+
+/// A point at an end of the box of all, in the direction in which it is longest.
+const Eigen::Vector3d& EndOfBox(std::span<const Eigen::Vector3d> points) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(p);
+  Eigen::Index longest = 0;
+  box.sizes().maxCoeff(&longest);
+  return *std::ranges::min_element(points, {},
+                                   [&](const Eigen::Vector3d& p) { return p[longest]; });
+}
+
+/// The points that may be ends of the diameter. With all points within r of a centre and two of
+/// them L apart, an end is no nearer to the centre than L − r: on long bodies few are left.
+std::vector<Kernel::Point_3> FindOuter(std::span<const Eigen::Vector3d> points) {
+  const Eigen::Vector3d& one = FarthestFrom(EndOfBox(points), points);
+  const Eigen::Vector3d& other = FarthestFrom(one, points);
+  const Eigen::Vector3d centre = one / 2 + other / 2;
+  const double radius = (FarthestFrom(centre, points) - centre).norm();
+  const double least = (other - one).norm() - radius - kSlack * radius;
+  std::vector<Kernel::Point_3> outer;
+  for (const auto& p : points) {
+    if ((p - centre).norm() >= least) outer.emplace_back(p.x(), p.y(), p.z());
+  }
+  return outer;
+}
+
 double LargestSquaredByTree(std::span<const Eigen::Vector3d> points) {
-  std::vector<Kernel::Point_3> copies;
-  copies.reserve(points.size());
-  for (const auto& p : points) copies.emplace_back(p.x(), p.y(), p.z());
+  const std::vector<Kernel::Point_3> copies = FindOuter(points);
   Search::Tree tree(copies.begin(), copies.end());
   constexpr bool kNearest = false;  // farthest
   double largest = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "planner/plan/clearance.h"
 #include "planner/plan/reach.h"
@@ -14,16 +16,37 @@ namespace {
 /// Contacts drawn before room is no longer asked for: on nearly all of a boundary fingers have it.
 constexpr int kMostDraws = 1000;
 
+struct Direction {
+  double angle;  ///< in (-pi, pi]
+  Eigen::Vector3d normal;
+};
+
+std::vector<Direction> SortedNormals(const Polygon& polygon) {
+  std::vector<Direction> sorted;
+  for (int e = 0; e < polygon.face_count(); ++e) {
+    const Eigen::Vector3d normal = polygon.inward_normal(e);
+    sorted.push_back({std::atan2(normal.y(), normal.x()), normal});
+  }
+  std::ranges::sort(sorted, {}, &Direction::angle);
+  return sorted;
+}
+
 /// Of a force-closure grasp of two contacts each lies in the other's cone, and so the two normals
-/// are opposed but for less than both half-angles.
+/// are opposed but for less than both half-angles. Of each normal only those beside its opposite in
+/// the order of angles are looked at.
 bool HasOpposedEdges(const Polygon& polygon, double half_angle) {
   const double least = std::cos(2 * half_angle);
-  for (int a = 0; a < polygon.face_count(); ++a) {
-    for (int b = 0; b < a; ++b) {
-      if (-polygon.inward_normal(a).dot(polygon.inward_normal(b)) > least) return true;
-    }
-  }
-  return false;
+  const std::vector<Direction> sorted = SortedNormals(polygon);
+  const std::size_t n = sorted.size();
+  return std::ranges::any_of(sorted, [&](const Direction& one) {
+    const double opposite = one.angle + (one.angle > 0 ? -std::numbers::pi : std::numbers::pi);
+    const auto after = static_cast<std::size_t>(
+        std::ranges::lower_bound(sorted, opposite, {}, &Direction::angle) - sorted.begin());
+    const auto is_opposed = [&](std::size_t i) {
+      return -one.normal.dot(sorted[i % n].normal) > least;
+    };
+    return is_opposed(after) || is_opposed(after + n - 1);
+  });
 }
 
 }  // namespace
@@ -50,14 +73,18 @@ Grasp DrawOnBoundary(const Polygon& polygon, int contacts, RandomStream& random,
 }
 
 std::optional<Grasp> DrawAnyGrasp(const Polygon& polygon, int least, int most,
-                                  const GraspJudge& judge, RandomStream& random) {
+                                  const GraspJudge& judge, RandomStream& random,
+                                  const std::function<void()>& before_draw) {
   const int numbers = most - least + 1;
   const int first = static_cast<int>(random.Index(numbers));
   for (int i = 0; i < numbers; ++i) {
     const int contacts = least + (first + i) % numbers;
     if (contacts == 2 && !HasOpposedEdges(polygon, judge.half_angle())) continue;
     auto grasp = DrawGoodGrasp(
-        [&] { return DrawOnBoundary(polygon, contacts, random, judge.finger_radius()); },
+        [&] {
+          before_draw();
+          return DrawOnBoundary(polygon, contacts, random, judge.finger_radius());
+        },
         judge.frame(), judge.half_angle(), judge.min_quality(), kSamePoint * polygon.diameter(),
         judge.finger_radius());
     if (grasp) return grasp;

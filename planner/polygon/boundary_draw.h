@@ -16,9 +16,11 @@ namespace regrasp {
 /// A random grasp of the boundary that is as good as `judge` asks, of two contacts or of three by
 /// the seed; where the polygon has none of that number, of the other.
 /// @param least, most  2 and 3, or the same twice.
+/// @param before_draw  may throw to make an end.
 /// @returns nullopt where none of `kMaxSurfaceDraws` draws of each number serves. Two contacts are
 ///          not drawn where no two edges are opposed enough for any.
-[[nodiscard]] std::optional<Grasp> DrawAnyGrasp(const Polygon& polygon, int least, int most,
-                                                const GraspJudge& judge, RandomStream& random);
+[[nodiscard]] std::optional<Grasp> DrawAnyGrasp(
+    const Polygon& polygon, int least, int most, const GraspJudge& judge, RandomStream& random,
+    const std::function<void()>& before_draw = [] {});
 
 }  // namespace regrasp

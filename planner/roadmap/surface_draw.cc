@@ -17,10 +17,12 @@ constexpr int kMostDraws = 1000;
 }  // namespace
 
 Grasp DrawOnSurface(const Polyhedron& solid, int contacts, const GraspJudge& judge,
-                    RandomStream& random, const std::string& name) {
+                    RandomStream& random, const std::string& name,
+                    const std::function<void()>& before_draw) {
   const SurfaceSampler sampler(solid);
   const auto grasp = DrawGoodGrasp(
       [&] {
+        before_draw();
         Grasp drawn;
         for (int draw = 0; static_cast<int>(drawn.size()) < contacts; ++draw) {
           const Contact contact = sampler.Draw(random);

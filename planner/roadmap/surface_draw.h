@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "planner/base/random.h"
@@ -9,9 +10,11 @@
 namespace regrasp {
 
 /// A grasp of contacts spread evenly over the surface, as good as `judge` asks.
-/// @param name  how messages call it.
+/// @param name         how messages call it.
+/// @param before_draw  may throw to make an end.
 /// @throws NoGrasp  none of kMaxSurfaceDraws draws serves.
-[[nodiscard]] Grasp DrawOnSurface(const Polyhedron& solid, int contacts, const GraspJudge& judge,
-                                  RandomStream& random, const std::string& name);
+[[nodiscard]] Grasp DrawOnSurface(
+    const Polyhedron& solid, int contacts, const GraspJudge& judge, RandomStream& random,
+    const std::string& name, const std::function<void()>& before_draw = [] {});
 
 }  // namespace regrasp

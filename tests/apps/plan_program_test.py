@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 
 import jsonschema
 
@@ -235,6 +236,16 @@ class Plan(ProgramCase):
         self.assertEqual(done.stdout, "")
         quiet = self.assert_done(*self.arguments(), "--quiet")
         self.assertEqual(quiet.stderr + quiet.stdout, "")
+
+    def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
+        shutil.copy(self.model("cube.obj"), self.path("cu\u202ebe.obj"))
+        arguments = self.arguments(object=self.path("cu\u202ebe.obj"))
+        done, shown = self.run_on_terminal(*arguments)
+        self.assertEqual(done.returncode, 0, shown)
+        self.assertTrue(shown.startswith("\r\x1b[Kreading "), repr(shown))
+        self.assertIn("cu\\u202ebe.obj", shown)
+        self.assertNotIn("\u202e", shown)
+        self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
 
     def test_dash_writes_the_plan_to_standard_output(self):
         self.assert_done(*self.arguments())

@@ -56,6 +56,20 @@ class ProgramCase(unittest.TestCase):
             env={name: value for name, value in dict(os.environ, **(environment or {})).items()
                  if value is not None})
 
+    def run_on_terminal(self, *arguments):
+        """Standard error is a terminal; returns what ran and what was shown there."""
+        master, terminal = os.openpty()
+        self.addCleanup(os.close, master)
+        command = [os.path.join(ARGUMENTS.programs, self.program), *arguments]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS, check=False)
+        os.close(terminal)
+        os.set_blocking(master, False)
+        try:
+            return done, os.read(master, 1 << 16).decode()
+        except OSError:
+            return done, ""
+
     def assert_done(self, *arguments, **options):
         """Exit code 0; returns what ran."""
         done = self.run_program(*arguments, **options)

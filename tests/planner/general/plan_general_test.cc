@@ -140,9 +140,21 @@ TEST(PlanGeneralTest, ATimeLimitEndsTheSearchAndSaysSo) {
   const Grasp from = DrawGrasp(*file.object, 5, {Radians(4), 0, 0}, draws);
   const Grasp to = DrawGrasp(*file.object, 5, {Radians(4), 0, 0}, draws);
   GeneralPlanOptions options = Options(4);
-  options.time_limit_s = 1e-9;
+  options.deadline = std::chrono::steady_clock::now();
   const PlanResult result = PlanGeneral(*file.object, Given(from), Given(to), options);
   if (result.status == Status::kNoSequence) {
+    EXPECT_THAT(result.message, HasSubstr("the time was up"));
+  }
+}
+
+TEST(PlanGeneralTest, RandomGraspsAreNotDrawnWhenTheTimeIsUp) {
+  for (const char* model : {"cube.obj", "triangle.wkt"}) {
+    const ObjectFile file = ReadModel(model);
+    GeneralPlanOptions options = Options(20);
+    EXPECT_FALSE(FixGrasp(*file.object, Random(), RandomUse::kStart, options).grasp.empty());
+    options.deadline = std::chrono::steady_clock::now();
+    const PlanResult result = PlanGeneral(*file.object, Random(), Random(), options);
+    EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_THAT(result.message, HasSubstr("the time was up"));
   }
 }

@@ -97,6 +97,20 @@ TEST(Diameter, IsTheLargestDistanceOfAllPairs) {
     }
     EXPECT_DOUBLE_EQ(ComputeDiameter(points), largest) << count;
   }
+  // Round, long, and away from the origin: nearly all, and nearly none, may be ends.
+  for (const double stretch : {1.0, 1.01, 5.0}) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d direction(normal(random), normal(random), normal(random));
+      points.push_back(direction.normalized());
+      points.back().x() = 100 + stretch * points.back().x();
+    }
+    double largest = 0;
+    for (const auto& p : points) {
+      for (const auto& q : points) largest = std::max(largest, (p - q).norm());
+    }
+    EXPECT_DOUBLE_EQ(ComputeDiameter(points), largest) << stretch;
+  }
   EXPECT_EQ(ComputeDiameter(std::vector<Vector3d>{}), 0);
   EXPECT_EQ(ComputeDiameter(std::vector<Vector3d>{{1, 2, 3}}), 0);
   EXPECT_EQ(ComputeDiameter(std::vector<Vector3d>(1000, Vector3d(1, 2, 3))), 0);
