@@ -25,7 +25,7 @@ AlignMode PerformAlign(Stage& stage, const AlignScript& script_B);
 /// What the frame of an align shows: who moved, and which way.
 void TellMoved(Stage& stage, const std::vector<FingerGrasp>& waypoints_B);
 
-inline constexpr double kSlideForce = 0.01;  ///< least force of a sliding finger over the squeeze
-inline constexpr double kSlideStep = 3e-5;   ///< of D in a time step
+inline constexpr double kSlideForce = 0.01;    ///< least force of a sliding finger over the squeeze
+inline constexpr double kSlideSpeed = 1.5e-3;  ///< of D in a natural time
 
 }  // namespace regrasp

@@ -29,8 +29,16 @@ using Ring = std::vector<Point>;
 /// A notch that is missed is smaller than a ten-thousandth of the patch's side.
 constexpr double kAreaTolerance = 1e-9;
 
-/// Pieces smaller than this share of the square are slivers of rounding along its border.
+/// Pieces smaller than this share of the square are slivers of rounding along its border, unless
+/// the face itself is that small.
 constexpr double kLeastPiece = 1e-8;
+
+/// Pieces smaller than this share of the largest are slivers on a small face.
+constexpr double kLeastOfLargest = 1e-3;
+
+/// Half the side of the patch of a face that the square misses, over D: places nearer than this are
+/// one where files are read.
+constexpr double kPointPatch = kPointTolerance;
 
 /// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter:
 /// several times what fingers of good grasps slip.
@@ -77,6 +85,13 @@ double Area(const Ring& ring) {
   return std::abs(CGAL::polygon_area_2(ring.begin(), ring.end(), Kernel()));
 }
 
+void DropSlivers(std::vector<Ring>& pieces, double window_area) {
+  double largest = 0;
+  for (const Ring& piece : pieces) largest = std::max(largest, Area(piece));
+  const double least = std::min(kLeastPiece * window_area, kLeastOfLargest * largest);
+  std::erase_if(pieces, [&](const Ring& piece) { return Area(piece) <= least; });
+}
+
 std::vector<Ring> ClipTriangles(const Polyhedron& body, int face, const Chart& chart,
                                 const Rectangle& window) {
   std::vector<Ring> pieces;
@@ -96,8 +111,9 @@ std::vector<Ring> ClipTriangles(const Polyhedron& body, int face, const Chart& c
     } else {
       continue;
     }
-    if (Area(ring) > kLeastPiece * window.area()) pieces.push_back(std::move(ring));
+    pieces.push_back(std::move(ring));
   }
+  DropSlivers(pieces, window.area());
   return pieces;
 }
 
@@ -165,6 +181,11 @@ std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const Conta
     return {Lift(chart, hull, false)};
   }
   std::vector<ContactPatch> patches;
+  if (pieces.empty()) {
+    const double half = kPointPatch * body.diameter();
+    const Rectangle square(Point(-half, -half), Point(end + half, half));
+    return {Lift(chart, {square[0], square[1], square[2], square[3]}, true)};
+  }
   for (const Ring& piece : pieces) patches.push_back(Lift(chart, piece, false));
   return patches;
 }

@@ -27,7 +27,8 @@ struct ContactPatch {
 /// A rectangle where one fits between the borders, cut short towards them and as small as size / 64
 /// in sharp corners of the face, since the engine finds contacts with boxes exactly and misses some
 /// of those with other shapes; otherwise the part of the face inside the square of half-side `size`
-/// about the path, in one piece where that is convex, else one per triangle. A finger that leaves
+/// about the path, in one piece where that is convex, else one per triangle. Never none, however
+/// small the face is. A finger that leaves
 /// its patch has left the face or slipped that far. MuJoCo collides convex shapes only, so a body
 /// that is not convex is touched through these and never through its hull.
 [[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,

@@ -85,6 +85,7 @@ std::string EngineVersion() { return mj_versionString(); }
 
 struct Engine::Impl {
   EngineHooks hooks;
+  EngineUnits units;
   ModelPtr model;
   DataPtr data;
   int object = 0;
@@ -94,11 +95,12 @@ struct Engine::Impl {
   std::vector<int> finger_of_geom;  ///< −1 for the object's
   std::vector<std::vector<int>> geoms_of_site;
 
-  Impl(const std::string& mjcf, int fingers);
+  Impl(const std::string& mjcf, int fingers, const EngineUnits& given);
   [[nodiscard]] int First(int finger) const;  ///< index of a finger's first coordinate
 };
 
-Engine::Impl::Impl(const std::string& mjcf, int fingers) : model(LoadModel(mjcf)) {
+Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
+    : units(given), model(LoadModel(mjcf)) {
   data.reset(mj_makeData(model.get()));
   if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
   object = mj_name2id(model.get(), mjOBJ_BODY, "object");
@@ -126,21 +128,21 @@ Engine::Impl::Impl(const std::string& mjcf, int fingers) : model(LoadModel(mjcf)
 
 int Engine::Impl::First(int finger) const { return model->body_jntadr[body_of_finger[finger]]; }
 
-Engine::Engine(const std::string& mjcf, int fingers)
-    : impl_(std::make_unique<Impl>(mjcf, fingers)) {}
+Engine::Engine(const std::string& mjcf, int fingers, const EngineUnits& units)
+    : impl_(std::make_unique<Impl>(mjcf, fingers, units)) {}
 Engine::~Engine() = default;
 
-double Engine::time() const { return impl_->data->time; }
+double Engine::time() const { return impl_->data->time * impl_->units.time_s; }
 
 Eigen::Isometry3d Engine::object_pose() const {
   const mjtNum* q = impl_->data->qpos;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (impl_->model->jnt_type[0] != mjJNT_FREE) {
-    pose.translation() = Vector3d(q[0], q[1], 0);
+    pose.translation() = impl_->units.length_m * Vector3d(q[0], q[1], 0);
     pose.linear() = Eigen::AngleAxisd(q[2], Vector3d::UnitZ()).toRotationMatrix();
     return pose;
   }
-  pose.translation() = Vector3d(q[0], q[1], q[2]);
+  pose.translation() = impl_->units.length_m * Vector3d(q[0], q[1], q[2]);
   pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
   return pose;
 }
@@ -151,7 +153,7 @@ Vector3d Engine::tip(int finger) const {
   const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
   Vector3d tip(start[0], start[1], start[2]);
   for (int k = 0; k < impl_->slides; ++k) tip[k] += q[k];
-  return tip;
+  return impl_->units.length_m * tip;
 }
 
 Vector3d Engine::contact_force(int finger) const {
@@ -168,7 +170,7 @@ Vector3d Engine::contact_force(int finger) const {
     // The engine gives the force on the second geom.
     total += (first ? 1 : -1) * Vector3d(world[0], world[1], world[2]);
   }
-  return total;
+  return impl_->units.force_N() * total;
 }
 
 void Engine::PlaceTip(int finger, const Vector3d& tip) {
@@ -176,7 +178,7 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
   const int joint = impl_->First(finger);
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
   for (int k = 0; k < impl_->slides; ++k) {
-    impl_->data->qpos[m.jnt_qposadr[joint] + k] = tip[k] - start[k];
+    impl_->data->qpos[m.jnt_qposadr[joint] + k] = tip[k] / impl_->units.length_m - start[k];
     impl_->data->qvel[m.jnt_dofadr[joint] + k] = 0;
   }
 }
@@ -184,14 +186,16 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
 void Engine::ShiftTip(int finger, const Vector3d& offset) {
   const int joint = impl_->First(finger);
   for (int k = 0; k < impl_->slides; ++k) {
-    impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k];
+    impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k] / impl_->units.length_m;
   }
 }
 
 void Engine::SetTarget(int finger, const Vector3d& target) {
   const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
   const int slides = impl_->slides;
-  for (int k = 0; k < slides; ++k) impl_->data->ctrl[slides * finger + k] = target[k] - start[k];
+  for (int k = 0; k < slides; ++k) {
+    impl_->data->ctrl[slides * finger + k] = target[k] / impl_->units.length_m - start[k];
+  }
 }
 
 void Engine::SetSite(int finger, int site) {
@@ -206,13 +210,17 @@ void Engine::AddSite(int finger, int site) {
   }
 }
 
-void Engine::SetGravity(double gravity) { impl_->model->opt.gravity[2] = -gravity; }
+void Engine::SetGravity(double gravity) {
+  const EngineUnits& units = impl_->units;
+  impl_->model->opt.gravity[2] = -gravity * units.time_s * units.time_s / units.length_m;
+}
 
 void Engine::SetLoad(const Vector3d& force, const Vector3d& torque) {
   mjtNum* load = impl_->data->xfrc_applied + 6 * impl_->object;
+  const double newton = 1 / impl_->units.force_N();
   for (int k = 0; k < 3; ++k) {
-    load[k] = force[k];
-    load[3 + k] = torque[k];
+    load[k] = force[k] * newton;
+    load[3 + k] = torque[k] * newton / impl_->units.length_m;
   }
 }
 

@@ -17,22 +17,34 @@ class UnstableError : public std::runtime_error {
 /// The version of MuJoCo that is linked, "2.2.2".
 [[nodiscard]] std::string EngineVersion();
 
+/// What the engine's units are. It has absolute limits and tolerances, so that every body should
+/// look alike to it.
+struct EngineUnits {
+  double length_m = 1;
+  double mass_kg = 1;
+  double time_s = 1;
+
+  [[nodiscard]] double force_N() const { return mass_kg * length_m / (time_s * time_s); }
+};
+
 /// MuJoCo's model and data of one scene (sim/scene.h): a body "object" whose centre of mass is its
 /// origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide along
 /// each axis of space or of the plane.
 ///
 /// Warnings and errors of the engine neither reach the terminal nor leave a log file: they become
-/// exceptions. Lengths in metres, forces in newtons, all in the world frame of the scene.
+/// exceptions. Lengths in metres, forces in newtons, seconds, all in the world frame of the scene,
+/// whatever the units of the scene are.
 class Engine {
  public:
   /// Everything that the next steps depend on: replaying from a saved state gives the same bits.
   struct State {
-    double time = 0;
+    double time = 0;  ///< this and the others in units of the engine
     std::vector<double> qpos, qvel, qacc_warmstart;
   };
 
+  /// @param units  of the numbers in `mjcf`.
   /// @throws EnvironmentError  the engine does not take the scene.
-  Engine(const std::string& mjcf, int fingers);
+  Engine(const std::string& mjcf, int fingers, const EngineUnits& units = {});
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;

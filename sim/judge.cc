@@ -44,6 +44,14 @@ void Judge::AddPose(const Eigen::Isometry3d& X_SB) {
   }
 }
 
+void Judge::AddUnrest() {
+  if (object_moved_.empty()) object_moved_ = phase_ + ": the object did not come to rest";
+}
+
+bool Judge::lost() const {
+  return moved_now_ > kLostMotion * settings_.tolerance * settings_.diameter_m;
+}
+
 void Judge::AddSlip(int finger, double slip_m) {
   slip_ = std::max(slip_, slip_m);
   if (slipped_.empty() && slip_m > settings_.tolerance * settings_.diameter_m) {

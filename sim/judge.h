@@ -27,6 +27,8 @@ class Judge {
   /// While on, how far the object moves is the give of the servos under a push, which counts apart
   /// and has no limit: the object has moved where it does not come back.
   void SetGiving(bool on) { giving_ = on; }
+  /// The object did not come to rest: it has moved, however far it came.
+  void AddUnrest();
   void AddSlip(int finger, double slip_m);
   /// @param gap_m  from the surface to the fingertip of a finger at rest.
   void AddGap(int finger, double gap_m);
@@ -46,6 +48,9 @@ class Judge {
   [[nodiscard]] double moved_m() const { return moved_; }
   /// |Δx| + R |Δrotation| now.
   [[nodiscard]] double moved_now_m() const { return moved_now_; }
+  /// Whether the object is so far from its place, kLostMotion times the tolerance, that to go on
+  /// takes long and tells nothing.
+  [[nodiscard]] bool lost() const;
   /// Largest |Δx| + R |Δrotation| while giving.
   [[nodiscard]] double give_m() const { return give_; }
   [[nodiscard]] double slip_m() const { return slip_; }
@@ -69,5 +74,7 @@ class Judge {
 /// A finger at rest this far off the surface, over D, touches it no more; contacts that hold are
 /// 1e-7 D deep.
 inline constexpr double kLostGap = 1e-5;
+
+inline constexpr double kLostMotion = 10;  ///< over the tolerance
 
 }  // namespace regrasp

@@ -40,8 +40,8 @@ void Appear(Stage& stage, const FingerContact& placed_B, double gap) {
   stage.engine().SetSite(placed_B.finger, FindSite(stage.scene(), placed_B.contact));
 }
 
-void Descend(Stage& stage, const FingerGrasp& placed_B, double from, double to, int steps) {
-  stage.Run(steps, [&](double share) {
+void Descend(Stage& stage, const FingerGrasp& placed_B, double from, double to, double duration) {
+  stage.Run(duration, [&](double share) {
     for (const FingerContact& placed : placed_B) {
       stage.fingers()[placed.finger].anchor_S =
           stage.TipAt_S(placed.contact, Mix(from, to, Smooth(share)));
@@ -51,11 +51,13 @@ void Descend(Stage& stage, const FingerGrasp& placed_B, double from, double to, 
 
 void CreepUntilTouch(Stage& stage, const FingerGrasp& placed_B) {
   const ReplaySettings& s = stage.settings();
+  const int most = stage.StepsIn(kMostCreepTime);
+  const double way = kCreepSpeed * kMostCreepTime;
   FingerGrasp open = placed_B;
-  for (int i = 1; i <= kMostCreepSteps && !open.empty(); ++i) {
+  for (int i = 1; i <= most && !open.empty(); ++i) {
+    const double gap = kCreepGap - way * i / most;
     for (const FingerContact& placed : open) {
-      stage.fingers()[placed.finger].anchor_S =
-          stage.TipAt_S(placed.contact, (kCreepGap - i * kCreepStep) * s.diameter_m);
+      stage.fingers()[placed.finger].anchor_S = stage.TipAt_S(placed.contact, gap * s.diameter_m);
     }
     stage.Step();
     std::erase_if(open, [&](const FingerContact& placed) {
@@ -79,11 +81,10 @@ void TakeHold(Stage& stage, const FingerGrasp& grasp_B) {
   stage.SetGravity(stage.settings().gravity_m_s2);
   const HandForces forces = PlanHandForces(stage, stage.HoldingFingers(), {}, stage.half_angle());
   const HandForces none(forces.size(), Vector3d::Zero());
-  stage.Run(kHoldSteps, [&](double share) {
+  stage.Run(kHoldTime, [&](double share) {
     stage.SetGravity(share * stage.settings().gravity_m_s2);
     MixForces(stage, none, forces, share);
   });
-  Settle(stage);
 }
 
 void PlaceFingers(Stage& stage, const FingerGrasp& placed_B) {
@@ -94,15 +95,15 @@ void PlaceFingers(Stage& stage, const FingerGrasp& placed_B) {
     Appear(stage, placed, away);
     stage.fingers()[placed.finger].role = FingerRole::kPlaced;
   }
-  Descend(stage, placed_B, away, std::min(away, kApproachGap * D), kApproachSteps);
-  Descend(stage, placed_B, std::min(away, kApproachGap * D), kCreepGap * D, kCloseSteps);
+  Descend(stage, placed_B, away, std::min(away, kApproachGap * D), kApproachTime);
+  Descend(stage, placed_B, std::min(away, kApproachGap * D), kCreepGap * D, kCloseTime);
   CreepUntilTouch(stage, placed_B);
 }
 
 void TransferForces(Stage& stage, const std::vector<int>& fingers) {
   const HandForces from = CurrentForces(stage);
   const HandForces to = PlanHandForces(stage, fingers, {}, stage.half_angle());
-  stage.Run(kTransferSteps, [&](double share) { MixForces(stage, from, to, share); });
+  stage.Run(kTransferTime, [&](double share) { MixForces(stage, from, to, share); });
 }
 
 void RetractFingers(Stage& stage, const std::vector<int>& fingers) {
@@ -115,7 +116,7 @@ void RetractFingers(Stage& stage, const std::vector<int>& fingers) {
     start.push_back(finger.anchor_S);
     way.push_back(-StandOff(stage) * (stage.X_SB().linear() * finger.contact.n));
   }
-  stage.Run(kRetractSteps, [&](double share) {
+  stage.Run(kRetractTime, [&](double share) {
     for (std::size_t i = 0; i < fingers.size(); ++i) {
       stage.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * way[i];
     }
@@ -130,7 +131,5 @@ void SwitchFingers(Stage& stage, const FingerGrasp& placed_B, const std::vector<
   TransferForces(stage, after);
   RetractFingers(stage, released);
 }
-
-void Settle(Stage& stage) { stage.Run(kSettleSteps); }
 
 }  // namespace regrasp

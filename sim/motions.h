@@ -23,22 +23,18 @@ void RetractFingers(Stage& stage, const std::vector<int>& fingers);
 /// Place, transfer to the grasp without the released fingers, retract.
 void SwitchFingers(Stage& stage, const FingerGrasp& placed_B, const std::vector<int>& released);
 
-/// Until nothing moves any more.
-void Settle(Stage& stage);
-
-/// Lengths over D, forces over the squeeze, durations in time steps.
+/// Lengths over D, forces over the squeeze, durations in natural times (ReplaySettings).
 inline constexpr double kStandOff = 0.05;     ///< where a free finger waits before and after
 inline constexpr double kFirstDepth = 1e-9;   ///< so that all fingers of the hold touch at once
 inline constexpr double kApproachGap = 2e-3;  ///< 0.2 mm on a body of 10 cm
 inline constexpr double kCreepGap = 2e-5;
-inline constexpr double kCreepStep = 1e-6;   ///< a touch at this speed jolts less than 1e-4 F
+inline constexpr double kCreepSpeed = 5e-5;  ///< a touch at this speed jolts less than 1e-4 F
 inline constexpr double kTouchForce = 2e-4;  ///< 0.01 N at a squeeze of 50 N
-inline constexpr int kHoldSteps = 100;
-inline constexpr int kApproachSteps = 60;
-inline constexpr int kCloseSteps = 60;
-inline constexpr int kMostCreepSteps = 1200;  ///< past the tolerance for the object's motion
-inline constexpr int kTransferSteps = 80;
-inline constexpr int kRetractSteps = 60;
-inline constexpr int kSettleSteps = 40;
+inline constexpr double kHoldTime = 2;
+inline constexpr double kApproachTime = 1.2;
+inline constexpr double kCloseTime = 1.2;
+inline constexpr double kMostCreepTime = 24;  ///< past the tolerance for the object's motion
+inline constexpr double kTransferTime = 1.6;
+inline constexpr double kRetractTime = 1.2;
 
 }  // namespace regrasp

@@ -11,6 +11,7 @@
 #include "sim/scene.h"
 #include "sim/shake.h"
 #include "sim/stage.h"
+#include "sim/stillness.h"
 
 namespace regrasp {
 namespace {
@@ -60,6 +61,8 @@ StepMotion Describe(const Judge& judge) {
 
 StepMotion Unstable(const Judge& judge, const UnstableError& error) {
   StepMotion result = Describe(judge);
+  // An object that is lost may well end in a state that the engine cannot bear.
+  if (result.reason != Reason::kNone) return result;
   result.reason = Reason::kSimulationUnstable;
   result.detail = error.what();
   return result;
@@ -122,8 +125,7 @@ StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int 
     stage.judge().SetPhase("motion");
     Perform(stage, object, plan, index, result);
     stage.judge().SetPhase("rest");
-    Settle(stage);
-    stage.JudgeRest();
+    ComeToRest(stage);
     result.motion_margins = stage.judge().margins();
     ExamineRest(stage, result);
   } catch (const UnstableError& error) {
@@ -161,6 +163,7 @@ ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOpti
   if (total == 0) return result;
   Stage stage(object, plan, MakeScene(object, plan, total - 1, options), observer);
   result.settings = stage.settings();
+  CheckShake(result.settings);
   for (int index = 0; index < total; ++index) {
     result.steps.push_back(ReplayStep(stage, object, plan, index));
     if (observer.on_progress) observer.on_progress(index + 1, total);

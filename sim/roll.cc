@@ -10,6 +10,7 @@
 #include "sim/align_script.h"
 #include "sim/grasp_control.h"
 #include "sim/motions.h"
+#include "sim/stillness.h"
 
 namespace regrasp {
 
@@ -22,7 +23,7 @@ namespace {
 constexpr double kStretch = 0.01;
 constexpr double kTurnStretch = Radians(2);
 /// The engine misses a touch at an edge now and then, so that turns are short.
-constexpr int kLeastStretchSteps = 4;
+constexpr double kLeastStretchTime = 0.08;  ///< natural times
 
 Vector3d Tip(const Contact& contact, double radius) { return contact.p - radius * contact.n; }
 
@@ -62,7 +63,7 @@ HandForces PlanForces(const Stage& stage, const FingerGrasp& grasp_B) {
 
 void BlendTo(Stage& stage, const HandForces& to) {
   const HandForces from = CurrentForces(stage);
-  stage.Run(kTransferSteps, [&](double share) { MixForces(stage, from, to, share); });
+  stage.Run(kTransferTime, [&](double share) { MixForces(stage, from, to, share); });
 }
 
 /// Takes a tip along with its contact; whatever it is off the plan stays.
@@ -85,8 +86,7 @@ void RollFingers(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_
   const int stretches =
       static_cast<int>(std::ceil(std::max(way / kStretch, extent.turn / kTurnStretch)));
   if (stretches == 0) return;
-  const int steps =
-      std::max(kLeastStretchSteps, static_cast<int>(std::ceil(way / (stretches * kSlideStep))));
+  const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
   std::vector<int> sites;
   for (std::size_t i = 0; i < to_B.size(); ++i) {
     sites.push_back(FindSite(stage.scene(), from_B[i].contact, to_B[i].contact));
@@ -98,7 +98,7 @@ void RollFingers(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_
     const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / stretches);
     const HandForces before = CurrentForces(stage);
     const HandForces after = PlanForces(stage, next);
-    stage.Run(steps, [&](double share) {
+    stage.Run(duration, [&](double share) {
       for (const FingerContact& held : Interpolate(at, next, share)) {
         MoveAlong(stage, held.finger, held.contact);
       }
@@ -106,7 +106,7 @@ void RollFingers(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_
     });
     at = next;
   }
-  Settle(stage);
+  (void)WaitUntilStill(stage);
   for (std::size_t i = 0; i < to_B.size(); ++i) {
     stage.engine().SetSite(to_B[i].finger, sites[i]);
   }

@@ -343,6 +343,37 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   return scene;
 }
 
+Scene InUnits(Scene scene, const EngineUnits& units) {
+  const double metre = 1 / units.length_m;
+  const double kilogram = 1 / units.mass_kg;
+  const double second = 1 / units.time_s;
+  ReplaySettings& s = scene.settings;
+  for (double* length : {&s.diameter_m, &s.thickness_m, &s.fingertip_radius_m, &s.patch_size_m,
+                         &s.patch_thickness_m}) {
+    *length *= metre;
+  }
+  s.mass_kg *= kilogram;
+  s.finger_mass_kg *= kilogram;
+  s.timestep_s *= second;
+  s.natural_time_s *= second;
+  s.squeeze_N /= units.force_N();
+  s.gravity_m_s2 *= metre / (second * second);
+  s.finger_stiffness_N_m *= kilogram / (second * second);
+  s.finger_damping_Ns_m *= kilogram / second;
+  for (ContactSite& site : scene.sites) {
+    site.from *= metre;
+    site.to *= metre;
+  }
+  for (std::vector<ContactPatch>& patches : scene.patches) {
+    for (ContactPatch& patch : patches) {
+      for (Vector3d& corner : patch.outline) corner *= metre;
+    }
+  }
+  for (Vector3d& start : scene.finger_start_S) start *= metre;
+  scene.inertia *= kilogram * metre * metre;
+  return scene;
+}
+
 int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
   // A finger that turns at an edge is at its new face's site already.
   const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;

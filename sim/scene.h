@@ -9,6 +9,7 @@
 #include "planner/plan/plan.h"
 #include "sim/align_script.h"
 #include "sim/contact_patches.h"
+#include "sim/engine.h"
 #include "sim/settings.h"
 
 namespace regrasp {
@@ -45,6 +46,9 @@ struct Scene {
 /// The same for a way from one contact to another, straight inside one face or a turn to the next:
 /// the site that both belong to.
 [[nodiscard]] int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S);
+
+/// The same scene in other units: what is in metres, kilograms and seconds is in `units`.
+[[nodiscard]] Scene InUnits(Scene scene, const EngineUnits& units);
 
 /// The scene as MJCF; every number reads back as the same double.
 /// @param hold  the control of every finger, newtons over stiffness, that holds the

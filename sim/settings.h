@@ -58,6 +58,7 @@ struct ReplaySettings {
   double finger_stiffness_N_m = 0;
   double finger_damping_Ns_m = 0;
   double timestep_s = 0;
+  double natural_time_s = 0;     ///< √(M D / F): what durations of the replay are counted in
   double friction_factor = 1;    ///< the world's friction over `mu`
   double mass_factor = 1;        ///< the object's true mass over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch

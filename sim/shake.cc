@@ -1,7 +1,12 @@
 #include "sim/shake.h"
 
+#include <algorithm>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "sim/grasp_control.h"
 #include "sim/push.h"
+#include "sim/stillness.h"
 
 namespace regrasp {
 
@@ -34,33 +39,19 @@ void Load(Stage& stage, const Wrench& push_S, double share) {
 void PushAdapted(Stage& stage, const Wrench& push_S) {
   const HandForces from = CurrentForces(stage);
   const HandForces to = PlanHandForces(stage, stage.HoldingFingers(), push_S, stage.half_angle());
-  stage.Run(kShakeRampSteps, [&](double share) {
+  stage.Run(kPushRamp, [&](double share) {
     Load(stage, push_S, share);
     MixForces(stage, from, to, share);
   });
-  stage.Run(kShakeHoldSteps);
-  stage.JudgeRest();
-}
-
-/// Runs until the object is back where it was and has stopped swinging, or is lost.
-void WaitForReturn(Stage& stage) {
-  const ReplaySettings& s = stage.settings();
-  const double back = kReturned * s.tolerance * s.diameter_m;
-  int quiet = 0;
-  for (int i = 0; i < kMostReturnSteps && quiet < kFixedHoldSteps; ++i) {
-    if (stage.judge().reason() != Reason::kNone) return;
-    stage.Step();
-    quiet = stage.judge().moved_now_m() <= back ? quiet + 1 : 0;
-  }
+  ComeToRest(stage);
 }
 
 void PushFixed(Stage& stage, const Wrench& push_S) {
   stage.judge().SetGiving(true);
-  stage.Run(kShakeRampSteps, [&](double share) { Load(stage, push_S, share); });
-  stage.Run(kFixedHoldSteps);
-  stage.JudgeRest();
-  stage.Run(kShakeRampSteps, [&](double share) { Load(stage, push_S, 1 - share); });
-  WaitForReturn(stage);
+  stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, share); });
+  ComeToRest(stage);
+  stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, 1 - share); });
+  (void)WaitUntilStill(stage);
   stage.judge().SetGiving(false);
   stage.Step();
   stage.JudgeRest();
@@ -80,8 +71,22 @@ void Shake(Stage& stage, Answer answer) {
   for (const Push& push : PushDirections(stage.scene().dimension)) {
     stage.judge().SetPhase(name + PushName(push));
     PushOnce(stage, PushWrench(push, size), answer);
+    if (stage.judge().reason() != Reason::kNone) return;
     rest.Restore();
   }
+}
+
+double LeastShake(double tolerance) {
+  return std::max(tolerance / FreeMotion(kPushRamp), 2 * kStill / (kStillTime * kStillTime));
+}
+
+void CheckShake(const ReplaySettings& settings) {
+  const double least = LeastShake(settings.tolerance);
+  if (settings.shake == 0 || settings.shake > least) return;
+  throw InputError("replay: a body that nothing holds would stand a shake of " +
+                   FormatShort(settings.shake) + " (--shake) with a tolerance of " +
+                   FormatShort(settings.tolerance) +
+                   " (--tolerance); the shake has to be larger than " + FormatShort(least));
 }
 
 }  // namespace regrasp

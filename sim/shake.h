@@ -13,8 +13,9 @@ enum class Answer {
 };
 
 /// Pushes and turns the object at rest in every direction (sim/push.h), one after the other, on top
-/// of the weight: a force of shake · squeeze, then a torque of that over R. The stage's judge
-/// measures; afterwards everything is as before, whatever is thrown.
+/// of the weight: a force of shake · squeeze, then a torque of that over R. Each push lasts until
+/// everything is still (sim/stillness.h). The stage's judge measures; a push that the grasp does
+/// not stand is the last. Afterwards everything is as before, whatever is thrown.
 /// @throws UnstableError
 void Shake(Stage& stage, Answer answer);
 
@@ -39,12 +40,14 @@ class KeepRest {
   std::vector<Eigen::Vector3d> forces_;
 };
 
-inline constexpr int kShakeRampSteps = 30;  ///< a finger's servo settles in about 5 steps
-inline constexpr int kShakeHoldSteps = 20;
-/// With fixed forces the object itself swings on the servos, as a rule once in about 50 steps and
-/// well damped; where the fingers stand close together it turns four times more slowly.
-inline constexpr int kFixedHoldSteps = 60;
-inline constexpr int kMostReturnSteps = 600;
-inline constexpr double kReturned = 0.5;  ///< over the tolerance: nearer than this it is back
+/// A body that nothing holds stands no larger shake than this: while it is pushed it moves by the
+/// tolerance (FreeMotion), or by so little in kStillTime that it looks still.
+[[nodiscard]] double LeastShake(double tolerance);
+
+/// @throws InputError  a body that nothing holds would stand the shake. None at all is allowed.
+void CheckShake(const ReplaySettings& settings);
+
+/// Natural times (ReplaySettings); a finger's servo settles in a tenth.
+inline constexpr double kPushRamp = 0.6;
 
 }  // namespace regrasp

@@ -8,6 +8,7 @@
 #include "sim/align_path.h"
 #include "sim/grasp_control.h"
 #include "sim/motions.h"
+#include "sim/stillness.h"
 
 namespace regrasp {
 
@@ -26,7 +27,7 @@ constexpr double kGoodMargin = 0.05;
 
 /// Forces are planned anew after this share of D on the way.
 constexpr double kStretch = 0.01;
-constexpr int kLeastStretchSteps = 20;
+constexpr double kLeastStretchTime = 0.4;  ///< natural times
 
 struct SlideForces {
   HandForces hand;
@@ -79,7 +80,7 @@ SlideForces ChooseSlide(const Stage& stage, int finger, const Contact& at_B,
 
 void BlendTo(Stage& stage, const HandForces& to) {
   const HandForces from = CurrentForces(stage);
-  stage.Run(kTransferSteps, [&](double share) { MixForces(stage, from, to, share); });
+  stage.Run(kTransferTime, [&](double share) { MixForces(stage, from, to, share); });
 }
 
 Vector3d Direction(const Contact& from, const Contact& to) {
@@ -90,10 +91,10 @@ Vector3d Direction(const Contact& from, const Contact& to) {
 
 /// One straight stretch of the way: tip and forces go over together, at constant rates.
 void MoveTip(Stage& stage, int finger, const Contact& from, const Contact& to,
-             const HandForces& forces_after, int steps) {
+             const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(stage);
   StageFinger& state = stage.fingers()[finger];
-  stage.Run(steps, [&](double share) {
+  stage.Run(duration, [&](double share) {
     state.contact = Interpolate({{finger, from}}, {{finger, to}}, share).front().contact;
     state.anchor_S = stage.TipAt_S(state.contact, 0);
     MixForces(stage, forces_before, forces_after, share);
@@ -116,8 +117,7 @@ double SlideMargin(const Stage& stage, int finger, const Contact& from_B, const 
 void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
   const double way = TipWay(stage, from_B, to_B) / stage.settings().diameter_m;
   const int stretches = std::max(1, static_cast<int>(std::ceil(way / kStretch)));
-  const int steps =
-      std::max(kLeastStretchSteps, static_cast<int>(std::ceil(way / (stretches * kSlideStep))));
+  const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
   const Vector3d direction = Direction(from_B, to_B);
   StageFinger& state = stage.fingers()[finger];
   const int site = FindSite(stage.scene(), from_B, to_B);
@@ -128,10 +128,10 @@ void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact&
   for (int i = 1; i <= stretches; ++i) {
     const double share = static_cast<double>(i) / stretches;
     const Contact next = Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
-    MoveTip(stage, finger, at, next, ChooseSlide(stage, finger, next, direction).hand, steps);
+    MoveTip(stage, finger, at, next, ChooseSlide(stage, finger, next, direction).hand, duration);
     at = next;
   }
-  Settle(stage);
+  (void)WaitUntilStill(stage);
   stage.engine().SetSite(finger, site);
   state.sliding = false;
   state.touch_B = to_B.p;

@@ -1,6 +1,9 @@
 #include "sim/stage.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "sim/scaling.h"
 
 namespace regrasp {
 
@@ -22,8 +25,8 @@ Stage::Stage(const Object& body, const Plan& plan, Scene scene, const ReplayObse
     : p_WS_(body.mass_properties().centroid * plan.scale),
       scene_(std::move(scene)),
       observer_(observer),
-      engine_(FormatScene(scene_, body, {}, /*surface=*/false),
-              static_cast<int>(scene_.finger_start_S.size())),
+      engine_(FormatScene(InUnits(scene_, UnitsOf(scene_.settings)), body, {}, /*surface=*/false),
+              static_cast<int>(scene_.finger_start_S.size()), UnitsOf(scene_.settings)),
       fingers_(scene_.finger_start_S.size()),
       judge_(scene_.settings) {
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
@@ -80,11 +83,13 @@ void Stage::Step() {
   if (sampling_) Sample();
 }
 
-void Stage::Run(int steps) {
-  for (int i = 0; i < steps; ++i) Step();
+int Stage::StepsIn(double duration) const {
+  const double steps = duration * settings().natural_time_s / settings().timestep_s;
+  return std::max(1, static_cast<int>(std::lround(steps)));
 }
 
-void Stage::Run(int steps, const std::function<void(double)>& drive) {
+void Stage::Run(double duration, const std::function<void(double)>& drive) {
+  const int steps = StepsIn(duration);
   for (int i = 1; i <= steps; ++i) {
     drive(static_cast<double>(i) / steps);
     Step();

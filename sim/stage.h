@@ -54,9 +54,11 @@ class Stage {
 
   void SetGravity(double gravity);
   void Step();
-  void Run(int steps);
-  /// Runs `steps` steps; before each calls `drive` with the share of the motion done after it.
-  void Run(int steps, const std::function<void(double)>& drive);
+  /// How many steps a duration in natural times (ReplaySettings) takes, at least one.
+  [[nodiscard]] int StepsIn(double duration) const;
+  /// Runs for `duration` natural times; before each step calls `drive` with the share of the motion
+  /// done after it.
+  void Run(double duration, const std::function<void(double)>& drive);
 
   /// What happens from now on is measured against the object's pose as it is now.
   void StartJudging();

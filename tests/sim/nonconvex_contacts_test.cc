@@ -9,6 +9,8 @@
 #include "planner/grasp/quality.h"
 #include "planner/plan/clearance.h"
 #include "replay_cases.h"
+#include "sim/contact_patches.h"
+#include "sim/scaling.h"
 
 namespace regrasp {
 namespace {
@@ -171,6 +173,58 @@ TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth
     ++holds;
   }
   EXPECT_EQ(holds, 4);
+}
+
+/// 10 × 10 × 6 cm with a pit (or a bump, where deeper is negative) as wide as deep in its top.
+Polyhedron MakePitted(double width, double deeper) {
+  return MakeTower({{0.05, 0}, {0.05, 0.06}, {width / 2, 0.06}, {width / 2, 0.06 - deeper}});
+}
+
+TEST(NonconvexContacts, EveryFaceHasAPatchHoweverSmallItIs) {
+  int faces = 0;
+  for (const double width : {1e-1, 1e-3, 1e-5, 3e-6}) {
+    for (const double sign : {1.0, -1.0}) {
+      SCOPED_TRACE(sign * width);
+      const double D = MakePitted(0.01, 0.01).diameter();
+      const Polyhedron body = MakePitted(width * D, sign * std::min(width, 0.1) * D);
+      for (int face = 0; face < body.face_count(); ++face) {
+        const Vector3d p = body.ClosestPoint(face, body.faces()[face].point);
+        const auto patches = MakeContactPatches(body, {face, p, p}, kPatchSize * D);
+        ASSERT_FALSE(patches.empty());
+        for (const ContactPatch& patch : patches) {
+          ASSERT_GE(patch.outline.size(), 3u);
+          for (const Vector3d& corner : patch.outline) {
+            EXPECT_LT((body.ClosestPoint(face, corner) - corner).norm(), 1e-12);
+          }
+        }
+        ++faces;
+      }
+    }
+  }
+  EXPECT_EQ(faces, 8 * 11);
+}
+
+TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
+  for (const double deeper : {3e-6, -1e-5}) {
+    SCOPED_TRACE(deeper);
+    const double D = MakePitted(0.01, 0.01).diameter();
+    const Polyhedron body = MakePitted(std::abs(deeper) * D, deeper * D);
+    Plan plan = MakePlan(WithFingers({ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
+                                      ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
+                                      ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
+                                      ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
+                         30);
+    for (const FingerContact& held : plan.initial) ASSERT_GE(held.contact.face, 0);
+    const ReplayResult result = ReplayPlan(body, plan, {});
+    ASSERT_EQ(result.steps.size(), 1u);
+    EXPECT_NE(result.steps[0].reason, Reason::kSimulationUnstable) << result.steps[0].detail;
+    // A tip that holds on to less than it may slip may fall into the pit, but not off the bump.
+    if (deeper < 0) {
+      EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
+    }
+    plan.half_angle = Radians(0.5);
+    EXPECT_NE(ReplayPlan(body, plan, {}).steps.at(0).reason, Reason::kNone);
+  }
 }
 
 /// A random grasp of four that the shake leaves alone, each finger with room to stand.

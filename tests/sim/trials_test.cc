@@ -118,7 +118,8 @@ TEST(Trials, WithoutErrorsAllPassAsTheNominalReplayDoes) {
 TEST(Trials, LoseAPlanNearItsCriticalFrictionAndKeepOneWithFrictionToSpare) {
   constexpr int kCount = 30;
   const int spare = Passes(25, Trials(kCount, 0, 0.1));
-  const int little = Passes(7, Trials(kCount, 0, 0.03));
+  // With 0.96 of its friction the grasp is weaker than the shake.
+  const int little = Passes(7, Trials(kCount, 0, 0.01));
   const int more = Passes(7, Trials(kCount, 0, 0.1));
   const int most = Passes(7, Trials(kCount, 0, 0.5));
   EXPECT_EQ(spare, kCount);

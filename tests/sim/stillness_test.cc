@@ -1,0 +1,189 @@
+#include "sim/stillness.h"
+
+#include <gtest/gtest.h>
+
+#include "planar_cases.h"
+#include "planner/base/error.h"
+#include "planner/grasp/required_half_angle.h"
+#include "sim/motions.h"
+#include "sim/shake.h"
+
+namespace regrasp {
+namespace {
+
+/// Shares of the derived time step.
+constexpr double kTimesteps[] = {1, 0.5, 0.125};
+
+ReplayOptions WithTimestep(double factor) {
+  ReplayOptions options;
+  options.timestep_factor = factor;
+  return options;
+}
+
+/// Two opposite fingers in the middle of the sides of the square. A push of ρ F asks for friction of
+/// ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until it
+/// is wedged between the fingers, by less than the tolerance where the shake is small.
+Reason Pinch(double friction, const ReplayOptions& options) {
+  const Polygon square = MakeSquare();
+  const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
+                                   Degrees(std::atan(friction)));
+  return ReplayPlan(square, plan, options).steps.at(0).reason;
+}
+
+TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
+  const CubeCase cube;
+  const Polygon square = MakeSquare();
+  ReplayOptions options;
+  options.gravity = false;
+  int failed = 0;
+  for (const double tolerance : {1e-4, 1e-3, 1e-2}) {
+    for (const double shake : {1.01 * LeastShake(tolerance), 1e-3, 1e-2, 0.1}) {
+      if (shake < LeastShake(tolerance)) continue;
+      for (const Protocol protocol : {Protocol::kAdapted, Protocol::kFixed}) {
+        SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(shake));
+        options.tolerance = tolerance;
+        options.shake = shake;
+        options.protocol = protocol;
+        EXPECT_EQ(ReplayPlan(cube.object, MakePlan({}, 25), options).steps.at(0).reason,
+                  Reason::kObjectMoved);
+        EXPECT_EQ(ReplayPlan(square, MakePlanarPlan({}, 25), options).steps.at(0).reason,
+                  Reason::kObjectMoved);
+        ++failed;
+      }
+    }
+  }
+  EXPECT_GE(failed, 20);
+}
+
+TEST(Stillness, AShakeThatABodyThatNothingHoldsWouldStandIsRefused) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  ReplayOptions options;
+  for (const auto& [shake, tolerance] :
+       {std::pair{1e-5, 1e-3}, {0.01, 0.6}, {1e-7, 1e-9}, {1e-5, 1e-9}}) {
+    SCOPED_TRACE(shake);
+    options.shake = shake;
+    options.tolerance = tolerance;
+    EXPECT_THROW((void)ReplayPlan(cube.object, plan, options), InputError);
+  }
+  options.shake = 2 * LeastShake(1e-3);
+  options.tolerance = 1e-3;
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+  options.shake = 0;  // asks for none
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+}
+
+TEST(Stillness, APinchThatSlidesFailsAndOneThatHoldsPassesAtEveryTimeStep) {
+  const double needed = std::sqrt(2.0) * ReplayOptions().shake;
+  for (const double factor : kTimesteps) {
+    SCOPED_TRACE(factor);
+    for (const double share : {0.6, 0.78, 0.9}) {
+      EXPECT_NE(Pinch(share * needed, WithTimestep(factor)), Reason::kNone) << share;
+    }
+    EXPECT_EQ(Pinch(1.03 * needed, WithTimestep(factor)), Reason::kNone);
+  }
+}
+
+TEST(Stillness, ASmallShakeTellsAPinchThatSlidesFromOneThatHolds) {
+  ReplayOptions options;
+  options.shake = 1e-3;
+  const double needed = std::sqrt(2.0) * options.shake;
+  EXPECT_NE(Pinch(0.6 * needed, options), Reason::kNone);
+  EXPECT_EQ(Pinch(1.1 * needed, options), Reason::kNone);
+}
+
+TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
+  const ObjectFile file = ReadModel("l_block.obj");
+  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  std::mt19937 random(7);
+  int judged = 0;
+  while (judged < 8) {
+    FingerGrasp grasp;
+    for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+    const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
+    if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
+    ++judged;
+    const Plan plan = MakePlan(grasp, Degrees(std::atan(0.95 * std::tan(required->lower))), 4);
+    for (const double factor : kTimesteps) {
+      EXPECT_NE(ReplayPlan(body, plan, WithTimestep(factor)).steps.at(0).reason, Reason::kNone)
+          << "grasp " << judged << ", time step " << factor;
+    }
+  }
+}
+
+TEST(Stillness, AGoodGraspPassesAtEveryTimeStepByTheSameMotion) {
+  const CubeCase cube;
+  for (const double factor : kTimesteps) {
+    const StepReplay hold =
+        ReplayPlan(cube.object, MakePlan(cube.Start(), 25), WithTimestep(factor)).steps.at(0);
+    EXPECT_EQ(hold.reason, Reason::kNone) << factor << hold.detail;
+  }
+}
+
+/// The cube of CubeCase, held.
+struct HeldCube {
+  CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  ReplayObserver observer;
+  Stage stage{cube.object, plan, MakeScene(cube.object, plan, 0, {}), observer};
+
+  HeldCube() {
+    TakeHold(stage, ToScene(cube.object, plan.scale, plan.initial));
+    (void)WaitUntilStill(stage);
+    stage.StartJudging();
+  }
+  /// Drags finger 0 along its face by a share of D.
+  void Drag(double share) {
+    stage.fingers()[0].anchor_S.z() += share * stage.settings().diameter_m;
+    ComeToRest(stage);
+  }
+};
+
+TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
+  HeldCube held;
+  const double before = held.stage.engine().time();
+  EXPECT_TRUE(WaitUntilStill(held.stage));
+  const double waited = held.stage.engine().time() - before;
+  EXPECT_NEAR(waited, kStillTime * held.stage.settings().natural_time_s, 1e-9 * before);
+  ComeToRest(held.stage);
+  EXPECT_EQ(held.stage.judge().reason(), Reason::kNone);
+}
+
+TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
+  HeldCube held;
+  for (StageFinger& finger : held.stage.fingers()) finger.force_S.setZero();
+  EXPECT_FALSE(WaitUntilStill(held.stage));
+}
+
+TEST(JudgeOfAReplay, SeesAFingerThatIsDraggedOverTheSurface) {
+  HeldCube little, far;
+  little.Drag(5e-4);
+  EXPECT_EQ(little.stage.judge().reason(), Reason::kNone) << little.stage.judge().detail();
+  far.Drag(0.02);
+  EXPECT_EQ(far.stage.judge().reason(), Reason::kSlipped) << far.stage.judge().detail();
+  EXPECT_NE(far.stage.judge().detail().find("finger 0"), std::string::npos);
+}
+
+TEST(JudgeOfAReplay, AnAlignMayMoveTheObjectByTheToleranceAndNoMore) {
+  const CubeCase cube;
+  FingerGrasp end = cube.Start();
+  end[0] = cube.At(0, 0.03, 0.008, 0.006);
+  Plan plan = MakePlan(cube.Start(), 35);
+  plan.steps = {Align{{cube.Start(), end}}};
+  for (const AlignChoice choice : {AlignChoice::kImitate, AlignChoice::kSlide}) {
+    ReplayOptions options;
+    options.align = choice;
+    const auto replay = [&] { return ReplayPlan(cube.object, plan, options); };
+    const StepReplay align = replay().steps.at(1);
+    ASSERT_EQ(align.reason, Reason::kNone) << align.detail;
+    const double most = std::max(align.moved_m, align.slip_m) / cube.object.diameter();
+    options.tolerance = 1.1 * most;
+    EXPECT_EQ(replay().steps.at(1).reason, Reason::kNone);
+    options.tolerance = 0.9 * most;
+    const ReplayResult strict = replay();
+    EXPECT_NE(strict.steps.back().reason, Reason::kNone);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp
