@@ -17,8 +17,9 @@ bool WaitUntilStill(Stage& stage);
 void ComeToRest(Stage& stage);
 
 /// How far a push of ρ F moves a body that nothing holds while a grasp has time to come to rest,
-/// over ρ D: the force grows evenly in `ramp` and stays for kLongestWait, both in natural times. The
-/// acceleration is ρ F / M = ρ D over the natural time squared, so that mass and squeeze drop out.
+/// over ρ D: the force grows evenly in `ramp` and stays for kLongestWait, both in natural times.
+/// The acceleration is ρ F / M = ρ D over the natural time squared, so that mass and squeeze drop
+/// out.
 [[nodiscard]] double FreeMotion(double ramp);
 
 /// Natural times √(M D / F) (ReplaySettings::natural_time_s). A finger's servo settles in a tenth,

@@ -11,10 +11,16 @@ namespace {
 /// A rod along x, 1 m long, with a square section.
 Polyhedron MakeRod(double width) {
   const double a = 0.5, b = width / 2;
-  const PolygonSoup soup{{{-a, -b, -b}, {a, -b, -b}, {a, b, -b}, {-a, b, -b},
-                          {-a, -b, b}, {a, -b, b}, {a, b, b}, {-a, b, b}},
-                         {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
-                          {3, 0, 4, 7}}};
+  const PolygonSoup soup{
+      {{-a, -b, -b},
+       {a, -b, -b},
+       {a, b, -b},
+       {-a, b, -b},
+       {-a, -b, b},
+       {a, -b, b},
+       {a, b, b},
+       {-a, b, b}},
+      {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
   return Polyhedron::FromSoup(soup, "rod");
 }
 

@@ -20,9 +20,9 @@ ReplayOptions WithTimestep(double factor) {
   return options;
 }
 
-/// Two opposite fingers in the middle of the sides of the square. A push of ρ F asks for friction of
-/// ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until it
-/// is wedged between the fingers, by less than the tolerance where the shake is small.
+/// Two opposite fingers in the middle of the sides of the square. A push of ρ F asks for friction
+/// of ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until
+/// it is wedged between the fingers, by less than the tolerance where the shake is small.
 Reason Pinch(double friction, const ReplayOptions& options) {
   const Polygon square = MakeSquare();
   const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
