@@ -15,6 +15,10 @@ constexpr int kMostFaces = 100;
 /// Polygons with more edges have 3-finger grasps for minutes of work.
 constexpr int kMostEdges = 100;
 
+/// Polygons with more edges have 2-finger grasps for minutes of work, and gigabytes of memory: both
+/// go with the square of the edges.
+constexpr int kMostContourEdges = 3000;
+
 constexpr std::size_t kConcurrentContacts = 4;
 constexpr std::size_t kMostPlanarContacts = 3;
 
@@ -63,6 +67,10 @@ ExactAnswer AskPlanar(const Polygon& polygon, const GraspChoice& start, const Gr
   const bool two = start.grasp.size() == 2 && goal.grasp.size() == 2;
   if (polygon.face_count() > kMostEdges && !two) {
     return {{}, "polygon is for polygons of at most " + std::to_string(kMostEdges) + " edges"};
+  }
+  if (polygon.face_count() > kMostContourEdges) {
+    return {{},
+            "contour is for polygons of at most " + std::to_string(kMostContourEdges) + " edges"};
   }
   PlanarPlanOptions exact;
   exact.polygon.half_angle = common.half_angle;
