@@ -4,7 +4,9 @@
 
 #include <iostream>
 #include <string>
+#include <utility>
 
+#include "apps/program.h"
 #include "planner/base/text_table.h"
 
 namespace regrasp {
@@ -27,6 +29,18 @@ void ProgressLine::Report(std::string_view text) {
 void ProgressLine::Clear() {
   if (dirty_) std::cerr << kEraseLine << std::flush;
   dirty_ = false;
+}
+
+ProgressLog::ProgressLog(std::string program, bool quiet, std::function<Clock::time_point()> now)
+    : program_(std::move(program)),
+      shown_(!quiet && isatty(STDERR_FILENO) != 1),
+      now_(std::move(now)),
+      last_(now_()) {}
+
+void ProgressLog::Report(std::string_view text) {
+  if (!shown_ || now_() < last_ + kInterval) return;
+  PrintMessage(program_, text);
+  last_ = now_();
 }
 
 }  // namespace regrasp

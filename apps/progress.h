@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +23,27 @@ class ProgressLine {
  private:
   bool shown_;
   bool dirty_ = false;
+};
+
+/// Progress of minutes of work where standard error is no terminal but a log: a plain line now and
+/// then. Shown only when the user did not ask for quiet.
+class ProgressLog {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// Between two lines, and before the first: short work writes none.
+  static constexpr std::chrono::seconds kInterval{30};
+
+  /// @param program  its name stands before every line.
+  ProgressLog(std::string program, bool quiet, std::function<Clock::time_point()> now = Clock::now);
+
+  /// Prints the text where a line is due.
+  void Report(std::string_view text);
+
+ private:
+  std::string program_;
+  bool shown_;
+  std::function<Clock::time_point()> now_;
+  Clock::time_point last_;
 };
 
 }  // namespace regrasp

@@ -113,7 +113,8 @@ class Batch {
       : options_(options),
         library_(FindLibrary(options)),
         folder_(options.Folder()),
-        progress_(options.quiet) {
+        progress_(options.quiet),
+        log_(kValidateName, options.quiet) {
     summary_.skipped = library_.skipped;
     for (const LibraryPlan& plan : library_.plans) {
       PlanOutcome& outcome = summary_.plans.emplace_back();
@@ -155,8 +156,11 @@ class Batch {
   }
 
   void ShowProgress() {
-    progress_.Report(std::to_string(done_) + " of " + std::to_string(library_.plans.size()) +
-                     " plans, " + std::to_string(not_passed_) + " not passed");
+    const std::string text = std::to_string(done_) + " of " +
+                             std::to_string(library_.plans.size()) + " plans, " +
+                             std::to_string(not_passed_) + " not passed";
+    progress_.Report(text);
+    log_.Report(text);
   }
 
   void Take(int index, const ChildExit& exit) {
@@ -218,6 +222,7 @@ class Batch {
   PlanLibrary library_;
   HeldFolder folder_;
   ProgressLine progress_;
+  ProgressLog log_;
   BatchSummary summary_;
   int done_ = 0;
   int not_passed_ = 0;
