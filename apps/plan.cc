@@ -167,7 +167,7 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   const GraspChoice to = Choose("--goal", goal, solid);
   if (common.planner == "roadmap") return PlanOnRoadmap(solid, from, to, options);
   if (common.planner == "auto") {
-    return PlanSpatial(solid, from, to, common.spanning_value(), options);
+    return PlanSpatial(solid, from, to, common.spanning_value(), options, common.memory());
   }
   common.CheckMemory(EstimatePolyhedronGraph(solid, options.half_angle, common.spanning_value()));
   return PlanOnPolyhedron(solid, from, to,

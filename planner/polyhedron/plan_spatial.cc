@@ -25,7 +25,7 @@ GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
 }  // namespace
 
 PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start, const GraspChoice& goal,
-                       Spanning spanning, const RoadmapOptions& options) {
+                       Spanning spanning, const RoadmapOptions& options, double memory) {
   GraspChoice from, to;
   try {
     from = Draw(solid, start, RandomUse::kStart, options);
@@ -37,7 +37,7 @@ PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start, const 
     const PlanResult result =
         PlanOnPolyhedron(solid, from, to,
                          {options.half_angle, spanning, options.seed, options.min_quality,
-                          options.progress, options.finger_radius});
+                          options.progress, options.finger_radius, memory});
     if (result.plan && result.warnings.empty()) return result;
     if (!result.plan) options.progress("roadmap, since polyhedron says: " + result.message);
   }

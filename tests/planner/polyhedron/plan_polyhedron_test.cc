@@ -206,7 +206,7 @@ TEST(PlanOnPolyhedron, RefusesGraspsThatDoNotServe) {
   EXPECT_EQ(PlanOnPolyhedron(body, RandomAny(), Random(), options).status, Status::kNoGrasp);
 }
 
-TEST(PlanSpatial, TakesPolyhedronForConcurrentGrasps) {
+TEST(PlanSpatial, TakesPolyhedronForConcurrentGraspsWhereItsGraphFits) {
   for (const auto& [name, body] : SmallBodies()) {
     const PlanResult some = PlanOnPolyhedron(body, Random(), Random(), Options(15, 2));
     if (!some.plan || !some.warnings.empty()) continue;
@@ -216,6 +216,10 @@ TEST(PlanSpatial, TakesPolyhedronForConcurrentGrasps) {
                                            Given(some.plan->goal), Spanning::kAdaptive, options);
     ASSERT_TRUE(by_auto.plan);
     EXPECT_EQ(by_auto.plan->planner, "polyhedron") << name;
+    const PlanResult scarce =
+        PlanSpatial(body, Given(ContactsOf(some.plan->initial)), Given(some.plan->goal),
+                    Spanning::kAdaptive, options, /*memory=*/1);
+    EXPECT_TRUE(!scarce.plan || scarce.plan->planner == "roadmap") << name;
   }
 }
 
