@@ -7,7 +7,6 @@
 
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
-#include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
 
 namespace regrasp {
@@ -213,7 +212,7 @@ Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle
   report.grasp.emplace();
   report.grasp->fingers = MeasureFingerFriction(grasp, frame, half_angle);
   if (!report.grasp->fingers.empty()) {
-    report.grasp->quality = ComputeQuality(grasp, frame, half_angle).lower;
+    report.grasp->quality = ComputeQuality(grasp, frame, half_angle);
   }
   return report;
 }

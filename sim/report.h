@@ -7,6 +7,7 @@
 
 #include "planner/certificate/plan_proof.h"
 #include "planner/grasp/finger_friction.h"
+#include "planner/grasp/quality.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"
@@ -45,8 +46,8 @@ struct ReportStep {
 
 /// What is said of a single grasp.
 struct GraspReport {
-  /// ε of the grasp, from below (planner/grasp/quality.h); 0 where it is not force closure.
-  double quality = 0;
+  /// Bounds on ε of the grasp (planner/grasp/quality.h); 0 where it is not force closure.
+  QualityBounds quality;
   /// What each finger needs of its own friction, in the order of the file; empty where the grasp is
   /// not force closure.
   std::vector<FingerFriction> fingers;

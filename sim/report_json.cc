@@ -150,7 +150,8 @@ Json MakeGrasp(const Report& report) {
   const int weakest = WeakestFinger(grasp.fingers);
   return {{"file", report.plan_file},
           {"sha256", report.plan_sha256},
-          {"quality", grasp.quality},
+          {"quality", grasp.quality.lower},
+          {"quality_at_most", grasp.quality.upper},
           {"weakest_finger", weakest < 0 ? Json(nullptr) : Json(weakest)},
           {"fingers", fingers}};
 }

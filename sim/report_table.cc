@@ -5,6 +5,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
+#include "planner/grasp/quality.h"
 #include "sim/report.h"
 #include "sim/stress_table.h"
 #include "sim/trials_report.h"
@@ -76,7 +77,7 @@ std::string FormatGraspLines(const Report& report) {
   if (weakest < 0) return "";
   const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
   const FingerFriction& finger = report.grasp->fingers[weakest];
-  std::string text = "quality: " + FormatShort(report.grasp->quality) + "\nweakest: finger " +
+  std::string text = "quality: " + QualityText(report.grasp->quality) + "\nweakest: finger " +
                      std::to_string(weakest);
   if (finger.needed) {
     text += ", which alone needs a friction half-angle of " + degrees(finger.required);

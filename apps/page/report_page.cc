@@ -151,7 +151,7 @@ class Page {
     const std::optional<RequiredHalfAngle>& required = report_.steps.front().check.required;
     add("Needs", required ? DegreesText(Degrees(required->upper)) : std::string("none serves"));
     if (grasp.fingers.empty()) return;
-    add("Quality ε", NumberText(grasp.quality));
+    add("Quality ε", QualityText(grasp.quality));
     add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
   }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "planner/base/number.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality_rays.h"
@@ -21,9 +22,6 @@ constexpr int kRimSamples = 6;
 /// Facets refined in one round: enough to spread over the neighbourhood of the nearest point, few
 /// enough that Qhull, whose time grows steeply with the points, stays cheap.
 constexpr int kFacetsPerRound = 24;
-
-/// The gap shrinks by a third or more per round; this many only end what rounding keeps apart.
-constexpr int kMaxRounds = 60;
 
 /// A certified ball about the origin inside the wrench set, found with Qhull: the hull of some of
 /// the set's points bounds it from below, the set's support in the facets' normals from above.
@@ -42,10 +40,12 @@ class BallSearch {
   }
 
   [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
+  [[nodiscard]] bool has_budget() const { return bounds_.facets < kMostQualityFacets; }
 
   /// Refines once. @returns false where nothing can be refined any more.
   bool Refine(double goal) {
     const ConvexHull hull = ComputeConvexHull(points_);
+    bounds_.facets += static_cast<std::int64_t>(hull.facets.size());
     std::vector<const HullFacet*> facets;
     facets.reserve(hull.facets.size());
     for (const HullFacet& facet : hull.facets) facets.push_back(&facet);
@@ -57,6 +57,8 @@ class BallSearch {
       if (refined == kFacetsPerRound || facet->offset - hull.joggle >= goal * bounds_.upper) break;
       const auto support = set_.Support(facet->normal);
       bounds_.upper = std::min(bounds_.upper, support.value);
+      // A point that is on the facet already, but for the joggle, would only force a larger joggle.
+      if (support.value - facet->offset <= hull.joggle) continue;
       AddPoint(support.point);
       ++refined;
     }
@@ -78,12 +80,11 @@ template <int kDim>
 QualityBounds Quality(const UnitContacts& contacts, double relative_gap) {
   const WrenchSet<kDim> set(contacts);
   BallSearch<kDim> search(set, {0, std::numeric_limits<double>::infinity()});
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (!search.Refine(1 - relative_gap)) break;
-    const QualityBounds& bounds = search.bounds();
-    if (bounds.upper - bounds.lower <= relative_gap * bounds.upper) break;
+  const QualityBounds& bounds = search.bounds();
+  while (search.has_budget() && search.Refine(1 - relative_gap)) {
+    if (bounds.upper - bounds.lower <= std::max(relative_gap * bounds.upper, kQualityGap)) break;
   }
-  return search.bounds();
+  return bounds;
 }
 
 template <int kDim>
@@ -93,8 +94,7 @@ bool AtLeast(const UnitContacts& contacts, double threshold) {
   rays.Run();
   BallSearch<kDim> balls(set, rays.bounds());
   const QualityBounds& bounds = balls.bounds();
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (bounds.lower >= threshold || bounds.upper < threshold) break;
+  while (bounds.lower < threshold && bounds.upper >= threshold && balls.has_budget()) {
     if (!balls.Refine(threshold / bounds.upper)) break;
   }
   return bounds.lower >= threshold;
@@ -108,6 +108,13 @@ UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const WrenchF
 }
 
 }  // namespace
+
+std::string QualityText(const QualityBounds& quality) {
+  constexpr double kAgree = 0.02;
+  const std::string lower = FormatShort(quality.lower);
+  if (quality.upper - quality.lower <= kAgree * quality.upper) return lower;
+  return "at least " + lower + ", at most " + FormatShort(quality.upper);
+}
 
 QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFrame& frame,
                              double half_angle, double relative_gap) {

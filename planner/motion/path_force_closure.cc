@@ -14,10 +14,6 @@ namespace regrasp {
 
 namespace {
 
-/// So many intervals of one motion are looked at: one that needs more keeps within about 1e-5 of
-/// the limit, and no file may keep the program busy for more than seconds.
-constexpr int kMostIntervals = 20'000;
-
 /// Intervals shorter than this are given more room than kPathAngleAccuracy, twice as much with
 /// every halving; and all are once more with every kPatience intervals looked at. So the search
 /// ends.
@@ -54,8 +50,13 @@ class PieceProofs {
 
 class PathDecision {
  public:
-  PathDecision(const GraspMotion& motion, const WrenchFrame& frame, double half_angle)
-      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), half_angle_(half_angle) {}
+  PathDecision(const GraspMotion& motion, const WrenchFrame& frame, double half_angle,
+               ProofBudget& budget)
+      : motion_(motion),
+        proofs_(motion, frame.dimension),
+        frame_(frame),
+        half_angle_(half_angle),
+        budget_(budget) {}
 
   PathForceClosure Decide() {
     result_.decision = Decision::kYes;
@@ -67,7 +68,9 @@ class PathDecision {
   void Decide(double from, double to) {
     const double centre = from + (to - from) / 2;
     if (Ended()) return;
-    if (++intervals_ > kMostIntervals) return EndEarly(centre);
+    if (++intervals_ > kMostIntervals || !budget_.SpendPiece(motion_.size())) {
+      return EndEarly(centre);
+    }
     if (!HoldsAt(centre)) return Lose(centre);
     if (proofs_.Prove(half_angle_, from, to)) return;
     if (to - from > kShortestInterval) {
@@ -109,6 +112,7 @@ class PathDecision {
   PieceProofs proofs_;
   const WrenchFrame& frame_;
   double half_angle_;
+  ProofBudget& budget_;
   int intervals_ = 0;
   PathForceClosure result_;
 };
@@ -118,14 +122,15 @@ class PathDecision {
 /// is known before what it covers easily is looked at.
 class PathAngle {
  public:
-  PathAngle(const GraspMotion& motion, const WrenchFrame& frame)
-      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame) {}
+  PathAngle(const GraspMotion& motion, const WrenchFrame& frame, ProofBudget& budget)
+      : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), budget_(budget) {}
 
   /// @returns false where an instant is force closure at no angle.
   bool Search() {
     // The ends first: the largest angle of all is often one of theirs.
     if (!Include(0) || !Include(1) || !Add(0, 1)) return false;
     while (!open_.empty() && complete_) {
+      if (!budget_.SpendPiece(motion_.size())) complete_ = false;
       const Interval interval = open_.top();
       open_.pop();
       if (!Cover(interval)) return false;
@@ -180,6 +185,7 @@ class PathAngle {
   const GraspMotion& motion_;
   PieceProofs proofs_;
   const WrenchFrame& frame_;
+  ProofBudget& budget_;
   RequiredHalfAngle bounds_;  ///< of the instants seen so far
   std::priority_queue<Interval> open_;
   double proved_ = 0;
@@ -187,17 +193,29 @@ class PathAngle {
   int intervals_ = 0;
 };
 
+/// Of a motion by itself.
+ProofBudget BudgetOf(const GraspMotion& motion) {
+  return ProofBudget(kMostIntervals * static_cast<std::int64_t>(motion.size()));
+}
+
 }  // namespace
 
 PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const WrenchFrame& frame,
+                                        double half_angle, ProofBudget& budget) {
+  return PathDecision(motion, frame, half_angle, budget).Decide();
+}
+
+PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const WrenchFrame& frame,
                                         double half_angle) {
-  return PathDecision(motion, frame, half_angle).Decide();
+  ProofBudget budget = BudgetOf(motion);
+  return DecidePathForceClosure(motion, frame, half_angle, budget);
 }
 
 std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion& motion,
                                                               const WrenchFrame& frame,
-                                                              std::optional<double> proven) {
-  PathAngle search(motion, frame);
+                                                              std::optional<double> proven,
+                                                              ProofBudget& budget) {
+  PathAngle search(motion, frame, budget);
   if (!search.Search()) return std::nullopt;
   RequiredHalfAngle bounds = search.bounds();
   if (!search.complete()) {
@@ -206,6 +224,13 @@ std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion&
   }
   if (proven) bounds.upper = std::min(bounds.upper, *proven);
   return bounds;
+}
+
+std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion& motion,
+                                                              const WrenchFrame& frame,
+                                                              std::optional<double> proven) {
+  ProofBudget budget = BudgetOf(motion);
+  return ComputePathRequiredHalfAngle(motion, frame, proven, budget);
 }
 
 }  // namespace regrasp

@@ -5,12 +5,17 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
+#include "planner/motion/proof_budget.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp {
 
 /// Force closure is decided down to intervals of this length, the motion being 1 long.
 inline constexpr double kShortestInterval = 1e-6;
+
+/// So many intervals of one motion are looked at: one that needs more keeps within about 1e-5 of
+/// the limit.
+inline constexpr int kMostIntervals = 20'000;
 
 /// Where more than this many of the shortest intervals, a thousandth of the path, stay undecided
 /// the search ends: the motion keeps too close to the limit.
@@ -36,8 +41,14 @@ struct PathForceClosure {
 /// until it has a proof (FindPieceProof) that exact arithmetic accepts (CheckPieceProof), an
 /// instant fails IsForceClosure, or it is shorter than kShortestInterval.
 ///
+/// Ends early after kMostIntervals intervals, or where nothing is left of the budget.
+///
 /// Laws: monotone in half_angle; a motion that is not force closure at some instant, however short
 /// the interval, is never said to hold.
+[[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
+                                                      const WrenchFrame& frame, double half_angle,
+                                                      ProofBudget& budget);
+/// The same with a budget of its own.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const WrenchFrame& frame, double half_angle);
 
@@ -49,10 +60,15 @@ inline constexpr double kPathAngleAccuracy = 1e-4;
 /// `upper` is proved for the whole way, piece by piece, by proofs that exact arithmetic accepts.
 /// `upper` is within kPathAngleAccuracy of `lower`, unless a narrow place of the path needs proofs
 /// with more room, or the path needs hundreds of pieces at that room; then as far off as they need.
+/// Where the budget ends it is `proven`.
 /// @param proven  a half-angle at which the whole motion is known to be force closure, if any:
 ///                `upper` is never above it.
 /// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
 ///          proved for the whole way.
+[[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven,
+    ProofBudget& budget);
+/// The same with a budget of its own.
 [[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven);
 

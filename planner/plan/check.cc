@@ -1,6 +1,7 @@
 #include "planner/plan/check.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "planner/base/error.h"
 #include "planner/plan/check_step.h"
@@ -50,6 +51,22 @@ StepCheck Skipped(int index, const char* kind) {
   return check;
 }
 
+/// Enough for any plan whose aligns keep off the limit: they need tens of pieces a stretch, and
+/// some stretches may need thousands.
+ProofBudget BudgetOf(const Plan& plan) {
+  constexpr std::int64_t kUnitsOfAPlan = 200'000;
+  constexpr std::int64_t kUnitsOfAContact = 250;
+  std::int64_t contacts = 0;
+  for (const Step& step : plan.steps) {
+    const auto* align = std::get_if<Align>(&step);
+    if (align == nullptr) continue;
+    for (const FingerGrasp& waypoint : align->waypoints) {
+      contacts += static_cast<std::int64_t>(waypoint.size());
+    }
+  }
+  return ProofBudget(kUnitsOfAPlan + kUnitsOfAContact * contacts);
+}
+
 }  // namespace
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
@@ -61,8 +78,15 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
   }
   PlanCheck result;
   result.located = LocatePlan(object, plan);
+  // Of their own, so that searches for bounds leave enough to decide with.
+  ProofBudget decisions = BudgetOf(plan);
+  ProofBudget bounds = BudgetOf(plan);
   const CheckContext context{
-      object, result.located, options.half_angle.value_or(plan.half_angle),
+      object,
+      result.located,
+      options.half_angle.value_or(plan.half_angle),
+      decisions,
+      bounds,
       options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),
       options.allow_undecided};
   result.steps.push_back(CheckHold(context));

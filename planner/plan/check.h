@@ -57,6 +57,8 @@ struct PlanCheck {
 /// The first failing step ends the check; later ones are `skipped`. Force closure along an align is
 /// decided over the whole path by proofs of its pieces, checked exactly (path_force_closure.h).
 /// What is too close to call at an instant is not force closure; what is not proved does not pass.
+/// The work on proofs is limited for the plan as a whole, by its size; where the limit is reached
+/// aligns fail as kNotProved.
 ///
 /// Laws: independent of the fingers' numbering and of the order of contacts, of rigid motion and of
 /// the unit of length; enlarging the friction never turns pass into fail.

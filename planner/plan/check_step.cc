@@ -222,10 +222,11 @@ std::string UnprovedText(const PathForceClosure& path, const std::string& way,
 void IncludeMotion(const CheckContext& context, const GraspMotion& motion, std::size_t waypoint,
                    StepCheck& check, StepFault& fault) {
   const WrenchFrame frame = context.object.wrench_frame();
-  const PathForceClosure path = DecidePathForceClosure(motion, frame, context.half_angle);
+  const PathForceClosure path =
+      DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
   std::optional<double> proven;
   if (path.holds()) proven = context.half_angle;
-  const auto required = ComputePathRequiredHalfAngle(motion, frame, proven);
+  const auto required = ComputePathRequiredHalfAngle(motion, frame, proven, context.bounds);
   check.required = Larger(check.required, required);
   check.undecided += path.undecided;
   const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);

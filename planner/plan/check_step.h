@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "planner/motion/proof_budget.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
@@ -27,6 +28,8 @@ struct CheckContext {
   const Object& object;
   const Plan& plan;
   double half_angle;             ///< friction, radians
+  ProofBudget& decisions;        ///< for deciding force closure along all aligns
+  ProofBudget& bounds;           ///< for the required half-angles of all aligns
   double finger_radius = 0;      ///< the object's unit of length; 0: points
   bool allow_undecided = false;  ///< CheckOptions
 

@@ -533,6 +533,8 @@ class Validate(ProgramCase):
         grasp = report["grasp"]
         self.assertEqual(grasp["file"], "cube.start.json")
         self.assertGreater(grasp["quality"], 0.01)
+        self.assertLess(grasp["quality"], grasp["quality_at_most"])
+        self.assertLess(grasp["quality_at_most"], 1.02 * grasp["quality"])
         self.assertEqual([finger["finger"] for finger in grasp["fingers"]], [0, 1, 2, 3])
         for finger in grasp["fingers"]:
             self.assertAlmostEqual(finger["required_half_angle_deg"] + finger["margin_deg"], 20)

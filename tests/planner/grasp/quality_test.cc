@@ -9,6 +9,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
 #include "random_grasps.h"
 
 namespace regrasp {
@@ -121,6 +122,46 @@ TEST(QualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
     EXPECT_GE(ComputeQuality(more, UnitFrame(3), half_angle, 0.1).upper, bounds.lower);
   }
   EXPECT_GT(checked, 10);
+}
+
+TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
+  RandomGrasps random(44);
+  int checked = 0;
+  for (int trial = 0; trial < 200 && checked < 4; ++trial) {
+    const Grasp grasp = random.OnBall(3, 3);
+    const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    if (!required || required->lower < Radians(5) || required->upper > Radians(60)) continue;
+    for (const double above : {1e-7, 1e-4}) {
+      const double half_angle = std::atan((1 + above) * std::tan(required->upper));
+      const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle);
+      EXPECT_GT(bounds.upper, 0);
+      EXPECT_LT(bounds.upper, 1e-4);
+      EXPECT_LE(bounds.upper - bounds.lower, std::max(kQualityGap, 0.01 * bounds.upper));
+      EXPECT_LT(bounds.facets, kMostQualityFacets);
+    }
+    ++checked;
+  }
+  EXPECT_EQ(checked, 4);
+}
+
+TEST(QualityTest, EndsItsWorkWithBoundsThatMayBeFarApart) {
+  // A gap that no rounding allows: only the limits on the work end it.
+  RandomGrasps random(45);
+  const Grasp grasp = random.OnBall(6, 3);
+  const double half_angle = Radians(40);
+  ASSERT_TRUE(IsForceClosure(grasp, UnitFrame(3), half_angle));
+  const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle, 1e-12);
+  EXPECT_LE(bounds.lower, bounds.upper);
+  EXPECT_LT(bounds.facets, 2 * kMostQualityFacets);
+  const QualityBounds coarse = ComputeQuality(grasp, UnitFrame(3), half_angle, 0.1);
+  EXPECT_LE(coarse.lower, bounds.upper);
+  EXPECT_LE(bounds.lower, coarse.upper);
+}
+
+TEST(QualityTest, IsToldByOneNumberWhereItIsKnownWell) {
+  EXPECT_EQ(QualityText({0.121, 0.122}), "0.121");
+  EXPECT_EQ(QualityText({0, 0}), "0");
+  EXPECT_EQ(QualityText({0, 1e-6}), "at least 0, at most 1e-06");
 }
 
 TEST(QualityTest, IsZeroWithoutForceClosure) {

@@ -321,6 +321,29 @@ TEST(PathForceClosure, RefusesAMotionThatKeepsTooCloseToTheLimit) {
   EXPECT_EQ(control.undecided, 0);
 }
 
+TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
+  RandomMotions motions(3, 0);
+  const WrenchFrame frame = FrameOf(3);
+  GraspMotion motion = motions.Next(6);
+  while (!DecidePathForceClosure(motion, frame, Radians(50)).holds()) motion = motions.Next(6);
+  ProofBudget enough(1'000'000);
+  EXPECT_TRUE(DecidePathForceClosure(motion, frame, Radians(50), enough).holds());
+  EXPECT_LT(enough.left(), 1'000'000);
+  // One piece more than all together need is looked at, and then none.
+  const std::int64_t needed = 1'000'000 - enough.left();
+  ProofBudget shared(needed + 1);
+  EXPECT_TRUE(DecidePathForceClosure(motion, frame, Radians(50), shared).holds());
+  static_cast<void>(DecidePathForceClosure(motion, frame, Radians(50), shared));
+  const PathForceClosure ended = DecidePathForceClosure(motion, frame, Radians(50), shared);
+  EXPECT_EQ(ended.decision, Decision::kTooClose);
+  EXPECT_TRUE(ended.ended_early);
+  EXPECT_EQ(ended.undecided, 0);
+  const auto bounds = ComputePathRequiredHalfAngle(motion, frame, Radians(50), shared);
+  ASSERT_TRUE(bounds);
+  EXPECT_EQ(bounds->upper, Radians(50));
+  EXPECT_FALSE(ComputePathRequiredHalfAngle(motion, frame, std::nullopt, shared));
+}
+
 /// Motions of four contacts whose points and normals stay in one plane: on the sides of a square in
 /// it, that is turned and moved in space, or not.
 class CoplanarMotions {

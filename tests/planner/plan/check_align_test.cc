@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bodies.h"
 #include "planner/base/angle.h"
 #include "planner/plan/check.h"
@@ -188,6 +190,28 @@ TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
   EXPECT_GT(check.steps[1].undecided, 0);
   EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4), allowed).steps[1].reason,
             Reason::kNotForceClosure);
+}
+
+TEST(CheckAlign, SaysWhereTheSearchForProofsEnded) {
+  // Finger 0 turns at a corner while finger 1 slides, both evenly: the angle between the normal and
+  // the line through both is 0.3 + atan(0.3 t) − 0.3 t, within 1e-9 of its largest for long.
+  const double turn = 0.3;
+  const Polygon body =
+      Polygon::FromRings({{{0, 0}, {0, -1}, {1, -1}, {1, 1}, {std::tan(turn), 1}}}, "body");
+  const auto grasp = [](const Eigen::Vector3d& n, double y) {
+    return FingerGrasp{{0, {{0, 0, 0}, n}}, {1, {{1, y, 0}, {-1, 0, 0}}}};
+  };
+  Plan plan = AlignPlan(EmptyPlan(2, 4, 20),
+                        {grasp({std::cos(turn), -std::sin(turn), 0}, 0), grasp({1, 0, 0}, turn)});
+  plan.half_angle = turn + 1e-9;
+  for (const bool allow_undecided : {false, true}) {
+    const StepCheck step = CheckPlan(body, plan, {.allow_undecided = allow_undecided}).steps[1];
+    EXPECT_EQ(step.reason, Reason::kNotProved);
+    EXPECT_FALSE(step.force_closure);
+    EXPECT_THAT(step.detail, testing::HasSubstr("the search for proofs ended at"));
+  }
+  plan.half_angle = turn + 1e-4;
+  EXPECT_TRUE(CheckPlan(body, plan).passed());
 }
 
 TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
