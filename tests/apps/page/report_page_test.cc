@@ -122,8 +122,8 @@ TEST(ReportPageTest, ASingleGraspHasALineForEachFingerAndNoPlots) {
   Scene scene(/*fails=*/false);
   scene.plan.steps.clear();
   scene.report.steps.resize(1);
-  scene.report.grasp =
-      GraspReport{0.1234, {{Radians(3), true, std::nullopt}, {Radians(11), true, Radians(30)}}};
+  scene.report.grasp = GraspReport{
+      {0.1234, 0.1235}, {{Radians(3), true, std::nullopt}, {Radians(11), true, Radians(30)}}};
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});
   EXPECT_THAT(page, HasSubstr("Validation of a grasp"));
   EXPECT_THAT(page, HasSubstr("<dd>finger 1</dd>"));
