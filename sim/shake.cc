@@ -49,7 +49,9 @@ void PushAdapted(Stage& stage, const Wrench& push_S) {
 void PushFixed(Stage& stage, const Wrench& push_S) {
   stage.judge().SetGiving(true);
   stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, share); });
-  ComeToRest(stage);
+  // What swings on the servos for long is not lost, and what slides does not come back.
+  (void)WaitUntilStill(stage);
+  stage.JudgeRest();
   stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, 1 - share); });
   (void)WaitUntilStill(stage);
   stage.judge().SetGiving(false);
