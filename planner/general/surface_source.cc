@@ -35,6 +35,7 @@ SurfaceSource::SurfaceSource(const Object& object, double finger_radius)
   const auto* solid = dynamic_cast<const Polyhedron*>(&object);
   for (int face = 0; face < object.face_count(); ++face) {
     first_piece_.push_back(static_cast<int>(pieces_.size()));
+    if (object.IsEnclosed(face)) continue;
     if (solid == nullptr) {
       const auto [a, b] = dynamic_cast<const Polygon&>(object).edge(face);
       AddPiece({a, b, b, face}, (b - a).norm());
@@ -119,7 +120,8 @@ Contact SurfaceSource::DrawAround(const Contact& contact, double reach,
   const Vector3d p = DrawBeside(contact, reach, random);
   // Looking for the nearest face far away is dear, and most are near.
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
-    const std::vector<int> faces = object_.FacesNear(p, radius);
+    std::vector<int> faces = object_.FacesNear(p, radius);
+    std::erase_if(faces, [&](int face) { return object_.IsEnclosed(face); });
     if (faces.empty()) continue;
     // Where an edge is nearest, so are both of its faces.
     const auto distance = [&](int face) { return (object_.ClosestPoint(face, p) - p).norm(); };

@@ -8,7 +8,7 @@
 
 namespace regrasp {
 
-/// Random contacts on a body's surface, in space and in the plane.
+/// Random contacts on a body's surface, in space and in the plane; never in a sealed cavity.
 class SurfaceSource {
  public:
   /// @param object  outlives this object. @param finger_radius  its unit of length; 0: points.
@@ -18,7 +18,7 @@ class SurfaceSource {
   /// face, and, if it is no point, comes to it (CanReach).
   [[nodiscard]] bool Serves(const Contact& contact) const;
 
-  /// Evenly over the whole surface or over one face, where it serves.
+  /// Evenly over the whole surface or over one face (of no cavity), where it serves.
   [[nodiscard]] Contact Draw(RandomStream& random) const;
   [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
 

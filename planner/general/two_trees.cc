@@ -247,7 +247,9 @@ void TwoTrees::GrowAcross(int side, std::int64_t until) {
     FaceTuple tuple;
     for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
     std::sort(tuple.begin(), tuple.end());
-    if (IsSmall(face, space_.object()) || !trees_[side].reached.OnTuple(tuple).empty()) continue;
+    if (IsSmall(face, space_.object()) || space_.object().IsEnclosed(face) ||
+        !trees_[side].reached.OnTuple(tuple).empty())
+      continue;
     const auto found =
         FindTransition(before, leaving, source_.DrawOn(face, random_), source_, random_, space_);
     if (!found) continue;

@@ -6,12 +6,15 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "planner/object/closest_on_segment.h"
 #include "planner/object/segment_coverage.h"
 
 namespace regrasp {
@@ -31,6 +34,10 @@ constexpr std::ptrdiff_t kFew = 16;
 /// Distances are rounded: within this times the diameter two triangles that share an edge leave no
 /// gap, however a segment crosses it.
 constexpr double kRounding = 1e-12;
+
+/// What the rounding of coordinates adds to that, over the largest of them: some units in the last
+/// place.
+constexpr double kCoordinateRounding = 1e-15;
 
 /// A segment is sought in so many pieces: the box around an oblique one is mostly far from it.
 constexpr int kSegmentPieces = 16;
@@ -109,6 +116,45 @@ double DistanceTo(const Triangle& triangle, const Segment& segment) {
   return std::sqrt(least);
 }
 
+using PlanePoint = Kernel::Point_2;
+using PlaneTriangle = std::array<PlanePoint, 3>;
+
+Vector3d InSpace(const PlanePoint& p) { return {p.x(), p.y(), 0}; }
+
+/// What one sees along a normal, from a point.
+class PlaneView {
+ public:
+  PlaneView(const Vector3d& origin, const Vector3d& normal)
+      : origin_(origin), u_(normal.unitOrthogonal()), v_(normal.cross(u_)) {}
+
+  [[nodiscard]] PlanePoint Of(const Vector3d& p) const {
+    return {u_.dot(p - origin_), v_.dot(p - origin_)};
+  }
+  [[nodiscard]] PlaneTriangle Of(const Triangle& triangle) const {
+    return {Of(ToVector(triangle[0])), Of(ToVector(triangle[1])), Of(ToVector(triangle[2]))};
+  }
+
+ private:
+  Vector3d origin_, u_, v_;
+};
+
+/// Of triangles that may be flat too: those that stand upright in a face.
+double DistanceTo(const PlaneTriangle& triangle, const PlanePoint& point) {
+  const auto& [a, b, c] = triangle;
+  const auto side = CGAL::orientation(a, b, point);
+  if (side != CGAL::COLLINEAR && side == CGAL::orientation(b, c, point) &&
+      side == CGAL::orientation(c, a, point)) {
+    return 0;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    least = std::min(
+        least,
+        (ClosestOnSegment(InSpace(from), InSpace(to), InSpace(point)) - InSpace(point)).norm());
+  }
+  return least;
+}
+
 CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
   const Vector3d low = a.cwiseMin(b).array() - distance;
   const Vector3d high = a.cwiseMax(b).array() + distance;
@@ -119,21 +165,49 @@ CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
 
 struct FaceIndex::Impl {
   double diameter = 0;
+  double rounding = 0;              ///< of distances between points of the surface
+  std::vector<Vector3d> normals;    ///< by face
   std::vector<Triangle> triangles;  ///< sorted by face
   std::vector<int> face_of_triangle;
   std::vector<Segment> segments;  ///< borders, sorted by face
   std::vector<Patch<TrianglePrimitive>> surface;
   std::vector<Patch<SegmentPrimitive>> border;
   TriangleTree tree;
+
+  [[nodiscard]] bool Covers(int face, const Vector3d& a, const Vector3d& b, double within) const;
 };
+
+/// True iff the segment ab is within a distance of the face, and over it up to rounding where one
+/// looks along its normal.
+bool FaceIndex::Impl::Covers(int face, const Vector3d& a, const Vector3d& b, double within) const {
+  const PlaneView view(a, normals[face]);
+  const double strictness = within / rounding;
+  // The points near one triangle form an interval, as the distance to a convex set is convex along
+  // a line: the segment is on the face iff the intervals of all triangles cover it.
+  std::vector<ParameterInterval> near;
+  surface[face].VisitNear(Around(a, b, within), [&](const Triangle& triangle) {
+    const PlaneTriangle seen = view.Of(triangle);
+    const auto distance = [&](double t) {
+      const Vector3d p = a + t * (b - a);
+      const double beside = strictness * DistanceTo(seen, view.Of(p));
+      return beside > within ? beside : std::max(beside, DistanceTo(triangle, p));
+    };
+    if (const auto interval = SublevelInterval(distance, within)) near.push_back(*interval);
+  });
+  return CoverUnitInterval(std::move(near));
+}
 
 FaceIndex::FaceIndex(const std::vector<Vector3d>& vertices,
                      const std::vector<std::array<int, 3>>& triangles,
                      const std::vector<Polyhedron::Face>& faces, double diameter) {
   auto impl = std::make_unique<Impl>();
   impl->diameter = diameter;
+  double farthest = 0;
+  for (const Vector3d& vertex : vertices) farthest = std::max(farthest, vertex.norm());
+  impl->rounding = kRounding * diameter + kCoordinateRounding * farthest;
   std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
   for (int f = 0; f < std::ssize(faces); ++f) {
+    impl->normals.push_back(faces[f].inward_normal);
     for (const int t : faces[f].triangles) {
       const auto& [a, b, c] = triangles[t];
       impl->triangles.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]),
@@ -212,14 +286,25 @@ double FaceIndex::DistanceToBorder(int face, const Vector3d& point) const {
 bool FaceIndex::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
                                 double tolerance) const {
   const double within = std::max(tolerance, kRounding * impl_->diameter);
-  // The points near one triangle form an interval, as the distance to a convex set is convex along
-  // a line: the segment is on the face iff the intervals of all triangles cover it.
-  std::vector<ParameterInterval> near;
-  impl_->surface[face].VisitNear(Around(a, b, within), [&](const Triangle& triangle) {
-    const auto distance = [&](double t) { return DistanceTo(triangle, a + t * (b - a)); };
-    if (const auto interval = SublevelInterval(distance, within)) near.push_back(*interval);
+  const Vector3d from = ClosestPoint(face, a), to = ClosestPoint(face, b);
+  if ((from - a).norm() > within || (to - b).norm() > within) return false;
+  if (impl_->Covers(face, from, to, within)) return true;
+  // The ends are known to within the tolerance: a way beside this one, to which both ends can go
+  // without leaving the face, will do.
+  const Vector3d aside = within * impl_->normals[face].cross(to - from).stableNormalized();
+  const auto ends = [&](const Vector3d& end) {
+    std::vector<Vector3d> found = {end};
+    for (const Vector3d& off : {aside, Vector3d(-aside)}) {
+      const Vector3d moved = ClosestPoint(face, end + off);
+      if (impl_->Covers(face, end, moved, within)) found.push_back(moved);
+    }
+    return found;
+  };
+  const std::vector<Vector3d> starts = ends(from), stops = ends(to);
+  return std::ranges::any_of(starts, [&](const Vector3d& start) {
+    return std::ranges::any_of(
+        stops, [&](const Vector3d& stop) { return impl_->Covers(face, start, stop, within); });
   });
-  return CoverUnitInterval(std::move(near));
 }
 
 }  // namespace regrasp

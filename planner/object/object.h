@@ -61,8 +61,11 @@ class Object {
   /// Distance from `point` to the face's border (its outline and the outlines of its holes).
   [[nodiscard]] virtual double DistanceToBorder(int face, const Eigen::Vector3d& point) const = 0;
 
-  /// True iff every point of the segment ab is within `tolerance` of the face. Faces need not be
-  /// convex and may have holes: both ends inside is not enough.
+  /// True iff a point that goes from a to b stays on the face: every point of the segment is within
+  /// `tolerance` of it, and, seen along the face's normal, none is beside it once the ends are
+  /// moved by no more than about the tolerance. Faces need not be convex and may have holes and
+  /// slits: both ends inside is not enough, and a slit that is narrower than the tolerance still
+  /// parts a face.
   [[nodiscard]] virtual bool ContainsSegment(int face, const Eigen::Vector3d& a,
                                              const Eigen::Vector3d& b, double tolerance) const = 0;
 
@@ -72,6 +75,17 @@ class Object {
   /// True iff two different faces have a border in common. Takes some nanoseconds where they have
   /// few borders.
   [[nodiscard]] virtual bool AreNeighbours(int face, int other) const = 0;
+
+  /// Points that two different faces have in common within `tolerance` of `point`: of each border
+  /// of the two the nearest one, and the vertices at which they merely touch. Faces that are near
+  /// each other, on the two sides of a thin wall, have none.
+  [[nodiscard]] virtual std::vector<Eigen::Vector3d> CommonPoints(int face, int other,
+                                                                  const Eigen::Vector3d& point,
+                                                                  double tolerance) const = 0;
+
+  /// True iff the face is a wall of a sealed cavity: of a shell that the outside does not see. No
+  /// finger comes there, however thin. Never in the plane, where a finger comes from above.
+  [[nodiscard]] virtual bool IsEnclosed(int face) const = 0;
 
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planner/base/error.h"
+#include "planner/object/closest_on_segment.h"
 #include "planner/object/diameter.h"
 #include "planner/object/polygon_rings.h"
 #include "planner/object/size_limits.h"
@@ -93,11 +94,7 @@ double Polygon::face_measure(int face) const {
 
 Vector3d Polygon::ClosestPoint(int face, const Vector3d& point) const {
   const auto [a, b] = edge(face);
-  const Vector3d along = b - a;
-  const double t = (point - a).dot(along) / along.squaredNorm();
-  if (t <= 0) return a;
-  if (t >= 1) return b;
-  return a + t * along;
+  return ClosestOnSegment(a, b, point);
 }
 
 std::vector<int> Polygon::FacesNear(const Vector3d& point, double tolerance) const {
@@ -149,6 +146,17 @@ std::vector<FaceBorder> Polygon::BordersOf(int face) const {
 
 bool Polygon::AreNeighbours(int face, int other) const {
   return other == next_[face] || other == previous_[face];
+}
+
+std::vector<Vector3d> Polygon::CommonPoints(int face, int other, const Vector3d& point,
+                                            double tolerance) const {
+  std::vector<Vector3d> points;
+  for (const FaceBorder& border : BordersOf(face)) {
+    if (border.beyond == other && (border.a - point).norm() <= tolerance) {
+      points.push_back(border.a);
+    }
+  }
+  return points;
 }
 
 }  // namespace regrasp

@@ -47,6 +47,10 @@ class Polygon final : public Object {
                                      double tolerance) const override;
   [[nodiscard]] std::vector<FaceBorder> BordersOf(int face) const override;
   [[nodiscard]] bool AreNeighbours(int face, int other) const override;
+  [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(int face, int other,
+                                                          const Eigen::Vector3d& point,
+                                                          double tolerance) const override;
+  [[nodiscard]] bool IsEnclosed(int /*face*/) const override { return false; }
 
  private:
   Polygon(std::vector<std::vector<Eigen::Vector2d>> rings, double diameter,

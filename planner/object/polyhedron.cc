@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <set>
 #include <utility>
 
+#include "planner/object/closest_on_segment.h"
 #include "planner/object/diameter.h"
 #include "planner/object/face_index.h"
 #include "planner/object/face_joining.h"
@@ -93,9 +95,10 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
   CheckEdges(mesh, diameter, name);
   SurfaceTopology topology = ComputeTopology(mesh, name);
   CheckSelfIntersection(mesh, name);
-  OrientSolid(mesh, topology, name);
+  const int outside = OrientSolid(mesh, topology, name);
   std::vector<int> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
   std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle, name);
+  for (Face& face : faces) face.enclosed = topology.shell[face.triangles.front()] != outside;
   const MassProperties mass = ComputeMassProperties(mesh.vertices, mesh.triangles);
   return Polyhedron(std::move(mesh.vertices), std::move(mesh.triangles),
                     std::move(face_of_triangle), std::move(faces), diameter, mass);
@@ -153,6 +156,27 @@ std::vector<FaceBorder> Polyhedron::BordersOf(int face) const {
 
 bool Polyhedron::AreNeighbours(int face, int other) const {
   return std::ranges::find(faces_[face].beyond, other) != faces_[face].beyond.end();
+}
+
+std::vector<Vector3d> Polyhedron::CommonPoints(int face, int other, const Vector3d& point,
+                                               double tolerance) const {
+  std::vector<Vector3d> points;
+  const auto add = [&](const Vector3d& p) {
+    if ((p - point).norm() <= tolerance) points.push_back(p);
+  };
+  std::set<int> corners;
+  const Face& own = faces_[face];
+  for (std::size_t i = 0; i < own.border.size(); ++i) {
+    const Vector3d& a = vertices_[own.border[i][0]];
+    if (own.beyond[i] == other) add(ClosestOnSegment(a, vertices_[own.border[i][1]], point));
+    // Every corner of a border is where one of its segments begins.
+    if ((a - point).norm() <= tolerance) corners.insert(own.border[i][0]);
+  }
+  if (corners.empty()) return points;
+  for (const auto& [from, to] : faces_[other].border) {
+    if (corners.contains(from)) add(vertices_[from]);
+  }
+  return points;
 }
 
 }  // namespace regrasp

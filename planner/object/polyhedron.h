@@ -25,6 +25,7 @@ class Polyhedron final : public Object {
     /// left seen from outside.
     std::vector<std::array<int, 2>> border;
     std::vector<int> beyond;  ///< by border segment: the face across it
+    bool enclosed = false;    ///< of a cavity
   };
 
   /// Checks, orients (a wholly inward mesh is turned) and joins a soup. Vertices with exactly equal
@@ -57,6 +58,10 @@ class Polyhedron final : public Object {
                                      double tolerance) const override;
   [[nodiscard]] std::vector<FaceBorder> BordersOf(int face) const override;
   [[nodiscard]] bool AreNeighbours(int face, int other) const override;
+  [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(int face, int other,
+                                                          const Eigen::Vector3d& point,
+                                                          double tolerance) const override;
+  [[nodiscard]] bool IsEnclosed(int face) const override { return faces_[face].enclosed; }
 
  private:
   Polyhedron(std::vector<Eigen::Vector3d> vertices, std::vector<std::array<int, 3>> triangles,

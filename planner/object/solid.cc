@@ -111,7 +111,7 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
 
 }  // namespace
 
-void OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::string& name) {
+int OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::string& name) {
   const std::vector<Shell> shells = CollectShells(mesh, topology);
   const auto largest = std::ranges::max_element(
       shells, {}, [](const Shell& shell) { return std::abs(shell.volume); });
@@ -119,11 +119,12 @@ void OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::strin
     throw MeshError(MeshDefect::kEmpty, name + ": empty: the surface encloses no volume");
   }
   const double orientation = largest->volume > 0 ? 1 : -1;
+  const auto outside = largest - shells.begin();
   if (shells.size() > 1) {
-    CheckCavities(mesh, shells, static_cast<std::size_t>(largest - shells.begin()), orientation,
-                  name);
+    CheckCavities(mesh, shells, static_cast<std::size_t>(outside), orientation, name);
   }
   if (orientation < 0) Turn(mesh, topology);
+  return static_cast<int>(outside);
 }
 
 }  // namespace regrasp

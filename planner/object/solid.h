@@ -13,7 +13,9 @@ namespace regrasp {
 /// turned. Every other shell must then be a cavity: oriented into the material, inside the outside
 /// and inside no other cavity.
 /// @param mesh  without self-intersection; turned in place, as is `topology`.
+/// @returns the shell that is the outside.
 /// @throws MeshError  kEmpty where there is no volume, kSeveralSolids.
-void OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::string& name);
+[[nodiscard]] int OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology,
+                              const std::string& name);
 
 }  // namespace regrasp

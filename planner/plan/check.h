@@ -38,6 +38,8 @@ struct CheckOptions {
   /// Fingers have this radius (reach.h), the object's unit of length, instead of the plan's; points
   /// where neither says.
   std::optional<double> finger_radius = std::nullopt;
+  /// False: everything but force closure, which is then false and `required` nullopt everywhere.
+  bool judge_force_closure = true;
   const Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
   const Grasp* goal = nullptr;   ///< and its goal this one
   /// Aligns pass with up to kMostUndecided undecided intervals in each stretch.

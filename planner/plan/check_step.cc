@@ -109,6 +109,7 @@ std::optional<RequiredHalfAngle> Within(std::optional<RequiredHalfAngle> require
 /// Includes a grasp at rest in a step's force closure and required half-angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
+  if (!context.judge_force_closure) return;
   const Grasp contacts = ContactsOf(grasp);
   const WrenchFrame frame = context.object.wrench_frame();
   std::optional<RequiredHalfAngle> required;
@@ -134,7 +135,8 @@ void AddObstacle(const std::optional<std::string>& obstacle, StepFault& fault) {
 }
 
 /// Where force closure is about to be judged: nothing found against it yet.
-void BeginForceClosure(StepCheck& check) {
+void BeginForceClosure(const CheckContext& context, StepCheck& check) {
+  if (!context.judge_force_closure) return;
   check.force_closure = true;
   check.required = RequiredHalfAngle{0, 0};
 }
@@ -149,13 +151,19 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
                      const FingerGrasp& first, StepFault& fault) {
   for (const FingerContact& held : before) {
     const FingerContact* moved = FindFinger(first, held.finger);
-    if (moved != nullptr && !AreSameContact(held.contact, moved->contact, context.tolerance())) {
+    if (moved == nullptr) continue;
+    if (!AreSameContact(held.contact, moved->contact, context.tolerance())) {
       const double distance = (held.contact.p - moved->contact.p).norm();
       const double angle = Degrees(AngleBetween(held.contact.n, moved->contact.n));
       fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
                                             " is not where it was: " + FormatShort(distance) +
                                             " away, normal turned by " + FormatShort(angle) +
                                             " degrees");
+    } else if (moved->contact.face >= 0 &&
+               FindMotionFault(context.object, held.contact, moved->contact)) {
+      fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
+                                            " is not where it was: beyond a gap in the surface, or "
+                                            "a wall, thinner than points are known to");
     }
   }
 }
@@ -221,6 +229,7 @@ std::string UnprovedText(const PathForceClosure& path, const std::string& way,
 /// Includes the way from one waypoint to the next in an align's force closure.
 void IncludeMotion(const CheckContext& context, const GraspMotion& motion, std::size_t waypoint,
                    StepCheck& check, StepFault& fault) {
+  if (!context.judge_force_closure) return;
   const WrenchFrame frame = context.object.wrench_frame();
   const PathForceClosure path =
       DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
@@ -264,7 +273,7 @@ StepCheck CheckHold(const CheckContext& context) {
   CheckFingerCount(context, initial.size(), fault);
   CheckCoincidence(context, initial, fault);
   if (fault.none()) {
-    BeginForceClosure(check);
+    BeginForceClosure(context, check);
     IncludeRest(context, initial, "the initial grasp", check, fault);
     AddObstacle(FindRestObstacle(context.object, initial, context.least_radius()), fault);
   }
@@ -294,7 +303,7 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   const FingerGrasp after = GraspAfter(before, step);
   CheckCoincidence(context, after, fault);
   if (fault.none()) {
-    BeginForceClosure(check);
+    BeginForceClosure(context, check);
     IncludeRest(context, before, "the grasp before", check, fault);
     IncludeRest(context, after, "the grasp after", check, fault);
     AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
@@ -318,7 +327,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   // Every other fault comes before leaves-face, and may be of waypoints too large to pair.
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
-    BeginForceClosure(check);
+    BeginForceClosure(context, check);
     IncludeRest(context, step.waypoints.front(), "the grasp before", check, fault);
     IncludeRest(context, step.waypoints.back(), "the grasp after", check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {

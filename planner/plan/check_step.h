@@ -27,11 +27,12 @@ class StepFault {
 struct CheckContext {
   const Object& object;
   const Plan& plan;
-  double half_angle;             ///< friction, radians
-  ProofBudget& decisions;        ///< for deciding force closure along all aligns
-  ProofBudget& bounds;           ///< for the required half-angles of all aligns
-  double finger_radius = 0;      ///< the object's unit of length; 0: points
-  bool allow_undecided = false;  ///< CheckOptions
+  double half_angle;                ///< friction, radians
+  ProofBudget& decisions;           ///< for deciding force closure along all aligns
+  ProofBudget& bounds;              ///< for the required half-angles of all aligns
+  double finger_radius = 0;         ///< the object's unit of length; 0: points
+  bool allow_undecided = false;     ///< CheckOptions
+  bool judge_force_closure = true;  ///< CheckOptions
 
   [[nodiscard]] double tolerance() const { return kPointTolerance * object.diameter(); }
 

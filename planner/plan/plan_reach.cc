@@ -94,6 +94,8 @@ std::optional<double> FindMeeting(const ContactMotion& a, const ContactMotion& b
 
 std::optional<std::string> FindWayObstacle(const Object& object, const FingerGrasp& from,
                                            const FingerGrasp& to, double radius) {
+  // Where points can be at both ends they can be on the way, which stays on the surface.
+  if (radius <= 0) return std::nullopt;
   std::vector<ContactMotion> motions;
   for (const FingerContact& held : from) {
     const auto end = std::ranges::find(to, held.finger, &FingerContact::finger);
@@ -134,14 +136,12 @@ std::optional<std::string> FindAlignObstacle(const Object& object, const Align& 
 
 std::optional<std::string> FindRestObstacle(const Object& object, const FingerGrasp& grasp,
                                             double radius) {
-  if (radius <= 0) return std::nullopt;
   if (auto found = FindUnreached(object, grasp, radius)) return found;
   return FindOverlap(grasp, radius);
 }
 
 std::optional<std::string> FindStepObstacle(const Object& object, const FingerGrasp& before,
                                             const Step& step, double radius) {
-  if (radius <= 0) return std::nullopt;
   if (const auto* align = std::get_if<Align>(&step)) {
     return FindAlignObstacle(object, *align, radius);
   }

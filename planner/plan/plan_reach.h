@@ -11,8 +11,8 @@
 namespace regrasp {
 
 /// What stands in the way of fingers of some radius (reach.h) in a plan, in words for people;
-/// nullopt where nothing does. Contacts lie on the object and know their faces; a radius of 0 or
-/// less is never in the way.
+/// nullopt where nothing does. Contacts lie on the object and know their faces; to fingers of a
+/// radius of 0 or less, which are points, only sealed cavities are closed.
 
 /// Of a grasp at rest: a contact that its finger cannot reach, or two fingers that overlap.
 [[nodiscard]] std::optional<std::string> FindRestObstacle(const Object& object,

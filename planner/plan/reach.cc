@@ -30,6 +30,11 @@ bool IsBlocked(const Object& object, const Contact& contact, double radius, doub
   return std::ranges::any_of(near, [&](int face) { return face != contact.face; });
 }
 
+/// In a sealed cavity.
+bool IsShutIn(const Object& object, const Contact& contact) {
+  return contact.face >= 0 && object.IsEnclosed(contact.face);
+}
+
 }  // namespace
 
 Vector3d BallCentre(const Contact& contact, double radius) {
@@ -37,6 +42,7 @@ Vector3d BallCentre(const Contact& contact, double radius) {
 }
 
 bool CanReach(const Object& object, const Contact& contact, double radius) {
+  if (IsShutIn(object, contact)) return false;
   return radius <= 0 || !IsBlocked(object, contact, radius, object.diameter());
 }
 
@@ -66,6 +72,9 @@ void CheckFingerRadius(const Object& object, double radius, const std::string& n
 std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,
                                         double radius) {
   if (CanReach(object, contact, radius)) return std::nullopt;
+  if (IsShutIn(object, contact)) {
+    return "its contact lies in a sealed cavity, where no finger comes from outside";
+  }
   const double room = ComputeClearance(object, contact, radius);
   if (room < kTouches * radius) {
     return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +

@@ -16,7 +16,8 @@ namespace regrasp {
 /// farther than the diameter D from p, so that nothing is in the way after that.
 ///
 /// In the plane all this holds for discs. Lengths are the object's own units; contacts know their
-/// faces. A radius of 0 is a finger that is a point, and reaches everything.
+/// faces. A radius of 0 is a finger that is a point, and reaches everything but the walls of sealed
+/// cavities (Object::IsEnclosed).
 
 /// True iff the finger can come to the contact and stand there: the object does not enter the
 /// capsule. Touching is allowed, up to rounding.

@@ -130,4 +130,20 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const std::vector<Vector
   return QuadrupleFinder(normals, tangent, spanning).Find();
 }
 
+std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid, double tangent,
+                                                        Spanning spanning) {
+  std::vector<int> faces;
+  std::vector<Vector3d> normals;
+  for (int face = 0; face < solid.face_count(); ++face) {
+    if (solid.IsEnclosed(face)) continue;
+    faces.push_back(face);
+    normals.push_back(solid.inward_normal(face));
+  }
+  std::vector<QuadrupleCandidate> candidates = FindQuadrupleCandidates(normals, tangent, spanning);
+  for (QuadrupleCandidate& candidate : candidates) {
+    for (int& face : candidate.faces) face = faces[face];
+  }
+  return candidates;
+}
+
 }  // namespace regrasp

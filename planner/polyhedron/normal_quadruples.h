@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/graph/spanning.h"
+#include "planner/object/polyhedron.h"
 
 namespace regrasp {
 
@@ -26,5 +27,10 @@ struct QuadrupleCandidate {
 /// @param normals  unit. Normals that are coplanar up to rounding do not span.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
     const std::vector<Eigen::Vector3d>& normals, double tangent, Spanning spanning);
+
+/// Those of the faces of a solid that a finger can come to: the walls of sealed cavities are not.
+[[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid,
+                                                                      double tangent,
+                                                                      Spanning spanning);
 
 }  // namespace regrasp

@@ -14,14 +14,6 @@ double SecondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::vector<Eigen::Vector3d> NormalsOf(const Polyhedron& solid) {
-  std::vector<Eigen::Vector3d> normals;
-  for (int face = 0; face < solid.face_count(); ++face) {
-    normals.push_back(solid.inward_normal(face));
-  }
-  return normals;
-}
-
 double CheckedTangent(double half_angle) {
   if (half_angle > 0 && half_angle < std::numbers::pi / 2) return std::tan(half_angle);
   throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
@@ -40,8 +32,7 @@ struct OfTriple {
 PolyhedronGraph::PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning)
     : finder_(solid, CheckedTangent(half_angle)) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto candidates =
-      FindQuadrupleCandidates(NormalsOf(solid), CheckedTangent(half_angle), spanning);
+  const auto candidates = FindQuadrupleCandidates(solid, CheckedTangent(half_angle), spanning);
   candidates_ = std::ssize(candidates);
   for (const QuadrupleCandidate& candidate : candidates) {
     std::vector<FocusCell> found = finder_.Find(candidate);

@@ -71,11 +71,7 @@ class Sampler {
  public:
   Sampler(const Polyhedron& solid, double half_angle, Spanning spanning)
       : finder_(solid, std::tan(half_angle)), tangent_(std::tan(half_angle)) {
-    std::vector<Vector3d> normals;
-    for (int face = 0; face < solid.face_count(); ++face) {
-      normals.push_back(solid.inward_normal(face));
-    }
-    candidates_ = FindQuadrupleCandidates(normals, tangent_, spanning);
+    candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning);
     found_.assign(candidates_.size(), 0);
     seen_.assign(solid.face_count(), 0);
     for (int half = 0; half < 2 * static_cast<int>(finder_.parts().parts.size()); ++half) {

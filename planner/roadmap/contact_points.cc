@@ -76,7 +76,10 @@ std::vector<Contact> MeshContacts(const Polyhedron& solid, int most, std::uint64
   const bool few_faces = std::int64_t{kFewFaces} * solid.face_count() < most;
   if (triangles > most || few_faces) return SpreadContactPoints(solid, most, seed);
   std::vector<Contact> points;
-  for (int i = 0; i < triangles; ++i) points.push_back(TriangleCentroid(solid, i));
+  for (int i = 0; i < triangles; ++i) {
+    if (solid.IsEnclosed(solid.face_of_triangle(i))) continue;
+    points.push_back(TriangleCentroid(solid, i));
+  }
   return points;
 }
 

@@ -9,7 +9,7 @@ namespace regrasp {
 SurfaceSampler::SurfaceSampler(const Polyhedron& solid) : solid_(solid) {
   double sum = 0;
   for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
-    sum += TriangleArea(solid, i);
+    if (!solid.IsEnclosed(solid.face_of_triangle(i))) sum += TriangleArea(solid, i);
     area_up_to_.push_back(sum);
   }
 }
@@ -17,8 +17,8 @@ SurfaceSampler::SurfaceSampler(const Polyhedron& solid) : solid_(solid) {
 int SurfaceSampler::DrawTriangle(RandomStream& random) const {
   const double area = random.Uniform() * area_up_to_.back();
   const auto above = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), area);
-  const auto last = static_cast<std::ptrdiff_t>(area_up_to_.size()) - 1;
-  return static_cast<int>(std::min(above - area_up_to_.begin(), last));
+  const auto last = std::lower_bound(area_up_to_.begin(), area_up_to_.end(), area_up_to_.back());
+  return static_cast<int>(std::min(above, last) - area_up_to_.begin());
 }
 
 Contact SurfaceSampler::Draw(RandomStream& random) const {

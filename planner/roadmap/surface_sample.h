@@ -8,7 +8,8 @@
 
 namespace regrasp {
 
-/// Draws points evenly over the surface of a solid, by area (Turk 1990).
+/// Draws points evenly over the surface of a solid, by area (Turk 1990). The walls of sealed
+/// cavities are no part of it.
 class SurfaceSampler {
  public:
   explicit SurfaceSampler(const Polyhedron& solid);

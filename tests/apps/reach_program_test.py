@@ -109,6 +109,55 @@ class Reach(ProgramCase):
                                     planner, "--start", "random", "--goal", "random", "--seed",
                                     "0", "--output", "plan.json", "--finger-radius", "0.08")
 
+    def write_hollow_cube(self):
+        """[-3, 3]^3 with the sealed cavity [-1, 1]^3, in centimetres, and grasps of it."""
+        corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+        facets = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (2, 4, 8, 6), (4, 3, 7, 8), (3, 1, 5, 7)]
+        lines = [f"v {s * x} {s * y} {s * z}" for s in (0.03, 0.01) for x, y, z in corners]
+        lines += ["f " + " ".join(map(str, facet)) for facet in facets]
+        lines += ["f " + " ".join(str(corner + 8) for corner in reversed(facet))
+                  for facet in facets]
+        self.write("hollow.obj", "\n".join(lines) + "\n")
+        for name, distance, sign in (("outside", 0.03, -1), ("inside", 0.01, 1)):
+            directions = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)]
+            self.write_json(name + ".json", {
+                "format": "regrasp-grasp", "version": 1,
+                "contacts": [{"point": [distance * x for x in d], "normal": [sign * x for x in d]}
+                             for d in directions]})
+
+    def test_nothing_grasps_a_body_from_its_sealed_cavity(self):
+        self.write_hollow_cube()
+        hollow = ("--object", "hollow.obj", *FRICTION)
+        for name, code in (("outside", 0), ("inside", 1)):
+            done = self.run_program(*hollow, "--grasp", name + ".json", "--out", name,
+                                    "--no-frames", program="validate")
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        entry = json.loads(self.read("inside/report.json"))["steps"][0]
+        self.assertEqual(entry["reason"], "unreachable")
+        self.assertIn("finger 0: its contact lies in a sealed cavity", entry["detail"])
+        for planner in ("auto", "general", "polyhedron", "roadmap"):
+            with self.subTest(planner=planner):
+                self.assert_refused(
+                    2, ["inside.json: /contacts", "sealed cavity"], *hollow, "--planner", planner,
+                    "--start", "outside.json", "--goal", "inside.json", "--output", "plan.json")
+
+    def test_plans_stay_outside_a_sealed_cavity(self):
+        self.write_hollow_cube()
+        for planner in ("general", "roadmap"):
+            with self.subTest(planner=planner):
+                self.assert_done("--object", "hollow.obj", *FRICTION, "--planner", planner,
+                                 "--start", "random-any", "--goal", "random", "--seed", "3",
+                                 "--output", "plan.json", "--quiet")
+                plan = json.loads(self.read("plan.json"))
+                grasps = [plan["initial"]["contacts"], plan["goal"]["contacts"]]
+                for step in plan["steps"]:
+                    grasps.append(step.get("place", []))
+                    grasps += [w["contacts"] for w in step.get("waypoints", [])]
+                for contact in sum(grasps, []):
+                    self.assertAlmostEqual(max(map(abs, contact["point"])), 0.03, delta=1e-9)
+                self.assert_done("--object", "hollow.obj", "--plan", "plan.json", "--out", "out",
+                                 "--no-frames", "--quiet", program="validate")
+
     def test_bad_radii_are_refused(self):
         cube = ("--object", self.model("cube.obj"), *FRICTION, "--start",
                 self.model("cube.start.json"), "--goal", self.model("cube.goal.json"),

@@ -1,10 +1,11 @@
 #include "bodies.h"
 
+#include <algorithm>
+
 namespace regrasp {
 
 namespace {
 
-/// The prism over a counter-clockwise outline, z = 0 … 1.
 PolygonSoup Extrude(const std::vector<Eigen::Vector2d>& outline) {
   PolygonSoup soup;
   const int count = static_cast<int>(outline.size());
@@ -34,9 +35,11 @@ Polyhedron MakeCube(double size, const Eigen::Vector3d& offset) {
   return Polyhedron::FromSoup(soup, "cube");
 }
 
-Polyhedron MakeLBlock() {
-  return Polyhedron::FromSoup(Extrude({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}), "l_block");
+Polyhedron MakePrism(const std::vector<Eigen::Vector2d>& outline) {
+  return Polyhedron::FromSoup(Extrude(outline), "prism");
 }
+
+Polyhedron MakeLBlock() { return MakePrism({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}); }
 
 Polyhedron MakeRing() {
   PolygonSoup soup;
@@ -56,6 +59,19 @@ Polyhedron MakeRing() {
     soup.facets.push_back({next, i, 4 + i, 4 + next});
   }
   return Polyhedron::FromSoup(soup, "ring");
+}
+
+Polyhedron MakeHollowCube() {
+  PolygonSoup soup = Extrude({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  for (Eigen::Vector3d& p : soup.vertices) p.z() = 2 * p.z() - 1;
+  const PolygonSoup outside = soup;
+  for (const Eigen::Vector3d& p : outside.vertices) soup.vertices.push_back(p / 2);
+  for (std::vector<int> facet : outside.facets) {
+    std::reverse(facet.begin(), facet.end());
+    for (int& corner : facet) corner += static_cast<int>(outside.vertices.size());
+    soup.facets.push_back(facet);
+  }
+  return Polyhedron::FromSoup(soup, "hollow cube");
 }
 
 Polygon MakeSquare(bool divided) {

@@ -46,6 +46,20 @@ TEST(CheckAlign, KeepsFingersInsideAFaceThatIsNotConvex) {
   EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {1.02, 0.99, 1})), Reason::kLeavesFace);
 }
 
+TEST(CheckAlign, DoesNotBeginBeyondASlit) {
+  // Narrower than points are known to.
+  const double width = 1e-6;
+  const Polyhedron block =
+      MakePrism({{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
+  Plan plan = SlideOnTop({1.5, 1.5}, {1 + width, 0.5, 1}, {2, 0.5, 1});
+  plan.half_angle = Radians(60);
+  EXPECT_EQ(ReasonOf(block, plan), Reason::kNone);
+  plan.initial[1].contact.p.x() = 1;
+  EXPECT_EQ(ReasonOf(block, plan), Reason::kDiscontinuous);
+  plan.initial[1].contact.p = {1 + width, 0.5 + 1e-6, 1};
+  EXPECT_EQ(ReasonOf(block, plan), Reason::kNone);
+}
+
 TEST(CheckAlign, KeepsFingersFromCrossingAHoleOfAFace) {
   const Polyhedron ring = MakeRing();
   const Eigen::Vector2d hold(-2, 0.5);

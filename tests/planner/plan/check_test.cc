@@ -334,6 +334,22 @@ TEST(CheckPlan, LetsFingersMeetOnlyWhileASwitchIsUnderWay) {
   ExpectFails(CheckPlan(MakeCube(), plan), 1, Reason::kCoincidentFingers, "both stay");
 }
 
+TEST(CheckPlan, LetsNoFingerIntoASealedCavity) {
+  const auto inside = [](const Contact& contact) { return Contact{contact.p / 2, -contact.n}; };
+  ExpectControlsFail(
+      MakeHollowCube(), CubePlan(),
+      {{"holds from inside",
+        [&](Plan& plan) {
+          for (FingerContact& held : plan.initial) held.contact = inside(held.contact);
+        },
+        0, Reason::kUnreachable},
+       {"goes in from outside",
+        [&](Plan& plan) {
+          plan.steps[0] = Switch{{{4, inside(SwitchOf(plan, 0).place[0].contact)}}, {}};
+        },
+        1, Reason::kUnreachable}});
+}
+
 TEST(CheckPlan, ReportsTheFirstOfSeveralFaults) {
   Plan plan = CubePlan();
   plan.initial[1].contact.n *= -1;

@@ -94,6 +94,23 @@ TEST(Reach, FingersOnTheTwoSidesOfAThinWallDoNotMeet) {
   EXPECT_TRUE(KeepApart(pinch, 0.5));
 }
 
+TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
+  const Polyhedron hollow = MakeHollowCube();
+  const Contact inside = At(hollow, {0.5, 0, 0}, {1, 0, 0});
+  const Contact outside = At(hollow, {1, 0, 0}, {-1, 0, 0});
+  for (const double radius : {0.0, 1e-9, 0.1}) {
+    EXPECT_FALSE(CanReach(hollow, inside, radius));
+    EXPECT_FALSE(CanHold(hollow, Grasp{outside, inside}, radius));
+    EXPECT_EQ(FindObstacle(hollow, inside, radius).value_or(""),
+              "its contact lies in a sealed cavity, where no finger comes from outside");
+    EXPECT_TRUE(CanReach(hollow, outside, radius));
+  }
+  // A hole of a polygon is a hole through a prism: fingers come from above.
+  const Polygon frame = Polygon::FromRings(
+      {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}}, "frame");
+  EXPECT_TRUE(CanReach(frame, At(frame, {2, 1, 0}, {0, -1, 0}), 0));
+}
+
 /// The least distance of any of `samples` points of the faces but the contact's own from the
 /// segment about which the finger sweeps.
 double SampledRoom(const Polyhedron& body, const Contact& contact, double radius,
