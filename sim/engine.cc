@@ -97,6 +97,7 @@ struct Engine::Impl {
 
   Impl(const std::string& mjcf, int fingers, const EngineUnits& given);
   [[nodiscard]] int First(int finger) const;  ///< index of a finger's first coordinate
+  [[nodiscard]] int BitOf(int finger) const { return model->geom_contype[geom_of_finger[finger]]; }
 };
 
 Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
@@ -200,13 +201,13 @@ void Engine::SetTarget(int finger, const Vector3d& target) {
 
 void Engine::SetSite(int finger, int site) {
   mjModel& m = *impl_->model;
-  for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~(1 << finger);
+  for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~impl_->BitOf(finger);
   if (site >= 0) AddSite(finger, site);
 }
 
 void Engine::AddSite(int finger, int site) {
   for (const int g : impl_->geoms_of_site[site]) {
-    impl_->model->geom_conaffinity[g] |= 1 << finger;
+    impl_->model->geom_conaffinity[g] |= impl_->BitOf(finger);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -16,8 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Collision bits are 32, and the planners' largest hand has five fingers.
-constexpr int kMostFingers = 16;
+/// Each finger that touches has a collision bit of its own, of the 31 that an int has.
+constexpr int kMostTouching = 31;
 
 /// A path is looked at this often for the room that a fingertip has along it.
 constexpr int kClearanceSamples = 8;
@@ -288,6 +289,25 @@ void PlaceFingersAtStart(const Object& object, Scene& scene) {
   }
 }
 
+/// A hand may have many more fingers than ever touch.
+void AssignCollisionBits(int fingers, Scene& scene) {
+  std::set<int> touching;
+  for (const std::vector<int>& there : scene.fingers_of_site) {
+    touching.insert(there.begin(), there.end());
+  }
+  if (touching.size() > kMostTouching) {
+    throw InputError("replay: " + std::to_string(touching.size()) +
+                     " fingers touch the object, one after the other or at once; " +
+                     std::to_string(kMostTouching) + " can be simulated");
+  }
+  scene.collision_bit.assign(fingers, 0);
+  int bit = 1;
+  for (const int finger : touching) {
+    scene.collision_bit[finger] = bit;
+    bit *= 2;
+  }
+}
+
 /// Scripts, what is unreachable, and sites.
 void LayOut(const Sequence& sequence, int fingers, const ReplayOptions& options, Scene& scene) {
   const Object& object = sequence.object;
@@ -325,13 +345,10 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   const Sequence sequence{body, plan, steps};
   sequence.CheckFaces();
   const int fingers = sequence.CountFingers();
-  if (fingers > kMostFingers) {
-    throw InputError("replay: " + std::to_string(fingers) + " fingers; " +
-                     std::to_string(kMostFingers) + " can be simulated");
-  }
   Scene scene;
   scene.dimension = body.dimension();
   LayOut(sequence, fingers, options, scene);
+  AssignCollisionBits(fingers, scene);
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,
       SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);

@@ -24,6 +24,7 @@ struct Scene {
   std::vector<ContactSite> sites;                   ///< where fingers touch, metres in S
   std::vector<std::vector<ContactPatch>> patches;   ///< per site, metres in S
   std::vector<std::vector<int>> fingers_of_site;    ///< which fingers touch there
+  std::vector<int> collision_bit;                   ///< of each finger; 0 where it never touches
   std::vector<int> first_site;                      ///< where the plan first puts each finger, −1
   std::vector<std::optional<AlignScript>> scripts;  ///< of every step that is an align, in S
   std::vector<std::string> unreachable;  ///< of every entry: which finger cannot stand, or nothing

@@ -43,9 +43,9 @@ void Append(std::string& list, const std::string& item) {
 
 std::string Join(const Vector3d& v) { return Join({v.x(), v.y(), v.z()}); }
 
-std::string Collision(const std::vector<int>& fingers) {
+std::string Collision(const Scene& scene, const std::vector<int>& fingers) {
   int bits = 0;
-  for (const int finger : fingers) bits |= 1 << finger;
+  for (const int finger : fingers) bits |= scene.collision_bit[finger];
   return " conaffinity=\"" + std::to_string(bits) + "\"";
 }
 
@@ -103,7 +103,7 @@ void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
         shape = " type=\"mesh\" mesh=\"" + name + "\"";
       }
       parts.object_geoms += "      <geom name=\"" + name + "\" class=\"patch\"" + shape +
-                            Collision(scene.fingers_of_site[i]) + "/>\n";
+                            Collision(scene, scene.fingers_of_site[i]) + "/>\n";
     }
   }
 }
@@ -124,8 +124,8 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
     parts.actuators +=
         "    <general class=\"finger\" name=\"" + joint + "\" joint=\"" + joint + "\"/>\n";
   }
-  parts.fingers += "      <geom name=\"" + name + "\" contype=\"" + std::to_string(1 << finger) +
-                   "\"/>\n    </body>\n";
+  parts.fingers += "      <geom name=\"" + name + "\" contype=\"" +
+                   std::to_string(scene.collision_bit[finger]) + "\"/>\n    </body>\n";
 }
 
 std::string FormatObjectJoints(int dimension) {

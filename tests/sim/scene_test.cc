@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "mujoco_file.h"
 #include "planner/base/error.h"
@@ -55,6 +56,30 @@ TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
   const int finger = mj_name2id(model.get(), mjOBJ_GEOM, "finger0");
   EXPECT_EQ(model->geom_friction[3 * finger], settings.mu);
   EXPECT_EQ(model->geom_size[3 * finger], settings.fingertip_radius_m);
+}
+
+TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.fingers = 64;
+  const auto fingers_that_touch = [&] {
+    const Scene scene = MakeScene(cube.object, plan, static_cast<int>(plan.steps.size()), {});
+    EXPECT_EQ(scene.collision_bit.size(), 64u);
+    std::set<int> bits(scene.collision_bit.begin(), scene.collision_bit.end());
+    bits.erase(0);
+    return bits.size();
+  };
+  EXPECT_EQ(fingers_that_touch(), plan.initial.size());
+  // Finger after finger takes over the same place.
+  const int first = plan.initial.front().finger;
+  int last = first;
+  for (int finger = 33; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
+    plan.steps.push_back(Switch{{{finger, plan.initial.front().contact}}, {last}});
+    last = finger;
+  }
+  EXPECT_EQ(fingers_that_touch(), 31u);
+  plan.steps.push_back(Switch{{{32, plan.initial.front().contact}}, {last}});
+  EXPECT_THROW((void)fingers_that_touch(), InputError);
 }
 
 TEST(SceneMjcfTest, SaysTheSameTwice) {
