@@ -73,7 +73,8 @@ void AddFiles(CLI::App& app, ValidateOptions& options) {
                "that prove force closure, or a twist that refutes it");
   add("--verify", options.verify,
       "Checks the proofs of a report that --certificates wrote, in exact rational arithmetic, "
-      "against this plan and object; nothing is replayed or written")
+      "against this plan and object, at the plan's friction or the one that is given, and all else "
+      "that a plan must be; nothing is replayed or written")
       ->excludes(grasp);
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
   add("--export-mjcf", options.mjcf, "Write the scene of the replay as MJCF for any MuJoCo");

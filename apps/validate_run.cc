@@ -124,26 +124,37 @@ ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progre
   return observer;
 }
 
-Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
-  const Object& object = *task.object.object;
-  CheckOptions check;
-  check.half_angle = options.friction.half_angle();
-  check.finger_radius = options.replay.finger_radius;
-  check.allow_undecided = options.allow_undecided;
+/// What the analytic check is told besides the plan; it points to the grasps of the files.
+struct CheckTask {
+  CheckTask(const ValidateOptions& options, const Object& object) {
+    check.half_angle = options.friction.half_angle();
+    check.finger_radius = options.replay.finger_radius;
+    check.allow_undecided = options.allow_undecided;
+    if (!options.start.empty()) {
+      start = ReadGrasp(options.start, object);
+      check.start = &start;
+    }
+    if (!options.goal.empty()) {
+      goal = ReadGrasp(options.goal, object);
+      check.goal = &goal;
+    }
+  }
+  CheckTask(const CheckTask&) = delete;
+  CheckTask& operator=(const CheckTask&) = delete;
+
   Grasp start;
   Grasp goal;
-  if (!options.start.empty()) {
-    start = ReadGrasp(options.start, object);
-    check.start = &start;
-  }
-  if (!options.goal.empty()) {
-    goal = ReadGrasp(options.goal, object);
-    check.goal = &goal;
-  }
+  CheckOptions check;
+};
+
+Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
+  const Object& object = *task.object.object;
+  const CheckTask given(options, object);
   ProgressLine progress(options.quiet);
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
   const ReplayObserver observer = MakeObserver(options, progress, samples);
-  if (!options.for_grasp()) return Validate(object, task.plan, check, options.replay, observer);
+  if (!options.for_grasp())
+    return Validate(object, task.plan, given.check, options.replay, observer);
   return ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale, options.replay,
                        observer);
 }
@@ -180,9 +191,10 @@ FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
 }
 
 int Verify(const ValidateOptions& options, const Task& task) {
-  const ReportVerification found =
-      VerifyReport(ReadFile(options.verify), options.verify,
-                   {*task.object.object, task.object.sha256, task.plan, Sha256(task.file_text)});
+  const CheckTask given(options, *task.object.object);
+  const ReportVerification found = VerifyReport(
+      ReadFile(options.verify), options.verify,
+      {*task.object.object, task.object.sha256, task.plan, Sha256(task.file_text), given.check});
   if (!options.quiet) std::cout << found.text;
   return found.proved ? kExitDone : kExitNegative;
 }

@@ -4,13 +4,15 @@
 #include <string_view>
 
 #include "planner/object/object.h"
+#include "planner/plan/check.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp {
 
-/// The proofs in a report, checked in exact rational arithmetic against plan and object.
+/// A plan, checked as CheckPlan does in all but force closure, and the proofs of that in a report,
+/// checked in exact rational arithmetic against plan and object.
 struct ReportVerification {
-  std::string text;     ///< a line per entry, and a summary
+  std::string text;     ///< a line per entry, and what all of them prove
   bool proved = false;  ///< every entry of the plan
 };
 
@@ -20,11 +22,13 @@ struct ReportSubject {
   std::string object_sha256;  ///< of the object file's bytes
   const Plan& plan;
   std::string plan_sha256;  ///< of the plan file's bytes
+  CheckOptions check;       ///< friction, fingers, start and goal where they are not the plan's
 };
 
 /// @param text  of the report.
 /// @param name  how messages call it.
-/// @throws InputError  the report is broken, holds no proofs, or is about another plan or object.
+/// @throws InputError  the report is broken, holds no proofs, or is about another plan, object or
+///                     friction.
 [[nodiscard]] ReportVerification VerifyReport(std::string_view text, const std::string& name,
                                               const ReportSubject& subject);
 

@@ -602,6 +602,23 @@ class Validate(ProgramCase):
 
     # Proofs.
 
+    def test_a_hand_may_have_many_more_fingers_than_touch(self):
+        self.plan["fingers"] = 64
+        self.write_plan()
+        _, report = self.assert_passes("--no-frames")
+        # The numbers of fingers mean nothing.
+        grasps = [self.plan["initial"]["contacts"]]
+        for step in self.plan["steps"]:
+            step["release"] = [63 - 9 * finger for finger in step["release"]]
+            grasps.append(step["place"])
+        for contact in sum(grasps, []):
+            contact["finger"] = 63 - 9 * contact["finger"]
+        self.write_plan()
+        _, renumbered = self.assert_passes("--no-frames")
+        for before, after in zip(report["steps"], renumbered["steps"]):
+            self.assertAlmostEqual(before["simulation"]["displacement_m"],
+                                   after["simulation"]["displacement_m"], delta=1e-6)
+
     def test_proofs_in_the_report_hold_exactly(self):
         _, report = self.assert_passes("--certificates", "--no-frames")
         self.assertEqual(len(report["steps"]), len(self.plan["steps"]) + 1)
@@ -609,6 +626,90 @@ class Validate(ProgramCase):
         done = self.assert_done(*self.arguments(verify="result/report.json", out=None))
         entries = len(report["steps"])
         self.assertIn(f"{entries} of {entries} entries proved", done.stdout)
+        self.assertIn("\nproved: contacts on the surface", done.stdout)
+
+    def test_proofs_at_another_friction_prove_nothing_about_the_plan(self):
+        _, report = self.assert_passes("--certificates", "--no-frames", friction_angle="40")
+        at_40 = self.arguments(verify="result/report.json", out=None)
+        self.refuse(["report.json: /settings/friction_half_angle_deg", "half-angle 40°",
+                     "of the plan or of --friction-angle, 20°"], verify="result/report.json")
+        self.refuse(["half-angle 40°", "--friction-angle, 30°"], verify="result/report.json",
+                    friction_angle="30")
+        done = self.assert_done(*at_40, "--friction-angle", "40")
+        self.assertIn("friction half-angle 40°", done.stdout)
+        # The plan's own friction lowered, and a report that says so too.
+        self.plan["friction"]["half_angle_deg"] = 1
+        self.forge(report)
+        self.refuse("half-angle 40°", verify="forged.json")
+        report["settings"]["friction_half_angle_deg"] = 1
+        self.forge(report)
+        done = self.run_program(*self.arguments(verify="forged.json", out=None))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("\n0 of", done.stdout)
+
+    def forge(self, report):
+        """Writes the plan as it is now, and a report that says it is about that plan."""
+        self.write_plan()
+        report = copy.deepcopy(report)
+        report["plan"]["sha256"] = hashlib.sha256(self.read("plan.json")).hexdigest()
+        self.write_json("forged.json", report)
+
+    def assert_not_proved(self, report, entry, words):
+        """Though all the proofs of the report hold."""
+        self.forge(report)
+        done = self.run_program(*self.arguments(verify="forged.json", out=None))
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        line = done.stdout.splitlines()[entry]
+        self.assertTrue(line.startswith(f"{entry} "), done.stdout)
+        self.assertIn("at fault: " + words, line)
+        self.assertIn(f"\nnot proved: the plan is at fault in entry {entry}\n", done.stdout)
+
+    def test_proofs_do_not_make_up_for_a_plan_that_is_none(self):
+        _, report = self.assert_passes("--certificates", "--no-frames")
+        good = copy.deepcopy(self.plan)
+        last = len(good["steps"])
+
+        def contacts_of(plan):
+            lists = [plan["initial"]["contacts"], plan["goal"]["contacts"]]
+            return sum([step["place"] for step in plan["steps"]], sum(lists, []))
+
+        # Twice as large, beside the object, the same forces balance.
+        for contact in contacts_of(self.plan):
+            contact["point"] = [2 * x for x in contact["point"]]
+        self.assert_not_proved(report, 0, "off-surface")
+        self.plan = copy.deepcopy(good)
+        self.plan["initial"]["contacts"][1]["finger"] = self.plan["initial"]["contacts"][0]["finger"]
+        self.assert_not_proved(report, 0, "finger-not-free")
+        self.plan = copy.deepcopy(good)
+        self.plan["goal"]["contacts"] = self.plan["initial"]["contacts"]
+        self.assert_not_proved(report, last, "goal-not-reached")
+        self.plan = copy.deepcopy(good)
+        self.plan["fingers"] = 4
+        self.assert_not_proved(report, 1, "too-many-fingers")
+        self.plan = good
+        self.forge(report)
+        self.assert_done(*self.arguments(verify="forged.json", out=None))
+        done = self.run_program(*self.arguments(verify="forged.json", out=None,
+                                                start=self.model("cube.goal.json")))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("0 hold  at fault: start-differs", done.stdout)
+
+    def test_proofs_do_not_make_up_for_an_align_that_starts_elsewhere(self):
+        def grasp(shift):
+            # Opposite pairs, which hold wherever they are.
+            directions = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
+            return {"contacts": [
+                {"finger": k, "point": [0.03 * x for x in d[:2]] + [shift],
+                 "normal": [-x for x in d]} for k, d in enumerate(directions)]}
+
+        self.plan["initial"] = grasp(0.01)
+        self.plan["steps"] = [{"kind": "align", "waypoints": [grasp(0.01), grasp(0)]}]
+        self.plan["goal"] = grasp(0)
+        self.write_plan()
+        _, report = self.assert_passes("--certificates", "--no-frames")
+        # The same forces hold in the same grasp elsewhere.
+        self.plan["initial"] = grasp(0.005)
+        self.assert_not_proved(report, 1, "discontinuous")
 
     def test_proofs_that_were_tampered_with_prove_nothing(self):
         _, report = self.assert_passes("--certificates", "--no-frames")
@@ -619,17 +720,19 @@ class Validate(ProgramCase):
         done = self.run_program(*self.arguments(verify="tampered.json", out=None))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("1 switch  not proved", done.stdout)
-        report["settings"]["friction_half_angle_deg"] = 1
+        self.assertIn("\nnot proved: not every entry", done.stdout)
+        del report["steps"][1:]
         self.write_json("tampered.json", report)
         done = self.run_program(*self.arguments(verify="tampered.json", out=None))
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("0 of", done.stdout)
+        self.assertIn("1 switch  not proved: the report holds no proof", done.stdout)
 
     def test_a_lost_object_is_refuted(self):
         report = self.assert_fails(0, "not-force-closure", "--certificates", friction_angle="2")
         self.assertTrue(set(report["steps"][0]["proof"]["rest"]) & {"twist", "line"})
         self.assertNotIn("proof", report["steps"][1])
-        done = self.run_program(*self.arguments(verify="result/report.json", out=None))
+        done = self.run_program(*self.arguments(verify="result/report.json", out=None,
+                                                friction_angle="2"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("0 hold  refuted", done.stdout)
 
