@@ -21,6 +21,8 @@ namespace regrasp {
 namespace {
 
 constexpr char kNothing[] = "–";
+/// Significant, as NumberText has.
+constexpr int kQualityDigits = 3;
 
 /// The page may load nothing and run nothing, whatever stands in it.
 constexpr char kPolicy[] = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
@@ -151,7 +153,7 @@ class Page {
     const std::optional<RequiredHalfAngle>& required = report_.steps.front().check.required;
     add("Needs", required ? DegreesText(Degrees(required->upper)) : std::string("none serves"));
     if (grasp.fingers.empty()) return;
-    add("Quality ε", QualityText(grasp.quality));
+    add("Quality ε", QualityText(grasp.quality, kQualityDigits));
     add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
   }
 

@@ -109,11 +109,11 @@ UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const WrenchF
 
 }  // namespace
 
-std::string QualityText(const QualityBounds& quality) {
+std::string QualityText(const QualityBounds& quality, int digits) {
   constexpr double kAgree = 0.02;
-  const std::string lower = FormatShort(quality.lower);
+  const std::string lower = FormatShort(quality.lower, digits);
   if (quality.upper - quality.lower <= kAgree * quality.upper) return lower;
-  return "at least " + lower + ", at most " + FormatShort(quality.upper);
+  return "at least " + lower + ", at most " + FormatShort(quality.upper, digits);
 }
 
 QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFrame& frame,

@@ -17,9 +17,9 @@ struct QualityBounds {
   std::int64_t facets = 0;
 };
 
-/// For people: the lower bound where both are within 2 % of each other, otherwise "at least …, at
-/// most …".
-[[nodiscard]] std::string QualityText(const QualityBounds& quality);
+/// For people, to `digits` significant digits: the lower bound where both are within 2 % of each
+/// other, otherwise "at least …, at most …".
+[[nodiscard]] std::string QualityText(const QualityBounds& quality, int digits = 4);
 
 /// Bounds no farther apart than this are not refined: a hundredth of the smallest shake that anyone
 /// asks a grasp to resist.
