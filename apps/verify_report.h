@@ -22,7 +22,7 @@ struct ReportSubject {
   std::string object_sha256;  ///< of the object file's bytes
   const Plan& plan;
   std::string plan_sha256;  ///< of the plan file's bytes
-  CheckOptions check;       ///< friction, fingers, start and goal where they are not the plan's
+  CheckOptions check = {};  ///< friction, fingers, start and goal where they are not the plan's
 };
 
 /// @param text  of the report.

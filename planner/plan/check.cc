@@ -88,7 +88,8 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
       decisions,
       bounds,
       options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),
-      options.allow_undecided, options.judge_force_closure};
+      options.allow_undecided,
+      options.judge_force_closure};
   result.steps.push_back(CheckHold(context));
   CheckStart(context, options, result.steps.back());
   FingerGrasp holding = context.plan.initial;

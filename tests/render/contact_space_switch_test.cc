@@ -47,7 +47,7 @@ std::vector<ContactSwitch> ManySwitches() {
 
 /// True iff a square about the grasp, of this share of the one that the figure shows, is inside the
 /// set as it is drawn, as far as points along its border tell.
-bool SquareFits(const SwitchSide& side, double share) {
+bool SquareFits(const ContactSwitchSide& side, double share) {
   constexpr int kSteps = 200;
   const double half = share * side.size;
   for (int k = 0; k < kSteps; ++k) {
@@ -80,7 +80,7 @@ TEST(ContactSpaceSwitchTest, TheOverlapIsInBothProjectionsAndHasTheContactThatSt
     EXPECT_LE(step.overlap.low, place + 1e-9);
     EXPECT_GE(step.overlap.high, place - 1e-9);
     EXPECT_LT(step.overlap.low, step.overlap.high);
-    for (const SwitchSide& side : step.sides) {
+    for (const ContactSwitchSide& side : step.sides) {
       EXPECT_LE(side.projection.low, step.overlap.low);
       EXPECT_GE(side.projection.high, step.overlap.high);
       for (const double at : {0.1, 0.5, 0.9}) {
@@ -100,7 +100,7 @@ TEST(ContactSpaceSwitchTest, TheOverlapIsInBothProjectionsAndHasTheContactThatSt
 TEST(ContactSpaceSwitchTest, SquaresFitTheSetAsDrawnAndLargerOnesDoNot) {
   int checked = 0;
   for (const ContactSwitch& step : ManySwitches()) {
-    for (const SwitchSide& side : step.sides) {
+    for (const ContactSwitchSide& side : step.sides) {
       if (side.size < 1e-3) continue;  // too small for the steps along the square
       // A set that comes back to itself is cut somewhere, and a square may reach over the cut.
       if (!side.set.cuts.empty()) continue;
