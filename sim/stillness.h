@@ -23,11 +23,12 @@ void ComeToRest(Stage& stage);
 [[nodiscard]] double FreeMotion(double ramp);
 
 /// Natural times √(M D / F) (ReplaySettings::natural_time_s). A finger's servo settles in a tenth,
-/// the object swings on the servos once in about one, well damped.
+/// the object swings on the servos once in about one, well damped; once in ten where two fingers
+/// stand close together, and then it takes twenty until it is still.
 inline constexpr double kStillTime = 0.4;
-/// A body that slides because a push exceeds what the grasp resists, by a part in 50,000 of the
-/// squeeze, has moved by the default tolerance by then.
-inline constexpr double kLongestWait = 10;
+/// A body that slides because a push exceeds what the grasp resists, by a part in 800,000 of
+/// the squeeze, has moved by the default tolerance by then.
+inline constexpr double kLongestWait = 40;
 /// Over D. Contacts creep in kStillTime by less than 5e-8: the engine softens friction so that it
 /// gives by (1 − solimp) / impratio = 1e-6 of (1 / m + 1 / M) f, half the contacts' time constant
 /// of two time steps long. A body that nothing holds moves 8e-4 in it under the default shake, and

@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "hostile_input.h"
+#include "planner/base/error.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/read_with_assimp.h"
 
@@ -22,15 +24,25 @@ constexpr std::array<const char*, 8> kEndings = {".gltf", ".glb", ".dae", ".3mf"
 constexpr AssimpLimits kLimits = {std::size_t{1} << 30, std::chrono::seconds(2),
                                   std::chrono::milliseconds(4000)};
 
+/// Messages name the file with its ending, without which it is kHostileName.
+PolygonSoup ReadBytes(const std::string& ending, std::string_view bytes) {
+  const std::string file = kHostileName + ending;
+  try {
+    return ReadWithAssimp(bytes, file, kLimits);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (!message.starts_with(file)) ReportFinding("the message does not name its file: " + message);
+    throw InputError(kHostileName + message.substr(file.size()));
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const char* ending = kEndings[data[0] % kEndings.size()];
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  ReadHostileInput([&] {
-    const PolygonSoup soup = ReadWithAssimp(bytes, kHostileName + ending, kLimits);
-    ExpectSound(Polyhedron::FromSoup(soup, kHostileName));
-  });
+  ReadHostileInput(
+      [&] { ExpectSound(Polyhedron::FromSoup(ReadBytes(ending, bytes), kHostileName)); });
   return 0;
 }
