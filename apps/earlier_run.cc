@@ -28,8 +28,14 @@ std::string DigestOfNow(const ValidateOptions& options) {
   const bool named_by_plan = fs::is_directory(options.object_path, error);
   const std::string object_path =
       ObjectPathOf(options, named_by_plan ? ParsePlan(plan, options.plan_path).object_file : "");
-  return RunDigest(options, {fs::path(options.plan_path).filename().string(), Sha256(plan)},
-                   {fs::path(object_path).filename().string(), Sha256(ReadFile(object_path))});
+  const auto digest_of = [](const std::string& path) {
+    return path.empty() ? "" : Sha256(ReadFile(path));
+  };
+  return RunDigest(options,
+                   {{fs::path(options.plan_path).filename().string(), Sha256(plan)},
+                    {fs::path(object_path).filename().string(), Sha256(ReadFile(object_path))},
+                    digest_of(options.start),
+                    digest_of(options.goal)});
 }
 
 bool IsFile(const fs::path& path) {

@@ -16,9 +16,7 @@ namespace {
 
 Json FileJson(const FileDigest& file) { return {{"file", file.name}, {"sha256", file.sha256}}; }
 
-Json DigestOf(const std::string& path) {
-  return path.empty() ? Json(nullptr) : Json(Sha256(ReadFile(path)));
-}
+Json DigestJson(const std::string& sha256) { return sha256.empty() ? Json(nullptr) : Json(sha256); }
 
 }  // namespace
 
@@ -34,12 +32,15 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
                    "\" in " + options.object_path);
 }
 
-std::string RunDigest(const ValidateOptions& options, const FileDigest& input,
-                      const FileDigest& object) {
-  const Json json = {{"version", ProgramVersion()},    {"build", BuildId()},
-                     {"engine", EngineVersion()},      {"input", FileJson(input)},
-                     {"object", FileJson(object)},     {"start", DigestOf(options.start)},
-                     {"goal", DigestOf(options.goal)}, {"options", options.given}};
+std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
+  const Json json = {{"version", ProgramVersion()},
+                     {"build", BuildId()},
+                     {"engine", EngineVersion()},
+                     {"input", FileJson(inputs.input)},
+                     {"object", FileJson(inputs.object)},
+                     {"start", DigestJson(inputs.start_sha256)},
+                     {"goal", DigestJson(inputs.goal_sha256)},
+                     {"options", options.given}};
   // File names and values may be any bytes.
   return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
 }

@@ -12,11 +12,17 @@ namespace regrasp {
 [[nodiscard]] std::string ObjectPathOf(const ValidateOptions& options,
                                        const std::string& named_by_plan);
 
+/// The files that the results of a validation come from, as they were used.
+struct RunInputs {
+  FileDigest input;  ///< the plan or the grasp
+  FileDigest object;
+  std::string start_sha256;  ///< of the bytes of --start; empty where it is not given
+  std::string goal_sha256;   ///< of --goal, likewise
+};
+
 /// SHA-256 over all that the results of a validation depend on: the program's build and the engine,
 /// the bytes and names of plan (or grasp) and object, the bytes of --start and --goal, and every
 /// other option that is given. Two runs with the same digest write the same bytes.
-/// @throws InputError  --start or --goal cannot be read.
-[[nodiscard]] std::string RunDigest(const ValidateOptions& options, const FileDigest& input,
-                                    const FileDigest& object);
+[[nodiscard]] std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs);
 
 }  // namespace regrasp

@@ -34,9 +34,10 @@ constexpr double kSampleInterval_s = 5e-4;
 /// What the files on the command line ask for.
 struct Task {
   ObjectFile object;
-  std::string file_text;  ///< of the plan or of the grasp
-  Plan plan;              ///< of a grasp: without steps
-  Grasp grasp;            ///< empty for a plan
+  std::string file_text;              ///< of the plan or of the grasp
+  Plan plan;                          ///< of a grasp: without steps
+  Grasp grasp;                        ///< empty for a plan
+  std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
 };
 
 /// States of the replay, as far as someone asked for them.
@@ -82,6 +83,8 @@ void ReadPlanTask(const ValidateOptions& options, Task& task) {
 }
 
 Task ReadTask(const ValidateOptions& options) {
+  ProgressLine progress(options.quiet);
+  progress.Report("reading " + options.object_path);
   Task task;
   if (options.for_grasp()) {
     task.object = ReadObject(options.object_path);
@@ -92,6 +95,8 @@ Task ReadTask(const ValidateOptions& options) {
   } else {
     ReadPlanTask(options, task);
   }
+  if (!options.start.empty()) task.start_text = ReadFile(options.start);
+  if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
   if (options.replay.thickness && task.plan.dimension == 3) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
   }
@@ -126,16 +131,17 @@ ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progre
 
 /// What the analytic check is told besides the plan; it points to the grasps of the files.
 struct CheckTask {
-  CheckTask(const ValidateOptions& options, const Object& object) {
+  CheckTask(const ValidateOptions& options, const Task& task) {
+    const Object& object = *task.object.object;
     check.half_angle = options.friction.half_angle();
     check.finger_radius = options.replay.finger_radius;
     check.allow_undecided = options.allow_undecided;
     if (!options.start.empty()) {
-      start = ReadGrasp(options.start, object);
+      start = ParseGrasp(task.start_text, options.start, object);
       check.start = &start;
     }
     if (!options.goal.empty()) {
-      goal = ReadGrasp(options.goal, object);
+      goal = ParseGrasp(task.goal_text, options.goal, object);
       check.goal = &goal;
     }
   }
@@ -149,7 +155,7 @@ struct CheckTask {
 
 Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
   const Object& object = *task.object.object;
-  const CheckTask given(options, object);
+  const CheckTask given(options, task);
   ProgressLine progress(options.quiet);
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
   const ReplayObserver observer = MakeObserver(options, progress, samples);
@@ -191,7 +197,7 @@ FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
 }
 
 int Verify(const ValidateOptions& options, const Task& task) {
-  const CheckTask given(options, *task.object.object);
+  const CheckTask given(options, task);
   const ReportVerification found = VerifyReport(
       ReadFile(options.verify), options.verify,
       {*task.object.object, task.object.sha256, task.plan, Sha256(task.file_text), given.check});
@@ -282,8 +288,10 @@ int RunValidation(const ValidateOptions& options) {
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
-  report.run = RunRecord{RunDigest(options, {report.plan_file, report.plan_sha256},
-                                   {report.object_file, report.object_sha256}),
+  report.run = RunRecord{RunDigest(options, {{report.plan_file, report.plan_sha256},
+                                             {report.object_file, report.object_sha256},
+                                             options.start.empty() ? "" : Sha256(task.start_text),
+                                             options.goal.empty() ? "" : Sha256(task.goal_text)}),
                          {}};
   AddTrials(options, task, report);
   if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);

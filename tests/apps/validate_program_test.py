@@ -10,6 +10,7 @@ import os
 import shutil
 import struct
 import subprocess
+import threading
 import zlib
 import xml.etree.ElementTree as ElementTree
 
@@ -249,6 +250,28 @@ class Validate(ProgramCase):
         self.assert_fails(0, "start-differs", start=self.model("cube.goal.json"))
         self.assert_fails(len(self.plan["steps"]), "goal-not-reached",
                           goal=self.model("cube.start.json"))
+
+    def test_every_input_is_read_once(self):
+        """So that results and digests are of the same bytes: a pipe gives them to one reader."""
+        contents = {"cube.obj": self.model("cube.obj"), "start.json": self.model("cube.start.json"),
+                    "goal.json": self.model("cube.goal.json"), "plan.json": self.path("plan.json")}
+        os.mkdir(self.path("pipes"))
+        for name, source in contents.items():
+            with open(source, "rb") as file:
+                content = file.read()
+            os.mkfifo(self.path("pipes/" + name))
+            threading.Thread(target=self.write, args=("pipes/" + name, content),
+                             daemon=True).start()
+        pipes = {"object": "pipes/cube.obj", "plan": "pipes/plan.json",
+                 "start": "pipes/start.json", "goal": "pipes/goal.json"}
+        _, report = self.assert_passes("--no-frames", **pipes)
+        plain = {name: path.replace("pipes", "files") for name, path in pipes.items()}
+        os.mkdir(self.path("files"))
+        for name, source in contents.items():
+            shutil.copy(source, self.path("files/" + name))
+        _, again = self.assert_passes("--no-frames", **plain)
+        self.assertEqual(report["object"], again["object"])
+        self.assertEqual(report["plan"], again["plan"])
 
     def test_an_align_is_replayed_and_says_how(self):
         before = [dict(contact) for contact in self.plan["initial"]["contacts"]]
