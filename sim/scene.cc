@@ -301,11 +301,8 @@ void AssignCollisionBits(int fingers, Scene& scene) {
                      std::to_string(kMostTouching) + " can be simulated");
   }
   scene.collision_bit.assign(fingers, 0);
-  int bit = 1;
-  for (const int finger : touching) {
-    scene.collision_bit[finger] = bit;
-    bit *= 2;
-  }
+  int place = 0;
+  for (const int finger : touching) scene.collision_bit[finger] = 1 << place++;
 }
 
 /// Scripts, what is unreachable, and sites.
