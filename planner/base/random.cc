@@ -2,6 +2,8 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cassert>
+#include <numeric>
+#include <utility>
 
 namespace regrasp {
 
@@ -49,6 +51,14 @@ std::uint64_t RandomStream::Index(std::uint64_t count) {
   std::uint64_t draw = engine_();
   while (draw > std::mt19937_64::max() - rest) draw = engine_();
   return draw % count;
+}
+
+std::vector<int> RandomStream::Choose(int count, int drawn) {
+  std::vector<int> chosen(count);
+  std::iota(chosen.begin(), chosen.end(), 0);
+  for (int k = 0; k < drawn; ++k) std::swap(chosen[k], chosen[k + Index(count - k)]);
+  chosen.resize(drawn);
+  return chosen;
 }
 
 }  // namespace regrasp

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace regrasp {
 
@@ -36,6 +37,10 @@ class RandomStream {
 
   /// Uniform in {0, …, count − 1}, without bias. @param count  > 0.
   [[nodiscard]] std::uint64_t Index(std::uint64_t count);
+
+  /// So many different ones of {0, …, count − 1}, each choice as likely as any other, in the order
+  /// in which they are drawn. @param drawn  in [0, count].
+  [[nodiscard]] std::vector<int> Choose(int count, int drawn);
 
  private:
   std::mt19937_64 engine_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "planner/base/random.h"
@@ -31,12 +30,8 @@ constexpr double kJoinsOfSquaredVertices = 18;
 constexpr double kBytesOfPair = 24;
 
 std::vector<int> DrawEdges(int count) {
-  std::vector<int> edges(count);
-  std::iota(edges.begin(), edges.end(), 0);
   RandomStream random(0, RandomUse::kCountedEdges);
-  const int drawn = std::min(count, kCountedEdges);
-  for (int k = 0; k < drawn; ++k) std::swap(edges[k], edges[k + random.Index(count - k)]);
-  edges.resize(drawn);
+  std::vector<int> edges = random.Choose(count, std::min(count, kCountedEdges));
   std::ranges::sort(edges);
   return edges;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "planner/base/random.h"
@@ -29,14 +28,11 @@ constexpr double kCellsOfCandidate = 0.75;
 constexpr double kLinksOfSquaredCells = 100;
 
 std::vector<Eigen::Vector3d> DrawNormals(const Polyhedron& solid) {
-  std::vector<int> faces(solid.face_count());
-  std::iota(faces.begin(), faces.end(), 0);
+  const int count = solid.face_count();
   RandomStream random(0, RandomUse::kCountedFaces);
-  const int drawn = std::min(solid.face_count(), kCountedFaces);
   std::vector<Eigen::Vector3d> normals;
-  for (int k = 0; k < drawn; ++k) {
-    std::swap(faces[k], faces[k + random.Index(faces.size() - k)]);
-    normals.push_back(solid.inward_normal(faces[k]));
+  for (const int face : random.Choose(count, std::min(count, kCountedFaces))) {
+    normals.push_back(solid.inward_normal(face));
   }
   return normals;
 }

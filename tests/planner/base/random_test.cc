@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace regrasp {
 namespace {
@@ -68,6 +70,24 @@ TEST(RandomStream, SpreadsEvenly) {
 TEST(RandomStream, DrawsTheOnlyNumberBelowOne) {
   RandomStream random(1, RandomUse::kGoal);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(random.Index(1), 0u);
+}
+
+TEST(RandomStream, ChoosesDifferentOnesEachAsOften) {
+  constexpr int kCount = 5, kDrawn = 2, kTimes = 10'000;
+  RandomStream random(1, RandomUse::kCountedEdges);
+  std::array<int, kCount> chosen = {};
+  for (int i = 0; i < kTimes; ++i) {
+    const std::vector<int> two = random.Choose(kCount, kDrawn);
+    ASSERT_EQ(two.size(), 2u);
+    ASSERT_NE(two[0], two[1]);
+    for (const int one : two) ++chosen.at(one);
+  }
+  // Five standard deviations of a binomial count.
+  for (const int count : chosen) EXPECT_NEAR(count, 0.4 * kTimes, 5 * std::sqrt(kTimes * 0.24));
+  std::vector<int> all = random.Choose(kCount, kCount);
+  std::ranges::sort(all);
+  EXPECT_EQ(all, std::vector<int>({0, 1, 2, 3, 4}));
+  EXPECT_TRUE(random.Choose(kCount, 0).empty());
 }
 
 }  // namespace
