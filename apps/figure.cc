@@ -21,6 +21,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/contact_space_figure.h"
+#include "render/figure_mark.h"
 #include "render/plan_figure.h"
 
 namespace {
@@ -114,7 +115,8 @@ bool IsFigureName(const std::string& name, const std::string& format) {
 
 std::string SheetName(const std::string& format) { return "sheet." + format; }
 
-/// Removes the figures of an earlier run that this one has not written again.
+/// Removes the figures of an earlier run that this one has not written again: files that bear a
+/// figure's name and say inside that this program made them.
 void RemoveOthers(const std::filesystem::path& folder, const std::string& format,
                   const std::set<std::string>& written) {
   std::error_code error;
@@ -122,9 +124,8 @@ void RemoveOthers(const std::filesystem::path& folder, const std::string& format
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const bool file = entry.symlink_status(error).type() == std::filesystem::file_type::regular;
-    if (file && IsFigureName(name, format) && !written.contains(name)) {
-      others.push_back(entry.path());
-    }
+    if (!file || written.contains(name) || !IsFigureName(name, format)) continue;
+    if (IsMarkedFigure(ReadFile(entry.path()))) others.push_back(entry.path());
   }
   for (const std::filesystem::path& other : others) {
     if (!error) std::filesystem::remove(other, error);

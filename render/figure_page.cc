@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "render/figure_mark.h"
 
 namespace regrasp {
 
@@ -58,6 +59,7 @@ cairo_surface_t* FigurePage::MakeSurface(double width, double height) {
       cairo_surface_t* pdf =
           cairo_pdf_surface_create_for_stream(Append, bytes_.get(), width, height);
       cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATE_DATE, kPdfDate);
+      cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATOR, kFigureMaker);
       return pdf;
     }
     case FigureFormat::kPng:
@@ -93,6 +95,7 @@ std::string FigurePage::Finish() {
     Demand(cairo_surface_status(surface_.get()));
   }
   if (format_ == FigureFormat::kSvg) RemoveSurfaceName(*bytes_);
+  MarkFigure(format_, *bytes_);
   return std::move(*bytes_);
 }
 

@@ -126,6 +126,7 @@ class Figure(ProgramCase):
         self.draw()
         self.draw(format="pdf")
         self.write("result/notes.txt", "mine")
+        self.write("result/006_align.svg", "<?xml version=\"1.0\"?>\n<svg/>\n")
         # An earlier run has made no folders and no links.
         os.mkdir(self.path("result/007_align.svg"))
         os.symlink("notes.txt", self.path("result/008_align.svg"))
@@ -137,7 +138,7 @@ class Figure(ProgramCase):
         names = self.names("svg")
         self.assertEqual(self.draw(),
                          sorted(names[:3] + names[-1:] + self.names("pdf") +
-                                ["notes.txt", "007_align.svg", "008_align.svg"]))
+                                ["notes.txt", "006_align.svg", "007_align.svg", "008_align.svg"]))
 
     def test_says_nothing_when_all_is_well(self):
         done = self.assert_done(*self.arguments())
