@@ -204,28 +204,84 @@ TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
   EXPECT_GT(check.steps[1].undecided, 0);
   EXPECT_EQ(CheckPlan(cube, CollinearForAnInstant(-0.4, 0.4), allowed).steps[1].reason,
             Reason::kNotForceClosure);
+  // Nor where a waypoint is the instant.
+  Plan plan = CollinearForAnInstant(-0.3, 0.4);
+  auto& waypoints = std::get<Align>(plan.steps[0]).waypoints;
+  waypoints.insert(waypoints.begin() + 1, waypoints.front());
+  waypoints[1][2].contact.p.y() = 0;
+  EXPECT_EQ(CheckPlan(cube, plan, allowed).steps[1].reason, Reason::kNotForceClosure);
+  // Those of all ways count.
+  Plan both = CollinearForAnInstant(-0.3, 0.4);
+  auto& ways = std::get<Align>(both.steps[0]).waypoints;
+  ways.push_back(ways.front());
+  both.goal = ContactsOf(ways.front());
+  EXPECT_GT(CheckPlan(cube, both, allowed).steps[1].undecided, check.steps[1].undecided);
 }
 
+/// Finger 0 turns at a corner while the others slide up a wall, both evenly: the angle between its
+/// normal and the line to finger 1 is kTurn + atan(kTurn t) − kTurn t, near its largest for long.
+/// The others, a little above finger 1, do not help.
+struct TurnAndSlide {
+  static constexpr double kTurn = 0.3;
+  Polygon body =
+      Polygon::FromRings({{{0, 0}, {0, -1}, {1, -1}, {1, 1}, {std::tan(kTurn), 1}}}, "body");
+  Plan plan;
+
+  TurnAndSlide(int fingers, double above) {
+    const auto grasp = [&](const Eigen::Vector3d& n, double y) {
+      FingerGrasp held = {{0, {{0, 0, 0}, n}}};
+      for (int f = 1; f < fingers; ++f) {
+        held.push_back({f, {{1, y + 1e-3 * (f - 1), 0}, {-1, 0, 0}}});
+      }
+      return held;
+    };
+    plan = AlignPlan(EmptyPlan(2, fingers, 20),
+                     {grasp({std::cos(kTurn), -std::sin(kTurn), 0}, 0), grasp({1, 0, 0}, kTurn)});
+    plan.half_angle = kTurn + above;
+  }
+};
+
 TEST(CheckAlign, SaysWhereTheSearchForProofsEnded) {
-  // Finger 0 turns at a corner while finger 1 slides, both evenly: the angle between the normal and
-  // the line through both is 0.3 + atan(0.3 t) − 0.3 t, within 1e-9 of its largest for long.
-  const double turn = 0.3;
-  const Polygon body =
-      Polygon::FromRings({{{0, 0}, {0, -1}, {1, -1}, {1, 1}, {std::tan(turn), 1}}}, "body");
-  const auto grasp = [](const Eigen::Vector3d& n, double y) {
-    return FingerGrasp{{0, {{0, 0, 0}, n}}, {1, {{1, y, 0}, {-1, 0, 0}}}};
-  };
-  Plan plan = AlignPlan(EmptyPlan(2, 4, 20),
-                        {grasp({std::cos(turn), -std::sin(turn), 0}, 0), grasp({1, 0, 0}, turn)});
-  plan.half_angle = turn + 1e-9;
+  const TurnAndSlide close(2, 1e-9);
   for (const bool allow_undecided : {false, true}) {
-    const StepCheck step = CheckPlan(body, plan, {.allow_undecided = allow_undecided}).steps[1];
+    const StepCheck step =
+        CheckPlan(close.body, close.plan, {.allow_undecided = allow_undecided}).steps[1];
     EXPECT_EQ(step.reason, Reason::kNotProved);
     EXPECT_FALSE(step.force_closure);
     EXPECT_THAT(step.detail, testing::HasSubstr("the search for proofs ended at"));
   }
-  plan.half_angle = turn + 1e-4;
-  EXPECT_TRUE(CheckPlan(body, plan).passed());
+  EXPECT_TRUE(CheckPlan(close.body, TurnAndSlide(2, 1e-4).plan).passed());
+}
+
+TEST(CheckAlign, EndsWhereTheWorkThatAPlanMayTakeIsDone) {
+  // There and back again: with so many fingers the way back takes more than is left.
+  const auto check = [](int fingers) {
+    TurnAndSlide sample(fingers, 1e-4);
+    auto& waypoints = std::get<Align>(sample.plan.steps[0]).waypoints;
+    waypoints.push_back(waypoints.front());
+    sample.plan.goal = ContactsOf(waypoints.front());
+    return CheckPlan(sample.body, sample.plan).steps[1];
+  };
+  EXPECT_EQ(check(2).reason, Reason::kNone);
+  const StepCheck step = check(60);
+  EXPECT_EQ(step.reason, Reason::kNotProved);
+  EXPECT_EQ(step.undecided, 0);
+  EXPECT_THAT(step.detail, testing::HasSubstr("the search for proofs ended at"));
+  EXPECT_THAT(step.detail, testing::HasSubstr("from waypoint 1 to waypoint 2"));
+}
+
+TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
+  // Opposite before and after; on the way the fingers are far apart, and need 42°.
+  const Plan plan =
+      AlignPlan(EmptyPlan(2, 4, 60), {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)});
+  const Polygon square = MakeSquare();
+  EXPECT_TRUE(CheckPlan(square, plan).passed());
+  const StepCheck less = CheckPlan(square, plan, {.half_angle = Radians(40)}).steps[1];
+  EXPECT_EQ(less.reason, Reason::kNotForceClosure);
+  Plan weak = plan;
+  weak.half_angle = Radians(20);
+  EXPECT_FALSE(CheckPlan(square, weak).passed());
+  EXPECT_TRUE(CheckPlan(square, weak, {.half_angle = Radians(43)}).passed());
 }
 
 TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {

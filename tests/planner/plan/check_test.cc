@@ -173,6 +173,13 @@ TEST(CheckPlan, FailsControlsOfTheCubeForTheirReasons) {
           {"an align with a finger that did not hold",
            [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 3; }, 3,
            Reason::kDiscontinuous},
+          {"an align that a finger joins",
+           [](Plan& plan) {
+             for (FingerGrasp& waypoint : AlignOf(plan, 2).waypoints) {
+               waypoint.push_back(plan.initial[3]);
+             }
+           },
+           3, Reason::kDiscontinuous},
           {"an align that names a finger twice",
            [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 1; }, 3,
            Reason::kFingerNotFree},
@@ -242,6 +249,52 @@ TEST(CheckPlan, AcceptsContactsWithinTheTolerances) {
   }
 }
 
+TEST(CheckPlan, TolerancesAreThoseOfTheFormat) {
+  const Polyhedron cube = MakeCube();
+  const double point = 1e-6 * cube.diameter();
+  // Each change is of the size of a tolerance, times a share.
+  struct Case {
+    const char* name;
+    std::function<void(Plan&, double)> change;
+    int index;
+    Reason reason;
+  };
+  const std::vector<Case> cases = {
+      {"a point above its face",
+       [&](Plan& plan, double share) { plan.initial[0].contact.p.x() += share * point; }, 0,
+       Reason::kOffSurface},
+      {"a point below its face",
+       [&](Plan& plan, double share) { plan.initial[0].contact.p.x() -= share * point; }, 0,
+       Reason::kOffSurface},
+      {"a normal's direction",
+       [](Plan& plan, double share) {
+         plan.initial[0].contact.n = TurnedAboutZ(plan.initial[0].contact.n, 0.1 * share);
+       },
+       0, Reason::kWrongNormal},
+      {"a long normal",
+       [](Plan& plan, double share) { plan.initial[0].contact.n *= 1 + 1e-4 * share; }, 0,
+       Reason::kWrongNormal},
+      {"a short normal",
+       [](Plan& plan, double share) { plan.initial[0].contact.n *= 1 - 1e-4 * share; }, 0,
+       Reason::kWrongNormal},
+      {"where an align begins",
+       [&](Plan& plan, double share) {
+         AlignOf(plan, 2).waypoints[0][0].contact.p.y() += share * point;
+       },
+       3, Reason::kDiscontinuous},
+      {"where it ends", [&](Plan& plan, double share) { plan.goal[0].p.y() += share * point; }, 3,
+       Reason::kGoalNotReached},
+  };
+  for (const Case& one : cases) {
+    Plan plan = CubePlan();
+    one.change(plan, 0.95);
+    ExpectPasses(CheckPlan(cube, plan), one.name);
+    plan = CubePlan();
+    one.change(plan, 1.05);
+    ExpectFails(CheckPlan(cube, plan), one.index, one.reason, one.name);
+  }
+}
+
 TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
   // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
   const Polygon square = MakeSquare();
@@ -283,6 +336,82 @@ TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
   ExpectFails(CheckPlan(cube, with_shift(lost)), 0, Reason::kNotForceClosure, "just outside");
 }
 
+TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
+  const Polygon square = MakeSquare();
+  const FingerGrasp apart = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{-0.3, 1, 0}, {0, -1, 0}}}};
+  const FingerGrasp opposite = {{2, {{1, 0, 0}, {-1, 0, 0}}}, {3, {{-1, 0, 0}, {1, 0, 0}}}};
+  Plan plan = EmptyPlan(2, 4, 20);
+  plan.initial = apart;
+  plan.steps = {Switch{opposite, {0, 1}}, Switch{apart, {2, 3}}};
+  plan.goal = ContactsOf(apart);
+  const PlanCheck check = CheckPlan(square, plan);
+  ExpectPasses(check, "to and fro");
+  for (const StepCheck& step : check.steps) {
+    ASSERT_TRUE(step.required);
+    EXPECT_NEAR(step.required->upper, std::atan(0.3), 1e-8) << step.index;
+  }
+  plan.initial = opposite;
+  plan.steps.clear();
+  EXPECT_LT(CheckPlan(square, plan).steps[0].required->upper, 1e-8);
+}
+
+TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
+  const Polygon square = MakeSquare();
+  int passed = 0;
+  for (int i = 1; i <= 40; ++i) {
+    Plan plan = EmptyPlan(2, 4, 40);
+    const double apart = 0.02 * i;
+    plan.initial = {{0, {{apart, -1, 0}, {0, 1, 0}}}, {1, {{-apart, 1, 0}, {0, -1, 0}}}};
+    plan.goal = ContactsOf(plan.initial);
+    // In the middle of the bounds, where the grasp may hold although that is not known of it yet.
+    const auto bounds = CheckPlan(square, plan).steps[0].required;
+    ASSERT_TRUE(bounds);
+    plan.half_angle = bounds->lower + (bounds->upper - bounds->lower) / 2;
+    const StepCheck hold = CheckPlan(square, plan).steps[0];
+    if (hold.reason != Reason::kNone) continue;
+    ++passed;
+    ASSERT_TRUE(hold.required);
+    EXPECT_LE(hold.required->lower, hold.required->upper);
+    EXPECT_LE(hold.required->upper, plan.half_angle);
+  }
+  EXPECT_GE(passed, 5);
+}
+
+/// A strip 1 long and so thin that fingers at opposite corners need 8e-7 rad less than a right
+/// angle: required half-angles are looked for up to 1e-6 below it.
+struct Strip {
+  static constexpr double kHeight = 8e-7;
+  Polygon polygon = Polygon::FromRings({{{0, 0}, {1, 0}, {1, kHeight}, {0, kHeight}}}, "strip");
+
+  /// A finger below and one above, this far apart along the strip.
+  static FingerGrasp Held(double apart) {
+    return {{0, {{0.5 - apart / 2, 0, 0}, {0, 1, 0}}},
+            {1, {{0.5 + apart / 2, kHeight, 0}, {0, -1, 0}}}};
+  }
+  static Plan HoldPlan(double apart) {
+    Plan plan = EmptyPlan(2, 4, 20);
+    plan.half_angle = Radians(90) - kHeight / 2;
+    plan.initial = Held(apart);
+    plan.goal = ContactsOf(plan.initial);
+    return plan;
+  }
+};
+
+TEST(CheckPlan, WhatHoldsAtNoHalfAngleThatIsLookedForIsNotProved) {
+  const Strip strip;
+  ExpectPasses(CheckPlan(strip.polygon, Strip::HoldPlan(0.5)), "1.6e-6 rad to a right angle");
+  ExpectFails(CheckPlan(strip.polygon, Strip::HoldPlan(1)), 0, Reason::kNotProved, "8e-7 rad");
+  // The same on the way from a grasp that passes to one.
+  Plan plan = Strip::HoldPlan(0.5);
+  plan.steps = {Align{{Strip::Held(0.5), Strip::Held(0.6), Strip::Held(0.5)}}};
+  ExpectPasses(CheckPlan(strip.polygon, plan), "1.3e-6 rad on the way");
+  plan.steps = {Align{{Strip::Held(0.5), Strip::Held(1), Strip::Held(0.5)}}};
+  const PlanCheck check = CheckPlan(strip.polygon, plan);
+  ExpectFails(check, 1, Reason::kNotProved, "8e-7 rad on the way");
+  EXPECT_FALSE(check.steps[1].force_closure);
+  EXPECT_FALSE(check.steps[1].required);
+}
+
 TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
   const Polyhedron cube = MakeCube();
   const Plan plan = CubePlan();
@@ -314,6 +443,10 @@ TEST(CheckPlan, ComparesStartAndGoalWithTheGivenGrasps) {
   ExpectFails(CheckPlan(cube, plan, {.start = &start}), 0, Reason::kStartDiffers, "start");
   goal[1].p += Eigen::Vector3d(1e-3, 1e-3, 1e-3);
   ExpectFails(CheckPlan(cube, plan, {.goal = &goal}), 3, Reason::kGoalNotReached, "goal");
+  Plan promise = plan;
+  promise.goal[0].p.y() += 1e-3;
+  ExpectFails(CheckPlan(cube, promise, {.goal = &promise.goal}), 3, Reason::kGoalNotReached,
+              "the given goal is the plan's, which it does not reach");
 }
 
 TEST(CheckPlan, AcceptsAnEmptyPlanThatIsAtItsGoal) {

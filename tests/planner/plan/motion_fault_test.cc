@@ -82,6 +82,18 @@ TEST(MotionFault, ASharpEdgeIsToBeReachedBeforeItIsTurnedAt) {
   EXPECT_FALSE(turns(1e-5));
 }
 
+TEST(MotionFault, NothingTurnsAtAnEdgeAsSharpAsNormalsAreKnown) {
+  // Between opposite normals there is no shortest turn; they are known to 0.1°.
+  for (const auto& [degrees, turns] : {std::pair{0.09, false}, {0.11, true}}) {
+    const double angle = Radians(degrees);
+    const Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
+    const Contact lower = At(blade, {0, 0, 0.5}, {0, 1, 0});
+    const Contact upper = At(blade, {0, 0, 0.5}, {std::sin(angle), -std::cos(angle), 0});
+    EXPECT_NE(lower.face, upper.face);
+    EXPECT_EQ(MayMove(blade, lower, upper), turns) << degrees;
+  }
+}
+
 TEST(MotionFault, FacesThatOnlyShareACornerMeetThere) {
   // A pyramid of four sides: opposite ones share its top.
   PolygonSoup soup;
@@ -111,6 +123,12 @@ TEST(MotionFault, SlitsAreNotCrossedHoweverNarrow) {
     EXPECT_TRUE(MayMove(block, top(0.5, 1), top(2.5, 1))) << "past its end, " << width;
     EXPECT_TRUE(MayMove(block, top(1, 0), top(1, 1))) << "along its wall, " << width;
     EXPECT_TRUE(MayMove(block, top(1, 0.2), top(0.2, 0.3))) << "away from it, " << width;
+    // Its walls, from the edge on their own side.
+    const auto wall = [&](double x, double side) { return At(block, {x, 0.5, 1}, {side, 0, 0}); };
+    EXPECT_TRUE(MayMove(block, top(1, 0.5), wall(1, -1))) << width;
+    EXPECT_TRUE(MayMove(block, top(1 + width, 0.5), wall(1 + width, 1))) << width;
+    EXPECT_FALSE(MayMove(block, top(1, 0.5), wall(1 + width, 1))) << width;
+    EXPECT_FALSE(MayMove(block, top(1 + width, 0.5), wall(1, -1))) << width;
   }
 }
 

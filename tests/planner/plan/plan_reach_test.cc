@@ -150,6 +150,24 @@ TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
   EXPECT_EQ(CheckPlan(cube, plan).steps[0].reason, Reason::kNotForceClosure);
 }
 
+TEST(PlanReach, TheCheckReportsAnAlignOnWhoseWayThereIsNoRoom) {
+  const Polyhedron cube = MakeCube();
+  Plan plan = EmptyPlan(3, 5, 40);
+  plan.initial = {At(cube, 0, {1, 0, 0}, {-1, 0, 0}), At(cube, 1, {-1, 0, 0}, {1, 0, 0}),
+                  At(cube, 2, {-0.8, -0.1, 1}, kDown), At(cube, 3, {0.8, 0.1, 1}, kDown),
+                  At(cube, 4, {0, 0, -1}, -kDown)};
+  FingerGrasp crossed = plan.initial;
+  crossed[2].contact.p.x() = 0.8;
+  crossed[3].contact.p.x() = -0.8;
+  plan.steps = {Align{{plan.initial, crossed}}};
+  plan.goal = ContactsOf(crossed);
+  EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.099}).passed());
+  const StepCheck align = CheckPlan(cube, plan, {.finger_radius = 0.11}).steps[1];
+  EXPECT_EQ(align.reason, Reason::kUnreachable);
+  EXPECT_TRUE(align.force_closure);
+  EXPECT_NE(align.detail.find("fingers 2 and 3 overlap"), std::string::npos) << align.detail;
+}
+
 TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
   // Points are read to a millionth of the diameter: fingers that overlap by less touch.
   const Polyhedron cube = MakeCube();
