@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/motion/check_motion_proof.h"
-#include "planner/motion/find_motion_proof.h"
+#include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
 
 namespace regrasp {
@@ -17,16 +17,25 @@ Grasp ContactsInOrder(const FingerGrasp& grasp, const FingerGrasp& order) {
   return contacts;
 }
 
+std::optional<MotionPieces> FindWayProof(const Grasp& from, const Grasp& to, int dimension,
+                                         double half_angle) {
+  if (from.empty() || from.size() != to.size()) return std::nullopt;
+  GraspMotion motion;
+  for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
+  // Force closure does not depend on the frame.
+  const WrenchFrame frame{Eigen::Vector3d::Zero(), 1, dimension};
+  PathForceClosure path = DecidePathForceClosure(motion, frame, half_angle);
+  if (!path.holds()) return std::nullopt;
+  return std::move(path.pieces);
+}
+
 std::optional<AlignCertificate> FindAlignCertificate(const Align& located, int dimension,
                                                      double half_angle) {
   AlignCertificate certificate;
   for (std::size_t w = 0; w + 1 < located.waypoints.size(); ++w) {
-    const Grasp from = ContactsOf(located.waypoints[w]);
-    const Grasp to = ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]);
-    if (from.size() != to.size()) return std::nullopt;
-    GraspMotion motion;
-    for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
-    auto pieces = FindMotionProof(motion, dimension, half_angle);
+    auto pieces = FindWayProof(ContactsOf(located.waypoints[w]),
+                               ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]),
+                               dimension, half_angle);
     if (!pieces) return std::nullopt;
     certificate.push_back(std::move(*pieces));
   }

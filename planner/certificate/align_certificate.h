@@ -11,8 +11,16 @@ namespace regrasp {
 /// The contacts of the fingers of `order`, in its order; fewer where a finger is missing.
 [[nodiscard]] Grasp ContactsInOrder(const FingerGrasp& grasp, const FingerGrasp& order);
 
+/// A proof of force closure all along the way from one waypoint to the next: the one by which the
+/// analytic check passes it (DecidePathForceClosure), nullopt where that does not.
+/// @param from, to    the contacts of each finger at the same place.
+/// @param half_angle  radians.
+/// @throws std::invalid_argument  as TestForceClosure.
+[[nodiscard]] std::optional<MotionPieces> FindWayProof(const Grasp& from, const Grasp& to,
+                                                       int dimension, double half_angle);
+
 /// Proofs of force closure all along an align, for each pair of waypoints that follow each other;
-/// nullopt where FindMotionProof finds none for one of them.
+/// nullopt where FindWayProof finds none for one of them.
 /// @param located  its contacts placed on the object. @param half_angle  radians.
 [[nodiscard]] std::optional<AlignCertificate> FindAlignCertificate(const Align& located,
                                                                    int dimension,

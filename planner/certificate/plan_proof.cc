@@ -8,8 +8,6 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/motion/check_motion_proof.h"
-#include "planner/motion/contact_motion.h"
-#include "planner/motion/find_motion_proof.h"
 #include "planner/plan/motion_piece_json.h"
 
 namespace regrasp {
@@ -53,14 +51,11 @@ std::vector<Entry> EntriesOf(const Plan& plan) {
 /// The plan's own proof of a way where it holds, otherwise one that is found; empty where none is.
 MotionPieces ProveWay(const Entry& entry, std::size_t way, int dimension, double half_angle) {
   const auto& [from, to] = entry.ways[way];
-  if (from.size() != to.size()) return {};
   if (entry.certificate != nullptr && way < entry.certificate->size()) {
     const MotionPieces& given = (*entry.certificate)[way];
     if (CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves()) return given;
   }
-  GraspMotion motion;
-  for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
-  return FindMotionProof(motion, dimension, half_angle).value_or(MotionPieces());
+  return FindWayProof(from, to, dimension, half_angle).value_or(MotionPieces());
 }
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {

@@ -26,8 +26,8 @@ struct Nearness {
   bool without_redundancy;
 };
 constexpr Nearness kForPlans = {kLargestWeight, 1e-9, false};
-/// For bounds, which are not written, and which exact arithmetic is to check.
-constexpr Nearness kForBounds = {kLargestWeightNearLimit, 1e-13, true};
+/// For the analytic check: a piece counts only where exact arithmetic accepts it as it is.
+constexpr Nearness kForChecks = {kLargestWeightNearLimit, 1e-13, true};
 
 /// So much narrower, in radians, are the cones of normals that turn: more than the exact check
 /// takes off them.
@@ -219,8 +219,8 @@ std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimensi
   CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   const Piece piece{from, to};
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForBounds).Prove(piece)
-                        : MotionProofSearch<2>(motion, half_angle, kForBounds).Prove(piece);
+  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForChecks).Prove(piece)
+                        : MotionProofSearch<2>(motion, half_angle, kForChecks).Prove(piece);
 }
 
 std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,

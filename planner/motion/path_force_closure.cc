@@ -36,9 +36,12 @@ class PieceProofs {
     }
   }
 
-  [[nodiscard]] bool Prove(double half_angle, double from, double to) const {
-    const auto proof = FindPieceProof(motion_, dimension_, half_angle, from, to);
-    return proof && CheckPieceProof(from_, to_, dimension_, std::tan(half_angle), *proof).proves();
+  [[nodiscard]] std::optional<MotionPiece> Prove(double half_angle, double from, double to) const {
+    auto proof = FindPieceProof(motion_, dimension_, half_angle, from, to);
+    if (!proof) return std::nullopt;
+    const double mu = std::tan(half_angle);
+    if (!CheckPieceProof(from_, to_, dimension_, mu, *proof).proves()) return std::nullopt;
+    return proof;
   }
 
  private:
@@ -72,7 +75,10 @@ class PathDecision {
       return EndEarly(centre);
     }
     if (!HoldsAt(centre)) return Lose(centre);
-    if (proofs_.Prove(half_angle_, from, to)) return;
+    if (auto proof = proofs_.Prove(half_angle_, from, to)) {
+      result_.pieces.push_back(*std::move(proof));
+      return;
+    }
     if (to - from > kShortestInterval) {
       Decide(from, centre);
       Decide(centre, to);

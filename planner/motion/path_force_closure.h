@@ -5,6 +5,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
+#include "planner/motion/motion_piece.h"
 #include "planner/motion/proof_budget.h"
 #include "planner/object/wrench_frame.h"
 
@@ -32,6 +33,8 @@ struct PathForceClosure {
   int undecided = 0;
   /// Of kTooClose: the search ended before it came to the end of the motion.
   bool ended_early = false;
+  /// The proofs that were found, in order; after kYes they cover the whole motion.
+  MotionPieces pieces;
 
   /// Proved everywhere.
   [[nodiscard]] bool holds() const { return decision == Decision::kYes; }

@@ -7,6 +7,8 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/json.h"
+#include "planner/object/object.h"
+#include "planner/plan/check.h"
 
 namespace regrasp {
 namespace {
@@ -55,6 +57,59 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
     EXPECT_EQ(verdicts[2].kind, "align");
     for (EntryProof& proof : proofs) proof = WrittenAndRead(proof);
   }
+}
+
+/// An align of four contacts on four sides of a cube of side 2 `half`, in one plane that leans,
+/// from where they are opposite to `apart` times half a side off that.
+Plan AlignInOnePlane(double half, double lean, double apart) {
+  const auto grasp = [&](double off) {
+    FingerGrasp held;
+    for (int f = 0; f < 4; ++f) {
+      Vector3d p = Vector3d::Zero();
+      p[f % 2] = f < 2 ? half : -half;
+      p[1 - f % 2] = (f < 2 ? 1 : -1) * off * half;
+      p.z() = lean * p.x() - 0.7 * lean * p.y();
+      const Vector3d n = -p[f % 2] / half * Vector3d::Unit(f % 2);
+      held.push_back({f, {p, n}});
+    }
+    return held;
+  };
+  Plan plan;
+  plan.half_angle = Radians(45);
+  plan.fingers = 5;
+  plan.initial = grasp(0.1 * apart);
+  plan.steps = {Align{{plan.initial, grasp(apart)}}};
+  plan.goal = ContactsOf(grasp(apart));
+  return plan;
+}
+
+TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
+  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const double half = file.object->diameter() / std::sqrt(12.0);
+  // Contacts in one plane, and such as come near to what the friction bears.
+  int checked = 0;
+  for (const double lean : {0.0, 0.1, 0.3, 0.5}) {
+    for (const double apart : {0.1, 0.3}) {
+      for (const double above : {1e-6, 1e-3, 0.1}) {
+        Plan plan = AlignInOnePlane(half, lean, apart);
+        const auto needed = CheckPlan(*file.object, plan).steps[1].required;
+        ASSERT_TRUE(needed);
+        plan.half_angle = needed->upper + above;
+        const PlanCheck check = CheckPlan(*file.object, plan);
+        ASSERT_TRUE(check.passed()) << check.steps[1].detail;
+        std::vector<EntryProof> proofs = FindPlanProofs(check.located, plan.half_angle, 2);
+        for (EntryProof& proof : proofs) proof = WrittenAndRead(proof);
+        for (const EntryVerdict& verdict :
+             CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
+          SCOPED_TRACE(testing::Message() << lean << " " << apart << " " << above);
+          EXPECT_TRUE(verdict.rest.proves()) << verdict.index << verdict.rest.why;
+          for (const ProofVerdict& way : verdict.ways) EXPECT_TRUE(way.proves()) << way.why;
+        }
+        ++checked;
+      }
+    }
+  }
+  EXPECT_EQ(checked, 24);
 }
 
 TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {

@@ -173,6 +173,31 @@ TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
   EXPECT_FALSE(FindMotionProof(MotionOf(corner.from, flipped), 2, corner.half_angle));
 }
 
+TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
+  // Two pairs of fingers of a square, each opposite at one end of the way alone. The forces go over
+  // from one pair to the other: at the ends they balance, the weak ones along the line between
+  // their fingers, and between the ends both pairs turn the square the same way.
+  const double apart = 0.4, weak = 0.1;
+  const Vector3d up = Vector3d::UnitY(), below(0, -1, 0), above(0, 1, 0), x = Vector3d::UnitX();
+  const Grasp from = {{below - 0.5 * x, up},
+                      {above - 0.5 * x, -up},
+                      {below + 0.5 * x, up},
+                      {above + (0.5 + apart) * x, -up}};
+  Grasp to = from;
+  to[1].p += apart * x;
+  to[3].p -= apart * x;
+  const Vector3d slanted = weak * (up + apart / 2 * x);
+  MotionPiece piece{0, 1, {up, -up, slanted, -slanted}, {slanted, -slanted, up, -up}};
+  EXPECT_EQ(CheckMotionProof(from, to, 2, kMu, Pieces{piece}).kind, Kind::kNothing);
+  // The control: at rest at either end they prove what they should.
+  MotionPiece start = piece;
+  start.end = start.start;
+  EXPECT_EQ(CheckMotionProof(from, from, 2, kMu, Pieces{start}).kind, Kind::kForceClosure);
+  MotionPiece end = piece;
+  end.start = end.end;
+  EXPECT_EQ(CheckMotionProof(to, to, 2, kMu, Pieces{end}).kind, Kind::kForceClosure);
+}
+
 class PiecesTest : public testing::Test {
  protected:
   PiecesTest() {
