@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/convex_hull_2.h>
 #include <CGAL/intersections.h>
+#include <CGAL/squared_distance_2.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -36,13 +37,17 @@ constexpr double kLeastPiece = 1e-8;
 /// Pieces smaller than this share of the largest are slivers on a small face.
 constexpr double kLeastOfLargest = 1e-3;
 
-/// Half the side of the patch of a face that the square misses, over D: places nearer than this are
-/// one where files are read.
+/// Half the side of the least patch, over D: places nearer than this are one where files are read.
 constexpr double kPointPatch = kPointTolerance;
 
-/// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter:
-/// several times what fingers of good grasps slip.
-constexpr int kMostHalvings = 6;
+/// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter for
+/// a path and 8e-5 for a point, as long as another shape serves: fingers that hold slip by a
+/// thousandth of that, and a tip of 0.04 D rolls that far in a turn of what the object may move.
+constexpr int kPathHalvings = 6, kPointHalvings = 8;
+
+/// The width of the least shape that is not a rectangle, over D. On narrower ones the engine finds
+/// contacts so far off that fingers slip.
+constexpr double kLeastWidth = 1e-3;
 
 /// Coordinates in the plane of a face: u along `axis`, v to its left seen from outside.
 struct Chart {
@@ -143,13 +148,34 @@ std::optional<Rectangle> FittingWindow(const Polyhedron& body, const ContactSite
   return std::nullopt;
 }
 
-/// The largest of the fitting windows of `size`, half of it, a quarter of it …
+/// The largest of the fitting windows of `size`, half of it, a quarter of it …, down to `least`.
 std::optional<Rectangle> LargestFittingWindow(const Polyhedron& body, const ContactSite& site,
-                                              const Chart& chart, double size) {
-  for (int halvings = 0; halvings <= kMostHalvings; ++halvings, size /= 2) {
+                                              const Chart& chart, double size, double least) {
+  for (; size >= least; size /= 2) {
     if (const auto window = FittingWindow(body, site, chart, size)) return window;
   }
   return std::nullopt;
+}
+
+/// The rectangle that reaches `size` from the path on all sides.
+Rectangle WholeWindow(const ContactSite& site, const Chart& chart, double size) {
+  return {Point(-size, -size), Point(chart.u.dot(site.to - site.from) + size, size)};
+}
+
+/// Of a convex ring: at most twice the distance of the nearest two parallel lines around it.
+double Width(const Ring& ring) {
+  double longest = 0;
+  for (const Point& a : ring) {
+    for (const Point& b : ring) longest = std::max(longest, CGAL::squared_distance(a, b));
+  }
+  return longest > 0 ? 2 * Area(ring) / std::sqrt(longest) : 0;
+}
+
+Ring Hull(const std::vector<Ring>& pieces) {
+  Ring corners, hull;
+  for (const Ring& piece : pieces) corners.insert(corners.end(), piece.begin(), piece.end());
+  CGAL::convex_hull_2(corners.begin(), corners.end(), std::back_inserter(hull));
+  return hull;
 }
 
 ContactPatch Lift(const Chart& chart, Ring ring, bool rectangle) {
@@ -162,30 +188,34 @@ ContactPatch Lift(const Chart& chart, Ring ring, bool rectangle) {
   return patch;
 }
 
+ContactPatch LiftRectangle(const Chart& chart, const Rectangle& window) {
+  return Lift(chart, {window[0], window[1], window[2], window[3]}, true);
+}
+
 }  // namespace
 
 std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const ContactSite& site,
                                              double size) {
   const Chart chart = MakeChart(body, site);
-  if (const auto fitting = LargestFittingWindow(body, site, chart, size)) {
-    const Rectangle& window = *fitting;
-    return {Lift(chart, {window[0], window[1], window[2], window[3]}, true)};
+  const bool rests = site.from == site.to;
+  const double least = std::ldexp(size, rests ? -kPointHalvings : -kPathHalvings);
+  if (const auto window = LargestFittingWindow(body, site, chart, size, least)) {
+    return {LiftRectangle(chart, *window)};
   }
-  const double end = chart.u.dot(site.to - site.from);
-  const Rectangle window(Point(-size, -size), Point(end + size, size));
-  const std::vector<Ring> pieces = ClipTriangles(body, site.face, chart, window);
-  Ring corners, hull;
-  for (const Ring& piece : pieces) corners.insert(corners.end(), piece.begin(), piece.end());
-  CGAL::convex_hull_2(corners.begin(), corners.end(), std::back_inserter(hull));
-  if (hull.size() >= 3 && Area(hull) * (1 - kAreaTolerance) <= TotalArea(pieces)) {
+  const std::vector<Ring> pieces =
+      ClipTriangles(body, site.face, chart, WholeWindow(site, chart, size));
+  const Ring hull = Hull(pieces);
+  const bool wide = Width(hull) >= kLeastWidth * body.diameter();
+  if (wide && Area(hull) * (1 - kAreaTolerance) <= TotalArea(pieces)) {
     return {Lift(chart, hull, false)};
   }
-  std::vector<ContactPatch> patches;
-  if (pieces.empty()) {
-    const double half = kPointPatch * body.diameter();
-    const Rectangle square(Point(-half, -half), Point(end + half, half));
-    return {Lift(chart, {square[0], square[1], square[2], square[3]}, true)};
+  const double point = kPointPatch * body.diameter();
+  if (!wide || rests) {
+    const auto window = LargestFittingWindow(body, site, chart, least / 2, point);
+    if (window) return {LiftRectangle(chart, *window)};
   }
+  if (!wide) return {LiftRectangle(chart, WholeWindow(site, chart, point))};
+  std::vector<ContactPatch> patches;
   for (const Ring& piece : pieces) patches.push_back(Lift(chart, piece, false));
   return patches;
 }

@@ -25,12 +25,14 @@ struct ContactPatch {
 /// The surface of the site's face within `size` of its path, as few convex pieces.
 ///
 /// A rectangle where one fits between the borders, cut short towards them and as small as size / 64
-/// in sharp corners of the face, since the engine finds contacts with boxes exactly and misses some
-/// of those with other shapes; otherwise the part of the face inside the square of half-side `size`
-/// about the path, in one piece where that is convex, else one per triangle. Never none, however
-/// small the face is. A finger that leaves
-/// its patch has left the face or slipped that far. MuJoCo collides convex shapes only, so a body
-/// that is not convex is touched through these and never through its hull.
+/// in sharp corners of the face (size / 256 for a point), since the engine finds contacts with
+/// boxes exactly and misses some of those with other shapes, or finds them in the wrong place where
+/// they are small; otherwise the part of the face inside the square of half-side `size` about the
+/// path, in one piece where that is convex, else one per triangle. On a face that is narrower than
+/// 1e-3 D, far smaller than a fingertip, the largest rectangle that fits, however small; 2e-6 D
+/// wide where none does, across the face's border. Never none. A finger that leaves its patch has
+/// left the face or slipped that far. MuJoCo collides convex shapes only, so a body that is not
+/// convex is touched through these and never through its hull.
 [[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,
                                                            const ContactSite& site, double size);
 

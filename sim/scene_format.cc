@@ -59,12 +59,14 @@ std::string FormatBox(const ContactPatch& patch, double thickness) {
          "\"";
 }
 
+/// The vertices are about the patch's first corner: the engine keeps them in single precision, and
+/// about the body's centre small patches would be tilted.
 std::string FormatPrismMesh(const std::string& name, const ContactPatch& patch,
                             const Vector3d& inward, double thickness) {
   std::string vertices;
   for (const double depth : {0.0, thickness}) {
     for (const Vector3d& corner : patch.outline) {
-      Append(vertices, Join(corner + depth * inward));
+      Append(vertices, Join(corner - patch.outline[0] + depth * inward));
     }
   }
   return "    <mesh name=\"" + name + "\" vertex=\"" + vertices + "\"/>\n";
@@ -100,7 +102,7 @@ void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
         shape = FormatBox(patch, thickness);
       } else {
         parts.assets += FormatPrismMesh(name, patch, inward, thickness);
-        shape = " type=\"mesh\" mesh=\"" + name + "\"";
+        shape = " type=\"mesh\" mesh=\"" + name + "\" pos=\"" + Join(patch.outline[0]) + "\"";
       }
       parts.object_geoms += "      <geom name=\"" + name + "\" class=\"patch\"" + shape +
                             Collision(scene, scene.fingers_of_site[i]) + "/>\n";
