@@ -1,6 +1,7 @@
 #include "sim/stillness.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace regrasp {
@@ -21,9 +22,22 @@ Posture TakePosture(const Stage& stage) {
   return posture;
 }
 
+/// How far the body's points move in a turn, over the angle: metres, at most its radius.
+double ArmOf(const Eigen::AngleAxisd& turn_B, const Stage& stage) {
+  const ReplaySettings& s = stage.settings();
+  const Vector3d& axis = turn_B.axis();
+  const double gyration =
+      std::sqrt(axis.dot(stage.scene().inertia * axis) / (s.mass_factor * s.mass_kg));
+  return std::min(s.diameter_m / 2, kArmOfGyration * gyration);
+}
+
 /// The largest way of any of them, metres.
 double WayFrom(const Posture& from, const Stage& stage) {
-  double way = MeasureMotion(from.X_SB, stage.X_SB(), stage.settings().diameter_m / 2);
+  const Eigen::Isometry3d X_SB = stage.X_SB();
+  const Eigen::AngleAxisd turn_B(
+      Eigen::Quaterniond(from.X_SB.linear().transpose() * X_SB.linear()));
+  double way = (X_SB.translation() - from.X_SB.translation()).norm() +
+               ArmOf(turn_B, stage) * std::abs(turn_B.angle());
   for (std::size_t i = 0; i < from.fingers.size(); ++i) {
     way = std::max(way, (stage.engine().tip(from.fingers[i]) - from.tips_S[i]).norm());
   }

@@ -34,5 +34,9 @@ inline constexpr double kLongestWait = 40;
 /// of two time steps long. A body that nothing holds moves 8e-4 in it under the default shake, and
 /// one that the grasp holds but for a thousandth of the push nearly 1e-6.
 inline constexpr double kStill = 1e-6;
+/// How far the body reaches from an axis, over its radius of gyration about that axis: 1.4 for a
+/// rod's own axis, 2 for a cube's diagonal. Contacts that creep turn a needle about its long axis
+/// by much, and none of its points goes far.
+inline constexpr double kArmOfGyration = 3;
 
 }  // namespace regrasp

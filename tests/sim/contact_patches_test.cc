@@ -106,7 +106,8 @@ struct Holds {
     const Polyhedron ball = MakeBall(finest, sectors);
     for (int k = 0; k < 4; ++k) {
       const FingerGrasp grasp = DrawGrasp(ball, share, random);
-      const StepReplay hold = ReplayPlan(ball, MakePlan(grasp, Degrees(kHalfAngle)), {}).steps.at(0);
+      const StepReplay hold =
+          ReplayPlan(ball, MakePlan(grasp, Degrees(kHalfAngle)), {}).steps.at(0);
       EXPECT_EQ(hold.reason, Reason::kNone) << hold.detail;
       EXPECT_LT(hold.slip_m, kNoSlip * kDiameter);
       for (int f = 0; f < 2; ++f) ++(IsRectangle(ball, grasp[f].contact) ? rectangles : others);
@@ -132,7 +133,8 @@ TEST(FineFacets, HoldAFingertipInTheirSharpCorners) {
   EXPECT_GT(holds.others, 0);
 }
 
-/// How far the corners of the engine's meshes are from those of the patches, over D; −1 without any.
+/// How far the corners of the engine's meshes are from those of the patches, over D; −1 without
+/// any.
 double LargestMeshError(const Scene& scene, const mjModel& model, mjData& data) {
   mj_kinematics(&model, &data);
   double largest = -1;

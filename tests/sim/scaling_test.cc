@@ -46,7 +46,7 @@ bool FailsForItsOwnReason(const StepReplay& hold) {
 }
 
 TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
-  for (const double width : {1e-1, 1e-2, 1e-3}) {
+  for (const double width : {1e-1, 1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(width);
     const Polyhedron rod = MakeRod(width);
     const Plan plan = HoldRod(rod, width, 0.8, 35);
@@ -55,8 +55,10 @@ TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
     // Torques are over half the length, and friction has half the width to turn the rod by.
     EXPECT_LT(quality, width);
     EXPECT_GT(quality, width / 2);
-    const StepReplay good = ShakeRod(rod, plan, 0.9 * quality);
-    EXPECT_EQ(good.reason, Reason::kNone) << good.detail;
+    for (const double share : {0.6, 0.9}) {
+      const StepReplay good = ShakeRod(rod, plan, share * quality);
+      EXPECT_EQ(good.reason, Reason::kNone) << share << ": " << good.detail;
+    }
     const StepReplay weak = ShakeRod(rod, plan, 1.5 * quality);
     EXPECT_TRUE(FailsForItsOwnReason(weak)) << ReasonName(weak.reason) << " " << weak.detail;
     const StepReplay much = ShakeRod(rod, plan, 10 * quality);
@@ -65,13 +67,15 @@ TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
 }
 
 TEST(Needle, IsLostWithoutForceClosureForItsOwnReason) {
-  const double width = 1e-3;
-  const Polyhedron rod = MakeRod(width);
-  Plan plan = HoldRod(rod, width, 0.8, 35);
-  // Both pairs at one place: nothing but friction on a millimetre stops a turn across the rod.
-  for (FingerContact& held : plan.initial) held.contact.p.x() = 0.1;
-  const StepReplay hold = ShakeRod(rod, plan, 1e-3);
-  EXPECT_TRUE(FailsForItsOwnReason(hold)) << ReasonName(hold.reason) << " " << hold.detail;
+  for (const double width : {1e-3, 1e-4}) {
+    SCOPED_TRACE(width);
+    const Polyhedron rod = MakeRod(width);
+    Plan plan = HoldRod(rod, width, 0.8, 35);
+    // Both pairs at one place: nothing but friction on its width stops a turn across the rod.
+    for (FingerContact& held : plan.initial) held.contact.p.x() = 0.1;
+    const StepReplay hold = ShakeRod(rod, plan, 1e-3);
+    EXPECT_TRUE(FailsForItsOwnReason(hold)) << ReasonName(hold.reason) << " " << hold.detail;
+  }
 }
 
 TEST(Needle, IsSimulatedInSmallerStepsAndOtherBodiesAreNot) {
