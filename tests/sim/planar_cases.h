@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,16 @@ inline Contact OnEdge(const Polygon& polygon, int edge, double share) {
 
 inline FingerContact OnEdge(const Polygon& polygon, int finger, int edge, double share) {
   return {finger, OnEdge(polygon, edge, share)};
+}
+
+/// A contact drawn evenly over the boundary.
+inline FingerContact DrawOnBoundary(const Polygon& polygon, int finger, std::mt19937& random) {
+  std::vector<double> lengths;
+  for (int edge = 0; edge < polygon.face_count(); ++edge) {
+    lengths.push_back(polygon.face_measure(edge));
+  }
+  const int edge = std::discrete_distribution<int>(lengths.begin(), lengths.end())(random);
+  return OnEdge(polygon, finger, edge, std::uniform_real_distribution<double>(0, 1)(random));
 }
 
 /// Of a hand with four fingers.

@@ -23,18 +23,9 @@ struct Count {
 /// A random grasp of so many contacts that some friction below 50° makes force closure.
 FingerGrasp DrawGrasp(const Polygon& polygon, int contacts, std::mt19937& random,
                       double& critical_mu) {
-  std::vector<double> lengths;
-  for (int edge = 0; edge < polygon.face_count(); ++edge) {
-    lengths.push_back(polygon.face_measure(edge));
-  }
-  std::discrete_distribution<int> edge(lengths.begin(), lengths.end());
-  std::uniform_real_distribution<double> unit(0, 1);
   for (;;) {
     FingerGrasp grasp;
-    for (int f = 0; f < contacts; ++f) {
-      const int e = edge(random);
-      grasp.push_back(OnEdge(polygon, f, e, unit(random)));
-    }
+    for (int f = 0; f < contacts; ++f) grasp.push_back(DrawOnBoundary(polygon, f, random));
     const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), polygon.wrench_frame());
     if (!required || required->upper > Radians(50) || required->upper < Radians(0.1)) continue;
     critical_mu = std::tan(required->upper);

@@ -4,8 +4,10 @@
 
 #include "planar_cases.h"
 #include "planner/base/error.h"
+#include "planner/grasp/largest_load.h"
 #include "planner/grasp/required_half_angle.h"
 #include "sim/motions.h"
+#include "sim/push.h"
 #include "sim/shake.h"
 
 namespace regrasp {
@@ -92,21 +94,71 @@ TEST(Stillness, ASmallShakeTellsAPinchThatSlidesFromOneThatHolds) {
   EXPECT_EQ(Pinch(1.1 * needed, options), Reason::kNone);
 }
 
-TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
-  std::mt19937 random(7);
-  int judged = 0;
-  while (judged < 8) {
+/// The largest push that a planar grasp resists in every direction of the shake, over the squeeze.
+double LargestShake(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+  double least = 1;
+  for (const Push& push : PushDirections(2)) {
+    const auto load =
+        ComputeLargestLoad(grasp, polygon.wrench_frame(), half_angle, {}, PushWrench(push, 1), 1);
+    least = std::min(least, load ? load->lower : 0);
+  }
+  return least;
+}
+
+/// A plan to hold a grasp of two or three that needs a little more squeeze than it has, at most
+/// `most` times as much, to resist the default shake.
+Plan DrawNearLimit(const Polygon& polygon, double most, std::mt19937& random) {
+  std::uniform_real_distribution<double> degrees(5, 35);
+  for (int draw = 0;; ++draw) {
     FingerGrasp grasp;
-    for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
-    const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
-    if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
-    ++judged;
-    const Plan plan = MakePlan(grasp, Degrees(std::atan(0.95 * std::tan(required->lower))), 4);
-    for (const double factor : kTimesteps) {
-      EXPECT_NE(ReplayPlan(body, plan, WithTimestep(factor)).steps.at(0).reason, Reason::kNone)
-          << "grasp " << judged << ", time step " << factor;
+    for (int f = 0; f < 2 + draw % 2; ++f) grasp.push_back(DrawOnBoundary(polygon, f, random));
+    const Plan plan = MakePlanarPlan(grasp, degrees(random));
+    const double resisted = LargestShake(polygon, ContactsOf(grasp), plan.half_angle);
+    const double needed = ReplayOptions().shake / resisted;
+    if (needed > 1.002 && needed < most) return plan;
+  }
+}
+
+TEST(Stillness, PlanarGraspsThatNeedALittleMoreSqueezeFailAndPassWithLessShake) {
+  std::mt19937 random(12);
+  for (const char* name : {"polygon40.wkt", "polygon_hole.wkt", "bottle200.wkt"}) {
+    const ObjectFile file = ReadModel(name);
+    const auto& polygon = dynamic_cast<const Polygon&>(*file.object);
+    for (int k = 0; k < 10; ++k) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(k));
+      const Plan plan = DrawNearLimit(polygon, k < 5 ? 1.2 : 1.05, random);
+      EXPECT_NE(ReplayPlan(polygon, plan, {}).steps.at(0).reason, Reason::kNone);
+      ReplayOptions less;
+      less.shake = 0.95 * LargestShake(polygon, ContactsOf(plan.initial), plan.half_angle);
+      const StepReplay hold = ReplayPlan(polygon, plan, less).steps.at(0);
+      EXPECT_EQ(hold.reason, Reason::kNone) << hold.detail;
+    }
+  }
+}
+
+/// Replays a grasp at a share of the friction that it needs, with every time step.
+void ExpectFailsAtEveryTimeStep(const Polyhedron& body, const FingerGrasp& grasp, double friction) {
+  const Plan plan = MakePlan(grasp, Degrees(std::atan(friction)), 4);
+  for (const double factor : kTimesteps) {
+    EXPECT_NE(ReplayPlan(body, plan, WithTimestep(factor)).steps.at(0).reason, Reason::kNone)
+        << "time step " << factor;
+  }
+}
+
+TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
+  std::mt19937 random(7);
+  for (const char* name : {"l_block.obj", "stone.obj", "body36.obj"}) {
+    const ObjectFile file = ReadModel(name);
+    const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+    for (int judged = 0; judged < 8;) {
+      FingerGrasp grasp;
+      for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+      const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
+      if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(judged));
+      const double share = judged % 2 == 0 ? 0.95 : 0.997;
+      ExpectFailsAtEveryTimeStep(body, grasp, share * std::tan(required->lower));
+      ++judged;
     }
   }
 }
