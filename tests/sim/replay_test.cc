@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "planner/base/error.h"
 #include "replay_cases.h"
@@ -103,6 +104,25 @@ TEST(ReplaySwitch, PlacesAndReleasesSeveralFingersInOneStep) {
   ExpectGood(ReplayPlan(cube.object, plan, {}), 4);
 }
 
+TEST(ReplaySwitch, AFingerThatIsReleasedIsOffTheSurface) {
+  const CubeCase cube;
+  const Plan plan = FourSwitches(cube);
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  int released = 0;
+  for (std::size_t i = 1; i < result.steps.size(); ++i) {
+    const Snapshot& shown = result.steps[i].snapshot;
+    for (const FingerState& state : shown.fingers) {
+      if (state.role != FingerRole::kReleased) continue;
+      ++released;
+      EXPECT_EQ(state.finger, std::get<Switch>(plan.steps[i - 1]).release[0]);
+      const Eigen::Vector3d tip = shown.X_WO.inverse() * state.tip_W;
+      EXPECT_GT(tip.cwiseAbs().maxCoeff(), 0.03 + 1.5 * shown.fingertip_radius_m);
+      EXPECT_TRUE(state.force_W.isZero());
+    }
+  }
+  EXPECT_EQ(released, 4);
+}
+
 TEST(ReplaySwitch, FailsWhereACarryingFingerLeaves) {
   const CubeCase cube;
   Plan plan = MakePlan(cube.Start(), 25);
@@ -125,6 +145,24 @@ TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
   EXPECT_EQ(ReplayPlan(cube.object, FourSwitches(cube), {}, observer, 2).steps.size(), 2u);
   EXPECT_EQ(calls, 2);
   EXPECT_TRUE(ReplayPlan(cube.object, FourSwitches(cube), {}, {}, 0).steps.empty());
+}
+
+TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
+  const CubeCase cube;
+  const Plan plan = FourSwitches(cube);
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  ASSERT_EQ(result.steps.size(), 5u);
+  FingerGrasp before = plan.initial;
+  for (std::size_t i = 1; i < result.steps.size(); ++i) {
+    const auto& [place, release] = std::get<Switch>(plan.steps[i - 1]);
+    // What held before the step, and what it places; no finger that an earlier step released.
+    std::set<int> held, measured;
+    for (const FingerContact& contact : before) held.insert(contact.finger);
+    for (const FingerContact& contact : place) held.insert(contact.finger);
+    for (const auto& [finger, margin] : result.steps[i].motion_margins) measured.insert(finger);
+    EXPECT_EQ(measured, held) << i;
+    before = GraspAfter(before, plan.steps[i - 1]);
+  }
 }
 
 TEST(ReplayPlanTest, TheSamePlanGivesTheSameBits) {

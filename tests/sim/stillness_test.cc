@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "held_cube.h"
 #include "planar_cases.h"
 #include "planner/base/error.h"
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/required_half_angle.h"
-#include "sim/motions.h"
 #include "sim/push.h"
 #include "sim/shake.h"
 
@@ -172,25 +172,6 @@ TEST(Stillness, AGoodGraspPassesAtEveryTimeStepByTheSameMotion) {
   }
 }
 
-/// The cube of CubeCase, held.
-struct HeldCube {
-  CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
-  ReplayObserver observer;
-  Stage stage{cube.object, plan, MakeScene(cube.object, plan, 0, {}), observer};
-
-  HeldCube() {
-    TakeHold(stage, ToScene(cube.object, plan.scale, plan.initial));
-    (void)WaitUntilStill(stage);
-    stage.StartJudging();
-  }
-  /// Drags finger 0 along its face by a share of D.
-  void Drag(double share) {
-    stage.fingers()[0].anchor_S.z() += share * stage.settings().diameter_m;
-    ComeToRest(stage);
-  }
-};
-
 TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
   HeldCube held;
   const double before = held.stage.engine().time();
@@ -205,36 +186,6 @@ TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
   HeldCube held;
   for (StageFinger& finger : held.stage.fingers()) finger.force_S.setZero();
   EXPECT_FALSE(WaitUntilStill(held.stage));
-}
-
-TEST(JudgeOfAReplay, SeesAFingerThatIsDraggedOverTheSurface) {
-  HeldCube little, far;
-  little.Drag(5e-4);
-  EXPECT_EQ(little.stage.judge().reason(), Reason::kNone) << little.stage.judge().detail();
-  far.Drag(0.02);
-  EXPECT_EQ(far.stage.judge().reason(), Reason::kSlipped) << far.stage.judge().detail();
-  EXPECT_NE(far.stage.judge().detail().find("finger 0"), std::string::npos);
-}
-
-TEST(JudgeOfAReplay, AnAlignMayMoveTheObjectByTheToleranceAndNoMore) {
-  const CubeCase cube;
-  FingerGrasp end = cube.Start();
-  end[0] = cube.At(0, 0.03, 0.008, 0.006);
-  Plan plan = MakePlan(cube.Start(), 35);
-  plan.steps = {Align{{cube.Start(), end}}};
-  for (const AlignChoice choice : {AlignChoice::kImitate, AlignChoice::kSlide}) {
-    ReplayOptions options;
-    options.align = choice;
-    const auto replay = [&] { return ReplayPlan(cube.object, plan, options); };
-    const StepReplay align = replay().steps.at(1);
-    ASSERT_EQ(align.reason, Reason::kNone) << align.detail;
-    const double most = std::max(align.moved_m, align.slip_m) / cube.object.diameter();
-    options.tolerance = 1.1 * most;
-    EXPECT_EQ(replay().steps.at(1).reason, Reason::kNone);
-    options.tolerance = 0.9 * most;
-    const ReplayResult strict = replay();
-    EXPECT_NE(strict.steps.back().reason, Reason::kNone);
-  }
 }
 
 }  // namespace
