@@ -149,9 +149,11 @@ TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
 
 TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
   const CubeCase cube;
-  const Plan plan = FourSwitches(cube);
+  Plan plan = MakePlan(cube.Start(), 25, 6);
+  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {3}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
-  ASSERT_EQ(result.steps.size(), 5u);
+  ASSERT_EQ(result.steps.size(), 3u);
   FingerGrasp before = plan.initial;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
     const auto& [place, release] = std::get<Switch>(plan.steps[i - 1]);

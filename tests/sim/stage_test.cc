@@ -81,8 +81,11 @@ TEST(JudgeOfAReplay, SeesAfterAFixedPushThatAFingerIsOffTheSurface) {
   HeldCube held;
   Stage& stage = held.stage;
   const double D = stage.settings().diameter_m;
-  for (const int f : {2, 3}) stage.fingers()[f].force_S.setZero();
-  stage.fingers()[2].anchor_S -= 1e-4 * D * stage.fingers()[2].contact.n;
+  for (const auto& [f, off] : {std::pair{2, 1e-4}, {3, 0.01}}) {
+    stage.fingers()[f].force_S.setZero();
+    stage.fingers()[f].anchor_S -= off * D * stage.fingers()[f].contact.n;
+  }
+  stage.fingers()[3].holding = false;
   (void)WaitUntilStill(stage);
   stage.StartJudging();
   PushOnce(stage, PushWrench({false, 1, 1}, 0.02 * stage.settings().squeeze_N), Answer::kFixed);

@@ -106,7 +106,10 @@ TEST(ParseJson, ReadsTheLargestObjectAndRefusesALargerOneAnywhere) {
   EXPECT_EQ(ParseJson(ObjectOf(kMaxJsonMembers), "t").size(), kMaxJsonMembers);
   EXPECT_NO_THROW(static_cast<void>(
       ParseJson("[" + ObjectOf(kMaxJsonMembers) + "," + ObjectOf(kMaxJsonMembers) + "]", "t")));
-  for (const std::string& large : {ObjectOf(kMaxJsonMembers + 1), ObjectOf(1'000'000)}) {
+  for (const std::size_t members : {kMaxJsonMembers + 1, std::size_t{1'000'000}}) {
+    // Where the smaller one is read the larger one takes hours.
+    if (HasFailure()) return;
+    const std::string large = ObjectOf(members);
     for (const std::string& text : {large, "{\"a\": [" + large + "]}"}) {
       try {
         static_cast<void>(ParseJson(text, "large.json"));
