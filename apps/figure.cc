@@ -18,6 +18,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/object/reading.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/contact_space_figure.h"
@@ -52,6 +53,7 @@ struct FigureProgram {
  private:
   void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
   void CheckOut() const;
+  [[nodiscard]] ObjectFile ReadTold() const;
   [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
   void CheckHasContactSpace(const Plan& plan) const;
   void WriteFigures(const Polygon& polygon, const Plan& plan) const;
@@ -206,9 +208,14 @@ void FigureProgram::CheckOut() const {
   CheckOutputsWritable(outputs);
 }
 
+ObjectFile FigureProgram::ReadTold() const {
+  ProgressLine progress(quiet);
+  return ReadObject(object_path, {progress.reporter(), {}});
+}
+
 int FigureProgram::Run() {
   CheckOut();
-  const ObjectFile object = ReadObject(object_path);
+  const ObjectFile object = ReadTold();
   const Plan plan = ReadPlan(plan_path);
   CheckPlanFits(plan, object);
   // Planar objects are polygons: ReadObject makes no other.

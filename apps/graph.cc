@@ -13,8 +13,10 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/contour/graph_memory.h"
 #include "planner/polygon/graph_memory.h"
 #include "planner/polyhedron/graph_memory.h"
+#include "planner/roadmap/roadmap_memory.h"
 
 namespace {
 
@@ -112,8 +114,10 @@ struct GraphProgram {
       summary =
           SummarizePolyhedron(solid, half_angle, common.spanning_value(), sampling, common.seed);
     } else if (common.planner == "contour") {
+      const Polygon& polygon = PolygonOf(object, common);
+      common.CheckMemory(EstimateContourGraph(polygon, half_angle));
       progress.Report("building the switching graph");
-      summary = SummarizeContour(PolygonOf(object, common), half_angle);
+      summary = SummarizeContour(polygon, half_angle);
     } else if (common.planner == "polygon" || (common.planner == "auto" && planar)) {
       const Polygon& polygon = PolygonOf(object, common);
       common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, common.spanning_value()));
@@ -127,6 +131,7 @@ struct GraphProgram {
       if (queries > 0 && options.clusters == 0) {
         throw InputError("--queries: needs a roadmap of clusters (--clusters)");
       }
+      common.CheckMemory(EstimateRoadmap(solid, options));
       summary = SummarizeRoadmap(solid, options, queries);
     }
     progress.Clear();

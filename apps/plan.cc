@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <string>
 
 #include "apps/output_files.h"
@@ -15,12 +16,14 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
+#include "planner/contour/graph_memory.h"
 #include "planner/general/plan_auto.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reach.h"
 #include "planner/polygon/graph_memory.h"
 #include "planner/polyhedron/graph_memory.h"
 #include "planner/polyhedron/plan_spatial.h"
+#include "planner/roadmap/roadmap_memory.h"
 
 namespace {
 
@@ -30,6 +33,9 @@ constexpr char kProgram[] = "plan";
 
 /// A day's work.
 constexpr std::int64_t kMostEffort = 100'000'000'000;
+
+/// Of planners whose need was checked before.
+constexpr double kNoMemoryLimit = std::numeric_limits<double>::infinity();
 
 /// Instead of a grasp file.
 constexpr char kRandom[] = "random";
@@ -103,8 +109,8 @@ struct PlanProgram {
         ->type_name("N");
     AddNumber(
         app, "--time-limit", time_limit_s, NumberRange::Positive(),
-        "The planner general: seconds from the program's start after which it gives up; the plan "
-        "then depends on the machine")
+        "Seconds from the program's start after which reading and planning give up; the plan then "
+        "depends on the machine")
         ->type_name("S");
     app.add_flag("--explain", explain,
                  "The planner general: where it finds no sequence, looks for the smallest friction "
@@ -124,6 +130,9 @@ struct PlanProgram {
   [[nodiscard]] bool AsksForRoadmap() const {
     return no_lazy || common.contacts.has_value() || common.clusters.has_value();
   }
+  [[nodiscard]] Deadline deadline() const {
+    return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
+  }
   [[nodiscard]] SwitchAim contour_aim() const {
     return optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
   }
@@ -141,7 +150,7 @@ GraspChoice PlanProgram::Choose(const std::string& option, const std::string& va
 
 PlanResult PlanProgram::Find(const ObjectFile& object) const {
   ProgressLine progress(common.quiet);
-  const auto report = [&](std::string_view text) { progress.Report(text); };
+  const ProgressReport report = progress.reporter();
   const bool planar = object.object->dimension() == 2;
   PlanResult result;
   const bool automatic = common.planner == "auto" && !AsksForRoadmap();
@@ -165,14 +174,19 @@ PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressRepor
   options.progress = report;
   const GraspChoice from = Choose("--start", start, solid);
   const GraspChoice to = Choose("--goal", goal, solid);
-  if (common.planner == "roadmap") return PlanOnRoadmap(solid, from, to, options);
+  options.deadline = deadline();
   if (common.planner == "auto") {
-    return PlanSpatial(solid, from, to, common.spanning_value(), options, common.memory());
+    options.memory = common.memory();
+    return PlanSpatial(solid, from, to, common.spanning_value(), options);
+  }
+  if (common.planner == "roadmap") {
+    common.CheckMemory(EstimateRoadmap(solid, options));
+    return PlanOnRoadmap(solid, from, to, options);
   }
   common.CheckMemory(EstimatePolyhedronGraph(solid, options.half_angle, common.spanning_value()));
   return PlanOnPolyhedron(solid, from, to,
                           {options.half_angle, common.spanning_value(), options.seed, min_quality,
-                           report, finger_radius});
+                           report, finger_radius, kNoMemoryLimit, deadline()});
 }
 
 PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport& report) const {
@@ -182,10 +196,7 @@ PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport
   options.min_quality = min_quality;
   options.effort = effort;
   options.finger_radius = finger_radius;
-  if (time_limit_s) {
-    options.deadline = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                   std::chrono::duration<double>(*time_limit_s));
-  }
+  options.deadline = deadline();
   options.explain = explain;
   options.progress = report;
   if (optimize == "margin") options.aim = GeneralAim::kMargin;
@@ -202,14 +213,16 @@ PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport
   const GraspChoice to = Choose("--goal", goal, polygon);
   const double half_angle = common.friction.required_half_angle();
   const PolygonPlanOptions options = {
-      half_angle, common.spanning_value(), common.seed, min_quality, report, finger_radius};
+      half_angle, common.spanning_value(), common.seed,    min_quality,
+      report,     finger_radius,           kNoMemoryLimit, deadline()};
   if (common.planner == "polygon") {
     common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, options.spanning));
     return PlanOnPolygon(polygon, from, to, options);
   }
-  return PlanOnContour(
-      polygon, from, to,
-      {half_angle, common.seed, min_quality, contour_aim(), report, finger_radius});
+  common.CheckMemory(EstimateContourPlan(polygon, half_angle));
+  return PlanOnContour(polygon, from, to,
+                       {half_angle, common.seed, min_quality, contour_aim(), report, finger_radius,
+                        kNoMemoryLimit, deadline()});
 }
 
 void PlanProgram::CheckUsage() const {
@@ -227,12 +240,10 @@ void PlanProgram::CheckUsage() const {
     throw InputError("--optimize regions: the planner " + common.planner +
                      " has no such regions; contour has");
   }
-  const bool for_general = explain || time_limit_s || (!optimize.empty() && optimize != "regions");
+  const bool for_general = explain || (!optimize.empty() && optimize != "regions");
   if (for_general && !is("general")) {
-    throw InputError(std::string(explain        ? "--explain"
-                                 : time_limit_s ? "--time-limit"
-                                                : "--optimize " + optimize) +
-                     ": not for the planner " + common.planner + "; for general");
+    throw InputError((explain ? "--explain" : "--optimize " + optimize) + ": not for the planner " +
+                     common.planner + "; for general");
   }
 }
 
@@ -250,7 +261,7 @@ void PlanProgram::CheckOutput() const {
 int PlanProgram::Run() const {
   CheckUsage();
   CheckOutput();
-  const ObjectFile object = common.ReadObjectFile();
+  const ObjectFile object = common.ReadObjectFile(deadline());
   CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   PlanResult result = Find(object);
   if (!result.plan) {

@@ -4,6 +4,7 @@
 
 #include "apps/progress.h"
 #include "planner/base/error.h"
+#include "planner/object/reading.h"
 
 namespace regrasp {
 
@@ -56,7 +57,7 @@ void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
                  " contact points to choose or faces, otherwise none)");
   AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
   app.add_flag("--force", force,
-               "Builds the graph of polygon or polyhedron also where it would take more than half "
+               "Builds a planner's graph also where it would take more than half "
                "of the memory, which is refused otherwise");
   AddScale(app, scale);
   AddQuiet(app, quiet);
@@ -72,10 +73,9 @@ RoadmapOptions PlannerOptions::roadmap(const Polyhedron& solid) const {
   return options;
 }
 
-ObjectFile PlannerOptions::ReadObjectFile() const {
+ObjectFile PlannerOptions::ReadObjectFile(const Deadline& deadline) const {
   ProgressLine progress(quiet);
-  progress.Report("reading " + object);
-  return ReadObject(object);
+  return ReadObject(object, {progress.reporter(), deadline});
 }
 
 double PlannerOptions::memory() const {

@@ -35,7 +35,8 @@ struct PlannerOptions {
   void AddTo(CLI::App& app, const AutomaticPlanner& automatic);
 
   /// Reads the object and says so while it does.
-  [[nodiscard]] ObjectFile ReadObjectFile() const;
+  /// @throws TimeUp  the deadline came.
+  [[nodiscard]] ObjectFile ReadObjectFile(const Deadline& deadline = {}) const;
 
   [[nodiscard]] Spanning spanning_value() const;
 

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <new>
 
+#include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/text_table.h"
 
@@ -69,6 +70,9 @@ int RunGuarded(const std::string& program, const std::function<int()>& run) {
   } catch (const InputError& error) {
     PrintMessage(program, error.what());
     return kExitBadInput;
+  } catch (const TimeUp& time_up) {
+    PrintMessage(program, time_up.what());
+    return kExitNegative;
   } catch (const EnvironmentError& error) {
     PrintMessage(program, error.what());
     return kExitEnvironment;

@@ -17,6 +17,10 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void Report(std::string_view text);
+  /// Report, for work that is handed a function. This object outlives it.
+  [[nodiscard]] std::function<void(std::string_view)> reporter() {
+    return [this](std::string_view text) { Report(text); };
+  }
   /// Removes the line, so that a message can take its place.
   void Clear();
 

@@ -67,16 +67,16 @@ void CheckOutputs(const ValidateOptions& options) {
 }
 
 /// The object is read first, where the plan is not needed to find it.
-void ReadPlanTask(const ValidateOptions& options, Task& task) {
+void ReadPlanTask(const ValidateOptions& options, const Reading& reading, Task& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
-  if (!named_by_plan) task.object = ReadObject(options.object_path);
+  if (!named_by_plan) task.object = ReadObject(options.object_path, reading);
   task.file_text = ReadFile(options.plan_path);
   task.plan = ParsePlan(task.file_text, options.plan_path);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
   if (named_by_plan) {
     CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
-    task.object = ReadObject(object_path);
+    task.object = ReadObject(object_path, reading);
   }
   CheckPlanFits(task.plan, task.object,
                 {options.plan_path, object_path, options.allow_object_change, options.scale});
@@ -84,16 +84,16 @@ void ReadPlanTask(const ValidateOptions& options, Task& task) {
 
 Task ReadTask(const ValidateOptions& options) {
   ProgressLine progress(options.quiet);
-  progress.Report("reading " + options.object_path);
+  const Reading reading = {progress.reporter(), {}};
   Task task;
   if (options.for_grasp()) {
-    task.object = ReadObject(options.object_path);
+    task.object = ReadObject(options.object_path, reading);
     task.file_text = ReadFile(options.grasp_path);
     task.grasp = ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
     task.plan = MakeHoldPlan(*task.object.object, task.grasp,
                              options.friction.required_half_angle(), options.scale.value_or(1));
   } else {
-    ReadPlanTask(options, task);
+    ReadPlanTask(options, reading, task);
   }
   if (!options.start.empty()) task.start_text = ReadFile(options.start);
   if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);

@@ -73,7 +73,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
     SearchSpace space(object, {setting.half_angle, 0, setting.min_quality});
-    space.SetLimits({GeneralPlanOptions::kDefaultEffort, std::nullopt});
+    space.SetLimits({.most_tests = GeneralPlanOptions::kDefaultEffort});
     const ContactSet from = space.Add(pair.start);
     const ContactSet to = space.Add(pair.goal);
     space.Accept(from);

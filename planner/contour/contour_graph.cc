@@ -44,7 +44,7 @@ std::int64_t CountCombinations(const std::vector<GraspPiece>& pieces) {
 
 }  // namespace
 
-ContourGraph::ContourGraph(const Polygon& polygon, double half_angle)
+ContourGraph::ContourGraph(const Polygon& polygon, double half_angle, const Deadline& deadline)
     : boundary_(polygon), tangent_(std::tan(half_angle)) {
   if (!(half_angle > 0 && half_angle < std::numbers::pi / 2)) {
     throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
@@ -52,16 +52,16 @@ ContourGraph::ContourGraph(const Polygon& polygon, double half_angle)
   const IntervalScope scope;
   const auto begin = std::chrono::steady_clock::now();
   const EdgeTable edges(polygon, tangent_);
-  const auto candidates = FindTwoFingerCandidates(edges);
+  const auto candidates = FindTwoFingerCandidates(edges, deadline);
   candidates_ = std::ssize(candidates);
-  pieces_ = FindPieces(edges, candidates);
+  pieces_ = FindPieces(edges, candidates, deadline);
   combinations_ = CountCombinations(pieces_);
-  passages_ = FindPassages(edges, boundary_, pieces_);
+  passages_ = FindPassages(edges, boundary_, pieces_, deadline);
   GroupPieces();
   vertex_seconds_ = SecondsSince(begin);
   const auto middle = std::chrono::steady_clock::now();
-  switches_ = FindOverlaps(edges, boundary_, pieces_, vertex_count(),
-                           [&](int set) { return pieces_of(set); });
+  switches_ = FindOverlaps(
+      edges, boundary_, pieces_, vertex_count(), [&](int set) { return pieces_of(set); }, deadline);
   neighbours_.resize(vertex_count());
   for (const auto& [a, b] : switches_) {
     neighbours_[a].push_back(b);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/contour/boundary.h"
 #include "planner/graph/components.h"
 #include "planner/graph/switching_graph.h"
@@ -54,7 +55,8 @@ class ContourGraph final : public SwitchingGraph {
   /// @param polygon     must outlive this object.
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
-  ContourGraph(const Polygon& polygon, double half_angle);
+  /// @throws TimeUp  the deadline came.
+  ContourGraph(const Polygon& polygon, double half_angle, const Deadline& deadline = {});
 
   [[nodiscard]] const Boundary& boundary() const { return boundary_; }
   /// tan θ.

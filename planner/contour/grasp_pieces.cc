@@ -168,10 +168,12 @@ class PieceIndex {
 }  // namespace
 
 std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
-                                   const std::vector<TwoFingerCandidate>& candidates) {
+                                   const std::vector<TwoFingerCandidate>& candidates,
+                                   const Deadline& deadline) {
   const CornerFilter filter(edges);
   std::vector<GraspPiece> pieces;
   for (const TwoFingerCandidate& pair : candidates) {
+    deadline.Check();
     const auto verdicts = filter.Classify(pair[0], pair[1]);
     for (const bool stretching : {false, true}) {
       const Verdict verdict = verdicts[stretching ? 1 : 0];
@@ -188,10 +190,12 @@ std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
 }
 
 std::vector<PiecePassage> FindPassages(const EdgeTable& edges, const Boundary& boundary,
-                                       const std::vector<GraspPiece>& pieces) {
+                                       const std::vector<GraspPiece>& pieces,
+                                       const Deadline& deadline) {
   const PieceIndex index(pieces, edges.size());
   std::vector<PiecePassage> passages;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    deadline.Check();
     const GraspPiece& piece = pieces[i];
     for (const int edge : piece.edges) {
       const int other = OtherEdge(piece, edge);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/contour/contour_graph.h"
 #include "planner/polygon/candidates.h"
 #include "planner/polygon/contact_range.h"
@@ -16,14 +17,18 @@ namespace regrasp {
 /// too, from a vertex to an edge, so that all of this is decided by signs of cross products: with
 /// doubles and an error bound for pairs that are full or that one border of a cone excludes,
 /// otherwise by intervals, then exactly. Inside an IntervalScope.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
-                                                 const std::vector<TwoFingerCandidate>& candidates);
+                                                 const std::vector<TwoFingerCandidate>& candidates,
+                                                 const Deadline& deadline = {});
 
 /// The passages between pieces, which are in ascending order of their edges. Inside an
 /// IntervalScope.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<PiecePassage> FindPassages(const EdgeTable& edges,
                                                      const Boundary& boundary,
-                                                     const std::vector<GraspPiece>& pieces);
+                                                     const std::vector<GraspPiece>& pieces,
+                                                     const Deadline& deadline = {});
 
 /// The contacts of a piece on its k-th edge. `edges` must outlive the result; inside an
 /// IntervalScope.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "planner/base/number.h"
+#include "planner/contour/graph_memory.h"
 #include "planner/graph/plan_search.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/polygon/boundary_draw.h"
@@ -26,7 +27,7 @@ class ContourPlanner {
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
         graph_(MakeGraph()),
-        geometry_(graph_) {}
+        geometry_(graph_, options_.deadline) {}
 
   PlanResult Run() {
     RandomStream of_start(options_.seed, RandomUse::kStart);
@@ -51,7 +52,7 @@ class ContourPlanner {
  private:
   ContourGraph MakeGraph() const {
     options_.progress("building the switching graph");
-    return {polygon_, options_.half_angle};
+    return {polygon_, options_.half_angle, options_.deadline};
   }
 
   [[nodiscard]] bool IsGoalTheStart() const {
@@ -66,7 +67,8 @@ class ContourPlanner {
     ContourDraftMaker maker(geometry_, judge_, options_.aim, *start_, *goal_);
     const auto draft = FindDraft(
         judge_, [&](const auto& banned) { return FindPath(banned); },
-        [&](const auto& path, auto& banned) { return maker.Make(path, banned); });
+        [&](const auto& path, auto& banned) { return maker.Make(path, banned); },
+        options_.deadline);
     if (draft) return Finish(*draft);
     PlanResult result;
     result.status = Status::kNoSequence;
@@ -94,7 +96,8 @@ class ContourPlanner {
                                   draw, judge_, random);
       return;
     }
-    auto grasp = DrawAnyGrasp(polygon_, kContacts, kContacts, judge_, random);
+    auto grasp = DrawAnyGrasp(polygon_, kContacts, kContacts, judge_, random,
+                              [&] { options_.deadline.Check(); });
     if (!grasp) {
       throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                     " grasps of 2 contacts drawn on the boundary is force closure with a quality "
@@ -160,9 +163,12 @@ PlanResult PlanOnContour(const Polygon& polygon, const GraspChoice& start, const
                          const ContourPlanOptions& options) {
   if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
   try {
+    CheckMemory([&] { return EstimateContourPlan(polygon, options.half_angle); }, options.memory);
     return ContourPlanner(polygon, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return ResultOf(none);
+  } catch (const TimeUp& time_up) {
+    return ResultOf(time_up, "contour");
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string_view>
 
+#include "planner/base/deadline.h"
 #include "planner/contour/contour_draft.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
@@ -20,6 +22,10 @@ struct ContourPlanOptions {
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
+  /// Bytes that the graph and its sets may take; where they would take more there is no plan.
+  double memory = std::numeric_limits<double>::infinity();
+  /// When there is no plan, unless one of lower quality was found.
+  Deadline deadline = {};
 };
 
 /// Plans a sequence of switches and aligns from one 2-finger grasp to another on the switching

@@ -19,7 +19,8 @@ GraspChoice Draw(const Polygon& polygon, GraspChoice choice, RandomUse use,
   if (choice.kind == GraspChoice::Kind::kGiven) return choice;
   const GraspJudge judge(polygon, options.half_angle, options.min_quality, options.finger_radius);
   RandomStream random(options.seed, use);
-  auto grasp = DrawAnyGrasp(polygon, kLeastContacts, kMostDrawn, judge, random);
+  auto grasp = DrawAnyGrasp(polygon, kLeastContacts, kMostDrawn, judge, random,
+                            [&] { options.deadline.Check(); });
   if (!grasp) return choice;
   return {GraspChoice::Kind::kGiven, std::move(*grasp), choice.name};
 }
@@ -36,9 +37,10 @@ PlanResult PlanPlanar(const Polygon& polygon, const GraspChoice& start, const Gr
   const GraspChoice from = Draw(polygon, start, RandomUse::kStart, common);
   const GraspChoice to = Draw(polygon, goal, RandomUse::kGoal, common);
   if (HasTwoFingers(from) && HasTwoFingers(to)) {
-    PlanResult result = PlanOnContour(polygon, from, to,
-                                      {common.half_angle, common.seed, common.min_quality,
-                                       options.aim, common.progress, common.finger_radius});
+    PlanResult result =
+        PlanOnContour(polygon, from, to,
+                      {common.half_angle, common.seed, common.min_quality, options.aim,
+                       common.progress, common.finger_radius, common.memory, common.deadline});
     if (result.plan) return result;
   }
   if (polygon.face_count() > kManyEdges) {

@@ -6,7 +6,8 @@
 namespace regrasp {
 
 struct PlanarPlanOptions {
-  PolygonPlanOptions polygon;        ///< friction, seed, quality and progress count for both
+  /// Friction, seed, quality, progress and what limits the work count for both.
+  PolygonPlanOptions polygon;
   SwitchAim aim = SwitchAim::kRoom;  ///< of the planner contour
 };
 

@@ -61,12 +61,13 @@ class Sweep {
     for (const int edge : covered_edges_) covered_[edge] = 0;
   }
 
-  std::vector<std::array<int, 2>> Run(int set_count) {
+  std::vector<std::array<int, 2>> Run(int set_count, const Deadline& deadline) {
     std::sort(events_.begin(), events_.end(), IsBefore);
     std::vector<std::array<int, 2>> pairs;
     std::vector<int> active;
     std::vector<int> times(set_count);  // that a set is active
     for (const Event& event : events_) {
+      deadline.Check();
       int& count = times[event.set];
       if (!event.opens) {
         if (--count == 0) active.erase(std::find(active.begin(), active.end(), event.set));
@@ -135,10 +136,14 @@ class Sweep {
 
 std::vector<std::array<int, 2>> FindOverlaps(
     const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces,
-    int set_count, const std::function<std::span<const int>(int set)>& pieces_of) {
+    int set_count, const std::function<std::span<const int>(int set)>& pieces_of,
+    const Deadline& deadline) {
   Sweep sweep(edges, boundary, pieces);
-  for (int set = 0; set < set_count; ++set) sweep.AddSet(set, pieces_of(set));
-  return sweep.Run(set_count);
+  for (int set = 0; set < set_count; ++set) {
+    deadline.Check();
+    sweep.AddSet(set, pieces_of(set));
+  }
+  return sweep.Run(set_count, deadline);
 }
 
 }  // namespace regrasp

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/contour/contour_graph.h"
 #include "planner/polygon/edge_table.h"
 
@@ -16,8 +17,10 @@ namespace regrasp {
 /// these places: by edge, then by contact parameter. O(m log m + k), k being the number of overlaps
 /// of m intervals. Inside an IntervalScope.
 /// @param pieces_of  the pieces of a set.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<std::array<int, 2>> FindOverlaps(
     const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces,
-    int set_count, const std::function<std::span<const int>(int set)>& pieces_of);
+    int set_count, const std::function<std::span<const int>(int set)>& pieces_of,
+    const Deadline& deadline = {});
 
 }  // namespace regrasp

@@ -117,12 +117,15 @@ std::vector<Term> ActiveTerms(const Site& site, const Box& box) {
 /// Makes the diagram of one set, piece by piece.
 class DiagramMaker {
  public:
-  DiagramMaker(const ContourGraph& graph, const std::vector<Site>& sites, double rounding)
-      : graph_(graph), sites_(sites), rounding_(rounding) {}
+  /// @param deadline  outlives this object.
+  DiagramMaker(const ContourGraph& graph, const std::vector<Site>& sites, double rounding,
+               const Deadline& deadline)
+      : graph_(graph), sites_(sites), rounding_(rounding), deadline_(deadline) {}
 
   std::vector<DiagramEdge> Make(std::span<const int> pieces) {
     std::vector<Part> parts;
     for (const int piece : pieces) {
+      deadline_.Check();
       std::vector<Vector2d> outline = PieceOutline(graph_, piece);
       if (outline.empty()) continue;
       const Box box = BoxOf(outline);
@@ -143,6 +146,7 @@ class DiagramMaker {
 
   /// The sites that can be nearest somewhere in a box: distances change by no more than the way.
   [[nodiscard]] std::vector<int> NearIn(const Box& box, const std::vector<int>& sites) {
+    deadline_.Check();
     const Vector2d centre = box.centre();
     double least = std::numeric_limits<double>::infinity();
     distances_.clear();
@@ -278,6 +282,7 @@ class DiagramMaker {
   const ContourGraph& graph_;
   const std::vector<Site>& sites_;
   double rounding_;
+  const Deadline& deadline_;
   std::vector<double> distances_;
   std::vector<DiagramEdge> edges_;
 };
@@ -349,8 +354,8 @@ double RegionMetric::SizeAt(const Vector2d& point) const {
   return size;
 }
 
-std::vector<DiagramEdge> RegionMetric::MakeDiagram() const {
-  return DiagramMaker(graph_, sites_, rounding_).Make(graph_.pieces_of(set_));
+std::vector<DiagramEdge> RegionMetric::MakeDiagram(const Deadline& deadline) const {
+  return DiagramMaker(graph_, sites_, rounding_, deadline).Make(graph_.pieces_of(set_));
 }
 
 }  // namespace regrasp

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/contour/contact_space.h"
 
 namespace regrasp {
@@ -32,7 +33,8 @@ class RegionMetric {
 
   /// The diagram (Papadopoulou and Lee 2001; Phoka 2010, section 4.6.2) inside the set, cut where
   /// pieces end. When one contact is held, the largest centred square is centred on it.
-  [[nodiscard]] std::vector<DiagramEdge> MakeDiagram() const;
+  /// @throws TimeUp  the deadline came.
+  [[nodiscard]] std::vector<DiagramEdge> MakeDiagram(const Deadline& deadline = {}) const;
 
   [[nodiscard]] int set() const { return set_; }
 

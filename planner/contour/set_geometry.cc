@@ -32,6 +32,7 @@ Vector2d PointOfTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c
 }  // namespace
 
 const std::vector<Vector2d>& SetGeometry::OutlineOf(int piece) {
+  deadline_.Check();
   const auto [known, is_new] = outlines_.try_emplace(piece);
   if (is_new) known->second = PieceOutline(graph_, piece);
   return known->second;
@@ -42,15 +43,14 @@ const RegionMetric& SetGeometry::MetricOf(int set) {
 }
 
 const SetGeometry::Diagram& SetGeometry::FindDiagram(int set) {
-  const auto [known, is_new] = diagrams_.try_emplace(set);
-  if (is_new) {
-    Diagram& diagram = known->second;
-    diagram.edges = MetricOf(set).MakeDiagram();
-    for (const DiagramEdge& edge : diagram.edges) {
-      diagram.width = std::max({diagram.width, edge.from_size, edge.to_size});
-    }
+  const auto known = diagrams_.find(set);
+  if (known != diagrams_.end()) return known->second;
+  Diagram diagram;
+  diagram.edges = MetricOf(set).MakeDiagram(deadline_);
+  for (const DiagramEdge& edge : diagram.edges) {
+    diagram.width = std::max({diagram.width, edge.from_size, edge.to_size});
   }
-  return known->second;
+  return diagrams_.emplace(set, std::move(diagram)).first->second;
 }
 
 const std::vector<DiagramEdge>& SetGeometry::DiagramOf(int set) { return FindDiagram(set).edges; }
@@ -62,6 +62,7 @@ double SetGeometry::SizeAt(const PlacedGrasp& grasp) {
 }
 
 double SetGeometry::AngleMarginOf(const PlacedGrasp& grasp) const {
+  deadline_.Check();
   const Grasp contacts = GraspOf(grasp);
   const bool stretching = graph_.pieces()[grasp.piece].stretching;
   const Eigen::Vector3d line = (stretching ? -1 : 1) * (contacts[1].p - contacts[0].p);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/base/random.h"
 #include "planner/contour/region_diagram.h"
 
@@ -21,8 +22,10 @@ struct PlacedGrasp {
 /// The geometry of a graph's sets, made when first asked for.
 class SetGeometry {
  public:
-  /// `graph` must outlive this object.
-  explicit SetGeometry(const ContourGraph& graph) : graph_(graph) {}
+  /// @param graph  outlives this object.
+  /// @param deadline  when whatever asks for geometry makes an end, by TimeUp.
+  explicit SetGeometry(const ContourGraph& graph, Deadline deadline = {})
+      : graph_(graph), deadline_(std::move(deadline)) {}
 
   [[nodiscard]] const ContourGraph& graph() const { return graph_; }
 
@@ -61,6 +64,7 @@ class SetGeometry {
   [[nodiscard]] const Diagram& FindDiagram(int set);
 
   const ContourGraph& graph_;
+  Deadline deadline_;
   std::map<int, std::vector<Eigen::Vector2d>> outlines_;
   std::map<int, RegionMetric> metrics_;
   std::map<int, Diagram> diagrams_;

@@ -55,6 +55,7 @@ ExactAnswer AskPolyhedron(const Polyhedron& solid, const GraspChoice& start,
   exact.progress = common.progress;
   exact.finger_radius = common.finger_radius;
   exact.memory = options.memory;
+  exact.deadline = common.deadline.Halfway();
   return Judge(PlanOnPolyhedron(solid, start, goal, exact), "polyhedron");
 }
 
@@ -80,6 +81,7 @@ ExactAnswer AskPlanar(const Polygon& polygon, const GraspChoice& start, const Gr
   exact.polygon.progress = common.progress;
   exact.polygon.finger_radius = common.finger_radius;
   exact.polygon.memory = options.memory;
+  exact.polygon.deadline = common.deadline.Halfway();
   exact.aim = options.contour_aim;
   return Judge(PlanPlanar(polygon, start, goal, exact), "polygon");
 }

@@ -23,6 +23,8 @@ struct AutoPlanOptions {
 /// planners are asked only on bodies of a size that they answer for soon, for grasps of a number of
 /// contacts that they know, and where the aim is GeneralAim::kSteps.
 ///
+/// Where there is a deadline the exact ones have half of the time until then.
+///
 /// Random grasps are drawn evenly over the surface, whatever the planner.
 /// @throws as PlanGeneral.
 [[nodiscard]] PlanResult PlanAuto(const Object& object, const GraspChoice& start,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "planner/base/angle.h"
@@ -229,7 +228,7 @@ GraspChoice FixGrasp(const Object& object, const GraspChoice& choice, RandomUse 
   GraspChoice fixed{Kind::kGiven, {}, choice.name};
   RandomStream random(options.seed, use);
   const auto check_time = [&] {
-    if (!options.deadline || std::chrono::steady_clock::now() < *options.deadline) return;
+    if (!options.deadline.IsOver()) return;
     throw NoGrasp{choice.name + ": the time was up before a grasp was drawn"};
   };
   if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {

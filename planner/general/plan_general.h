@@ -1,11 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string_view>
 
+#include "planner/base/deadline.h"
 #include "planner/base/random.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
@@ -30,7 +29,7 @@ struct GeneralPlanOptions {
   /// Force-closure tests after which a search gives up; about two microseconds each.
   std::int64_t effort = kDefaultEffort;
   /// When drawing and searching make an end; the plan then depends on the machine.
-  std::optional<std::chrono::steady_clock::time_point> deadline;
+  Deadline deadline = {};
   /// Where there is no sequence: looks for the smallest friction at which one is found.
   bool explain = false;
   /// Told what is being done.

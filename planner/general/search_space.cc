@@ -76,9 +76,9 @@ bool SearchSpace::CanMeet(const ContactSet& set, int contact) const {
 }
 
 bool SearchSpace::IsSpent() {
-  if (limits_.deadline && tests_ >= next_look_) {
+  if (tests_ >= next_look_) {
     next_look_ = tests_ + kTestsBetweenLooks;
-    out_of_time_ = std::chrono::steady_clock::now() >= *limits_.deadline;
+    out_of_time_ = limits_.deadline.IsOver();
   }
   return out_of_time_ || tests_ >= limits_.most_tests;
 }

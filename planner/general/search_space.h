@@ -1,12 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/general/contact_set.h"
 #include "planner/grasp/contact.h"
 #include "planner/grasp/quality_filter.h"
@@ -29,7 +29,7 @@ struct GraspDemands {
 /// When a search gives up.
 struct SearchLimits {
   std::int64_t most_tests = std::numeric_limits<std::int64_t>::max();
-  std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
+  Deadline deadline = {};
 };
 
 /// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps

@@ -1,6 +1,7 @@
 #include "planner/graph/plan_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -73,6 +74,19 @@ PlanResult ResultOf(const NoGrasp& none) {
   return result;
 }
 
+PlanResult ResultOf(const TimeUp& time_up, const std::string& planner) {
+  PlanResult result;
+  result.status = PlanResult::Status::kNoSequence;
+  result.message = "no sequence was found by the planner " + planner + " when " + time_up.what();
+  return result;
+}
+
+void CheckMemory(const std::function<MemoryNeed()>& estimate, double limit) {
+  if (!std::isfinite(limit)) return;
+  const std::string why = MemoryComplaint(estimate(), limit);
+  if (!why.empty()) throw NoGrasp{why};
+}
+
 Urns StartUrns(int set_count) {
   std::vector<int> all(set_count);
   std::iota(all.begin(), all.end(), 0);
@@ -113,9 +127,14 @@ Grasp DrawFromSets(const GraspChoice& choice, Urns urns, const std::function<Gra
 PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan) {
   std::optional<PlanResult> first;
   for (int draw = 1; draw <= kGoalDraws; ++draw) {
-    PlanResult result = plan(draw == kGoalDraws);
-    if (result.plan && result.warnings.empty()) return result;
-    if (!first) first = std::move(result);
+    try {
+      PlanResult result = plan(draw == kGoalDraws);
+      if (result.plan && result.warnings.empty()) return result;
+      if (!first) first = std::move(result);
+    } catch (const TimeUp&) {
+      if (!first) throw;
+      break;
+    }
   }
   return *first;
 }
@@ -139,15 +158,23 @@ std::optional<Draft> FindDraft(
     const GraspJudge& judge,
     const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
     const std::function<std::optional<Draft>(const std::vector<int>& path,
-                                             std::set<VertexPair>& banned)>& make) {
+                                             std::set<VertexPair>& banned)>& make,
+    const Deadline& deadline) {
   // Where no way is free for the fingers' radius, the result is told so (ResultOf).
   std::optional<Draft> best;
   double best_score = -std::numeric_limits<double>::infinity();
   std::set<VertexPair> banned;
   for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
-    const std::vector<int> path = find_path(banned);
-    if (path.empty()) break;
-    std::optional<Draft> draft = make(path, banned);
+    std::optional<Draft> draft;
+    try {
+      deadline.Check();
+      const std::vector<int> path = find_path(banned);
+      if (path.empty()) break;
+      draft = make(path, banned);
+    } catch (const TimeUp&) {
+      if (!best) throw;
+      break;
+    }
     if (!draft) continue;
     double score = std::numeric_limits<double>::infinity();
     for (const Rest& rest : draft->rests) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/deadline.h"
+#include "planner/base/memory.h"
 #include "planner/base/random.h"
 #include "planner/graph/components.h"
 #include "planner/graph/draft.h"
@@ -24,6 +26,13 @@ struct NoGrasp {
   std::string message;
 };
 [[nodiscard]] PlanResult ResultOf(const NoGrasp& none);
+
+/// The answer of a planner whose time was up.
+[[nodiscard]] PlanResult ResultOf(const TimeUp& time_up, const std::string& planner);
+
+/// Asks what a planner is about to take, where there is a limit.
+/// @throws NoGrasp  more than `limit` bytes.
+void CheckMemory(const std::function<MemoryNeed()>& estimate, double limit);
 
 /// The sets that a random grasp is drawn from, those of the first list first.
 using Urns = std::vector<std::vector<int>>;
@@ -45,7 +54,8 @@ using Urns = std::vector<std::vector<int>>;
 /// not as good as asked.
 inline constexpr int kGoalDraws = 12;
 
-/// The first plan without a warning of kGoalDraws, or else the first one.
+/// The first plan without a warning of kGoalDraws, or else the first one; that one also where the
+/// time is up for others.
 /// @param plan  draws a goal and plans to it; the last time one that the start is in a set with.
 [[nodiscard]] PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan);
 
@@ -70,14 +80,16 @@ class GraphWithout final : public SwitchingGraph {
 
 /// The first sequence whose chosen grasps are all of the quality that is asked for, otherwise the
 /// one whose weakest is best: paths are tried without the switches that were too weak before, or
-/// that fingers of the judge's radius could not carry out.
+/// that fingers of the judge's radius could not carry out. Where the time is up, the best so far.
 /// @param find_path  a path without banned edges; empty where there is none.
 /// @param make       its sequence, or nullopt and at least one more edge banned.
+/// @throws TimeUp  before there was one.
 [[nodiscard]] std::optional<Draft> FindDraft(
     const GraspJudge& judge,
     const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
     const std::function<std::optional<Draft>(const std::vector<int>& path,
-                                             std::set<VertexPair>& banned)>& make);
+                                             std::set<VertexPair>& banned)>& make,
+    const Deadline& deadline = {});
 
 /// The answer that a sequence is: none where fingers of the judge's radius cannot carry it out.
 [[nodiscard]] PlanResult ResultOf(const Draft& draft, const GraspJudge& judge,

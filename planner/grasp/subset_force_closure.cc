@@ -31,8 +31,11 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
 /// Enumerates with three contacts fixed and the fourth as the bit of a word.
 class SubsetSearch {
  public:
-  SubsetSearch(std::span<const Contact> points, const WrenchFrame& frame, double half_angle)
+  /// @param deadline  outlives this object.
+  SubsetSearch(std::span<const Contact> points, const WrenchFrame& frame, double half_angle,
+               const Deadline& deadline)
       : count_(static_cast<int>(points.size())),
+        deadline_(deadline),
         units_(MakeRimmedContacts(points, frame, half_angle)),
         turns_(units_),
         separators_(units_),
@@ -51,6 +54,7 @@ class SubsetSearch {
   void ForEachTriple(Function function) {
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
+        deadline_.Check();
         separators_.FixPair(i, j);
         for (int k = j + 1; k < count_; ++k) function(i, j, k);
       }
@@ -174,6 +178,7 @@ class SubsetSearch {
   }
 
   int count_;
+  const Deadline& deadline_;
   UnitContacts units_;
   TurnTable turns_;
   SeparatorPool separators_;
@@ -186,14 +191,15 @@ class SubsetSearch {
 
 std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
                                                     const WrenchFrame& frame, double half_angle,
-                                                    SubsetCounts* counts) {
+                                                    SubsetCounts* counts,
+                                                    const Deadline& deadline) {
   CheckGrasp(points, frame);
   CheckHalfAngle(half_angle);
   if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
   const WrenchFrame own = ContactFrame(points, frame.dimension);
   if (counts != nullptr) *counts = {};
   if (!(own.radius > 0)) return {};
-  SubsetSearch search(points, own, half_angle);
+  SubsetSearch search(points, own, half_angle, deadline);
   std::vector<std::array<int, 4>> found = search.Run();
   if (counts != nullptr) *counts = search.counts();
   return found;

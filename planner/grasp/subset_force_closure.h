@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
@@ -30,9 +31,11 @@ struct SubsetCounts {
 ///
 /// @param counts  filled where not null.
 /// @throws std::invalid_argument  as TestForceClosure; also for a frame in the plane.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
                                                                   const WrenchFrame& frame,
                                                                   double half_angle,
-                                                                  SubsetCounts* counts = nullptr);
+                                                                  SubsetCounts* counts = nullptr,
+                                                                  const Deadline& deadline = {});
 
 }  // namespace regrasp

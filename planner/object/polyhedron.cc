@@ -85,20 +85,27 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
 
 }  // namespace
 
-Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name) {
+Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name,
+                                const Reading& reading) {
+  const std::string facets = std::to_string(soup.facets.size()) + " facets";
+  reading.Begin("checking " + facets);
   const WeldedSoup welded = WeldVertices(soup, name);
   const double diameter = ComputeDiameter(welded.vertices);
   if (const std::string complaint = SizeComplaint(welded.vertices, diameter); !complaint.empty()) {
     throw MeshError(MeshDefect::kBadSize, name + ": vertices: " + complaint);
   }
+  reading.Begin("triangulating " + facets);
   TriangleMesh mesh = TriangulateFacets(welded, diameter, name);
   CheckEdges(mesh, diameter, name);
   SurfaceTopology topology = ComputeTopology(mesh, name);
+  reading.Begin("looking for intersections of " + facets);
   CheckSelfIntersection(mesh, name);
+  reading.Begin("joining " + facets + " to faces");
   const int outside = OrientSolid(mesh, topology, name);
   std::vector<int> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
   std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle, name);
   for (Face& face : faces) face.enclosed = topology.shell[face.triangles.front()] != outside;
+  reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
   const MassProperties mass = ComputeMassProperties(mesh.vertices, mesh.triangles);
   return Polyhedron(std::move(mesh.vertices), std::move(mesh.triangles),
                     std::move(face_of_triangle), std::move(faces), diameter, mass);

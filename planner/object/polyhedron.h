@@ -8,6 +8,7 @@
 #include "planner/object/mesh_defect.h"
 #include "planner/object/object.h"
 #include "planner/object/polygon_soup.h"
+#include "planner/object/reading.h"
 
 namespace regrasp {
 
@@ -35,7 +36,9 @@ class Polyhedron final : public Object {
   /// corners' start.
   /// @param name  how messages call it, usually the file's path.
   /// @throws MeshError  (an InputError) with the MeshDefect; names the facet or vertex, from 0.
-  static Polyhedron FromSoup(const PolygonSoup& soup, const std::string& name);
+  /// @throws TimeUp  the deadline came.
+  static Polyhedron FromSoup(const PolygonSoup& soup, const std::string& name,
+                             const Reading& reading = {});
 
   [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   /// Counter-clockwise from outside; polygons of the file are triangulated.

@@ -1,40 +1,71 @@
+#include <algorithm>
+#include <chrono>
 #include <memory>
 
+#include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/object/mesh_readers.h"
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/read_with_assimp.h"
+#include "planner/object/reading.h"
 #include "planner/object/text_scanner.h"
 
 namespace regrasp {
 
 namespace {
 
+/// Its process is ended when the time is up.
+PolygonSoup ReadWithAssimp(const std::string& bytes, const std::filesystem::path& path,
+                           const Deadline& deadline) {
+  AssimpLimits limits;
+  if (const auto left = deadline.left()) {
+    limits.wall = std::min(limits.wall, std::chrono::ceil<std::chrono::milliseconds>(*left));
+  }
+  try {
+    return ReadWithAssimp(bytes, path, limits);
+  } catch (const InputError&) {
+    deadline.Check();
+    throw;
+  }
+}
+
 PolygonSoup ReadSoup(const std::filesystem::path& path, const std::string& ending,
-                     const std::string& bytes) {
+                     const std::string& bytes, const Deadline& deadline) {
   const std::string name = path.string();
   if (ending == ".obj") return ReadObj(bytes, name);
   if (ending == ".off") return ReadOff(bytes, name);
   if (ending == ".ply") return ReadPly(bytes, name);
   if (ending == ".stl") return ReadStl(bytes, name);
-  return ReadWithAssimp(bytes, path);
+  return ReadWithAssimp(bytes, path, deadline);
 }
 
-}  // namespace
-
-ObjectFile ReadObject(const std::filesystem::path& path) {
+ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
+  reading.Begin("reading " + path.string());
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
   if (ending == ".wkt") {
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
-    file.object = std::make_unique<Polyhedron>(
-        Polyhedron::FromSoup(ReadSoup(path, ending, bytes), path.string()));
+    const PolygonSoup soup = ReadSoup(path, ending, bytes, reading.deadline);
+    file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }
+  reading.deadline.Check();
   return file;
 }
+
+}  // namespace
+
+ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading) {
+  try {
+    return Read(path, reading);
+  } catch (const TimeUp& time_up) {
+    throw TimeUp(path.string() + ": " + time_up.what() + " while it was read");
+  }
+}
+
+ObjectFile ReadObject(const std::filesystem::path& path) { return ReadObject(path, Reading()); }
 
 }  // namespace regrasp

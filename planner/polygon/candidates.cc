@@ -116,16 +116,54 @@ int FirstStep(int begin, int end, const Predicate& holds) {
                           steps.begin());
 }
 
+/// Of each edge those whose normals are within 2θ of being opposite: neighbours in the order of
+/// angles.
+class OpposedEdges {
+ public:
+  OpposedEdges(const EdgeTable& edges, const Deadline& deadline)
+      : order_(SortByAngle(edges)), runs_(edges.size()) {
+    const int n = edges.size();
+    for (int rank = 0; rank < n; ++rank) {
+      deadline.Check();
+      const int edge = order_[rank];
+      const auto at = [&](int steps) { return order_[(rank + steps) % n]; };
+      // Steps counter-clockwise to the first normal that is opposite, or beyond it.
+      const int opposite =
+          FirstStep(1, n, [&](int steps) { return !TurnsLeft(edges, edge, at(steps)); });
+      // Towards both sides of there cones meet up to some normal, and not beyond it.
+      const auto meet = [&](int steps) { return ConesMeet(edges, edge, at(steps), true); };
+      const int first = FirstStep(1, opposite, meet);
+      const int end = FirstStep(opposite, n, [&](int steps) { return !meet(steps); });
+      runs_[edge] = {rank + first, end - first};
+    }
+  }
+
+  [[nodiscard]] int count(int edge) const { return runs_[edge].count; }
+  [[nodiscard]] int at(int edge, int i) const {
+    return order_[(runs_[edge].first + i) % order_.size()];
+  }
+
+ private:
+  struct Run {
+    int first = 0;  ///< rank in the order of angles, modulo the number of edges
+    int count = 0;
+  };
+
+  std::vector<int> order_;
+  std::vector<Run> runs_;  ///< by edge
+};
+
 }  // namespace
 
-std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges,
-                                                          Spanning spanning) {
+std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges, Spanning spanning,
+                                                          const Deadline& deadline) {
   const std::vector<int> order = SortByAngle(edges);
   const int n = edges.size();
   // By rank in `order`; a triple that spans has three gaps around the circle.
   std::vector<std::vector<char>> gap(n, std::vector<char>(n, 0));
   std::vector<std::vector<double>> limit(n, std::vector<double>(n, edges.tangent()));
   for (int r = 0; r < n; ++r) {
+    deadline.Check();
     for (int s = 0; s < n; ++s) {
       if (r == s) continue;
       gap[r][s] = IsGap(edges, order[r], order[s], spanning);
@@ -140,6 +178,7 @@ std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges
     while (third < n && !gap[third][r]) ++third;
     for (int s = r + 1; s < n; ++s) {
       if (!gap[r][s]) continue;
+      deadline.Check();
       for (int t = std::max(third, s + 1); t < n && gap[t][r]; ++t) {
         if (!gap[s][t]) continue;
         ConcurrentCandidate candidate{{order[r], order[s], order[t]}, edges.tangent()};
@@ -156,33 +195,41 @@ std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges
   return candidates;
 }
 
-std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges) {
-  const std::vector<int> order = SortByAngle(edges);
-  const int n = edges.size();
-  std::vector<std::vector<int>> partners(n);
-  for (int rank = 0; rank < n; ++rank) {
-    const int edge = order[rank];
-    const auto at = [&](int steps) { return order[(rank + steps) % n]; };
-    // Steps counter-clockwise to the first normal that is opposite, or beyond it.
-    const int opposite =
-        FirstStep(1, n, [&](int steps) { return !TurnsLeft(edges, edge, at(steps)); });
-    // Towards both sides of there cones meet up to some normal, and not beyond it.
-    const auto meet = [&](int steps) { return ConesMeet(edges, edge, at(steps), true); };
-    const int first = FirstStep(1, opposite, meet);
-    const int end = FirstStep(opposite, n, [&](int steps) { return !meet(steps); });
-    for (int steps = first; steps < end; ++steps) {
-      if (at(steps) > edge) partners[edge].push_back(at(steps));
-    }
-  }
+std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges,
+                                                        const Deadline& deadline) {
+  const OpposedEdges opposed(edges, deadline);
   std::vector<TwoFingerCandidate> candidates;
-  for (int edge = 0; edge < n; ++edge) {
-    std::sort(partners[edge].begin(), partners[edge].end());
-    for (const int partner : partners[edge]) candidates.push_back({edge, partner});
+  std::vector<int> partners;
+  for (int edge = 0; edge < edges.size(); ++edge) {
+    deadline.Check();
+    partners.clear();
+    for (int i = 0; i < opposed.count(edge); ++i) {
+      if (opposed.at(edge, i) > edge) partners.push_back(opposed.at(edge, i));
+    }
+    std::sort(partners.begin(), partners.end());
+    for (const int partner : partners) candidates.push_back({edge, partner});
   }
   return candidates;
 }
 
-std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges) {
+CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, RandomStream& random) {
+  const OpposedEdges opposed(edges, {});
+  std::vector<std::int64_t> up_to;  // pairs of the edges so far, in both orders
+  std::int64_t pairs = 0;
+  for (int edge = 0; edge < edges.size(); ++edge) up_to.push_back(pairs += opposed.count(edge));
+  CandidateSample sample{pairs / 2, {}};
+  for (int i = 0; i < count && pairs > 0; ++i) {
+    const auto drawn = static_cast<std::int64_t>(random.Index(static_cast<std::uint64_t>(pairs)));
+    const auto above = std::ranges::upper_bound(up_to, drawn);
+    const int edge = static_cast<int>(above - up_to.begin());
+    const int other = opposed.at(edge, static_cast<int>(*above - drawn - 1));
+    sample.drawn.push_back({std::min(edge, other), std::max(edge, other)});
+  }
+  return sample;
+}
+
+std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
+                                                      const Deadline& deadline) {
   const int n = edges.size();
   std::vector<ParallelCandidate> candidates;
   for (int centre = 0; centre < n; ++centre) {
@@ -191,6 +238,7 @@ std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges) {
       if (e != centre && ConesMeet(edges, centre, e, true)) opposite.push_back(e);
     }
     for (std::size_t i = 0; i < opposite.size(); ++i) {
+      deadline.Check();
       for (std::size_t j = i + 1; j < opposite.size(); ++j) {
         const bool meet = DecideFiltered([&](auto zero) {
           using NT = decltype(zero);

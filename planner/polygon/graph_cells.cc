@@ -103,12 +103,14 @@ SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters&
 }  // namespace
 
 const SetCells& GraphCells::of(int vertex) {
+  deadline_.Check();
   std::optional<SetCells>& cells = cells_[vertex];
   if (!cells) cells.emplace(polygon_, graph_.sets()[vertex]);
   return *cells;
 }
 
 double GraphCells::WidthOf(int vertex) {
+  deadline_.Check();
   std::optional<double>& width = widths_[vertex];
   if (!width) {
     const GraspSet& set = graph_.sets()[vertex];

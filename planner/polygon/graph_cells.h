@@ -19,9 +19,11 @@ struct Attachment {
 /// The cells of a graph's sets, made when first asked for.
 class GraphCells {
  public:
-  GraphCells(const Polygon& polygon, const PolygonGraph& graph)
+  /// @param deadline  when whatever asks for cells makes an end, by TimeUp.
+  GraphCells(const Polygon& polygon, const PolygonGraph& graph, Deadline deadline = {})
       : polygon_(polygon),
         graph_(graph),
+        deadline_(std::move(deadline)),
         cells_(graph.sets().size()),
         widths_(graph.sets().size()) {}
 
@@ -45,6 +47,7 @@ class GraphCells {
  private:
   const Polygon& polygon_;
   const PolygonGraph& graph_;
+  Deadline deadline_;
   std::vector<std::optional<SetCells>> cells_;
   std::vector<std::optional<double>> widths_;
 };

@@ -37,7 +37,7 @@ class PolygonPlanner {
         start_(std::move(start)),
         goal_(std::move(goal)),
         graph_(MakeGraph()),
-        cells_(polygon, graph_) {}
+        cells_(polygon, graph_, options_.deadline) {}
 
   PlanResult Run() {
     Settle(start_, RandomUse::kStart);
@@ -60,7 +60,7 @@ class PolygonPlanner {
  private:
   PolygonGraph MakeGraph() const {
     options_.progress("building the switching graph");
-    return PolygonGraph(polygon_, options_.half_angle, options_.spanning);
+    return {polygon_, options_.half_angle, options_.spanning, options_.deadline};
   }
 
   [[nodiscard]] DraftMaker MakeDraftMaker() {
@@ -90,7 +90,8 @@ class PolygonPlanner {
       choice.grasp = DrawFromSets(choice, std::move(urns), draw, judge_, random);
       return;
     }
-    if (auto grasp = DrawAnyGrasp(polygon_, kLeastContacts, kMostDrawn, judge_, random)) {
+    if (auto grasp = DrawAnyGrasp(polygon_, kLeastContacts, kMostDrawn, judge_, random,
+                                  [&] { options_.deadline.Check(); })) {
       choice.grasp = std::move(*grasp);
       return;
     }
@@ -182,7 +183,7 @@ class PolygonPlanner {
       }
       return draft;
     };
-    return FindDraft(judge_, find_path, make);
+    return FindDraft(judge_, find_path, make, options_.deadline);
   }
 
   /// Of the ways from a grasp to a set the best.
@@ -229,14 +230,13 @@ PlanResult PlanOnPolygon(const Polygon& polygon, const GraspChoice& start, const
                          const PolygonPlanOptions& options) {
   if (!(options.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
   try {
-    if (std::isfinite(options.memory)) {
-      const MemoryNeed need = EstimatePolygonGraph(polygon, options.half_angle, options.spanning);
-      const std::string why = MemoryComplaint(need, options.memory);
-      if (!why.empty()) return ResultOf(NoGrasp{why});
-    }
+    CheckMemory([&] { return EstimatePolygonGraph(polygon, options.half_angle, options.spanning); },
+                options.memory);
     return PolygonPlanner(polygon, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return ResultOf(none);
+  } catch (const TimeUp& time_up) {
+    return ResultOf(time_up, "polygon");
   }
 }
 

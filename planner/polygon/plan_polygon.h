@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
 #include "planner/object/polygon.h"
@@ -23,6 +24,8 @@ struct PolygonPlanOptions {
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
   /// Bytes that the graph may take; where it would take more there is no plan.
   double memory = std::numeric_limits<double>::infinity();
+  /// When there is no plan, unless one of lower quality was found.
+  Deadline deadline = {};
 };
 
 /// Plans a sequence of switches and aligns from start to goal on the switching graph of a polygon

@@ -75,8 +75,9 @@ class PairCache {
 /// Finds vertices and edges; all inside one IntervalScope.
 class GraphBuilder {
  public:
-  GraphBuilder(const Polygon& polygon, double tangent, Spanning spanning)
-      : spanning_(spanning), edges_(polygon, tangent) {}
+  /// @param deadline  outlives this object.
+  GraphBuilder(const Polygon& polygon, double tangent, Spanning spanning, const Deadline& deadline)
+      : spanning_(spanning), edges_(polygon, tangent), deadline_(deadline) {}
 
   void FindVertices(std::array<GraspTypeCounts, kGraspTypes>& counts) {
     FindConcurrent(counts[static_cast<int>(GraspType::kConcurrent)]);
@@ -121,10 +122,11 @@ class GraphBuilder {
 
  private:
   void FindConcurrent(GraspTypeCounts& counts) {
-    const auto candidates = FindConcurrentCandidates(edges_, spanning_);
+    const auto candidates = FindConcurrentCandidates(edges_, spanning_, deadline_);
     counts.candidates = std::ssize(candidates);
     ConcurrentCellFinder finder(edges_);
     for (const ConcurrentCandidate& candidate : candidates) {
+      deadline_.Check();
       std::vector<FocusComponent> cell = finder.Find(candidate);
       if (!cell.empty()) ++counts.combinations;
       for (FocusComponent& component : cell) {
@@ -135,9 +137,10 @@ class GraphBuilder {
   }
 
   void FindTwoFinger(GraspTypeCounts& counts) {
-    const auto candidates = FindTwoFingerCandidates(edges_);
+    const auto candidates = FindTwoFingerCandidates(edges_, deadline_);
     counts.candidates = std::ssize(candidates);
     for (const TwoFingerCandidate& candidate : candidates) {
+      deadline_.Check();
       std::vector<TwoFingerPart> parts = FindTwoFingerSets(edges_, candidate);
       if (!parts.empty()) ++counts.combinations;
       for (TwoFingerPart& part : parts) two_finger_.push_back({candidate, std::move(part)});
@@ -146,8 +149,9 @@ class GraphBuilder {
   }
 
   void FindParallel(GraspTypeCounts& counts) {
-    const auto candidates = FindParallelCandidates(edges_);
+    const auto candidates = FindParallelCandidates(edges_, deadline_);
     for (std::size_t i = 0; i < candidates.size();) {
+      deadline_.Check();
       const Triple& triple = candidates[i].edges;
       std::vector<int> centres;
       for (; i < candidates.size() && candidates[i].edges == triple; ++i) {
@@ -184,6 +188,7 @@ class GraphBuilder {
     by_edge_.resize(n);
     const int count = first_parallel_ + static_cast<int>(parallel_.size());
     for (int v = 0; v < count; ++v) {
+      deadline_.Check();
       const std::span<const int> on = EdgesOf(v);
       for (std::size_t k = 0; k < on.size(); ++k) {
         by_edge_[on[k]].push_back({v, RangeOf(v, static_cast<int>(k))});
@@ -216,6 +221,7 @@ class GraphBuilder {
   void JoinByPairs() {
     for (const std::vector<int>& vertices : by_pair_) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
+        deadline_.Check();
         for (std::size_t j = i + 1; j < vertices.size(); ++j) {
           if (CanSwitch(vertices[i], vertices[j])) joins_.push_back({vertices[i], vertices[j]});
         }
@@ -238,6 +244,7 @@ class GraphBuilder {
 
   void JoinTwoFinger() {
     for (int v = first_two_finger_; v < first_parallel_; ++v) {
+      deadline_.Check();
       std::vector<int> joined;
       for (const int edge : EdgesOf(v)) {
         const std::vector<Listed>& listed = by_edge_[edge];
@@ -260,6 +267,7 @@ class GraphBuilder {
   void JoinSameTriples() {
     auto next = parallel_.begin();
     for (int v = 0; v < first_two_finger_; ++v) {
+      deadline_.Check();
       const ConcurrentVertex& concurrent = concurrent_[v];
       const Triple& triple = concurrent.candidate.edges;
       while (next != parallel_.end() && next->edges < triple) ++next;
@@ -284,6 +292,7 @@ class GraphBuilder {
 
   Spanning spanning_;
   EdgeTable edges_;
+  const Deadline& deadline_;
   std::vector<ConcurrentVertex> concurrent_;
   std::vector<TwoFingerVertex> two_finger_;
   std::vector<ParallelVertex> parallel_;
@@ -301,7 +310,8 @@ double SecondsSince(std::chrono::steady_clock::time_point begin) {
 
 }  // namespace
 
-PolygonGraph::PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning) {
+PolygonGraph::PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning,
+                           const Deadline& deadline) {
   if (!(half_angle > 0 && half_angle < std::numbers::pi / 2)) {
     throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
   }
@@ -309,7 +319,7 @@ PolygonGraph::PolygonGraph(const Polygon& polygon, double half_angle, Spanning s
   const double tangent = std::tan(half_angle);
   const IntervalScope scope;
   const auto begin = std::chrono::steady_clock::now();
-  GraphBuilder builder(polygon, tangent, spanning);
+  GraphBuilder builder(polygon, tangent, spanning, deadline);
   builder.FindVertices(counts_);
   sets_ = builder.MakeSets();
   vertex_seconds_ = SecondsSince(begin);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/components.h"
 #include "planner/graph/switching_graph.h"
 #include "planner/object/polygon.h"
@@ -44,7 +45,9 @@ class PolygonGraph final : public SwitchingGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
-  PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning);
+  /// @throws TimeUp  the deadline came.
+  PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning,
+               const Deadline& deadline = {});
 
   /// Concurrent sets first, then two-finger, then parallel ones; of each type by their edges.
   [[nodiscard]] const std::vector<GraspSet>& sets() const { return sets_; }

@@ -43,15 +43,19 @@ double PlaneDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 class QuadrupleFinder {
  public:
-  QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, Spanning spanning)
+  /// @param deadline  outlives this object.
+  QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, Spanning spanning,
+                  const Deadline& deadline)
       : normals_(normals),
         tangent_(tangent),
+        deadline_(deadline),
         least_(spanning == Spanning::kUniform ? tangent / std::sqrt(1 + tangent * tangent) : 0),
         left_(normals.size()),
         right_(normals.size()) {
     const std::size_t n = normals.size();
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = a + 1; b < n; ++b) {
+        deadline.Check();
         const Vector3d across = normals[a].cross(normals[b]);
         std::uint64_t* left = left_.Row(a, b);
         std::uint64_t* right = right_.Row(a, b);
@@ -68,6 +72,7 @@ class QuadrupleFinder {
     const int n = static_cast<int>(normals_.size());
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) {
+        deadline_.Check();
         if (!MaySpan(a, b)) continue;
         for (int c = b + 1; c < n; ++c) FindFourth(a, b, c);
       }
@@ -117,6 +122,7 @@ class QuadrupleFinder {
 
   const std::vector<Vector3d>& normals_;
   double tangent_;
+  const Deadline& deadline_;
   double least_;    ///< that φ*'s sine must exceed
   PairRows left_;   ///< for a < b: the normals on the left of the plane through both
   PairRows right_;  ///< those on the right
@@ -126,12 +132,14 @@ class QuadrupleFinder {
 }  // namespace
 
 std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const std::vector<Vector3d>& normals,
-                                                        double tangent, Spanning spanning) {
-  return QuadrupleFinder(normals, tangent, spanning).Find();
+                                                        double tangent, Spanning spanning,
+                                                        const Deadline& deadline) {
+  return QuadrupleFinder(normals, tangent, spanning, deadline).Find();
 }
 
 std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid, double tangent,
-                                                        Spanning spanning) {
+                                                        Spanning spanning,
+                                                        const Deadline& deadline) {
   std::vector<int> faces;
   std::vector<Vector3d> normals;
   for (int face = 0; face < solid.face_count(); ++face) {
@@ -139,7 +147,8 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid,
     faces.push_back(face);
     normals.push_back(solid.inward_normal(face));
   }
-  std::vector<QuadrupleCandidate> candidates = FindQuadrupleCandidates(normals, tangent, spanning);
+  std::vector<QuadrupleCandidate> candidates =
+      FindQuadrupleCandidates(normals, tangent, spanning, deadline);
   for (QuadrupleCandidate& candidate : candidates) {
     for (int& face : candidate.faces) face = faces[face];
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/spanning.h"
 #include "planner/object/polyhedron.h"
 
@@ -25,12 +26,13 @@ struct QuadrupleCandidate {
 /// opposites), so the time goes with the triples and with what is found.
 ///
 /// @param normals  unit. Normals that are coplanar up to rounding do not span.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
-    const std::vector<Eigen::Vector3d>& normals, double tangent, Spanning spanning);
+    const std::vector<Eigen::Vector3d>& normals, double tangent, Spanning spanning,
+    const Deadline& deadline = {});
 
 /// Those of the faces of a solid that a finger can come to: the walls of sealed cavities are not.
-[[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid,
-                                                                      double tangent,
-                                                                      Spanning spanning);
+[[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
+    const Polyhedron& solid, double tangent, Spanning spanning, const Deadline& deadline = {});
 
 }  // namespace regrasp

@@ -95,7 +95,8 @@ class PolyhedronPlanner {
     PolyhedronDraftMaker maker(geometry_, judge_, start_, goal_);
     const auto draft = FindDraft(
         judge_, [&](const auto& banned) { return FindPath(banned); },
-        [&](const auto& path, auto& banned) { return maker.Make(path, banned); });
+        [&](const auto& path, auto& banned) { return maker.Make(path, banned); },
+        options_.deadline);
     if (draft) {
       return ResultOf(*draft, judge_, "polyhedron", kPolyhedronFingers, goal_choice_.grasp);
     }
@@ -122,6 +123,7 @@ class PolyhedronPlanner {
     }
     if (choice.kind == Kind::kRandom) {
       const auto draw = [&](int cell) {
+        options_.deadline.Check();
         const auto grasp = geometry_.Draw(cell, random);
         return grasp ? geometry_.GraspOf(*grasp) : Grasp();
       };
@@ -130,7 +132,8 @@ class PolyhedronPlanner {
                                   draw, judge_, random);
       return;
     }
-    choice.grasp = DrawOnSurface(solid_, kContacts, judge_, random, choice.name);
+    choice.grasp = DrawOnSurface(solid_, kContacts, judge_, random, choice.name,
+                                 [&] { options_.deadline.Check(); });
   }
 
   static std::set<int> CellsOf(const std::vector<FocusGrasp>& grasps) {
@@ -156,8 +159,10 @@ class PolyhedronPlanner {
   [[nodiscard]] std::vector<int> FindPath(const std::set<VertexPair>& banned) {
     const GraphWithout without(graph_, banned);
     const WithEnds graph(without, start_, goal_);
-    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(),
-                                         [&](int vertex) { return geometry_.WidthOf(vertex); });
+    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
+      options_.deadline.Check();
+      return geometry_.WidthOf(vertex);
+    });
     if (path.empty()) return {};
     return {path.begin() + 1, path.end() - 1};
   }
@@ -198,14 +203,18 @@ class PolyhedronPlanner {
 
 PlanResult PlanOnPolyhedron(const Polyhedron& solid, const GraspChoice& start,
                             const GraspChoice& goal, const PolyhedronPlanOptions& options) {
-  if (std::isfinite(options.memory)) {
-    const MemoryNeed need = EstimatePolyhedronGraph(solid, options.half_angle, options.spanning);
-    const std::string why = MemoryComplaint(need, options.memory);
-    if (!why.empty()) return ResultOf(NoGrasp{why});
+  try {
+    CheckMemory(
+        [&] { return EstimatePolyhedronGraph(solid, options.half_angle, options.spanning); },
+        options.memory);
+    options.progress("building the switching graph");
+    PolyhedronGraph graph(solid, options.half_angle, options.spanning, options.deadline);
+    return PlanOnPolyhedron(solid, graph, start, goal, options);
+  } catch (const NoGrasp& none) {
+    return ResultOf(none);
+  } catch (const TimeUp& time_up) {
+    return ResultOf(time_up, "polyhedron");
   }
-  options.progress("building the switching graph");
-  PolyhedronGraph graph(solid, options.half_angle, options.spanning);
-  return PlanOnPolyhedron(solid, graph, start, goal, options);
 }
 
 PlanResult PlanOnPolyhedron(const Polyhedron& solid, PolyhedronGraph& graph,
@@ -216,6 +225,8 @@ PlanResult PlanOnPolyhedron(const Polyhedron& solid, PolyhedronGraph& graph,
     return PolyhedronPlanner(solid, graph, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return ResultOf(none);
+  } catch (const TimeUp& time_up) {
+    return ResultOf(time_up, "polyhedron");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
 #include "planner/graph/spanning.h"
@@ -24,6 +25,8 @@ struct PolyhedronPlanOptions {
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
   /// Bytes that the graph may take; where it would take more there is no plan.
   double memory = std::numeric_limits<double>::infinity();
+  /// When there is no plan, unless one of lower quality was found.
+  Deadline deadline = {};
 };
 
 /// Plans a sequence of switches and aligns between concurrent grasps of four fingers on the

@@ -17,7 +17,8 @@ GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
   if (choice.kind == GraspChoice::Kind::kGiven) return choice;
   const GraspJudge judge(solid, options.half_angle, options.min_quality, options.finger_radius);
   RandomStream random(options.seed, use);
-  choice.grasp = DrawOnSurface(solid, kContacts, judge, random, choice.name);
+  choice.grasp = DrawOnSurface(solid, kContacts, judge, random, choice.name,
+                               [&] { options.deadline.Check(); });
   choice.kind = GraspChoice::Kind::kGiven;
   return choice;
 }
@@ -25,19 +26,21 @@ GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
 }  // namespace
 
 PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start, const GraspChoice& goal,
-                       Spanning spanning, const RoadmapOptions& options, double memory) {
+                       Spanning spanning, const RoadmapOptions& options) {
   GraspChoice from, to;
   try {
     from = Draw(solid, start, RandomUse::kStart, options);
     to = Draw(solid, goal, RandomUse::kGoal, options);
   } catch (const NoGrasp& none) {
     return ResultOf(none);
+  } catch (const TimeUp& time_up) {
+    return ResultOf(time_up, "roadmap");
   }
   if (solid.face_count() <= kMostFaces) {
-    const PlanResult result =
-        PlanOnPolyhedron(solid, from, to,
-                         {options.half_angle, spanning, options.seed, options.min_quality,
-                          options.progress, options.finger_radius, memory});
+    const PlanResult result = PlanOnPolyhedron(
+        solid, from, to,
+        {options.half_angle, spanning, options.seed, options.min_quality, options.progress,
+         options.finger_radius, options.memory, options.deadline.Halfway()});
     if (result.plan && result.warnings.empty()) return result;
     if (!result.plan) options.progress("roadmap, since polyhedron says: " + result.message);
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "planner/polyhedron/plan_polyhedron.h"
 #include "planner/roadmap/plan_roadmap.h"
 
@@ -10,12 +8,12 @@ namespace regrasp {
 /// Plans in space with the planner that fits: PlanOnPolyhedron where start and goal are concurrent
 /// grasps of its graph and it joins them, otherwise PlanOnRoadmap. Random grasps are drawn evenly
 /// over the surface. The plan names its planner; `progress` is told why it is not polyhedron.
-/// @param memory  bytes that the graph of polyhedron may take; where it would take more, roadmap is
-///                taken.
+/// Where there is a deadline polyhedron has half of the time until then.
+/// @param options  of both; where the graph of polyhedron would take more than its memory, roadmap
+///                 is taken.
 /// @throws as PlanOnRoadmap.
 [[nodiscard]] PlanResult PlanSpatial(const Polyhedron& solid, const GraspChoice& start,
                                      const GraspChoice& goal, Spanning spanning,
-                                     const RoadmapOptions& options,
-                                     double memory = std::numeric_limits<double>::infinity());
+                                     const RoadmapOptions& options);
 
 }  // namespace regrasp

@@ -29,23 +29,26 @@ struct OfTriple {
 
 }  // namespace
 
-PolyhedronGraph::PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning)
+PolyhedronGraph::PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning,
+                                 const Deadline& deadline)
     : finder_(solid, CheckedTangent(half_angle)) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto candidates = FindQuadrupleCandidates(solid, CheckedTangent(half_angle), spanning);
+  const auto candidates =
+      FindQuadrupleCandidates(solid, CheckedTangent(half_angle), spanning, deadline);
   candidates_ = std::ssize(candidates);
   for (const QuadrupleCandidate& candidate : candidates) {
+    deadline.Check();
     std::vector<FocusCell> found = finder_.Find(candidate);
     if (!found.empty()) ++combinations_;
     std::ranges::move(found, std::back_inserter(cells_));
   }
   vertex_seconds_ = SecondsSince(begin);
   const auto middle = std::chrono::steady_clock::now();
-  FindLinks();
+  FindLinks(deadline);
   edge_seconds_ = SecondsSince(middle);
 }
 
-void PolyhedronGraph::FindLinks() {
+void PolyhedronGraph::FindLinks(const Deadline& deadline) {
   std::vector<OfTriple> of_triples;
   of_triples.reserve(4 * cells_.size());
   for (int cell = 0; cell < vertex_count(); ++cell) {
@@ -62,6 +65,7 @@ void PolyhedronGraph::FindLinks() {
     const auto end = std::find_if(first, of_triples.end(),
                                   [&](const OfTriple& t) { return t.faces != first->faces; });
     for (auto a = first; a != end; ++a) {
+      deadline.Check();
       for (auto b = a + 1; b != end; ++b) {
         // Two components of one cell share all four faces.
         if (cells_[a->cell].faces == cells_[b->cell].faces) continue;

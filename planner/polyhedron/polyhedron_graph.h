@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/components.h"
 #include "planner/graph/spanning.h"
 #include "planner/graph/switching_graph.h"
@@ -28,7 +29,9 @@ class PolyhedronGraph final : public SwitchingGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
-  PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning);
+  /// @throws TimeUp  the deadline came.
+  PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning,
+                  const Deadline& deadline = {});
 
   /// By their faces.
   [[nodiscard]] const std::vector<FocusCell>& cells() const { return cells_; }
@@ -50,7 +53,7 @@ class PolyhedronGraph final : public SwitchingGraph {
   void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
 
  private:
-  void FindLinks();
+  void FindLinks(const Deadline& deadline);
 
   FocusCellFinder finder_;
   std::vector<FocusCell> cells_;

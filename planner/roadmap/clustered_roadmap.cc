@@ -21,7 +21,7 @@ Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactCluster
   options.progress("testing the grasps of four of " + std::to_string(representatives.size()) +
                    " representatives");
   return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
-                 kSamePoint * solid.diameter(), options.finger_radius);
+                 kSamePoint * solid.diameter(), options.finger_radius, options.deadline);
 }
 
 }  // namespace
@@ -33,12 +33,13 @@ ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapO
   options.progress("choosing contact points");
   std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
   std::erase_if(contacts, [&](const Contact& contact) {
+    options.deadline.Check();
     return !HasStandingRoom(solid, contact) || !CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
   options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
   return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
-                         options.seed);
+                         options.seed, options.deadline);
 }
 
 ClusteredRoadmap::ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadmapOptions& options)

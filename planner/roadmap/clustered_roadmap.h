@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/components.h"
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/contact_clusters.h"
@@ -24,6 +25,7 @@ struct ClusteredRoadmapOptions {
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   double finger_radius = 0;  ///< of fingers that are not points (reach.h)
+  Deadline deadline = {};    ///< when building ends by TimeUp
 };
 
 /// The contact points of a mesh at which a fingertip has room, in clusters; no more clusters than

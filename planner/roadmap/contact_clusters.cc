@@ -15,7 +15,8 @@ constexpr int kRestarts = 5;
 }  // namespace
 
 ContactClusters::ContactClusters(std::vector<Contact> contacts, const WrenchFrame& frame,
-                                 double half_angle, int clusters, std::uint64_t seed)
+                                 double half_angle, int clusters, std::uint64_t seed,
+                                 const Deadline& deadline)
     : frame_(frame), half_angle_(half_angle), contacts_(std::move(contacts)) {
   if (clusters < 1 || clusters >= static_cast<int>(contacts_.size())) {
     throw std::invalid_argument("clusters must be at least 1 and fewer than the contacts");
@@ -24,9 +25,11 @@ ContactClusters::ContactClusters(std::vector<Contact> contacts, const WrenchFram
     pyramids_.push_back(PyramidOf(contact, frame_, half_angle_, contacts_));
   }
   const Eigen::MatrixXd distances = WrenchDistances(pyramids_);
+  deadline.Check();
   const double sigma = distances.mean();
   affinity_scale_ = 2 * sigma * sigma;
   embedding_ = EmbedAffinity((-distances / affinity_scale_).array().exp(), clusters);
+  deadline.Check();
   RandomStream random(seed, RandomUse::kClusters);
   KMeansClusters found = KMeans(embedding_.rows, clusters, kRestarts, random);
   places_ = embedding_.rows.transpose();

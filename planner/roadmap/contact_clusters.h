@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 #include "planner/roadmap/spectral_embedding.h"
@@ -26,8 +27,9 @@ class ContactClusters {
   /// @param contacts  more than `clusters`. @param clusters  k >= 1.
   /// @param half_angle  radians.
   /// @throws std::invalid_argument  a number is out of range.
+  /// @throws TimeUp  the deadline came; looks between its stages only, of a second or two each.
   ContactClusters(std::vector<Contact> contacts, const WrenchFrame& frame, double half_angle,
-                  int clusters, std::uint64_t seed);
+                  int clusters, std::uint64_t seed, const Deadline& deadline = {});
 
   /// The clustered contacts, then those that were added.
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }

@@ -52,7 +52,8 @@ class ClusterPlanner {
     } else {
       choice.grasp = choice.kind == Kind::kRandom
                          ? DrawContacts(choice, random)
-                         : DrawOnSurface(solid_, kContacts, judge_, random, choice.name);
+                         : DrawOnSurface(solid_, kContacts, judge_, random, choice.name,
+                                         [&] { options_.deadline.Check(); });
       choice.kind = Kind::kGiven;
     }
     return choice;
@@ -84,10 +85,15 @@ class ClusterPlanner {
     const Quadruple from = Join(start.grasp, clusters);
     const Quadruple to = Join(goal.grasp, clusters);
     const auto good = [&](const Grasp& grasp) {
+      options_.deadline.Check();
       return QualityAtLeast(grasp, roadmap_.frame, options_.half_angle, options_.min_quality);
     };
     ContactChain chain = Find(clusters, from, to, good);
-    if (chain.grasps.empty()) chain = Find(clusters, from, to, {});
+    const auto any = [&](const Grasp&) {
+      options_.deadline.Check();
+      return true;
+    };
+    if (chain.grasps.empty()) chain = Find(clusters, from, to, any);
     if (chain.grasps.empty()) return WithSizes(NoSequence(chain));
     std::set<int> used;
     for (const Quadruple& grasp : chain.grasps) used.insert(grasp.begin(), grasp.end());
@@ -178,6 +184,8 @@ RoadmapPlanResult PlanOnClusters(const Polyhedron& solid, const GraspChoice& sta
     return ClusterPlanner(solid, options).Plan(start, goal);
   } catch (const NoGrasp& none) {
     return {ResultOf(none)};
+  } catch (const TimeUp& time_up) {
+    return {ResultOf(time_up, "roadmap")};
   }
 }
 

@@ -16,6 +16,7 @@
 #include "planner/roadmap/contact_points.h"
 #include "planner/roadmap/find_contact.h"
 #include "planner/roadmap/plan_clustered.h"
+#include "planner/roadmap/roadmap_memory.h"
 #include "planner/roadmap/surface_draw.h"
 #include "planner/roadmap/vertex_quality.h"
 
@@ -69,7 +70,7 @@ Roadmap JoinedRoadmap(const Polyhedron& solid, const std::vector<Contact>& given
   options.progress("testing the grasps of four of " + std::to_string(points.size()) +
                    " contact points");
   return Roadmap(std::move(points), solid.wrench_frame(), options.half_angle, SamePoint(solid),
-                 options.finger_radius);
+                 options.finger_radius, options.deadline);
 }
 
 /// The planning of one sequence: what its stages share.
@@ -118,7 +119,8 @@ class RoadmapPlanner {
     RandomStream random(options_.seed, use);
     const GraspJudge judge(solid_, options_.half_angle, options_.min_quality,
                            options_.finger_radius);
-    choice.grasp = DrawOnSurface(solid_, kContacts, judge, random, choice.name);
+    choice.grasp = DrawOnSurface(solid_, kContacts, judge, random, choice.name,
+                                 [&] { options_.deadline.Check(); });
     choice.kind = GraspChoice::Kind::kGiven;
     return choice;
   }
@@ -156,6 +158,7 @@ class RoadmapPlanner {
     const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxVertexDraws);
     for (std::size_t i = 0; i < draws; ++i) {
       std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
+      options_.deadline.Check();
       if (quality_.IsGood(urn[i])) return urn[i];
     }
     throw NoGrasp{choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
@@ -176,12 +179,17 @@ class RoadmapPlanner {
 
   std::vector<int> FindPath(int start, int goal) {
     const VertexFilter good = [&](int vertex) {
+      options_.deadline.Check();
       const bool is_good = quality_.IsGood(vertex);
       if (quality_.quality_count() % kProgressEvery == 0) ReportSearch();
       return is_good;
     };
+    const VertexFilter any = [&](int) {
+      options_.deadline.Check();
+      return true;
+    };
     const std::vector<int> path = FindPath(start, goal, good);
-    return path.empty() ? FindPath(start, goal, [](int) { return true; }) : path;
+    return path.empty() ? FindPath(start, goal, any) : path;
   }
 
   void ReportSearch() const {
@@ -280,8 +288,9 @@ Roadmap BuildRoadmap(const Polyhedron& solid, const RoadmapOptions& options,
 
 ClusteredRoadmap BuildClusteredRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
   CheckOptions(options);
-  return ClusteredRoadmap(solid, {options.half_angle, options.contacts, options.clusters,
-                                  options.seed, options.progress, options.finger_radius});
+  return ClusteredRoadmap(solid,
+                          {options.half_angle, options.contacts, options.clusters, options.seed,
+                           options.progress, options.finger_radius, options.deadline});
 }
 
 RoadmapPlanResult PlanOverContacts(const Polyhedron& solid, const std::vector<Contact>& contacts,
@@ -291,12 +300,19 @@ RoadmapPlanResult PlanOverContacts(const Polyhedron& solid, const std::vector<Co
     return RoadmapPlanner(solid, contacts, start, goal, options).Run();
   } catch (const NoGrasp& none) {
     return {ResultOf(none)};
+  } catch (const TimeUp& time_up) {
+    return {ResultOf(time_up, "roadmap")};
   }
 }
 
 RoadmapPlanResult PlanOnRoadmap(const Polyhedron& solid, const GraspChoice& start,
                                 const GraspChoice& goal, const RoadmapOptions& options) {
   CheckOptions(options);
+  try {
+    CheckMemory([&] { return EstimateRoadmap(solid, options); }, options.memory);
+  } catch (const NoGrasp& none) {
+    return {ResultOf(none)};
+  }
   if (options.clusters > 0) return PlanOnClusters(solid, start, goal, options);
   return PlanOverContacts(solid, SpreadContacts(solid, options), start, goal, options);
 }

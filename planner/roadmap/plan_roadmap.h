@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/grasp_choice.h"
 #include "planner/graph/plan_result.h"
 #include "planner/object/polyhedron.h"
@@ -38,6 +40,10 @@ struct RoadmapOptions {
   /// Of fingers that are not points (reach.h): contact points that they cannot reach are left out,
   /// and those where two would overlap are never held together.
   double finger_radius = 0;
+  /// Bytes that a roadmap may take; where it would take more there is no plan (EstimateRoadmap).
+  double memory = std::numeric_limits<double>::infinity();
+  /// When there is no plan.
+  Deadline deadline = {};
 };
 
 struct RoadmapPlanResult : PlanResult {

@@ -42,10 +42,11 @@ bool Contains(const Quadruple& vertex, int point) {
 }  // namespace
 
 Roadmap::Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
-                 double same_point, double finger_radius)
+                 double same_point, double finger_radius, const Deadline& deadline)
     : points_(std::move(points)), excluded_(FindExcluded(points_, same_point, finger_radius)) {
   any_excluded_ = std::find(excluded_.begin(), excluded_.end(), true) != excluded_.end();
-  vertices_ = ForceClosureSubsets(points_, frame, half_angle);
+  vertices_ = ForceClosureSubsets(points_, frame, half_angle, nullptr, deadline);
+  deadline.Check();
   if (any_excluded_) {
     std::erase_if(vertices_, [&](const Quadruple& vertex) {
       for (int i = 0; i < 4; ++i) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/graph/components.h"
 #include "planner/graph/switching_graph.h"
 #include "planner/grasp/contact.h"
@@ -31,8 +32,9 @@ class Roadmap final : public SwitchingGraph {
   /// @param same_point  contacts no farther apart than this are at the same point.
   /// @param finger_radius  of fingers that are not points (reach.h).
   /// @throws std::invalid_argument  as TestForceClosure.
+  /// @throws TimeUp  the deadline came.
   Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
-          double same_point, double finger_radius = 0);
+          double same_point, double finger_radius = 0, const Deadline& deadline = {});
 
   [[nodiscard]] const std::vector<Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }

@@ -54,6 +54,12 @@ class Figure(ProgramCase):
     def refuse(self, words, *more, code=2, **changes):
         return self.assert_refused(code, words, *self.arguments(*more, **changes))
 
+    def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
+        done, shown = self.run_on_terminal(*self.arguments())
+        self.assertEqual(done.returncode, 0, shown)
+        self.assert_stages(shown, "reading ", "checking the plan", "figure 1 of 5")
+        self.assertEqual(self.run_on_terminal(*self.arguments("--quiet"))[1], "")
+
     def names(self, ending):
         return [name + "." + ending for name in
                 ("000_hold", "001_align", "002_switch", "003_switch", "004_align", "sheet")]

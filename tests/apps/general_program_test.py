@@ -147,13 +147,23 @@ class General(ProgramCase):
     def test_refuses_options_of_other_planners(self):
         for words, arguments in (
                 ("--explain", self.arguments("cube.obj", 0, "--explain", planner="roadmap")),
-                ("--time-limit", self.arguments("cube.obj", 0, "--time-limit", "1",
-                                                planner="polyhedron")),
                 ("--clusters", self.arguments("cube.obj", 0, "--clusters", "20")),
                 ("--optimize regions", self.arguments("cube.obj", 0, "--optimize", "regions")),
                 ("--effort", self.arguments("cube.obj", 0, "--effort", "0")),
                 ("--time-limit", self.arguments("cube.obj", 0, "--time-limit", "-1"))):
             self.assert_refused(2, words, *arguments)
+
+    def test_the_time_limit_holds_for_every_planner_and_while_the_object_is_read(self):
+        for planner, model in (("auto", "cube.obj"), ("auto", "square.wkt"),
+                               ("general", "cube.obj"), ("roadmap", "cube.obj"),
+                               ("polyhedron", "cube.obj"), ("polygon", "square.wkt"),
+                               ("contour", "square.wkt")):
+            self.assert_refused(1, [model, "the time was up while it was read"],
+                                *self.arguments(model, 0, "--time-limit", "1e-9", planner=planner))
+            done = self.run_program(*self.arguments(model, 0, "--time-limit", "1e300",
+                                                    planner=planner))
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+            self.assertNotIn("the time was up", done.stderr)
 
     def test_has_no_graph(self):
         done = self.run_program("--object", self.model("cube.obj"), "--friction-angle", "25",

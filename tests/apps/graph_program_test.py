@@ -2,9 +2,19 @@
 
 import json
 import math
+import os
+import subprocess
 
 import program_case
 from program_case import ProgramCase
+
+
+def regular_polygon(count):
+    """WKT of so many edges."""
+    corners = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
+               for k in range(count)]
+    ring = ", ".join(f"{x!r} {y!r}" for x, y in corners + corners[:1])
+    return f"POLYGON (({ring}))"
 
 
 class Graph(ProgramCase):
@@ -31,6 +41,14 @@ class Graph(ProgramCase):
         self.assertGreater(tables["representative-representative"][0], 0)
         self.assertEqual(done.stderr, "")
 
+    def test_a_terminal_is_told_the_stages_of_reading_and_building(self):
+        arguments = self.arguments("--friction-angle", "20")
+        done, shown = self.run_on_terminal(*arguments)
+        self.assertEqual(done.returncode, 0, shown)
+        self.assert_stages(shown, "reading ", "checking 6 facets", "preparing 6 faces",
+                           "spreading 20 contact points")
+        self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
+
     def test_writes_the_same_as_json(self):
         done = self.assert_done(*self.arguments("--friction-angle", "20", "--planner", "roadmap",
                                                 "--json", "graph.json"))
@@ -52,11 +70,7 @@ class Graph(ProgramCase):
         self.assertGreaterEqual(graph["seconds"]["edges"], 0)
 
     def test_a_graph_that_takes_more_than_half_of_the_memory_is_refused_unless_forced(self):
-        count = 3000  # terabytes
-        corners = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
-                   for k in range(count + 1)]
-        ring = ", ".join(f"{x!r} {y!r}" for x, y in corners[:-1] + corners[:1])
-        large = self.write("large.wkt", f"POLYGON (({ring}))")
+        large = self.write("large.wkt", regular_polygon(3000))  # terabytes
         self.assert_refused(2, ["large.wkt: the graph of the planner polygon takes about",
                                 "for 3000 edges", "edges would fit", "--force"],
                             "--object", large, "--friction-angle", "15")
@@ -64,6 +78,45 @@ class Graph(ProgramCase):
                             "--object", self.model("ellipsoid1000.obj"), "--friction-angle", "15",
                             "--planner", "polyhedron")
         self.assert_done(*self.polygon("--friction-angle", "10", "--force"))
+
+    def test_a_contour_that_takes_more_than_half_of_the_memory_is_refused(self):
+        count = 60_000  # more than a hundred gigabytes
+        large = self.write("large.wkt", regular_polygon(count))
+        words = ["large.wkt: the graph of the planner contour takes about",
+                 f"for {count} edges", "edges would fit", "--force"]
+        self.assert_refused(2, words, "--object", large, "--friction-angle", "85", "--planner",
+                            "contour")
+        done = self.run_program("--object", large, "--friction-angle", "85", "--planner", "contour",
+                                "--start", "random", "--goal", "random", "--output", "-",
+                                program="plan")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def test_a_roadmap_that_takes_more_than_half_of_the_memory_is_refused_unless_forced(self):
+        def limited(program, *arguments):
+            return subprocess.run(
+                ["sh", "-c", 'ulimit -v 1500000; exec "$0" "$@"',
+                 os.path.join(program_case.ARGUMENTS.programs, program), *arguments],
+                capture_output=True, text=True, cwd=self.folder, check=False)
+
+        if limited("graph", "--version").returncode != 0:
+            self.skipTest("the address sanitizer does not run in a small address space")
+        for more, words in (
+                (["--contacts", "200"], "for 200 contact points"),
+                (["--contacts", "1000", "--clusters", "200"], "for 200 clusters")):
+            roadmap = ["--object", self.model("cube.obj"), "--friction-angle", "60", "--planner",
+                       "roadmap", *more]
+            for program, ends in (("graph", []),
+                                  ("plan", ["--start", "random", "--goal", "random", "--output",
+                                            "plan.json"])):
+                done = limited(program, *roadmap, *ends)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn("cube.obj: the graph of the planner roadmap takes about", done.stderr)
+                self.assertIn(words, done.stderr)
+        small = [*roadmap[:-3], "30"]
+        self.assertEqual(limited("graph", *small).returncode, 0)
+        self.assertEqual(limited("graph", *small, "--force").returncode, 0)
 
     def polygon(self, *more):
         return ["--object", self.model("square.wkt"), *more]

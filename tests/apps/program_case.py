@@ -70,6 +70,14 @@ class ProgramCase(unittest.TestCase):
         except OSError:
             return done, ""
 
+    def assert_stages(self, shown, *stages):
+        """A terminal was shown these one after the other, the first of them at once."""
+        erase = "\r\x1b[K"
+        self.assertTrue(shown.startswith(erase + stages[0]), repr(shown))
+        places = [shown.find(erase + stage) for stage in stages]
+        self.assertNotIn(-1, places, repr(shown))
+        self.assertEqual(places, sorted(places), repr(shown))
+
     def assert_done(self, *arguments, **options):
         """Exit code 0; returns what ran."""
         done = self.run_program(*arguments, **options)

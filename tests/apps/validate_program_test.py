@@ -69,6 +69,14 @@ class Validate(ProgramCase):
         self.plan = copy.deepcopy(Validate.good_plan)
         self.write_plan()
 
+    def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
+        arguments = self.arguments("--no-frames")
+        done, shown = self.run_on_terminal(*arguments)
+        self.assertEqual(done.returncode, 0, shown)
+        self.assert_stages(shown, "reading ", "checking 6 facets", "preparing 6 faces",
+                           "checking the plan")
+        self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
+
     def write_plan(self):
         self.write_json("plan.json", self.plan)
 

@@ -67,5 +67,15 @@ TEST(PlanAutoTest, AGraphThatDoesNotFitIsLeftToTheGeneralPlanner) {
   EXPECT_THAT(ample.notes, Not(is_told));
 }
 
+TEST(PlanAutoTest, ExactPlannersEndAtTheDeadline) {
+  const Polygon disc = Disc(100);
+  AutoPlanOptions options;
+  options.general.half_angle = Radians(15);
+  options.general.deadline = Deadline::Clock::now();
+  const PlanResult result = PlanAuto(disc, Pinch(disc, 0), Pinch(disc, 25), options);
+  const std::string said = result.plan ? result.notes.front() : result.message;
+  EXPECT_THAT(said, HasSubstr("no sequence was found by the planner polygon when the time was up"));
+}
+
 }  // namespace
 }  // namespace regrasp

@@ -18,7 +18,7 @@ std::vector<int> FacesOf(const Grasp& grasp) {
 
 SearchSpace SpaceFor(const Object& object, const GraspDemands& demands) {
   SearchSpace space(object, demands);
-  space.SetLimits({kEffort, std::nullopt});
+  space.SetLimits({.most_tests = kEffort});
   return space;
 }
 

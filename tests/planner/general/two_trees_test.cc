@@ -69,7 +69,7 @@ TEST_P(TwoTreesCases, JoinGraspsByWaysThatTheCheckerPasses) {
     const Grasp from = DrawGrasp(object, GetParam().contacts, demands, draws);
     const Grasp to = DrawGrasp(object, GetParam().contacts, demands, draws);
     SearchSpace space(object, demands);
-    space.SetLimits({kEffort, std::nullopt});
+    space.SetLimits({.most_tests = kEffort});
     RandomStream random(i, RandomUse::kCandidates);
     TwoTrees trees(Take(from, space), Take(to, space), source, random, space);
     const auto path = trees.Join();
@@ -100,7 +100,7 @@ TEST(TwoTrees, WithTooLittleFrictionReachNothingElse) {
   const Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
   const Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
   SearchSpace space(*file.object, {Radians(0.1), 0, 0});
-  space.SetLimits({2000, std::nullopt});
+  space.SetLimits({.most_tests = 2000});
   RandomStream random(0, RandomUse::kCandidates);
   const SurfaceSource source(*file.object);
   TwoTrees trees(Take(from, space), Take(to, space), source, random, space);

@@ -1,0 +1,45 @@
+#include "planner/base/deadline.h"
+
+#include <gtest/gtest.h>
+
+namespace regrasp {
+namespace {
+
+using std::chrono::seconds;
+using Clock = Deadline::Clock;
+
+TEST(Deadline, IsOverWhenItsTimeHasComeAndNeverWithoutOne) {
+  Clock::time_point now{};
+  const Deadline deadline(now + seconds(10), [&] { return now; });
+  EXPECT_FALSE(Deadline().IsOver());
+  EXPECT_FALSE(Deadline().left().has_value());
+  EXPECT_NO_THROW(deadline.Check());
+  now += seconds(9);
+  EXPECT_FALSE(deadline.IsOver());
+  EXPECT_EQ(deadline.left(), seconds(1));
+  now += seconds(1);
+  EXPECT_TRUE(deadline.IsOver());
+  EXPECT_THROW(deadline.Check(), TimeUp);
+}
+
+TEST(Deadline, HalfwayHasHalfOfWhatIsLeft) {
+  Clock::time_point now{};
+  const Deadline deadline(now + seconds(10), [&] { return now; });
+  now += seconds(2);
+  const Deadline half = deadline.Halfway();
+  EXPECT_EQ(half.left(), seconds(4));
+  now += seconds(4);
+  EXPECT_TRUE(half.IsOver());
+  EXPECT_FALSE(deadline.IsOver());
+  EXPECT_FALSE(Deadline().Halfway().left().has_value());
+}
+
+TEST(Deadline, BeyondTheClocksRangeThereIsNone) {
+  const Clock::time_point begin = Clock::now();
+  EXPECT_EQ(DeadlineAfter(begin, 1e300).left(), std::nullopt);
+  EXPECT_GT(DeadlineAfter(begin, 1e6).left(), seconds(0));
+  EXPECT_TRUE(DeadlineAfter(begin, 0).IsOver());
+}
+
+}  // namespace
+}  // namespace regrasp

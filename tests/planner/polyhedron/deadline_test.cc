@@ -1,0 +1,48 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/polyhedron/plan_polyhedron.h"
+#include "tests/planner/counted_deadline.h"
+#include "tests/planner/polyhedron/bodies.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndEndsWhereverItComes) {
+  const Polyhedron body = RegularOctahedron();
+  const CountedDeadline never;
+  const PolyhedronGraph graph(body, Radians(15), Spanning::kAdaptive, never.deadline());
+  ASSERT_GT(graph.vertex_count(), 0);
+  EXPECT_GE(never.looks(), graph.candidate_count() + graph.vertex_count());
+  for (int look = 1; look <= never.looks(); look += 1 + look / 10) {
+    const CountedDeadline counted(look);
+    EXPECT_THROW((void)PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, counted.deadline()),
+                 TimeUp)
+        << look;
+    EXPECT_EQ(counted.looks(), look);
+  }
+}
+
+TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
+  const Polyhedron body = RegularOctahedron();
+  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
+  PolyhedronPlanOptions options;
+  options.half_angle = Radians(15);
+  const CountedDeadline never;
+  options.deadline = never.deadline();
+  ASSERT_TRUE(PlanOnPolyhedron(body, random, random, options).plan);
+  int ended = 0;
+  for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
+    options.deadline = CountedDeadline(look).deadline();
+    const PlanResult result = PlanOnPolyhedron(body, random, random, options);
+    if (result.plan) continue;  // of a random goal that is not as good
+    EXPECT_THAT(result.message, HasSubstr("the planner polyhedron when the time was up"));
+    ++ended;
+  }
+  EXPECT_GT(ended, 10);
+}
+
+}  // namespace
+}  // namespace regrasp
