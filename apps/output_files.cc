@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/write_file.h"
 
 namespace regrasp {
@@ -124,6 +125,14 @@ void CheckOutputsWritable(const OutputFiles& outputs) {
                               return IsInside(parent, PlaceOf(folder.path));
                             });
     if (!to_be_made) CheckWritable(file.path);
+  }
+}
+
+std::string ReadOutput(const fs::path& path) {
+  try {
+    return ReadFile(path);
+  } catch (const InputError& error) {
+    throw EnvironmentError(error.what());
   }
 }
 

@@ -44,4 +44,8 @@ void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles&
 /// @throws EnvironmentError  names the one that cannot.
 void CheckOutputsWritable(const OutputFiles& outputs);
 
+/// The bytes of a file that the program has written itself.
+/// @throws EnvironmentError  it is gone, or cannot be read any more: that is no bad input.
+[[nodiscard]] std::string ReadOutput(const std::filesystem::path& path);
+
 }  // namespace regrasp

@@ -18,6 +18,7 @@
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/object/reading.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/reach.h"
 #include "sim/junit.h"
@@ -246,7 +247,7 @@ std::vector<FileDigest> DigestFiles(const std::filesystem::path& folder,
   for (const std::string& name : names) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(folder / name, error)) continue;
-    files.push_back({name, Sha256(ReadFile(folder / name))});
+    files.push_back({name, Sha256(ReadOutput(folder / name))});
   }
   return files;
 }

@@ -129,5 +129,11 @@ TEST_F(OutputFilesTest, AFileMayGoIntoAFolderThatWillBeMade) {
   EXPECT_THAT(WhyNotWritable(AndFolder(Files("newer/file"), "new")), HasSubstr("newer/file"));
 }
 
+TEST_F(OutputFilesTest, AResultThatIsGoneIsNoBadInput) {
+  EXPECT_EQ(ReadOutput(folder_ / "out/report"), "out/report");
+  EXPECT_THROW((void)ReadOutput(folder_ / "gone"), EnvironmentError);
+  EXPECT_THROW((void)ReadOutput("/proc/self/mem"), EnvironmentError);  // a file, not to be read
+}
+
 }  // namespace
 }  // namespace regrasp
