@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "planner/contour/grasp_pieces.h"
 #include "planner/contour/plan_contour.h"
+#include "planner/contour/projection_sweep.h"
 #include "tests/planner/contour/outlines.h"
 #include "tests/planner/counted_deadline.h"
 
@@ -20,6 +24,29 @@ TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
     EXPECT_THROW((void)ContourGraph(polygon, Radians(20), counted.deadline()), TimeUp) << look;
     EXPECT_EQ(counted.looks(), look);
   }
+}
+
+TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough) {
+  const Polygon polygon = IrregularOutline(40, 0.8, 3);
+  const double tangent = std::tan(Radians(20));
+  const IntervalScope scope;
+  const EdgeTable edges(polygon, tangent);
+  const Boundary boundary(polygon);
+  const CountedDeadline of_candidates, of_pieces, of_passages, of_overlaps;
+  const auto candidates = FindTwoFingerCandidates(edges, of_candidates.deadline());
+  EXPECT_EQ(of_candidates.looks(), 2 * edges.size());  // by angle, and in order
+  const auto pieces = FindPieces(edges, candidates, of_pieces.deadline());
+  EXPECT_EQ(of_pieces.looks(), std::ssize(candidates));
+  static_cast<void>(FindPassages(edges, boundary, pieces, of_passages.deadline()));
+  EXPECT_EQ(of_passages.looks(), std::ssize(pieces));
+  const int count = static_cast<int>(pieces.size());
+  std::vector<int> numbers(pieces.size());
+  for (int i = 0; i < count; ++i) numbers[i] = i;
+  const auto one_by_one = [&](int set) { return std::span<const int>(&numbers[set], 1); };
+  static_cast<void>(
+      FindOverlaps(edges, boundary, pieces, count, one_by_one, of_overlaps.deadline()));
+  // Each projects on both of its edges, which begins and ends.
+  EXPECT_EQ(of_overlaps.looks(), 5 * count);
 }
 
 TEST(ContourDeadline, EndsAPlanWhereverItComes) {
