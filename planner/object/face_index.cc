@@ -45,6 +45,14 @@ constexpr int kSegmentPieces = 16;
 Point ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
+/// Whether a point can be projected on it. The normal of a sliver is lost where its square
+/// underflows; all of such a triangle is then at its neighbours, to far below rounding.
+bool HasPlane(const Triangle& triangle) {
+  const auto normal = CGAL::normal(triangle[0], triangle[1], triangle[2]);
+  return normal.squared_length() >= std::numeric_limits<double>::min();
+}
+bool HasPlane(const Segment&) { return true; }  // a line is enough, and corners are apart
+
 /// Consecutive primitives (triangles or segments) of one face, with a tree where they are many.
 template <class Primitive>
 class Patch {
@@ -54,7 +62,10 @@ class Patch {
 
   Patch(Iterator first, Iterator last) : first_(first), last_(last) {
     if (last - first < kFew) return;
-    tree_ = std::make_unique<Tree>(first, last);
+    tree_ = std::make_unique<Tree>();
+    for (Iterator i = first; i != last; ++i) {
+      if (HasPlane(*i)) tree_->insert(Primitive(i));
+    }
     tree_->build();  // now, as queries from several threads would build it twice
     tree_->do_not_accelerate_distance_queries();
   }
@@ -68,7 +79,7 @@ class Patch {
     for (Iterator i = first_; i != last_; ++i) {
       const Point candidate = project(*i, point);
       const double distance = CGAL::squared_distance(candidate, point);
-      if (distance >= least) continue;
+      if (!(distance < least)) continue;  // nor where it is no number, for want of a plane
       least = distance;
       closest = candidate;
     }

@@ -30,7 +30,8 @@ struct ChildLimits {
 ///
 /// For code that may crash, hang or exhaust memory. The child prints nothing, opens no file, leaves
 /// no core file and runs no destructor or exit handler of this process. Where the program is built
-/// with the address sanitizer, memory is not limited: it reserves more than any limit.
+/// with the address sanitizer, neither memory nor files are limited: it reserves more than any
+/// limit and opens pipes.
 /// @throws EnvironmentError  the process or the pipe cannot be made.
 [[nodiscard]] ChildResult RunInLimitedChild(const std::function<std::string()>& task,
                                             const ChildLimits& limits);

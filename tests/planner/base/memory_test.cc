@@ -6,17 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "planner/base/sanitizer.h"
+
 namespace regrasp {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// The address sanitizer has more address space than any limit.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kAddressSpaceIsLimited = false;
-#else
-constexpr bool kAddressSpaceIsLimited = true;
-#endif
 
 /// Whether UsableMemory is half of `bytes` where the process may have no more address space.
 bool HalvesItsAddressSpace(rlim_t bytes) {
@@ -36,7 +31,7 @@ TEST(Memory, HalfOfWhatThereIsMayBeUsed) {
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   EXPECT_GT(UsableMemory(), 0);
   EXPECT_LE(UsableMemory(), installed / 2);
-  if (kAddressSpaceIsLimited) {
+  if (!kAddressSanitizer) {
     EXPECT_TRUE(HalvesItsAddressSpace(rlim_t{1} << 29));
   }
 }

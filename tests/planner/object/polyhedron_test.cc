@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <vector>
 
 #include "tests/planner/object/meshes.h"
 
@@ -122,6 +124,46 @@ TEST(Polyhedron, ClosestPointsRespectHolesAndNonConvexOutlines) {
   ASSERT_EQ(bent.face_count(), 8);
   const int end = FaceTowards(bent, {0, 0, 1});
   EXPECT_NEAR((bent.ClosestPoint(end, {1.5, 1.2, 1}) - Vector3d(1.5, 1, 1)).norm(), 0, kTight);
+}
+
+/// A plate whose outline is an arc of so many corners, and the chord that closes it. Its top is cut
+/// into triangles; at the origin the chord has a corner that is off it by less than squares can
+/// tell.
+PolygonSoup PlateWithASliver(int arc) {
+  PolygonSoup soup;
+  for (const double z : {0.0, -1.0}) {
+    for (int i = 0; i < arc; ++i) {
+      const double angle = M_PI * i / (arc - 1);
+      soup.vertices.push_back({std::cos(angle), i == arc - 1 ? 0 : std::sin(angle), z});
+    }
+    soup.vertices.push_back({0, -1e-305, z});
+  }
+  const int corners = arc + 1;
+  for (int i = 1; i < arc; ++i) soup.facets.push_back({0, i, i + 1});
+  std::vector<int> bottom;
+  for (int i = 0; i < corners; ++i) bottom.push_back(2 * corners - 1 - i);
+  soup.facets.push_back(bottom);
+  for (int i = 0; i < corners; ++i) {
+    const int next = (i + 1) % corners;
+    soup.facets.push_back({i, i + corners, next + corners, next});
+  }
+  return soup;
+}
+
+/// Projected on the plane of a triangle so thin, a point is nowhere.
+TEST(Polyhedron, ClosestPointsOnFacesWithSliversAreFinite) {
+  for (const int arc : {5, 40}) {  // searched one by one, and in a tree
+    const Polyhedron plate = Polyhedron::FromSoup(PlateWithASliver(arc), "plate");
+    const int top = FaceTowards(plate, {0, 0, 1});
+    ASSERT_EQ(plate.faces()[top].triangles.size(), static_cast<std::size_t>(arc - 1));
+    for (const Vector3d& over : {Vector3d(0, 0.3, 0), Vector3d(0, 0, 0), Vector3d(-0.5, 0, 0)}) {
+      EXPECT_NEAR((plate.ClosestPoint(top, over + Vector3d(0, 0, 1)) - over).norm(), 0, kTight);
+      EXPECT_NEAR(
+          (plate.ClosestPoint(top, over - Vector3d(0, over.y() + 2, 0)) - Vector3d(over.x(), 0, 0))
+              .norm(),
+          0, kTight);
+    }
+  }
 }
 
 TEST(Polyhedron, FacesNearAreSortedByDistance) {
