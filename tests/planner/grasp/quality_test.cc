@@ -137,7 +137,8 @@ TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
       EXPECT_GT(bounds.upper, 0);
       EXPECT_LT(bounds.upper, 1e-4);
       EXPECT_LE(bounds.upper - bounds.lower, std::max(kQualityGap, 0.01 * bounds.upper));
-      EXPECT_LT(bounds.facets, kMostQualityFacets);
+      // Without kQualityGap some take 60,000 for digits that nobody asks for.
+      EXPECT_LT(bounds.facets, 40'000);
     }
     ++checked;
   }
@@ -145,13 +146,15 @@ TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
 }
 
 TEST(QualityTest, EndsItsWorkWithBoundsThatMayBeFarApart) {
-  // A gap that no rounding allows: only the limits on the work end it.
+  // A gap that no rounding allows, and a set as round as this: without the limit on the work four
+  // times as much is done.
   RandomGrasps random(45);
-  const Grasp grasp = random.OnBall(6, 3);
-  const double half_angle = Radians(40);
+  const Grasp grasp = random.OnBall(24, 3);
+  const double half_angle = Radians(20);
   ASSERT_TRUE(IsForceClosure(grasp, UnitFrame(3), half_angle));
   const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle, 1e-12);
   EXPECT_LE(bounds.lower, bounds.upper);
+  EXPECT_GE(bounds.facets, kMostQualityFacets);
   EXPECT_LT(bounds.facets, 2 * kMostQualityFacets);
   const QualityBounds coarse = ComputeQuality(grasp, UnitFrame(3), half_angle, 0.1);
   EXPECT_LE(coarse.lower, bounds.upper);
