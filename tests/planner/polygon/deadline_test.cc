@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "planner/polygon/candidates.h"
 #include "planner/polygon/plan_polygon.h"
+#include "planner/polygon/polygon_graph.h"
 #include "tests/planner/counted_deadline.h"
 #include "tests/planner/polygon/shapes.h"
 
@@ -10,15 +14,34 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndEndsWhereverItComes) {
+/// Looks while the candidates of all types are listed.
+int LooksForCandidates(const Polygon& polygon, double half_angle) {
+  const double tangent = std::tan(half_angle);
+  const IntervalScope scope;
+  const EdgeTable edges(polygon, tangent);
+  const CountedDeadline never;
+  static_cast<void>(FindConcurrentCandidates(edges, Spanning::kAdaptive, never.deadline()));
+  static_cast<void>(FindTwoFingerCandidates(edges, never.deadline()));
+  static_cast<void>(FindParallelCandidates(edges, never.deadline()));
+  return never.looks();
+}
+
+TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWhereverItComes) {
   const Polygon polygon = RegularPolygon(9);
   const CountedDeadline never;
   const PolygonGraph graph(polygon, Radians(20), Spanning::kAdaptive, never.deadline());
-  std::int64_t candidates = 0;
-  for (int type = 0; type < kGraspTypes; ++type) {
-    candidates += graph.counts(static_cast<GraspType>(type)).candidates;
-  }
-  EXPECT_GE(never.looks(), candidates + graph.vertex_count());
+  const GraspTypeCounts& concurrent = graph.counts(GraspType::kConcurrent);
+  const GraspTypeCounts& two_finger = graph.counts(GraspType::kTwoFinger);
+  const GraspTypeCounts& parallel = graph.counts(GraspType::kParallel);
+  ASSERT_TRUE(concurrent.vertices > 0 && two_finger.vertices > 0 && parallel.vertices > 0);
+  const int listing = LooksForCandidates(polygon, Radians(20));
+  EXPECT_GE(listing, 9 + 2 * 9 + 9);
+  const auto candidates = concurrent.candidates + two_finger.candidates + parallel.candidates;
+  // Vertices are listed, joined on each of their three pairs of edges, or as 2-finger ones, and
+  // concurrent ones with parallel ones of the same edges.
+  const auto joining = 3 * (concurrent.vertices + parallel.vertices) + two_finger.vertices;
+  EXPECT_EQ(never.looks(),
+            listing + candidates + graph.vertex_count() + joining + concurrent.vertices);
   for (int look = 1; look <= never.looks(); look += 1 + look / 10) {
     const CountedDeadline counted(look);
     EXPECT_THROW((void)PolygonGraph(polygon, Radians(20), Spanning::kAdaptive, counted.deadline()),

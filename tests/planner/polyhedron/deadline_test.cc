@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "planner/polyhedron/normal_quadruples.h"
 #include "planner/polyhedron/plan_polyhedron.h"
 #include "tests/planner/counted_deadline.h"
 #include "tests/planner/polyhedron/bodies.h"
@@ -10,12 +13,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndEndsWhereverItComes) {
+TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
   const Polyhedron body = RegularOctahedron();
   const CountedDeadline never;
   const PolyhedronGraph graph(body, Radians(15), Spanning::kAdaptive, never.deadline());
   ASSERT_GT(graph.vertex_count(), 0);
-  EXPECT_GE(never.looks(), graph.candidate_count() + graph.vertex_count());
+  const CountedDeadline listing;
+  static_cast<void>(FindQuadrupleCandidates(body, std::tan(Radians(15)), Spanning::kAdaptive,
+                                            listing.deadline()));
+  EXPECT_EQ(listing.looks(), 2 * (8 * 7 / 2));  // each pair of faces twice
+  // Cells are joined on each of their four triples of faces.
+  EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
   for (int look = 1; look <= never.looks(); look += 1 + look / 10) {
     const CountedDeadline counted(look);
     EXPECT_THROW((void)PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, counted.deadline()),
