@@ -48,6 +48,26 @@ TEST_P(PlanGeneralOnModel, RandomGraspsAreJoinedByGoodGraspsAndTheCheckerPasses)
   }
 }
 
+TEST(PlanGeneralTest, AlignsAreProvedAtTheFrictionThatIsAskedForAlsoWithoutAQuality) {
+  int aligns = 0;
+  for (const char* model : {"cube.obj", "pyramid.obj", "polygon15.wkt"}) {
+    const ObjectFile file = ReadModel(model);
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      SCOPED_TRACE(model + std::to_string(seed));
+      GeneralPlanOptions options = Options(seed % 2 == 0 ? 5 : 15, seed);
+      options.min_quality = 0;
+      const PlanResult result = PlanGeneral(*file.object, Random(), Random(), options);
+      ASSERT_TRUE(result.plan) << result.message;
+      for (const StepCheck& step : CheckPlan(*file.object, *result.plan).steps) {
+        EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+        EXPECT_EQ(step.undecided, 0);
+        aligns += step.kind == "align" ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(aligns, 10);
+}
+
 TEST(PlanGeneralTest, TheSameArgumentsGiveTheSameBytesAndAnotherSeedAnotherPlan) {
   const ObjectFile file = ReadModel("l_block.obj");
   const auto plan = [&](std::uint64_t seed) {
