@@ -99,7 +99,7 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
   CheckEdges(mesh, diameter, name);
   SurfaceTopology topology = ComputeTopology(mesh, name);
   reading.Begin("looking for intersections of " + facets);
-  CheckSelfIntersection(mesh, name);
+  CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
   const int outside = OrientSolid(mesh, topology, name);
   std::vector<int> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);

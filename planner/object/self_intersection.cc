@@ -14,8 +14,11 @@ namespace regrasp {
 
 namespace {
 
+/// The clock is looked at once in about a millisecond.
+constexpr std::size_t kOverlapsBetweenLooks = 5000;
+
 /// Throws where the check below would meet more pairs of boxes than it can finish.
-void CheckOverlaps(const TriangleMesh& mesh, const std::string& name) {
+void CheckOverlaps(const TriangleMesh& mesh, const std::string& name, const Deadline& deadline) {
   using Box = CGAL::Box_intersection_d::Box_d<double, 3>;
   std::vector<Box> boxes;
   for (const auto& triangle : mesh.triangles) {
@@ -28,7 +31,8 @@ void CheckOverlaps(const TriangleMesh& mesh, const std::string& name) {
   }
   std::size_t overlaps = 0;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box&, const Box&) {
-    if (++overlaps <= kMaxOverlaps) return;
+    if (++overlaps % kOverlapsBetweenLooks == 0) deadline.Check();
+    if (overlaps <= kMaxOverlaps) return;
     throw MeshError(MeshDefect::kTooLarge,
                     name + ": more than " + std::to_string(kMaxOverlaps) +
                         " pairs of facets lie so close that they would have to be checked");
@@ -37,10 +41,13 @@ void CheckOverlaps(const TriangleMesh& mesh, const std::string& name) {
 
 }  // namespace
 
-void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name) {
-  CheckOverlaps(mesh, name);
+void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
+                           const Deadline& deadline) {
+  CheckOverlaps(mesh, name, deadline);
+  deadline.Check();
   const SurfaceMesh surface = MakeSurfaceMesh(mesh, mesh.triangles);
   std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> found;
+  deadline.Check();
   // The first pair is enough; all pairs of a hostile mesh would not fit into memory.
   CGAL::Polygon_mesh_processing::self_intersections(
       faces(surface), surface, std::back_inserter(found), CGAL::parameters::maximum_number(1));

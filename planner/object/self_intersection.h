@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "planner/base/deadline.h"
 #include "planner/object/triangle_mesh.h"
 
 namespace regrasp {
@@ -10,6 +11,8 @@ namespace regrasp {
 /// edge that they share.
 /// @param mesh  a closed, consistently oriented 2-manifold without degenerate triangles.
 /// @throws MeshError  kSelfIntersecting, with two facets named.
-void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name);
+/// @throws TimeUp  the deadline came; CGAL's part, about half of the work, is not interrupted.
+void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
+                           const Deadline& deadline);
 
 }  // namespace regrasp

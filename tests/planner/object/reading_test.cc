@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/object/polyhedron.h"
 #include "tests/planner/counted_deadline.h"
 
 namespace regrasp {
@@ -39,6 +40,45 @@ TEST(Reading, TellsItsStages) {
   EXPECT_THAT(told, ElementsAre(AllOf(StartsWith("reading "), EndsWith("cube.obj")),
                                 HasSubstr("facets"), HasSubstr("facets"), HasSubstr("facets"),
                                 HasSubstr("facets"), HasSubstr("6 faces")));
+}
+
+/// A block of `n` by `n` by 1 cells.
+PolygonSoup Block(int n) {
+  PolygonSoup soup;
+  const auto vertex = [n](int x, int y, int z) { return (z * (n + 1) + y) * (n + 1) + x; };
+  for (int z = 0; z < 2; ++z) {
+    for (int y = 0; y <= n; ++y) {
+      for (int x = 0; x <= n; ++x) soup.vertices.emplace_back(x, y, z);
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    soup.facets.push_back(
+        {vertex(i, 0, 0), vertex(i + 1, 0, 0), vertex(i + 1, 0, 1), vertex(i, 0, 1)});
+    soup.facets.push_back(
+        {vertex(i + 1, n, 0), vertex(i, n, 0), vertex(i, n, 1), vertex(i + 1, n, 1)});
+    soup.facets.push_back(
+        {vertex(0, i + 1, 0), vertex(0, i, 0), vertex(0, i, 1), vertex(0, i + 1, 1)});
+    soup.facets.push_back(
+        {vertex(n, i, 0), vertex(n, i + 1, 0), vertex(n, i + 1, 1), vertex(n, i, 1)});
+    for (int j = 0; j < n; ++j) {
+      soup.facets.push_back(
+          {vertex(i, j, 0), vertex(i, j + 1, 0), vertex(i + 1, j + 1, 0), vertex(i + 1, j, 0)});
+      soup.facets.push_back(
+          {vertex(i, j, 1), vertex(i + 1, j, 1), vertex(i + 1, j + 1, 1), vertex(i, j + 1, 1)});
+    }
+  }
+  return soup;
+}
+
+TEST(Reading, LooksAtTheDeadlineWhileItLooksForIntersections) {
+  const auto looks = [](int n) {
+    const CountedDeadline never;
+    Reading reading;
+    reading.deadline = never.deadline();
+    EXPECT_EQ(Polyhedron::FromSoup(Block(n), "block", reading).face_count(), 6);
+    return never.looks();
+  };
+  EXPECT_GT(looks(60), looks(2) + 3);  // of some 14,400 triangles, each beside a dozen others
 }
 
 TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
