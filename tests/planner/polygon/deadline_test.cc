@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,13 +5,11 @@
 #include "planner/polygon/candidates.h"
 #include "planner/polygon/plan_polygon.h"
 #include "planner/polygon/polygon_graph.h"
-#include "tests/planner/counted_deadline.h"
+#include "tests/planner/deadline_laws.h"
 #include "tests/planner/polygon/shapes.h"
 
 namespace regrasp {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Looks while the candidates of all types are listed.
 int LooksForCandidates(const Polygon& polygon, double half_angle) {
@@ -42,13 +39,9 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
   const auto joining = 3 * (concurrent.vertices + parallel.vertices) + two_finger.vertices;
   EXPECT_EQ(never.looks(),
             listing + candidates + graph.vertex_count() + joining + concurrent.vertices);
-  for (int look = 1; look <= never.looks(); look += 1 + look / 10) {
-    const CountedDeadline counted(look);
-    EXPECT_THROW((void)PolygonGraph(polygon, Radians(20), Spanning::kAdaptive, counted.deadline()),
-                 TimeUp)
-        << look;
-    EXPECT_EQ(counted.looks(), look);
-  }
+  ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
+    static_cast<void>(PolygonGraph(polygon, Radians(20), Spanning::kAdaptive, deadline));
+  });
 }
 
 TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
@@ -57,18 +50,10 @@ TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
   options.half_angle = Radians(20);
   const GraspChoice start = {GraspChoice::Kind::kRandom, {}, "start"};
   const GraspChoice goal = {GraspChoice::Kind::kRandomAny, {}, "goal"};
-  const CountedDeadline never;
-  options.deadline = never.deadline();
-  ASSERT_TRUE(PlanOnPolygon(polygon, start, goal, options).plan);
-  int ended = 0;
-  for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
-    options.deadline = CountedDeadline(look).deadline();
-    const PlanResult result = PlanOnPolygon(polygon, start, goal, options);
-    if (result.plan) continue;  // over weaker grasps
-    EXPECT_THAT(result.message, HasSubstr("the planner polygon when the time was up"));
-    ++ended;
-  }
-  EXPECT_GT(ended, 10);
+  ExpectPlanEndsWhereverItComes("polygon", 11, [&](const Deadline& deadline) {
+    options.deadline = deadline;
+    return PlanOnPolygon(polygon, start, goal, options);
+  });
 }
 
 }  // namespace

@@ -1,17 +1,14 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "planner/polyhedron/normal_quadruples.h"
 #include "planner/polyhedron/plan_polyhedron.h"
-#include "tests/planner/counted_deadline.h"
+#include "tests/planner/deadline_laws.h"
 #include "tests/planner/polyhedron/bodies.h"
 
 namespace regrasp {
 namespace {
-
-using ::testing::HasSubstr;
 
 TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
   const Polyhedron body = RegularOctahedron();
@@ -24,13 +21,9 @@ TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereve
   EXPECT_EQ(listing.looks(), 2 * (8 * 7 / 2));  // each pair of faces twice
   // Cells are joined on each of their four triples of faces.
   EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
-  for (int look = 1; look <= never.looks(); look += 1 + look / 10) {
-    const CountedDeadline counted(look);
-    EXPECT_THROW((void)PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, counted.deadline()),
-                 TimeUp)
-        << look;
-    EXPECT_EQ(counted.looks(), look);
-  }
+  ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
+    static_cast<void>(PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, deadline));
+  });
 }
 
 TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
@@ -38,18 +31,10 @@ TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
   const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
   PolyhedronPlanOptions options;
   options.half_angle = Radians(15);
-  const CountedDeadline never;
-  options.deadline = never.deadline();
-  ASSERT_TRUE(PlanOnPolyhedron(body, random, random, options).plan);
-  int ended = 0;
-  for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
-    options.deadline = CountedDeadline(look).deadline();
-    const PlanResult result = PlanOnPolyhedron(body, random, random, options);
-    if (result.plan) continue;  // of a random goal that is not as good
-    EXPECT_THAT(result.message, HasSubstr("the planner polyhedron when the time was up"));
-    ++ended;
-  }
-  EXPECT_GT(ended, 10);
+  ExpectPlanEndsWhereverItComes("polyhedron", 11, [&](const Deadline& deadline) {
+    options.deadline = deadline;
+    return PlanOnPolyhedron(body, random, random, options);
+  });
 }
 
 }  // namespace
