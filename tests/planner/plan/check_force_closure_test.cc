@@ -1,0 +1,153 @@
+// Where the check of a plan finds force closure lost, and which half-angle it says is required.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bodies.h"
+#include "check_expectations.h"
+#include "planner/base/angle.h"
+#include "planner/plan/check.h"
+#include "sample_plans.h"
+
+namespace regrasp {
+namespace {
+
+TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
+  // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
+  const Polygon square = MakeSquare();
+  Plan plan = EmptyPlan(2, 4, 20);
+  const double limit = 2 * std::tan(plan.half_angle);
+  for (const double share : {1 - 1e-6, 1 + 1e-6}) {
+    plan.initial = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{0.3 - share * limit, 1, 0}, {0, -1, 0}}}};
+    plan.goal = ContactsOf(plan.initial);
+    const PlanCheck check = CheckPlan(square, plan);
+    if (share < 1) {
+      ExpectPasses(check, "just inside");
+    } else {
+      ExpectFails(check, 0, Reason::kNotForceClosure, "just outside");
+    }
+    ASSERT_TRUE(check.steps[0].required);
+    EXPECT_NEAR(check.steps[0].required->upper, std::atan(share * limit / 2), 1e-8);
+  }
+}
+
+TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
+  const Polyhedron cube = MakeCube();
+  // The finger on +x, moved towards a corner: bisection finds the place where the grasp is lost.
+  const auto with_shift = [](double shift) {
+    Plan plan = CubePlan();
+    plan.steps.clear();
+    plan.initial.pop_back();
+    plan.initial[0].contact.p = {1, 0.05 + shift, -0.1 - shift};
+    plan.goal = ContactsOf(plan.initial);
+    return plan;
+  };
+  double held = 0, lost = 0.9;
+  ASSERT_FALSE(CheckPlan(cube, with_shift(lost)).passed());
+  while (lost - held > 1e-6) {
+    const double middle = (held + lost) / 2;
+    (CheckPlan(cube, with_shift(middle)).passed() ? held : lost) = middle;
+  }
+  EXPECT_GT(held, 0.1);
+  ExpectPasses(CheckPlan(cube, with_shift(held)), "just inside");
+  ExpectFails(CheckPlan(cube, with_shift(lost)), 0, Reason::kNotForceClosure, "just outside");
+}
+
+TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
+  const Polygon square = MakeSquare();
+  const FingerGrasp apart = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{-0.3, 1, 0}, {0, -1, 0}}}};
+  const FingerGrasp opposite = {{2, {{1, 0, 0}, {-1, 0, 0}}}, {3, {{-1, 0, 0}, {1, 0, 0}}}};
+  Plan plan = EmptyPlan(2, 4, 20);
+  plan.initial = apart;
+  plan.steps = {Switch{opposite, {0, 1}}, Switch{apart, {2, 3}}};
+  plan.goal = ContactsOf(apart);
+  const PlanCheck check = CheckPlan(square, plan);
+  ExpectPasses(check, "to and fro");
+  for (const StepCheck& step : check.steps) {
+    ASSERT_TRUE(step.required);
+    EXPECT_NEAR(step.required->upper, std::atan(0.3), 1e-8) << step.index;
+  }
+  plan.initial = opposite;
+  plan.steps.clear();
+  EXPECT_LT(CheckPlan(square, plan).steps[0].required->upper, 1e-8);
+}
+
+TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
+  const Polygon square = MakeSquare();
+  int passed = 0;
+  for (int i = 1; i <= 40; ++i) {
+    Plan plan = EmptyPlan(2, 4, 40);
+    const double apart = 0.02 * i;
+    plan.initial = {{0, {{apart, -1, 0}, {0, 1, 0}}}, {1, {{-apart, 1, 0}, {0, -1, 0}}}};
+    plan.goal = ContactsOf(plan.initial);
+    // In the middle of the bounds, where the grasp may hold although that is not known of it yet.
+    const auto bounds = CheckPlan(square, plan).steps[0].required;
+    ASSERT_TRUE(bounds);
+    plan.half_angle = bounds->lower + (bounds->upper - bounds->lower) / 2;
+    const StepCheck hold = CheckPlan(square, plan).steps[0];
+    if (hold.reason != Reason::kNone) continue;
+    ++passed;
+    ASSERT_TRUE(hold.required);
+    EXPECT_LE(hold.required->lower, hold.required->upper);
+    EXPECT_LE(hold.required->upper, plan.half_angle);
+  }
+  EXPECT_GE(passed, 5);
+}
+
+/// A strip 1 long and so thin that fingers at opposite corners need 8e-7 rad less than a right
+/// angle: required half-angles are looked for up to 1e-6 below it.
+struct Strip {
+  static constexpr double kHeight = 8e-7;
+  Polygon polygon = Polygon::FromRings({{{0, 0}, {1, 0}, {1, kHeight}, {0, kHeight}}}, "strip");
+
+  /// A finger below and one above, this far apart along the strip.
+  static FingerGrasp Held(double apart) {
+    return {{0, {{0.5 - apart / 2, 0, 0}, {0, 1, 0}}},
+            {1, {{0.5 + apart / 2, kHeight, 0}, {0, -1, 0}}}};
+  }
+  static Plan HoldPlan(double apart) {
+    Plan plan = EmptyPlan(2, 4, 20);
+    plan.half_angle = Radians(90) - kHeight / 2;
+    plan.initial = Held(apart);
+    plan.goal = ContactsOf(plan.initial);
+    return plan;
+  }
+};
+
+TEST(CheckPlan, WhatHoldsAtNoHalfAngleThatIsLookedForIsNotProved) {
+  const Strip strip;
+  ExpectPasses(CheckPlan(strip.polygon, Strip::HoldPlan(0.5)), "1.6e-6 rad to a right angle");
+  ExpectFails(CheckPlan(strip.polygon, Strip::HoldPlan(1)), 0, Reason::kNotProved, "8e-7 rad");
+  // The same on the way from a grasp that passes to one.
+  Plan plan = Strip::HoldPlan(0.5);
+  plan.steps = {Align{{Strip::Held(0.5), Strip::Held(0.6), Strip::Held(0.5)}}};
+  ExpectPasses(CheckPlan(strip.polygon, plan), "1.3e-6 rad on the way");
+  plan.steps = {Align{{Strip::Held(0.5), Strip::Held(1), Strip::Held(0.5)}}};
+  const PlanCheck check = CheckPlan(strip.polygon, plan);
+  ExpectFails(check, 1, Reason::kNotProved, "8e-7 rad on the way");
+  EXPECT_FALSE(check.steps[1].force_closure);
+  EXPECT_FALSE(check.steps[1].required);
+}
+
+TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
+  const Polyhedron cube = MakeCube();
+  const Plan plan = CubePlan();
+  const PlanCheck check = CheckPlan(cube, plan);
+  int checked = 0;
+  for (const StepCheck& step : check.steps) {
+    ASSERT_TRUE(step.required);
+    EXPECT_LE(step.required->lower, step.required->upper);
+    CheckOptions options;
+    options.half_angle = step.required->upper + 1e-6;
+    EXPECT_TRUE(CheckPlan(cube, plan, options).steps[step.index].force_closure ||
+                CheckPlan(cube, plan, options).steps[step.index].skipped);
+    options.half_angle = step.required->lower - 1e-6;
+    EXPECT_FALSE(CheckPlan(cube, plan, options).passed());
+    ++checked;
+  }
+  EXPECT_EQ(checked, 4);
+}
+
+}  // namespace
+}  // namespace regrasp
