@@ -117,8 +117,17 @@ bool IsFigureName(const std::string& name, const std::string& format) {
 
 std::string SheetName(const std::string& format) { return "sheet." + format; }
 
+/// Whether a file says that this program made it. One that cannot be read does not.
+bool IsOurs(const std::filesystem::path& file) {
+  try {
+    return IsMarkedFigure(ReadFile(file));
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// Removes the figures of an earlier run that this one has not written again: files that bear a
-/// figure's name and say inside that this program made them.
+/// figure's name and are ours.
 void RemoveOthers(const std::filesystem::path& folder, const std::string& format,
                   const std::set<std::string>& written) {
   std::error_code error;
@@ -127,7 +136,7 @@ void RemoveOthers(const std::filesystem::path& folder, const std::string& format
     const std::string name = entry.path().filename().string();
     const bool file = entry.symlink_status(error).type() == std::filesystem::file_type::regular;
     if (!file || written.contains(name) || !IsFigureName(name, format)) continue;
-    if (IsMarkedFigure(ReadFile(entry.path()))) others.push_back(entry.path());
+    if (IsOurs(entry.path())) others.push_back(entry.path());
   }
   for (const std::filesystem::path& other : others) {
     if (!error) std::filesystem::remove(other, error);

@@ -133,6 +133,9 @@ class Figure(ProgramCase):
         self.draw(format="pdf")
         self.write("result/notes.txt", "mine")
         self.write("result/006_align.svg", "<?xml version=\"1.0\"?>\n<svg/>\n")
+        # Nor one that cannot be read, here as it is larger than any input may be.
+        with open(self.path("result/005_align.svg"), "wb") as large:
+            large.truncate(2 ** 30 + 1)
         # An earlier run has made no folders and no links.
         os.mkdir(self.path("result/007_align.svg"))
         os.symlink("notes.txt", self.path("result/008_align.svg"))
@@ -144,7 +147,8 @@ class Figure(ProgramCase):
         names = self.names("svg")
         self.assertEqual(self.draw(),
                          sorted(names[:3] + names[-1:] + self.names("pdf") +
-                                ["notes.txt", "006_align.svg", "007_align.svg", "008_align.svg"]))
+                                ["notes.txt", "005_align.svg", "006_align.svg", "007_align.svg",
+                                 "008_align.svg"]))
 
     def test_says_nothing_when_all_is_well(self):
         done = self.assert_done(*self.arguments())
