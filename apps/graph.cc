@@ -13,10 +13,10 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/contour/graph_memory.h"
-#include "planner/polygon/graph_memory.h"
-#include "planner/polyhedron/graph_memory.h"
 #include "planner/roadmap/roadmap_memory.h"
+#include "planner/sets/contour/graph_memory.h"
+#include "planner/sets/polygon/graph_memory.h"
+#include "planner/sets/polyhedron/graph_memory.h"
 
 namespace {
 

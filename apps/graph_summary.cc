@@ -5,9 +5,9 @@
 #include <chrono>
 #include <limits>
 
-#include "planner/graph/grasp_choice.h"
-#include "planner/polyhedron/polyhedron_graph.h"
+#include "planner/planning/grasp_choice.h"
 #include "planner/roadmap/roadmap_queries.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp {
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "planner/contour/contour_graph.h"
-#include "planner/polygon/polygon_graph.h"
-#include "planner/polyhedron/sampled_graph.h"
 #include "planner/roadmap/plan_roadmap.h"
+#include "planner/sets/contour/contour_graph.h"
+#include "planner/sets/polygon/polygon_graph.h"
+#include "planner/sets/polyhedron/sampled_graph.h"
 
 namespace regrasp {
 

@@ -16,14 +16,14 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
-#include "planner/contour/graph_memory.h"
-#include "planner/general/plan_auto.h"
+#include "planner/criteria/reach.h"
 #include "planner/plan/plan_io.h"
-#include "planner/plan/reach.h"
-#include "planner/polygon/graph_memory.h"
-#include "planner/polyhedron/graph_memory.h"
-#include "planner/polyhedron/plan_spatial.h"
+#include "planner/registry/plan_auto.h"
+#include "planner/registry/plan_spatial.h"
 #include "planner/roadmap/roadmap_memory.h"
+#include "planner/sets/contour/graph_memory.h"
+#include "planner/sets/polygon/graph_memory.h"
+#include "planner/sets/polyhedron/graph_memory.h"
 
 namespace {
 
@@ -133,8 +133,8 @@ struct PlanProgram {
   [[nodiscard]] Deadline deadline() const {
     return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
   }
-  [[nodiscard]] SwitchAim contour_aim() const {
-    return optimize == "regions" ? SwitchAim::kRegion : SwitchAim::kRoom;
+  [[nodiscard]] SwitchObjective contour_aim() const {
+    return optimize == "regions" ? SwitchObjective::kRegion : SwitchObjective::kRoom;
   }
   PlanResult PlanInPlane(const Polygon& polygon, const ProgressReport& report) const;
   void PrintSummary(const PlanResult& result, double seconds) const;
@@ -199,8 +199,8 @@ PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport
   options.deadline = deadline();
   options.explain = explain;
   options.progress = report;
-  if (optimize == "margin") options.aim = GeneralAim::kMargin;
-  if (optimize == "travel") options.aim = GeneralAim::kTravel;
+  if (optimize == "margin") options.aim = Objective::kMargin;
+  if (optimize == "travel") options.aim = Objective::kTravel;
   const GraspChoice from = Choose("--start", start, object);
   const GraspChoice to = Choose("--goal", goal, object);
   if (common.planner == "general") return PlanGeneral(object, from, to, options);

@@ -8,8 +8,8 @@
 #include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "planner/polygon/grasp_set.h"
 #include "planner/roadmap/plan_roadmap.h"
+#include "planner/sets/polygon/grasp_set.h"
 
 namespace regrasp {
 

@@ -19,12 +19,12 @@
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/contour/plan_contour.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "planner/polygon/plan_polygon.h"
-#include "planner/polyhedron/plan_polyhedron.h"
+#include "planner/sets/contour/plan_contour.h"
+#include "planner/sets/polygon/plan_polygon.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
 #include "sim/replay.h"
 
 namespace {

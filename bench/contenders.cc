@@ -7,17 +7,17 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/random.h"
-#include "planner/contour/plan_contour.h"
-#include "planner/general/path_plan.h"
-#include "planner/general/plan_general.h"
-#include "planner/general/subset_search.h"
-#include "planner/general/surface_source.h"
-#include "planner/general/two_trees.h"
-#include "planner/graph/grasp_judge.h"
-#include "planner/graph/plan_search.h"
-#include "planner/polygon/plan_polygon.h"
-#include "planner/polyhedron/plan_polyhedron.h"
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/plan_search.h"
 #include "planner/roadmap/plan_roadmap.h"
+#include "planner/sampling/surface_source.h"
+#include "planner/sets/contour/plan_contour.h"
+#include "planner/sets/polygon/plan_polygon.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/tree/bidirectional_tree.h"
+#include "planner/tree/path_plan.h"
+#include "planner/tree/plan_general.h"
+#include "planner/tree/subset_search.h"
 
 namespace regrasp {
 
@@ -79,13 +79,13 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     space.Accept(from);
     space.Accept(to);
     auto path = SearchOwnSubsets(from, to, space);
-    if (!path) path = TwoTrees(from, to, *source, random, space).Join();
+    if (!path) path = BidirectionalTree(from, to, *source, random, space).Join();
     Answer answer;
     answer.seconds = ProcessorSeconds() - begin;
     answer.result.status = PlanResult::Status::kNoSequence;
     if (path) {
-      const GraspJudge judge(object, setting.half_angle, setting.min_quality);
-      answer.result = ResultOf(MakeDraft(*path, pair.start, space), judge, kGeneral,
+      const GraspEvaluator evaluator(object, setting.half_angle, setting.min_quality);
+      answer.result = ResultOf(MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
                                space.fingers(), pair.goal);
     }
     return answer;

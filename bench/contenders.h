@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/graph/plan_result.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
+#include "planner/planning/plan_result.h"
 
 namespace regrasp {
 

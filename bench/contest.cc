@@ -4,12 +4,12 @@
 
 #include "bench/plan_figures.h"
 #include "planner/base/random.h"
-#include "planner/graph/grasp_judge.h"
-#include "planner/graph/plan_search.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "planner/polygon/boundary_draw.h"
-#include "planner/roadmap/surface_draw.h"
+#include "planner/planning/plan_search.h"
+#include "planner/sampling/boundary_draw.h"
+#include "planner/sampling/surface_draw.h"
 
 namespace regrasp {
 
@@ -18,12 +18,13 @@ namespace {
 constexpr std::uint64_t kDrawSeed = 1;
 
 std::optional<Grasp> Draw(const Object& object, const ContestSetting& setting,
-                          const GraspJudge& judge, RandomStream& random) {
+                          const GraspEvaluator& evaluator, RandomStream& random) {
   if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
-    return DrawAnyGrasp(*polygon, setting.fewest_contacts, setting.most_contacts, judge, random);
+    return DrawAnyGrasp(*polygon, setting.fewest_contacts, setting.most_contacts, evaluator,
+                        random);
   }
   try {
-    return DrawOnSurface(dynamic_cast<const Polyhedron&>(object), setting.most_contacts, judge,
+    return DrawOnSurface(dynamic_cast<const Polyhedron&>(object), setting.most_contacts, evaluator,
                          random, "");
   } catch (const NoGrasp&) {
     return std::nullopt;
@@ -54,15 +55,15 @@ int Standing::JoinedOf(std::size_t pairs) const {
 
 std::vector<GraspPair> DrawPairs(const Object& object, const ContestSetting& setting,
                                  const ContestLimits& limits) {
-  const GraspJudge judge(object, setting.half_angle, setting.min_quality);
+  const GraspEvaluator evaluator(object, setting.half_angle, setting.min_quality);
   RandomStream of_start(kDrawSeed, RandomUse::kStart);
   RandomStream of_goal(kDrawSeed, RandomUse::kGoal);
   std::vector<GraspPair> pairs;
   const double begin = ProcessorSeconds();
   while (static_cast<int>(pairs.size()) < limits.pairs &&
          ProcessorSeconds() - begin < limits.seconds) {
-    const auto start = Draw(object, setting, judge, of_start);
-    const auto goal = start ? Draw(object, setting, judge, of_goal) : std::nullopt;
+    const auto start = Draw(object, setting, evaluator, of_start);
+    const auto goal = start ? Draw(object, setting, evaluator, of_goal) : std::nullopt;
     if (!goal) break;
     pairs.push_back({*start, *goal});
   }

@@ -18,9 +18,9 @@
 
 #include "bench/contour_union.h"
 #include "planner/base/angle.h"
-#include "planner/contour/contour_graph.h"
-#include "planner/contour/region_diagram.h"
 #include "planner/object/object.h"
+#include "planner/sets/contour/contour_graph.h"
+#include "planner/sets/contour/region_diagram.h"
 
 namespace {
 

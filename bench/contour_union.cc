@@ -5,8 +5,8 @@
 #include <iterator>
 #include <map>
 
-#include "planner/contour/contact_space.h"
-#include "planner/graph/components.h"
+#include "planner/search/components.h"
+#include "planner/sets/contour/contact_space.h"
 
 namespace regrasp {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "planner/contour/contour_graph.h"
+#include "planner/sets/contour/contour_graph.h"
 
 namespace regrasp {
 

@@ -23,10 +23,10 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
-#include "planner/general/surface_source.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
+#include "planner/sampling/surface_source.h"
 #include "sim/replay.h"
 
 namespace {
@@ -92,8 +92,8 @@ Plan PlanOf(const Body& body, const Grasp& initial, double half_angle) {
   return plan;
 }
 
-Sample Judge(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
-             const ReplayOptions& options) {
+Sample MotionMonitor(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
+                     const ReplayOptions& options) {
   const ReplayResult result = ReplayPlan(body.object(), plan, options);
   const StepReplay& last = result.steps.back();
   Sample sample;
@@ -117,8 +117,8 @@ double DrawRatio(RandomStream& random) {
   return kLeastRatio + (kMostRatio - kLeastRatio) * random.Uniform();
 }
 
-std::vector<Sample> JudgeHolds(const Body& body, int count, std::uint64_t seed,
-                               const ReplayOptions& options) {
+std::vector<Sample> MonitorHolds(const Body& body, int count, std::uint64_t seed,
+                                 const ReplayOptions& options) {
   RandomStream random(seed, RandomUse::kStart);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
@@ -127,14 +127,14 @@ std::vector<Sample> JudgeHolds(const Body& body, int count, std::uint64_t seed,
     if (!critical) continue;
     const double ratio = DrawRatio(random);
     const Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
-    samples.push_back(Judge(body, plan, grasp, ratio, options));
+    samples.push_back(MotionMonitor(body, plan, grasp, ratio, options));
   }
   return samples;
 }
 
 /// Switches of one finger from a good grasp.
-std::vector<Sample> JudgeSwitches(const Body& body, int count, std::uint64_t seed,
-                                  const ReplayOptions& options) {
+std::vector<Sample> MonitorSwitches(const Body& body, int count, std::uint64_t seed,
+                                    const ReplayOptions& options) {
   RandomStream random(seed, RandomUse::kGoal);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
@@ -150,7 +150,7 @@ std::vector<Sample> JudgeSwitches(const Body& body, int count, std::uint64_t see
     Plan plan = PlanOf(body, first, half_angle);
     plan.steps.push_back(Switch{{{body.hold(), second.back()}}, {0}});
     plan.goal = second;
-    samples.push_back(Judge(body, plan, second, ratio, options));
+    samples.push_back(MotionMonitor(body, plan, second, ratio, options));
   }
   return samples;
 }
@@ -197,7 +197,7 @@ TableFile SettingsTable(const std::vector<Body>& bodies, int count, std::uint64_
   for (const Variant& variant : kVariants) {
     std::vector<Sample> samples;
     for (const Body& body : bodies) {
-      const auto more = JudgeHolds(body, count, seed, OptionsFor(variant));
+      const auto more = MonitorHolds(body, count, seed, OptionsFor(variant));
       samples.insert(samples.end(), more.begin(), more.end());
     }
     const auto between = [](double x, double from, double to) { return x >= from && x < to; };
@@ -244,8 +244,8 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   for (const Body& body : bodies) {
     ReplayOptions both;
     both.protocol = Protocol::kBoth;
-    const auto held = JudgeHolds(body, count, kSeed, both);
-    const auto switched = JudgeSwitches(body, count, kSeed, both);
+    const auto held = MonitorHolds(body, count, kSeed, both);
+    const auto switched = MonitorSwitches(body, count, kSeed, both);
     holds.insert(holds.end(), held.begin(), held.end());
     switches.insert(switches.end(), switched.begin(), switched.end());
     std::fprintf(stderr, "%s: %d holds and %d switches\n", body.name().c_str(), count, count);

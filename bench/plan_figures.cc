@@ -14,7 +14,7 @@ const FingerContact& ContactOf(int finger, const FingerGrasp& grasp) {
   return *found;
 }
 
-double WayOf(const Switch& step, const FingerGrasp& before) {
+double TravelOf(const Switch& step, const FingerGrasp& before) {
   if (step.release.empty()) return 0;
   double way = 0;
   for (const FingerContact& placed : step.place) {
@@ -28,7 +28,7 @@ double WayOf(const Switch& step, const FingerGrasp& before) {
   return way;
 }
 
-double WayOf(const Align& step) {
+double TravelOf(const Align& step) {
   double way = 0;
   for (std::size_t i = 1; i < step.waypoints.size(); ++i) {
     for (const FingerContact& to : step.waypoints[i]) {
@@ -50,7 +50,7 @@ double TravelOf(const Plan& plan) {
   FingerGrasp holding = plan.initial;
   for (const Step& step : plan.steps) {
     const auto* change = std::get_if<Switch>(&step);
-    way += change != nullptr ? WayOf(*change, holding) : WayOf(std::get<Align>(step));
+    way += change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<Align>(step));
     holding = GraspAfter(holding, step);
   }
   return way;

@@ -18,7 +18,7 @@
 #include "bench/polygon_set_cells.h"
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
-#include "planner/polygon/polygon_graph.h"
+#include "planner/sets/polygon/polygon_graph.h"
 
 namespace {
 

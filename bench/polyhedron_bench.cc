@@ -21,7 +21,7 @@
 #include "bench/polyhedron_query.h"
 #include "bench/polyhedron_stone.h"
 #include "planner/base/angle.h"
-#include "planner/polyhedron/polyhedron_graph.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace {
 

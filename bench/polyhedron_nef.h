@@ -4,7 +4,7 @@
 #include <span>
 
 #include "planner/object/polyhedron.h"
-#include "planner/polyhedron/face_part.h"
+#include "planner/sets/polyhedron/face_part.h"
 
 namespace regrasp {
 

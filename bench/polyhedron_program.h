@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "planner/polyhedron/face_part.h"
+#include "planner/sets/polyhedron/face_part.h"
 
 namespace regrasp {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "planner/base/angle.h"
-#include "planner/graph/plan_search.h"
-#include "planner/polyhedron/focus_geometry.h"
-#include "planner/polyhedron/plan_polyhedron.h"
+#include "planner/planning/plan_search.h"
+#include "planner/sets/polyhedron/focus_geometry.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
 
 namespace regrasp {
 
@@ -23,33 +23,36 @@ constexpr double kMillisecondsPerSecond = 1e3;
 /// Draws starts from all cells of a graph and goals from a start's component.
 class QueryMaker {
  public:
-  QueryMaker(PolyhedronGraph& graph, FocusGeometry& geometry, const GraspJudge& judge)
-      : graph_(graph), components_(graph.components()), geometry_(geometry), judge_(judge) {}
+  QueryMaker(PolyhedronGraph& graph, FocusGeometry& geometry, const GraspEvaluator& evaluator)
+      : graph_(graph),
+        components_(graph.components()),
+        geometry_(geometry),
+        evaluator_(evaluator) {}
 
   std::array<GraspChoice, 2> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
-    const GraspChoice start = Draw("start", StartUrns(graph_.vertex_count()), of_start);
+    const GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
     std::set<int> cells;
     for (const FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
-    return {start, Draw("goal", GoalUrns(components_, cells), of_goal)};
+    return {start, Draw("goal", GoalPools(components_, cells), of_goal)};
   }
 
  private:
-  GraspChoice Draw(const std::string& name, const Urns& urns, RandomStream& random) {
+  GraspChoice Draw(const std::string& name, const SamplingPools& pools, RandomStream& random) {
     const auto draw = [&](int cell) {
       const auto grasp = geometry_.Draw(cell, random);
       return grasp ? geometry_.GraspOf(*grasp) : Grasp();
     };
     GraspChoice choice{Kind::kGiven, {}, name};
-    choice.grasp = DrawFromSets(choice, urns, draw, judge_, random);
+    choice.grasp = DrawFromSets(choice, pools, draw, evaluator_, random);
     return choice;
   }
 
   PolyhedronGraph& graph_;
   Components components_;
   FocusGeometry& geometry_;
-  const GraspJudge& judge_;
+  const GraspEvaluator& evaluator_;
 };
 
 }  // namespace
@@ -58,10 +61,10 @@ QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spannin
   PolyhedronPlanOptions options;
   options.half_angle = Radians(degrees);
   options.spanning = spanning;
-  const GraspJudge judge(solid, options.half_angle, options.min_quality);
+  const GraspEvaluator evaluator(solid, options.half_angle, options.min_quality);
   PolyhedronGraph graph(solid, options.half_angle, spanning);
   FocusGeometry geometry(solid, graph);
-  QueryMaker maker(graph, geometry, judge);
+  QueryMaker maker(graph, geometry, evaluator);
   QueryTimes times;
   std::vector<double> milliseconds;
   int switches = 0;

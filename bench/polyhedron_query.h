@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "planner/graph/spanning.h"
 #include "planner/object/polyhedron.h"
+#include "planner/planning/spanning.h"
 
 namespace regrasp {
 

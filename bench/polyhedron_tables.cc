@@ -14,8 +14,8 @@
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/polyhedron/polyhedron_graph.h"
-#include "planner/polyhedron/sampled_graph.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
+#include "planner/sets/polyhedron/sampled_graph.h"
 
 namespace {
 

@@ -16,11 +16,11 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "planner/polygon/plan_polygon.h"
 #include "planner/roadmap/plan_roadmap.h"
+#include "planner/sets/polygon/plan_polygon.h"
 #include "sim/replay.h"
+#include "sim/replay_world.h"
 #include "sim/scene.h"
-#include "sim/stage.h"
 
 namespace {
 
@@ -153,9 +153,9 @@ void BM_Setup(benchmark::State& state) {
   const Object& object = *made.file.object;
   const ReplayObserver observer;
   for (auto _ : state) {
-    const Stage stage(object, made.plan,
-                      MakeScene(object, made.plan, static_cast<int>(made.plan.steps.size()), {}),
-                      observer);
+    const ReplayWorld stage(
+        object, made.plan,
+        MakeScene(object, made.plan, static_cast<int>(made.plan.steps.size()), {}), observer);
     benchmark::DoNotOptimize(stage.engine().time());
   }
   state.SetLabel(kModels.at(state.range(0)));

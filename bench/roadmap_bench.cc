@@ -9,8 +9,8 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/contact_points.h"
 #include "planner/roadmap/plan_roadmap.h"
+#include "planner/sampling/contact_points.h"
 
 namespace {
 

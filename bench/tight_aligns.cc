@@ -1,10 +1,10 @@
 #include "bench/tight_aligns.h"
 
 #include "planner/base/random.h"
-#include "planner/general/surface_source.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
+#include "planner/sampling/surface_source.h"
 
 namespace regrasp {
 

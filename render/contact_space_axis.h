@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/contour/boundary.h"
-#include "planner/contour/contact_space.h"
+#include "planner/sets/contour/boundary.h"
+#include "planner/sets/contour/contact_space.h"
 
 namespace regrasp {
 

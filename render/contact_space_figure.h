@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/contour/set_geometry.h"
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
+#include "planner/sets/contour/set_geometry.h"
 #include "render/contact_space_track.h"
 #include "render/figure_format.h"
 

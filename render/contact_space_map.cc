@@ -69,8 +69,8 @@ MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
 
 /// The way of an align. Where a contact turns from the last edge of a ring to the first its place
 /// becomes zero; no edge is as long as half of its ring.
-void AddWay(const Boundary& boundary, const std::vector<AxisGrasp>& way,
-            std::vector<SpaceShape>& ways) {
+void AddPath(const Boundary& boundary, const std::vector<AxisGrasp>& way,
+             std::vector<SpaceShape>& ways) {
   SpaceShape shape;
   const auto finish = [&] {
     if (shape.points.size() > 1) ways.push_back(shape);
@@ -118,7 +118,7 @@ ContactSpaceMap MapContactSpace(SetGeometry& geometry, const std::vector<TrackEn
     const TrackEntry& entry = track[i];
     map.rests.push_back(PointOf(graph.boundary(), entry.grasp));
     used.insert(map.rests.back().rings.begin(), map.rests.back().rings.end());
-    AddWay(graph.boundary(), entry.way, map.ways);
+    AddPath(graph.boundary(), entry.way, map.ways);
     if (entry.kind == std::string_view("switch")) {
       map.switches.push_back({map.rests[i - 1], map.rests[i], entry.shared_axis});
     }

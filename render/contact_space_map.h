@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/contour/set_geometry.h"
+#include "planner/sets/contour/set_geometry.h"
 #include "render/contact_space_track.h"
 
 namespace regrasp {

@@ -23,7 +23,7 @@ namespace {
 constexpr double kTopRoom = 8;
 constexpr double kRightRoom = 13;
 constexpr double kRingGap = 22;
-constexpr double kWayWidth = 1;
+constexpr double kPathWidth = 1;
 constexpr double kSwitchWidth = 0.7;
 constexpr double kDotRadius = 1.6;
 constexpr double kMarkRadius = 4.4;
@@ -38,7 +38,7 @@ constexpr Color kOtherBorder = {150, 155, 164};
 
 /// What it costs a number to cover things: the weights of label_layout.h.
 constexpr double kDotWeight = 2;
-constexpr double kWayWeight = 0.8;
+constexpr double kTravelWeight = 0.8;
 
 /// Where the rings lie along an axis of the page.
 struct RingSpan {
@@ -65,7 +65,7 @@ class Overview {
   void DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const;
   void DrawAxes(cairo_t* cr) const;
   void DrawPlan(cairo_t* cr) const;
-  [[nodiscard]] bool HasRoomAt(const MapSet& set, const SpacePoint& place) const;
+  [[nodiscard]] bool HasClearanceAt(const MapSet& set, const SpacePoint& place) const;
   void DrawMarks(cairo_t* cr) const;
 
   const Boundary& boundary_;
@@ -160,14 +160,14 @@ void Overview::DrawPlan(cairo_t* cr) const {
       cairo_line_to(cr, at.x(), at.y());
     }
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_width(cr, kWayWidth);
+    cairo_set_line_width(cr, kPathWidth);
     cairo_stroke(cr);
   }
   for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kDotRadius);
 }
 
 /// True iff a set's largest square has room for its name, and no grasp is there.
-bool Overview::HasRoomAt(const MapSet& set, const SpacePoint& place) const {
+bool Overview::HasClearanceAt(const MapSet& set, const SpacePoint& place) const {
   const double half = set.largest * WindowOf(place.rings).scale.minCoeff();
   return half >= kMarkRadius && std::ranges::none_of(map_.rests, [&](const SpacePoint& rest) {
            return (ToPage(rest) - ToPage(place)).norm() < kMarkRadius + kDotRadius;
@@ -186,19 +186,19 @@ void Overview::DrawMarks(cairo_t* cr) const {
     obstacles.push_back({at, at, kDotRadius, kDotWeight});
   }
   for (const MapSwitch& step : map_.switches) {
-    obstacles.push_back({ToPage(step.from), ToPage(step.to), 0, kWayWeight});
+    obstacles.push_back({ToPage(step.from), ToPage(step.to), 0, kTravelWeight});
   }
   for (const SpaceShape& way : map_.ways) {
     const PlotWindow window = WindowOf(way.rings);
     for (std::size_t i = 1; i < way.points.size(); ++i) {
       obstacles.push_back(
-          {window.ToPage(way.points[i - 1]), window.ToPage(way.points[i]), 0, kWayWeight});
+          {window.ToPage(way.points[i - 1]), window.ToPage(way.points[i]), 0, kTravelWeight});
     }
   }
   for (const MapSet& set : map_.sets) {
     for (const SpacePoint& place : set.label_places) {
       const Vector2d at = ToPage(place);
-      if (HasRoomAt(set, place)) {
+      if (HasClearanceAt(set, place)) {
         DrawMark(cr, SetName(*set.name), at);
         obstacles.push_back({at, at, kMarkRadius, kDotWeight});
       } else {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/contour/boundary.h"
+#include "planner/sets/contour/boundary.h"
 #include "render/contact_space_map.h"
 #include "render/figure_format.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/contour/boundary.h"
+#include "planner/sets/contour/boundary.h"
 #include "render/contact_space_axis.h"
 #include "render/contact_space_switch.h"
 #include "render/figure_format.h"

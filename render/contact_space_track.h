@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "planner/contour/boundary.h"
 #include "planner/plan/plan.h"
+#include "planner/sets/contour/boundary.h"
 
 namespace regrasp {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "planner/contour/set_geometry.h"
+#include "planner/sets/contour/set_geometry.h"
 #include "render/grasp_diagram.h"
 
 namespace regrasp {

@@ -113,7 +113,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const Pictur
     glyph.finger = state.finger;
     glyph.role = state.role;
     glyph.contact = frame.FromWorld(state.contact_W);
-    for (const Vector3d& p_W : state.way_W) glyph.way.push_back(frame.FromWorld(p_W));
+    for (const Vector3d& p_W : state.path_W) glyph.way.push_back(frame.FromWorld(p_W));
     glyph.outward = -state.normal_W.normalized();
     glyph.force = state.force_W;
     const double room =

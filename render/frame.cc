@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/polyhedron/focus_view.h"
+#include "planner/sets/polyhedron/focus_view.h"
 #include "render/annotation.h"
 #include "render/body_shape.h"
 #include "render/camera.h"

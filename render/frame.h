@@ -26,7 +26,7 @@ struct FrameOptions {
   /// Fingers in the air are drawn away from their contacts (render/finger_glyph.h).
   GapView gaps = GapView::kNone;
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
-  /// that it gives on the faces (planner/polyhedron/focus_view.h).
+  /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
   bool show_focus = false;
   /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
   std::optional<ClusterView> clusters = std::nullopt;

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/polygon/common_cone.h"
-#include "planner/polygon/convex_region.h"
-#include "planner/polygon/focus_cell.h"
-#include "planner/polygon/grasp_set.h"
-#include "planner/polygon/plane.h"
+#include "planner/sets/polygon/common_cone.h"
+#include "planner/sets/polygon/convex_region.h"
+#include "planner/sets/polygon/focus_cell.h"
+#include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/polygon/plane.h"
 
 namespace regrasp {
 

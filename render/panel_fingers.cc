@@ -11,8 +11,8 @@
 #include "render/label_layout.h"
 #include "render/palette.h"
 #include "render/panel_grasp.h"
+#include "render/panel_path.h"
 #include "render/panel_text.h"
-#include "render/panel_way.h"
 
 namespace regrasp {
 
@@ -71,7 +71,7 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
     case FingerRole::kReleased:
       return {near_end, far_end};
     case FingerRole::kMoved: {
-      const std::vector<Vector2d> way = WayBeside(finger.path, view, kPathOffset).points;
+      const std::vector<Vector2d> way = PathBeside(finger.path, view, kPathOffset).points;
       double length = 0;
       for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
       return length < kShortestPath ? std::vector<Vector2d>() : way;
@@ -124,7 +124,7 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
   SetColor(cr, color);
   StrokeArrow(cr, shape.arrow, kArrowWidth);
   if (finger.role == FingerRole::kMoved) {
-    for (const auto& [at, across] : WayBeside(finger.path, view, kPathOffset).ticks) {
+    for (const auto& [at, across] : PathBeside(finger.path, view, kPathOffset).ticks) {
       SetColor(cr, color);
       StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
     }

@@ -14,8 +14,8 @@ namespace {
 /// Contacts this close, over D, are one: the finger stays.
 constexpr double kSamePoint = 1e-9;
 
-bool Stays(const Stage& stage, const Contact& from, const Contact& to) {
-  return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * stage.settings().diameter_m;
+bool Stays(const ReplayWorld& world, const Contact& from, const Contact& to) {
+  return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * world.settings().diameter_m;
 }
 
 std::vector<int> FingersOf(const FingerGrasp& grasp) {
@@ -25,46 +25,46 @@ std::vector<int> FingersOf(const FingerGrasp& grasp) {
 }
 
 /// The verdict stands; to go on with an object that is lost takes long and tells nothing.
-bool HasFailed(Stage& stage) { return stage.judge().reason() != Reason::kNone; }
+bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != Reason::kNone; }
 
-void GoOver(Stage& stage, const FingersGoOver& move) {
-  SwitchFingers(stage, move.stand_ins, FingersOf(move.targets));
-  SwitchFingers(stage, move.targets, FingersOf(move.stand_ins));
+void HandOver(ReplayWorld& world, const FingerHandover& move) {
+  SwitchFingers(world, move.stand_ins, FingersOf(move.targets));
+  SwitchFingers(world, move.targets, FingersOf(move.stand_ins));
 }
 
 /// The finger that the others balance best goes first.
-void Slide(Stage& stage, const FingerGrasp& from, const FingerGrasp& to) {
+void Slide(ReplayWorld& world, const FingerGrasp& from, const FingerGrasp& to) {
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    if (!Stays(stage, from[i].contact, to[i].contact)) waiting.push_back(i);
+    if (!Stays(world, from[i].contact, to[i].contact)) waiting.push_back(i);
   }
   while (!waiting.empty()) {
     const auto next = std::ranges::max_element(waiting, {}, [&](std::size_t i) {
-      return SlideMargin(stage, from[i].finger, from[i].contact, to[i].contact);
+      return SlideMargin(world, from[i].finger, from[i].contact, to[i].contact);
     });
-    SlideFinger(stage, from[*next].finger, from[*next].contact, to[*next].contact);
+    SlideFinger(world, from[*next].finger, from[*next].contact, to[*next].contact);
     waiting.erase(next);
   }
 }
 
 }  // namespace
 
-AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
+AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
   bool over = false;
   bool slid = false;
   for (const AlignMove& move : script_B.moves) {
-    if (HasFailed(stage)) break;
-    if (const auto* fingers = std::get_if<FingersGoOver>(&move)) {
+    if (HasFailed(world)) break;
+    if (const auto* fingers = std::get_if<FingerHandover>(&move)) {
       over = true;
-      GoOver(stage, *fingers);
+      HandOver(world, *fingers);
     } else if (const auto* roll = std::get_if<FingersRoll>(&move)) {
       slid = true;
-      RollFingers(stage, roll->from, roll->to);
+      RollFingers(world, roll->from, roll->to);
     } else {
       slid = true;
       const auto& grasps = std::get<FingersSlide>(move).grasps;
-      for (std::size_t i = 1; i < grasps.size() && !HasFailed(stage); ++i) {
-        Slide(stage, grasps[i - 1], grasps[i]);
+      for (std::size_t i = 1; i < grasps.size() && !HasFailed(world); ++i) {
+        Slide(world, grasps[i - 1], grasps[i]);
       }
     }
   }
@@ -72,19 +72,19 @@ AlignMode PerformAlign(Stage& stage, const AlignScript& script_B) {
   return over ? AlignMode::kMixed : AlignMode::kSlid;
 }
 
-void TellMoved(Stage& stage, const std::vector<FingerGrasp>& waypoints_B) {
-  for (StageFinger& finger : stage.fingers()) {
+void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B) {
+  for (WorldFinger& finger : world.fingers()) {
     finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
   }
   for (const FingerContact& start : waypoints_B.front()) {
     const auto end = std::ranges::find(waypoints_B.back(), start.finger, &FingerContact::finger);
-    if (end == waypoints_B.back().end() || Stays(stage, start.contact, end->contact)) continue;
-    StageFinger& finger = stage.fingers()[start.finger];
+    if (end == waypoints_B.back().end() || Stays(world, start.contact, end->contact)) continue;
+    WorldFinger& finger = world.fingers()[start.finger];
     finger.role = FingerRole::kMoved;
-    finger.way_B.clear();
+    finger.path_B.clear();
     for (const FingerGrasp& grasp_B : waypoints_B) {
       const auto at = std::ranges::find(grasp_B, start.finger, &FingerContact::finger);
-      if (at != grasp_B.end()) finger.way_B.push_back(at->contact.p);
+      if (at != grasp_B.end()) finger.path_B.push_back(at->contact.p);
     }
   }
 }

@@ -3,7 +3,7 @@
 #include "planner/plan/plan.h"
 #include "sim/align_script.h"
 #include "sim/replay.h"
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
@@ -20,10 +20,10 @@ namespace regrasp {
 /// normal at a border slides too.
 ///
 /// Mixed: some of it one way, some the other.
-AlignMode PerformAlign(Stage& stage, const AlignScript& script_B);
+AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B);
 
 /// What the frame of an align shows: who moved, and which way.
-void TellMoved(Stage& stage, const std::vector<FingerGrasp>& waypoints_B);
+void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B);
 
 inline constexpr double kSlideForce = 0.01;    ///< least force of a sliding finger over the squeeze
 inline constexpr double kSlideSpeed = 1.5e-3;  ///< of D in a natural time

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <optional>
 
+#include "planner/criteria/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/plan/clearance.h"
 #include "sim/align_path.h"
 
 namespace regrasp {
@@ -20,7 +20,7 @@ constexpr double kSamePoint = 1e-9;
 
 /// Where on its finger's way a stand-in touches, as far as it can: in the middle, so that it is far
 /// from both ends; at last at the target itself.
-constexpr std::array kStandInShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
+constexpr std::array kSupportShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
 
 /// Where a piece holds only at the full friction, this much of it is gone: what a mixture has to
 /// spare falls about evenly with the length.
@@ -108,19 +108,20 @@ class ScriptWriter {
   }
 
   /// Lets the contacts of `group` in `grasp` go over to where they are at `end`.
-  [[nodiscard]] std::optional<FingersGoOver> GoOver(double begin, double end, const Places& group,
-                                                    const Demand& demand, Grasp& grasp) const {
+  [[nodiscard]] std::optional<FingerHandover> HandOver(double begin, double end,
+                                                       const Places& group, const Demand& demand,
+                                                       Grasp& grasp) const {
     const FingerGrasp to = path_.At(end);
     Grasp after = grasp;
     for (const std::size_t k : group) after[k] = to[k].contact;
     if (!Holds(after, demand.half_angle)) return std::nullopt;
-    for (const double share : kStandInShares) {
+    for (const double share : kSupportShares) {
       const double t = share < 1 ? begin + share * (end - begin) : end;
       const FingerGrasp between = path_.At(t);
       Grasp meanwhile = grasp;
       for (const std::size_t k : group) meanwhile[k] = between[k].contact;
       if (!Holds(meanwhile, demand.half_angle) || !CanRest(group, t, demand)) continue;
-      FingersGoOver move;
+      FingerHandover move;
       for (std::size_t i = 0; i < group.size(); ++i) {
         move.stand_ins.push_back({limits_.spare[i], between[group[i]].contact});
         move.targets.push_back(to[group[i]]);
@@ -132,15 +133,15 @@ class ScriptWriter {
   }
 
   /// All moving contacts go over, in this order, as many at once as there are spare fingers.
-  [[nodiscard]] std::optional<std::vector<AlignMove>> GoOverInOrder(double begin, double end,
-                                                                    const Places& order,
-                                                                    const Demand& demand) const {
+  [[nodiscard]] std::optional<std::vector<AlignMove>> HandOverInOrder(double begin, double end,
+                                                                      const Places& order,
+                                                                      const Demand& demand) const {
     std::vector<AlignMove> moves;
     Grasp grasp = ContactsOf(path_.At(begin));
     for (std::size_t first = 0; first < order.size(); first += limits_.spare.size()) {
       const std::size_t last = std::min(first + limits_.spare.size(), order.size());
       const Places group(order.begin() + first, order.begin() + last);
-      std::optional<FingersGoOver> move = GoOver(begin, end, group, demand, grasp);
+      std::optional<FingerHandover> move = HandOver(begin, end, group, demand, grasp);
       if (!move) return std::nullopt;
       moves.emplace_back(*std::move(move));
     }
@@ -152,7 +153,7 @@ class ScriptWriter {
     Places order = FindMoving(path_.At(begin), path_.At(end));
     std::optional<std::vector<AlignMove>> moves;
     for (std::size_t turn = 0; turn < std::max<std::size_t>(order.size(), 1) && !moves; ++turn) {
-      moves = GoOverInOrder(begin, end, order, demand);
+      moves = HandOverInOrder(begin, end, order, demand);
       if (!order.empty()) std::ranges::rotate(order, order.begin() + 1);
     }
     if (!moves || !CanRest(order, end, demand)) return std::nullopt;
@@ -161,17 +162,19 @@ class ScriptWriter {
 
   /// How far the way from `begin` on is force closure, in steps of a share of the way.
   [[nodiscard]] int FindReach(double begin) const {
-    int reach = static_cast<int>(std::floor(begin * kSharesOfWay));
-    while (reach < path_.end() * kSharesOfWay && HoldsAt(Place(reach + 1))) ++reach;
+    int reach = static_cast<int>(std::floor(begin * kSharesOfPath));
+    while (reach < path_.end() * kSharesOfPath && HoldsAt(Place(reach + 1))) ++reach;
     return reach;
   }
 
-  [[nodiscard]] static double Place(int steps) { return static_cast<double>(steps) / kSharesOfWay; }
+  [[nodiscard]] static double Place(int steps) {
+    return static_cast<double>(steps) / kSharesOfPath;
+  }
 
   /// The longest piece that is found from `begin` up to a number of steps.
   [[nodiscard]] std::optional<Piece> FindLongest(double begin, int reach,
                                                  const Demand& demand) const {
-    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
+    const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     for (int steps = reach; steps >= first; --steps) {
       std::optional<Piece> piece = TryPiece(begin, Place(steps), demand);
       if (!piece) continue;
@@ -252,8 +255,8 @@ class ScriptWriter {
 
   /// The longest slide from `begin` on that is found.
   [[nodiscard]] std::optional<Piece> FindSlide(double begin, int reach) const {
-    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
-    const int waypoint = (static_cast<int>(std::floor(begin)) + 1) * kSharesOfWay;
+    const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
+    const int waypoint = (static_cast<int>(std::floor(begin)) + 1) * kSharesOfPath;
     for (int steps = std::min(reach, waypoint); steps >= first; --steps) {
       if (std::optional<Piece> piece = TrySlide(begin, Place(steps))) return piece;
     }
@@ -262,7 +265,7 @@ class ScriptWriter {
 
   /// The first place after `begin`, up to `reach`, from which fingers can slide; `reach` if none.
   [[nodiscard]] int FindNextSlide(double begin, int reach) const {
-    const int first = static_cast<int>(std::floor(begin * kSharesOfWay)) + 1;
+    const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     for (int steps = first; steps < reach; ++steps) {
       if (TrySlide(Place(steps), Place(steps + 1))) return steps;
     }

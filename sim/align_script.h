@@ -11,7 +11,7 @@ namespace regrasp {
 
 /// Fingers go over to other contacts: spare ones touch at the stand-ins, the fingers lift and come
 /// down at their targets, the spare ones leave. The k-th stand-in is for the k-th target.
-struct FingersGoOver {
+struct FingerHandover {
   FingerGrasp stand_ins;
   FingerGrasp targets;
 };
@@ -29,7 +29,7 @@ struct FingersRoll {
   FingerGrasp to;
 };
 
-using AlignMove = std::variant<FingersGoOver, FingersSlide, FingersRoll>;
+using AlignMove = std::variant<FingerHandover, FingersSlide, FingersRoll>;
 
 /// Shares of the way of an align, all contacts' ways added up, by how it is carried out. They sum
 /// to 1; for an align that only turns normals they are shares of the stretches between waypoints.
@@ -49,8 +49,8 @@ struct AlignScript {
 struct AlignLimits {
   double half_angle = 0;   ///< friction, radians
   std::vector<int> spare;  ///< fingers that hold nothing
-  /// Wherever a finger comes to rest a ball of this radius should fit (planner/plan/clearance.h),
-  /// the unit that of the object.
+  /// Wherever a finger comes to rest a ball of this radius should fit
+  /// (planner/criteria/clearance.h), the unit that of the object.
   double clearance = 0;
   /// Where there is no way with that, a ball of this one.
   double least_clearance = 0;
@@ -62,7 +62,7 @@ struct AlignLimits {
 /// moving fingers go over, as many at once as there are spare ones.
 ///
 /// A piece is as long as it can be: every grasp on the way between its ends is force closure (at
-/// kSharesOfWay places between two waypoints), and so are the mixtures that come up while the
+/// kSharesOfPath places between two waypoints), and so are the mixtures that come up while the
 /// fingers go over, stand-ins included. Fingers come to rest only where they can stand, with
 /// `clearance`: not in a concave corner, nor on a normal that turns there. A piece that holds at
 /// kEasyFriction of the friction too is preferred, unless it is less than half as long; then about
@@ -73,7 +73,7 @@ struct AlignLimits {
 /// other, each only while the others alone, as they stand then, have the quality kSlideQuality at
 /// kSlideFriction of the friction; where the fingertip has room all the way; and no piece leaves a
 /// stretch between two waypoints or leaps over a place where the planned grasp is not force
-/// closure. A piece is at least a kSharesOfWay-th of the stretch; where there is none, fingers go
+/// closure. A piece is at least a kSharesOfPath-th of the stretch; where there is none, fingers go
 /// over up to the next place where there is one.
 ///
 /// Where no piece serves at all the fingers go to the next waypoint all the same: without a spare
@@ -82,7 +82,7 @@ struct AlignLimits {
 [[nodiscard]] AlignScript WriteAlignScript(const Object& object, const Align& align,
                                            const AlignLimits& limits);
 
-inline constexpr int kSharesOfWay = 16;
+inline constexpr int kSharesOfPath = 16;
 inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers that hold
 /// The sliding finger presses with a hundredth of the squeeze at least (kSlideForce), and friction
 /// pulls along: force and torque on the object are at most √2 √(1 + μ²) of that. Twice it is what

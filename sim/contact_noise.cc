@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "planner/plan/clearance.h"
+#include "planner/criteria/clearance.h"
 
 namespace regrasp {
 

@@ -5,10 +5,10 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/criteria/clearance.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
-#include "planner/plan/clearance.h"
 #include "sim/push.h"
 #include "sim/scaling.h"
 #include "sim/weakest_finger.h"

@@ -4,33 +4,33 @@ namespace regrasp {
 
 using Eigen::Vector3d;
 
-HandForces PlanHandForces(const Stage& stage, const std::vector<int>& fingers, const Wrench& load_S,
-                          double half_angle) {
-  HandForces forces(stage.fingers().size(), Vector3d::Zero());
+HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
+                          const Wrench& load_S, double half_angle) {
+  HandForces forces(world.fingers().size(), Vector3d::Zero());
   if (fingers.empty()) return forces;
-  const Eigen::Matrix3d R_SB = stage.X_SB().linear();
+  const Eigen::Matrix3d R_SB = world.X_SB().linear();
   Grasp contacts;
   for (const int f : fingers) {
-    const Contact& planned = stage.fingers()[f].contact;
-    contacts.push_back({stage.ContactPoint_B(f), planned.n, planned.face});
+    const Contact& planned = world.fingers()[f].contact;
+    contacts.push_back({world.ContactPoint_B(f), planned.n, planned.face});
   }
-  const Wrench load_B{R_SB.transpose() * (stage.weight_S() + load_S.force),
+  const Wrench load_B{R_SB.transpose() * (world.weight_S() + load_S.force),
                       R_SB.transpose() * load_S.torque_over_radius};
   const GraspForces planned =
-      ComputeGraspForces(contacts, stage.frame_B(), half_angle, load_B, stage.settings().squeeze_N);
+      ComputeGraspForces(contacts, world.frame_B(), half_angle, load_B, world.settings().squeeze_N);
   for (std::size_t i = 0; i < fingers.size(); ++i) forces[fingers[i]] = R_SB * planned.forces[i];
   return forces;
 }
 
-HandForces CurrentForces(const Stage& stage) {
+HandForces CurrentForces(const ReplayWorld& world) {
   HandForces forces;
-  for (const StageFinger& finger : stage.fingers()) forces.push_back(finger.force_S);
+  for (const WorldFinger& finger : world.fingers()) forces.push_back(finger.force_S);
   return forces;
 }
 
-void MixForces(Stage& stage, const HandForces& from, const HandForces& to, double share) {
+void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to, double share) {
   for (std::size_t f = 0; f < from.size(); ++f) {
-    stage.fingers()[f].force_S = (1 - share) * from[f] + share * to[f];
+    world.fingers()[f].force_S = (1 - share) * from[f] + share * to[f];
   }
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
@@ -14,13 +14,13 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// contacts as measured, with the full squeeze and the largest margin in their cones; the best
 /// effort where there are none.
 /// @param load_S  about the centroid, besides the weight.
-[[nodiscard]] HandForces PlanHandForces(const Stage& stage, const std::vector<int>& fingers,
+[[nodiscard]] HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
                                         const Wrench& load_S, double half_angle);
 
 /// The forces that the fingers push with now.
-[[nodiscard]] HandForces CurrentForces(const Stage& stage);
+[[nodiscard]] HandForces CurrentForces(const ReplayWorld& world);
 
 /// Sets forces on the straight line between two: mixtures of balanced forces are balanced.
-void MixForces(Stage& stage, const HandForces& from, const HandForces& to, double share);
+void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to, double share);
 
 }  // namespace regrasp

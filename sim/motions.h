@@ -3,25 +3,26 @@
 #include <vector>
 
 #include "planner/plan/plan.h"
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
 /// The fingers appear at their contacts and take the object: squeeze and weight grow together.
-void TakeHold(Stage& stage, const FingerGrasp& grasp_B);
+void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B);
 
 /// Free fingers come down along the normals, all at once: quickly to kApproachGap, then ever slower
 /// until each feels a force of kTouchForce; there it is anchored.
-void PlaceFingers(Stage& stage, const FingerGrasp& placed_B);
+void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B);
 
 /// Forces go over, on a straight line, into those with which `fingers` hold the object.
-void TransferForces(Stage& stage, const std::vector<int>& fingers);
+void TransferForces(ReplayWorld& world, const std::vector<int>& fingers);
 
 /// Fingers that push with no force go back along the normals.
-void RetractFingers(Stage& stage, const std::vector<int>& fingers);
+void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers);
 
 /// Place, transfer to the grasp without the released fingers, retract.
-void SwitchFingers(Stage& stage, const FingerGrasp& placed_B, const std::vector<int>& released);
+void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,
+                   const std::vector<int>& released);
 
 /// Lengths over D, forces over the squeeze, durations in natural times (ReplaySettings).
 inline constexpr double kStandOff = 0.05;     ///< where a free finger waits before and after

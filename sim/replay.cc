@@ -8,59 +8,60 @@
 #include "planner/grasp/grasp_forces.h"
 #include "sim/align.h"
 #include "sim/motions.h"
+#include "sim/replay_world.h"
 #include "sim/scene.h"
 #include "sim/shake.h"
-#include "sim/stage.h"
 #include "sim/stillness.h"
 
 namespace regrasp {
 namespace {
 
-void RestoreRoles(Stage& stage) {
-  for (StageFinger& finger : stage.fingers()) {
+void RestoreRoles(ReplayWorld& world) {
+  for (WorldFinger& finger : world.fingers()) {
     finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
   }
 }
 
 /// What entry `index` of the report does between two rests.
-void Perform(Stage& stage, const Object& object, const Plan& plan, int index, StepReplay& result) {
+void Perform(ReplayWorld& world, const Object& object, const Plan& plan, int index,
+             StepReplay& result) {
   if (index == 0) {
-    TakeHold(stage, ToScene(object, plan.scale, plan.initial));
+    TakeHold(world, ToScene(object, plan.scale, plan.initial));
     return;
   }
   const Step& step = plan.steps[index - 1];
   if (const auto* change = std::get_if<Switch>(&step)) {
-    SwitchFingers(stage, ToScene(object, plan.scale, change->place), change->release);
+    SwitchFingers(world, ToScene(object, plan.scale, change->place), change->release);
     return;
   }
   const auto& waypoints = std::get<Align>(step).waypoints;
   if (waypoints.empty()) return;
-  const AlignScript& script = *stage.scene().scripts[index - 1];
-  result.align_mode = PerformAlign(stage, script);
+  const AlignScript& script = *world.scene().scripts[index - 1];
+  result.align_mode = PerformAlign(world, script);
   result.align_shares = script.shares;
   std::vector<FingerGrasp> waypoints_B;
   for (const FingerGrasp& grasp : waypoints) {
     waypoints_B.push_back(ToScene(object, plan.scale, grasp));
   }
-  TellMoved(stage, waypoints_B);
+  TellMoved(world, waypoints_B);
 }
 
 /// The step as the judge saw it.
-StepMotion Describe(const Judge& judge) {
+StepMotion Describe(const MotionMonitor& monitor) {
   StepMotion result;
-  result.reason = judge.reason();
-  result.detail = judge.detail();
-  result.displacement_m = judge.displacement_m();
-  result.rotation_deg = Degrees(judge.rotation_rad());
-  result.moved_m = judge.moved_m();
-  result.give_m = judge.give_m();
-  result.slip_m = judge.slip_m();
-  result.contact_lost = judge.contact_lost();
+  result.reason = monitor.reason();
+  result.detail = monitor.detail();
+  result.displacement_m = monitor.displacement_m();
+  result.rotation_deg = Degrees(monitor.rotation_rad());
+  result.moved_m = monitor.moved_m();
+  result.give_m = monitor.give_m();
+  result.slip_m = monitor.slip_m();
+  result.contact_lost = monitor.contact_lost();
   return result;
 }
 
-StepMotion Unstable(const Judge& judge, const UnstableError& error) {
-  StepMotion result = Describe(judge);
+StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
+  StepMotion result = Describe(monitor);
   // An object that is lost may well end in a state that the engine cannot bear.
   if (result.reason != Reason::kNone) return result;
   result.reason = Reason::kSimulationUnstable;
@@ -69,70 +70,70 @@ StepMotion Unstable(const Judge& judge, const UnstableError& error) {
 }
 
 /// The step with its shakes; the judge is as before.
-StepMotion ShakeAtRest(Stage& stage, Answer answer) {
-  const Judge before = stage.judge();
+StepMotion ShakeAtRest(ReplayWorld& world, Answer answer) {
+  const MotionMonitor before = world.monitor();
   StepMotion result;
-  stage.judge().ForgetForces();
+  world.monitor().ForgetForces();
   try {
-    Shake(stage, answer);
-    result = Describe(stage.judge());
+    Shake(world, answer);
+    result = Describe(world.monitor());
   } catch (const UnstableError& error) {
-    result = Unstable(stage.judge(), error);
+    result = Unstable(world.monitor(), error);
   }
-  result.shake_margins = stage.judge().margins();
-  stage.judge() = before;
+  result.shake_margins = world.monitor().margins();
+  world.monitor() = before;
   return result;
 }
 
-FingerMargins MarginsNow(const Stage& stage) {
+FingerMargins MarginsNow(const ReplayWorld& world) {
   FingerMargins margins;
-  for (const int f : stage.HoldingFingers()) {
-    const Eigen::Vector3d force = stage.engine().contact_force(f);
-    const Eigen::Vector3d normal = stage.X_SB().linear() * stage.fingers()[f].contact.n;
-    if (force.dot(normal) < kPressing * stage.settings().squeeze_N) continue;
-    AddMargin(f, ConeMargin(force, normal, stage.half_angle()), margins);
+  for (const int f : world.HoldingFingers()) {
+    const Eigen::Vector3d force = world.engine().contact_force(f);
+    const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
+    if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;
+    AddMargin(f, ConeMargin(force, normal, world.half_angle()), margins);
   }
   return margins;
 }
 
 /// What is asked of a step once it is at rest.
-void ExamineRest(Stage& stage, StepReplay& result) {
-  const ReplaySettings& settings = stage.settings();
-  result.rest_margins = MarginsNow(stage);
-  result.snapshot = stage.TakeSnapshot();
+void ExamineRest(ReplayWorld& world, StepReplay& result) {
+  const ReplaySettings& settings = world.settings();
+  result.rest_margins = MarginsNow(world);
+  result.snapshot = world.TakeSnapshot();
   if (settings.protocol != Protocol::kFixed) {
-    result.adapted = ShakeAtRest(stage, Answer::kAdapted);
+    result.adapted = ShakeAtRest(world, Answer::kAdapted);
   }
-  if (settings.protocol != Protocol::kAdapted) result.fixed = ShakeAtRest(stage, Answer::kFixed);
+  if (settings.protocol != Protocol::kAdapted) result.fixed = ShakeAtRest(world, Answer::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
   // A grasp that lost the object before any push has no limit to look for.
-  if (settings.stress && stage.judge().reason() == Reason::kNone)
-    result.stress = MeasureStress(stage);
+  if (settings.stress && world.monitor().reason() == Reason::kNone)
+    result.stress = MeasureStress(world);
 }
 
-StepReplay ReplayStep(Stage& stage, const Object& object, const Plan& plan, int index) {
+StepReplay ReplayStep(ReplayWorld& world, const Object& object, const Plan& plan, int index) {
   StepReplay result;
   result.index = index;
-  if (const std::string& why = stage.scene().unreachable[index]; !why.empty()) {
+  if (const std::string& why = world.scene().unreachable[index]; !why.empty()) {
     result.reason = Reason::kUnreachable;
     result.detail = why;
-    result.snapshot = stage.TakeSnapshot();
+    result.snapshot = world.TakeSnapshot();
     return result;
   }
-  RestoreRoles(stage);
-  stage.StartJudging();
+  RestoreRoles(world);
+  world.StartJudging();
   try {
-    stage.judge().SetPhase("motion");
-    Perform(stage, object, plan, index, result);
-    stage.judge().SetPhase("rest");
-    ComeToRest(stage);
-    result.motion_margins = stage.judge().margins();
-    ExamineRest(stage, result);
+    world.monitor().SetPhase("motion");
+    Perform(world, object, plan, index, result);
+    world.monitor().SetPhase("rest");
+    ComeToRest(world);
+    result.motion_margins = world.monitor().margins();
+    ExamineRest(world, result);
   } catch (const UnstableError& error) {
-    static_cast<StepMotion&>(result) = Unstable(stage.judge(), error);
+    static_cast<StepMotion&>(result) = Unstable(world.monitor(), error);
   }
   result.drift_m =
-      MeasureMotion(Eigen::Isometry3d::Identity(), stage.X_SB(), stage.settings().diameter_m / 2);
+      MeasureMotion(Eigen::Isometry3d::Identity(), world.X_SB(), world.settings().diameter_m / 2);
   return result;
 }
 
@@ -161,11 +162,11 @@ ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOpti
   const int total = steps < 0 ? all : std::min(steps, all);
   ReplayResult result;
   if (total == 0) return result;
-  Stage stage(object, plan, MakeScene(object, plan, total - 1, options), observer);
-  result.settings = stage.settings();
+  ReplayWorld world(object, plan, MakeScene(object, plan, total - 1, options), observer);
+  result.settings = world.settings();
   CheckShake(result.settings);
   for (int index = 0; index < total; ++index) {
-    result.steps.push_back(ReplayStep(stage, object, plan, index));
+    result.steps.push_back(ReplayStep(world, object, plan, index));
     if (observer.on_progress) observer.on_progress(index + 1, total);
     if (result.steps.back().reason != Reason::kNone) break;
   }

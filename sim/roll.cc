@@ -45,14 +45,14 @@ Extent FindExtent(const FingerGrasp& from, const FingerGrasp& to) {
 }
 
 /// Forces that hold the object in a grasp: inside narrower cones where there are such.
-HandForces PlanForces(const Stage& stage, const FingerGrasp& grasp_B) {
-  const Eigen::Matrix3d R_SB = stage.X_SB().linear();
-  const Wrench load{R_SB.transpose() * stage.weight_S(), Vector3d::Zero()};
-  HandForces hand(stage.fingers().size(), Vector3d::Zero());
+HandForces PlanForces(const ReplayWorld& world, const FingerGrasp& grasp_B) {
+  const Eigen::Matrix3d R_SB = world.X_SB().linear();
+  const Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
+  HandForces hand(world.fingers().size(), Vector3d::Zero());
   for (const double friction_share : {kSlideFriction, 1.0}) {
-    const GraspForces planned = ComputeGraspForces(ContactsOf(grasp_B), stage.frame_B(),
-                                                   std::atan(friction_share * stage.settings().mu),
-                                                   load, stage.settings().squeeze_N);
+    const GraspForces planned = ComputeGraspForces(ContactsOf(grasp_B), world.frame_B(),
+                                                   std::atan(friction_share * world.settings().mu),
+                                                   load, world.settings().squeeze_N);
     for (std::size_t i = 0; i < grasp_B.size(); ++i) {
       hand[grasp_B[i].finger] = R_SB * planned.forces[i];
     }
@@ -61,18 +61,18 @@ HandForces PlanForces(const Stage& stage, const FingerGrasp& grasp_B) {
   return hand;
 }
 
-void BlendTo(Stage& stage, const HandForces& to) {
-  const HandForces from = CurrentForces(stage);
-  stage.Run(kTransferTime, [&](double share) { MixForces(stage, from, to, share); });
+void BlendTo(ReplayWorld& world, const HandForces& to) {
+  const HandForces from = CurrentForces(world);
+  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
 }
 
 /// Takes a tip along with its contact; whatever it is off the plan stays.
-void MoveAlong(Stage& stage, int finger, const Contact& contact_B) {
-  StageFinger& state = stage.fingers()[finger];
-  const double radius = stage.settings().fingertip_radius_m;
+void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
+  WorldFinger& state = world.fingers()[finger];
+  const double radius = world.settings().fingertip_radius_m;
   const Vector3d offset_S =
-      stage.X_SB().linear() * (Tip(contact_B, radius) - Tip(state.contact, radius));
-  stage.engine().ShiftTip(finger, offset_S);
+      world.X_SB().linear() * (Tip(contact_B, radius) - Tip(state.contact, radius));
+  world.engine().ShiftTip(finger, offset_S);
   state.anchor_S += offset_S;
   state.touch_B += contact_B.p - state.contact.p;
   state.contact = contact_B;
@@ -80,37 +80,37 @@ void MoveAlong(Stage& stage, int finger, const Contact& contact_B) {
 
 }  // namespace
 
-void RollFingers(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B) {
+void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B) {
   const Extent extent = FindExtent(from_B, to_B);
-  const double way = extent.way / stage.settings().diameter_m;
+  const double way = extent.way / world.settings().diameter_m;
   const int stretches =
       static_cast<int>(std::ceil(std::max(way / kStretch, extent.turn / kTurnStretch)));
   if (stretches == 0) return;
   const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
   std::vector<int> sites;
   for (std::size_t i = 0; i < to_B.size(); ++i) {
-    sites.push_back(FindSite(stage.scene(), from_B[i].contact, to_B[i].contact));
-    stage.engine().AddSite(to_B[i].finger, sites.back());
+    sites.push_back(FindSite(world.scene(), from_B[i].contact, to_B[i].contact));
+    world.engine().AddSite(to_B[i].finger, sites.back());
   }
-  BlendTo(stage, PlanForces(stage, from_B));
+  BlendTo(world, PlanForces(world, from_B));
   FingerGrasp at = from_B;
   for (int i = 1; i <= stretches; ++i) {
     const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / stretches);
-    const HandForces before = CurrentForces(stage);
-    const HandForces after = PlanForces(stage, next);
-    stage.Run(duration, [&](double share) {
+    const HandForces before = CurrentForces(world);
+    const HandForces after = PlanForces(world, next);
+    world.Run(duration, [&](double share) {
       for (const FingerContact& held : Interpolate(at, next, share)) {
-        MoveAlong(stage, held.finger, held.contact);
+        MoveAlong(world, held.finger, held.contact);
       }
-      MixForces(stage, before, after, share);
+      MixForces(world, before, after, share);
     });
     at = next;
   }
-  (void)WaitUntilStill(stage);
+  (void)WaitUntilStill(world);
   for (std::size_t i = 0; i < to_B.size(); ++i) {
-    stage.engine().SetSite(to_B[i].finger, sites[i]);
+    world.engine().SetSite(to_B[i].finger, sites[i]);
   }
-  TransferForces(stage, stage.HoldingFingers());
+  TransferForces(world, world.HoldingFingers());
 }
 
 }  // namespace regrasp

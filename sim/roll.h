@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/plan/plan.h"
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
@@ -15,6 +15,6 @@ namespace regrasp {
 /// no place on it.
 /// @param to_B  the same fingers in the same order; each moves straight inside one face or turns at
 ///              a point of the border of two.
-void RollFingers(Stage& stage, const FingerGrasp& from_B, const FingerGrasp& to_B);
+void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B);
 
 }  // namespace regrasp

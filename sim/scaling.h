@@ -34,7 +34,7 @@ namespace regrasp {
 /// @param half_angle  θ, radians.
 /// @param scale       metres per unit of the object.
 /// @param clearance   metres: the largest ball that touches the object only at a contact, smallest
-///                    over the plan's contacts (planner/plan/clearance.h).
+///                    over the plan's contacts (planner/criteria/clearance.h).
 /// @throws InputError  size, thickness, mass or squeeze out of the range that can be simulated; a
 ///                     thickness for a solid.
 [[nodiscard]] ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,

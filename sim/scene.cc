@@ -6,9 +6,9 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/criteria/clearance.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
-#include "planner/plan/clearance.h"
 #include "sim/scaling.h"
 
 namespace regrasp {
@@ -57,7 +57,7 @@ struct SiteCollector {
 
   void Add(const AlignScript& script) {
     for (const AlignMove& move : script.moves) {
-      if (const auto* over = std::get_if<FingersGoOver>(&move)) {
+      if (const auto* over = std::get_if<FingerHandover>(&move)) {
         for (const FingerGrasp* grasp : {&over->stand_ins, &over->targets}) {
           for (const FingerContact& held : *grasp) Add(held.finger, held.contact, held.contact);
         }
@@ -181,7 +181,7 @@ AlignScript ToScene(const Object& object, double scale, AlignScript script) {
     grasp = ToScene(object, scale, std::move(grasp));
   };
   for (AlignMove& move : script.moves) {
-    if (auto* over = std::get_if<FingersGoOver>(&move)) {
+    if (auto* over = std::get_if<FingerHandover>(&move)) {
       convert(over->stand_ins);
       convert(over->targets);
     } else if (auto* roll = std::get_if<FingersRoll>(&move)) {
@@ -219,7 +219,7 @@ FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) 
   FingerGrasp rests = sequence.PlannedRests(index);
   if (index == 0 || !scene_O.scripts[index - 1]) return rests;
   for (const AlignMove& move : scene_O.scripts[index - 1]->moves) {
-    if (const auto* over = std::get_if<FingersGoOver>(&move)) {
+    if (const auto* over = std::get_if<FingerHandover>(&move)) {
       rests.insert(rests.end(), over->stand_ins.begin(), over->stand_ins.end());
       rests.insert(rests.end(), over->targets.begin(), over->targets.end());
     }

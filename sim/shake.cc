@@ -12,68 +12,68 @@ namespace regrasp {
 
 using Eigen::Vector3d;
 
-KeepRest::KeepRest(Stage& stage)
-    : stage_(stage), rest_(stage.engine().Save()), forces_(CurrentForces(stage)) {
-  stage.SetSampling(false);
+KeepRest::KeepRest(ReplayWorld& world)
+    : world_(world), rest_(world.engine().Save()), forces_(CurrentForces(world)) {
+  world.SetSampling(false);
 }
 
 KeepRest::~KeepRest() {
   Restore();
-  stage_.SetSampling(true);
+  world_.SetSampling(true);
 }
 
 void KeepRest::Restore() {
-  stage_.engine().SetLoad(Vector3d::Zero(), Vector3d::Zero());
-  MixForces(stage_, forces_, forces_, 0);
-  stage_.engine().Restore(rest_);
+  world_.engine().SetLoad(Vector3d::Zero(), Vector3d::Zero());
+  MixForces(world_, forces_, forces_, 0);
+  world_.engine().Restore(rest_);
 }
 
 namespace {
 
 /// The push, or a share of it, as the object's load.
-void Load(Stage& stage, const Wrench& push_S, double share) {
-  const double radius = stage.settings().diameter_m / 2;
-  stage.engine().SetLoad(share * push_S.force, share * radius * push_S.torque_over_radius);
+void Load(ReplayWorld& world, const Wrench& push_S, double share) {
+  const double radius = world.settings().diameter_m / 2;
+  world.engine().SetLoad(share * push_S.force, share * radius * push_S.torque_over_radius);
 }
 
-void PushAdapted(Stage& stage, const Wrench& push_S) {
-  const HandForces from = CurrentForces(stage);
-  const HandForces to = PlanHandForces(stage, stage.HoldingFingers(), push_S, stage.half_angle());
-  stage.Run(kPushRamp, [&](double share) {
-    Load(stage, push_S, share);
-    MixForces(stage, from, to, share);
+void PushAdapted(ReplayWorld& world, const Wrench& push_S) {
+  const HandForces from = CurrentForces(world);
+  const HandForces to = PlanHandForces(world, world.HoldingFingers(), push_S, world.half_angle());
+  world.Run(kPushRamp, [&](double share) {
+    Load(world, push_S, share);
+    MixForces(world, from, to, share);
   });
-  ComeToRest(stage);
+  ComeToRest(world);
 }
 
-void PushFixed(Stage& stage, const Wrench& push_S) {
-  stage.judge().SetGiving(true);
-  stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, share); });
+void PushFixed(ReplayWorld& world, const Wrench& push_S) {
+  world.monitor().SetGiving(true);
+  world.Run(kPushRamp, [&](double share) { Load(world, push_S, share); });
   // What swings on the servos for long is not lost, and what slides does not come back.
-  (void)WaitUntilStill(stage);
-  stage.JudgeRest();
-  stage.Run(kPushRamp, [&](double share) { Load(stage, push_S, 1 - share); });
-  (void)WaitUntilStill(stage);
-  stage.judge().SetGiving(false);
-  stage.Step();
-  stage.JudgeRest();
+  (void)WaitUntilStill(world);
+  world.MonitorRest();
+  world.Run(kPushRamp, [&](double share) { Load(world, push_S, 1 - share); });
+  (void)WaitUntilStill(world);
+  world.monitor().SetGiving(false);
+  world.Step();
+  world.MonitorRest();
 }
 
 }  // namespace
 
-void PushOnce(Stage& stage, const Wrench& push_S, Answer answer) {
-  answer == Answer::kAdapted ? PushAdapted(stage, push_S) : PushFixed(stage, push_S);
+void PushOnce(ReplayWorld& world, const Wrench& push_S, Answer answer) {
+  answer == Answer::kAdapted ? PushAdapted(world, push_S) : PushFixed(world, push_S);
 }
 
-void Shake(Stage& stage, Answer answer) {
-  const double size = stage.settings().shake * stage.settings().squeeze_N;
+void Shake(ReplayWorld& world, Answer answer) {
+  const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
   const char* name = answer == Answer::kAdapted ? "shake, " : "shake at fixed squeeze, ";
-  KeepRest rest(stage);
-  for (const Push& push : PushDirections(stage.scene().dimension)) {
-    stage.judge().SetPhase(name + PushName(push));
-    PushOnce(stage, PushWrench(push, size), answer);
-    if (stage.judge().reason() != Reason::kNone) return;
+  KeepRest rest(world);
+  for (const Push& push : PushDirections(world.scene().dimension)) {
+    world.monitor().SetPhase(name + PushName(push));
+    PushOnce(world, PushWrench(push, size), answer);
+    if (world.monitor().reason() != Reason::kNone) return;
     rest.Restore();
   }
 }

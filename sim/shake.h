@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
@@ -17,17 +17,17 @@ enum class Answer {
 /// everything is still (sim/stillness.h). The stage's judge measures; a push that the grasp does
 /// not stand is the last. Afterwards everything is as before, whatever is thrown.
 /// @throws UnstableError
-void Shake(Stage& stage, Answer answer);
+void Shake(ReplayWorld& world, Answer answer);
 
 /// One push on the object at rest, and a look at its contacts. Adapted forces and their push stay;
 /// a push that fixed forces answer is taken away again.
 /// @throws UnstableError
-void PushOnce(Stage& stage, const Wrench& push_S, Answer answer);
+void PushOnce(ReplayWorld& world, const Wrench& push_S, Answer answer);
 
 /// Keeps the stage as it is, at rest: puts it back at its end.
 class KeepRest {
  public:
-  explicit KeepRest(Stage& stage);
+  explicit KeepRest(ReplayWorld& world);
   ~KeepRest();
   KeepRest(const KeepRest&) = delete;
   KeepRest& operator=(const KeepRest&) = delete;
@@ -35,7 +35,7 @@ class KeepRest {
   void Restore();
 
  private:
-  Stage& stage_;
+  ReplayWorld& world_;
   Engine::State rest_;
   std::vector<Eigen::Vector3d> forces_;
 };

@@ -36,24 +36,24 @@ struct SlideForces {
 
 /// Forces while `finger` slides towards `direction_B`, pressing with `normal`: the finger's is on
 /// its cone's edge, the others balance it and the weight inside narrower cones.
-SlideForces PlanSlide(const Stage& stage, int finger, const Contact& at_B,
+SlideForces PlanSlide(const ReplayWorld& world, int finger, const Contact& at_B,
                       const Vector3d& direction_B, double normal, double friction_share) {
-  const double mu = stage.settings().mu;
-  const double radius = stage.settings().diameter_m / 2;
+  const double mu = world.settings().mu;
+  const double radius = world.settings().diameter_m / 2;
   const Vector3d pushed_B = normal * (at_B.n + mu * direction_B);
-  std::vector<int> others = stage.HoldingFingers();
+  std::vector<int> others = world.HoldingFingers();
   std::erase(others, finger);
   Grasp contacts;
   for (const int f : others) {
-    contacts.push_back({stage.ContactPoint_B(f), stage.fingers()[f].contact.n, -1});
+    contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, -1});
   }
-  const Eigen::Matrix3d R_SB = stage.X_SB().linear();
-  const Wrench load{R_SB.transpose() * stage.weight_S() + pushed_B,
+  const Eigen::Matrix3d R_SB = world.X_SB().linear();
+  const Wrench load{R_SB.transpose() * world.weight_S() + pushed_B,
                     at_B.p.cross(pushed_B) / radius};
   const GraspForces planned =
-      ComputeGraspForces(contacts, stage.frame_B(), std::atan(friction_share * mu), load,
-                         stage.settings().squeeze_N - normal);
-  SlideForces result{HandForces(stage.fingers().size(), Vector3d::Zero()), planned.margin};
+      ComputeGraspForces(contacts, world.frame_B(), std::atan(friction_share * mu), load,
+                         world.settings().squeeze_N - normal);
+  SlideForces result{HandForces(world.fingers().size(), Vector3d::Zero()), planned.margin};
   for (std::size_t i = 0; i < others.size(); ++i) {
     result.hand[others[i]] = R_SB * planned.forces[i];
   }
@@ -63,13 +63,13 @@ SlideForces PlanSlide(const Stage& stage, int finger, const Contact& at_B,
 
 /// The smallest normal force with a good margin, or else the one with the best; with the whole
 /// friction only where kSlideFriction of it leaves no margin.
-SlideForces ChooseSlide(const Stage& stage, int finger, const Contact& at_B,
+SlideForces ChooseSlide(const ReplayWorld& world, int finger, const Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
   for (const double friction_share : {kSlideFriction, 1.0}) {
     for (double share = kSlideForce; share <= kLargestSlideForce; share *= kForceFactor) {
-      SlideForces tried = PlanSlide(stage, finger, at_B, direction_B,
-                                    share * stage.settings().squeeze_N, friction_share);
+      SlideForces tried = PlanSlide(world, finger, at_B, direction_B,
+                                    share * world.settings().squeeze_N, friction_share);
       if (!best || tried.margin > best->margin) best = std::move(tried);
       if (best->margin >= kGoodMargin) return *best;
     }
@@ -78,9 +78,9 @@ SlideForces ChooseSlide(const Stage& stage, int finger, const Contact& at_B,
   return *best;
 }
 
-void BlendTo(Stage& stage, const HandForces& to) {
-  const HandForces from = CurrentForces(stage);
-  stage.Run(kTransferTime, [&](double share) { MixForces(stage, from, to, share); });
+void BlendTo(ReplayWorld& world, const HandForces& to) {
+  const HandForces from = CurrentForces(world);
+  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
 }
 
 Vector3d Direction(const Contact& from, const Contact& to) {
@@ -90,52 +90,53 @@ Vector3d Direction(const Contact& from, const Contact& to) {
 }
 
 /// One straight stretch of the way: tip and forces go over together, at constant rates.
-void MoveTip(Stage& stage, int finger, const Contact& from, const Contact& to,
+void MoveTip(ReplayWorld& world, int finger, const Contact& from, const Contact& to,
              const HandForces& forces_after, double duration) {
-  const HandForces forces_before = CurrentForces(stage);
-  StageFinger& state = stage.fingers()[finger];
-  stage.Run(duration, [&](double share) {
+  const HandForces forces_before = CurrentForces(world);
+  WorldFinger& state = world.fingers()[finger];
+  world.Run(duration, [&](double share) {
     state.contact = Interpolate({{finger, from}}, {{finger, to}}, share).front().contact;
-    state.anchor_S = stage.TipAt_S(state.contact, 0);
-    MixForces(stage, forces_before, forces_after, share);
+    state.anchor_S = world.TipAt_S(state.contact, 0);
+    MixForces(world, forces_before, forces_after, share);
   });
 }
 
-double TipWay(const Stage& stage, const Contact& from, const Contact& to) {
+double TipPath(const ReplayWorld& world, const Contact& from, const Contact& to) {
   const double turn = std::acos(std::clamp(from.n.dot(to.n), -1.0, 1.0));
-  return (to.p - from.p).norm() + turn * stage.settings().fingertip_radius_m;
+  return (to.p - from.p).norm() + turn * world.settings().fingertip_radius_m;
 }
 
 }  // namespace
 
-double SlideMargin(const Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
+double SlideMargin(const ReplayWorld& world, int finger, const Contact& from_B,
+                   const Contact& to_B) {
   const Vector3d direction = Direction(from_B, to_B);
-  return std::min(ChooseSlide(stage, finger, from_B, direction).margin,
-                  ChooseSlide(stage, finger, to_B, direction).margin);
+  return std::min(ChooseSlide(world, finger, from_B, direction).margin,
+                  ChooseSlide(world, finger, to_B, direction).margin);
 }
 
-void SlideFinger(Stage& stage, int finger, const Contact& from_B, const Contact& to_B) {
-  const double way = TipWay(stage, from_B, to_B) / stage.settings().diameter_m;
+void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Contact& to_B) {
+  const double way = TipPath(world, from_B, to_B) / world.settings().diameter_m;
   const int stretches = std::max(1, static_cast<int>(std::ceil(way / kStretch)));
   const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
   const Vector3d direction = Direction(from_B, to_B);
-  StageFinger& state = stage.fingers()[finger];
-  const int site = FindSite(stage.scene(), from_B, to_B);
-  stage.engine().AddSite(finger, site);
-  BlendTo(stage, ChooseSlide(stage, finger, from_B, direction).hand);
+  WorldFinger& state = world.fingers()[finger];
+  const int site = FindSite(world.scene(), from_B, to_B);
+  world.engine().AddSite(finger, site);
+  BlendTo(world, ChooseSlide(world, finger, from_B, direction).hand);
   state.sliding = true;
   Contact at = from_B;
   for (int i = 1; i <= stretches; ++i) {
     const double share = static_cast<double>(i) / stretches;
     const Contact next = Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
-    MoveTip(stage, finger, at, next, ChooseSlide(stage, finger, next, direction).hand, duration);
+    MoveTip(world, finger, at, next, ChooseSlide(world, finger, next, direction).hand, duration);
     at = next;
   }
-  (void)WaitUntilStill(stage);
-  stage.engine().SetSite(finger, site);
+  (void)WaitUntilStill(world);
+  world.engine().SetSite(finger, site);
   state.sliding = false;
   state.touch_B = to_B.p;
-  TransferForces(stage, stage.HoldingFingers());
+  TransferForces(world, world.HoldingFingers());
 }
 
 }  // namespace regrasp

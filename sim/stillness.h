@@ -1,20 +1,20 @@
 #pragma once
 
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 
 namespace regrasp {
 
 /// Waits until the object and the fingers that hold it are still: until none of them has moved by
 /// more than kStill · D in kStillTime. Gives up after kLongestWait, and once the object is lost
-/// (Judge::lost).
+/// (MotionMonitor::lost).
 /// @return whether they came to rest.
 /// @throws UnstableError
-bool WaitUntilStill(Stage& stage);
+bool WaitUntilStill(ReplayWorld& world);
 
 /// The same at a place where the object has to come to rest: the judge hears where it does not, and
 /// looks at the contacts.
 /// @throws UnstableError
-void ComeToRest(Stage& stage);
+void ComeToRest(ReplayWorld& world);
 
 /// How far a push of ρ F moves a body that nothing holds while a grasp has time to come to rest,
 /// over ρ D: the force grows evenly in `ramp` and stays for kLongestWait, both in natural times.

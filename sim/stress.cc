@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "planner/grasp/largest_load.h"
+#include "sim/replay_world.h"
 #include "sim/shake.h"
-#include "sim/stage.h"
 
 namespace regrasp {
 namespace {
@@ -17,13 +17,13 @@ constexpr double kFirstStress = 0.01;
 constexpr double kMostStress = 10;
 
 /// Whether the object stands a push of `share` of the squeeze.
-bool Resists(Stage& stage, KeepRest& rest, const Push& push, double share) {
-  stage.StartJudging();
-  stage.judge().SetPhase("stress, " + PushName(push));
+bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
+  world.StartJudging();
+  world.monitor().SetPhase("stress, " + PushName(push));
   bool stands = false;
   try {
-    PushOnce(stage, PushWrench(push, share * stage.settings().squeeze_N), Answer::kAdapted);
-    stands = stage.judge().reason() == Reason::kNone;
+    PushOnce(world, PushWrench(push, share * world.settings().squeeze_N), Answer::kAdapted);
+    stands = world.monitor().reason() == Reason::kNone;
   } catch (const UnstableError&) {
     // A push under which the simulation falls apart is not resisted.
   }
@@ -31,37 +31,37 @@ bool Resists(Stage& stage, KeepRest& rest, const Push& push, double share) {
   return stands;
 }
 
-double SearchReplay(Stage& stage, KeepRest& rest, const Push& push) {
+double SearchReplay(ReplayWorld& world, KeepRest& rest, const Push& push) {
   double stands = 0;
   double fails = kFirstStress;
-  while (fails < kMostStress && Resists(stage, rest, push, fails)) {
+  while (fails < kMostStress && Resists(world, rest, push, fails)) {
     stands = fails;
     fails *= 2;
   }
   while (fails - stands > std::max(kLeastStress, kStressGap * stands)) {
     const double middle = (stands + fails) / 2;
-    (Resists(stage, rest, push, middle) ? stands : fails) = middle;
+    (Resists(world, rest, push, middle) ? stands : fails) = middle;
   }
   return stands;
 }
 
-double SearchAnalysis(const Stage& stage, const Push& push) {
+double SearchAnalysis(const ReplayWorld& world, const Push& push) {
   Grasp contacts;
-  for (const int f : stage.HoldingFingers()) contacts.push_back(stage.fingers()[f].contact);
+  for (const int f : world.HoldingFingers()) contacts.push_back(world.fingers()[f].contact);
   if (contacts.empty()) return 0;
-  const auto largest = ComputeLargestLoad(contacts, stage.frame_B(), stage.half_angle(),
-                                          {stage.weight_S(), {0, 0, 0}}, PushWrench(push, 1),
-                                          stage.settings().squeeze_N);
+  const auto largest = ComputeLargestLoad(contacts, world.frame_B(), world.half_angle(),
+                                          {world.weight_S(), {0, 0, 0}}, PushWrench(push, 1),
+                                          world.settings().squeeze_N);
   return largest ? largest->lower : 0;
 }
 
 }  // namespace
 
-std::vector<DirectionStress> MeasureStress(Stage& stage) {
-  KeepRest rest(stage);
+std::vector<DirectionStress> MeasureStress(ReplayWorld& world) {
+  KeepRest rest(world);
   std::vector<DirectionStress> all;
-  for (const Push& push : PushDirections(stage.scene().dimension)) {
-    all.push_back({push, SearchReplay(stage, rest, push), SearchAnalysis(stage, push)});
+  for (const Push& push : PushDirections(world.scene().dimension)) {
+    all.push_back({push, SearchReplay(world, rest, push), SearchAnalysis(world, push)});
   }
   return all;
 }

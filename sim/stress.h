@@ -6,7 +6,7 @@
 
 namespace regrasp {
 
-class Stage;
+class ReplayWorld;
 
 /// The largest push that a grasp at rest resists in one direction, over the squeeze (a torque also
 /// over R), on top of the weight, its forces adapted to the push.
@@ -26,7 +26,7 @@ struct DirectionStress {
 /// What the object stands is judged as in a step: it does not move, slip or lose a contact by more
 /// than the tolerance. A grasp that resists two pushes resists all in between, so that a bisection
 /// finds the limit: to kStressGap of it, or to kLeastStress.
-[[nodiscard]] std::vector<DirectionStress> MeasureStress(Stage& stage);
+[[nodiscard]] std::vector<DirectionStress> MeasureStress(ReplayWorld& world);
 
 inline constexpr double kStressGap = 0.01;    ///< over the limit
 inline constexpr double kLeastStress = 1e-4;  ///< pushes nearer to each other count as one

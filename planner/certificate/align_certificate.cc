@@ -17,8 +17,8 @@ Grasp ContactsInOrder(const FingerGrasp& grasp, const FingerGrasp& order) {
   return contacts;
 }
 
-std::optional<MotionPieces> FindWayProof(const Grasp& from, const Grasp& to, int dimension,
-                                         double half_angle) {
+std::optional<MotionSegments> FindPathProof(const Grasp& from, const Grasp& to, int dimension,
+                                            double half_angle) {
   if (from.empty() || from.size() != to.size()) return std::nullopt;
   GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
@@ -33,9 +33,9 @@ std::optional<AlignCertificate> FindAlignCertificate(const Align& located, int d
                                                      double half_angle) {
   AlignCertificate certificate;
   for (std::size_t w = 0; w + 1 < located.waypoints.size(); ++w) {
-    auto pieces = FindWayProof(ContactsOf(located.waypoints[w]),
-                               ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]),
-                               dimension, half_angle);
+    auto pieces = FindPathProof(ContactsOf(located.waypoints[w]),
+                                ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]),
+                                dimension, half_angle);
     if (!pieces) return std::nullopt;
     certificate.push_back(std::move(*pieces));
   }

@@ -16,11 +16,11 @@ namespace regrasp {
 /// @param from, to    the contacts of each finger at the same place.
 /// @param half_angle  radians.
 /// @throws std::invalid_argument  as TestForceClosure.
-[[nodiscard]] std::optional<MotionPieces> FindWayProof(const Grasp& from, const Grasp& to,
-                                                       int dimension, double half_angle);
+[[nodiscard]] std::optional<MotionSegments> FindPathProof(const Grasp& from, const Grasp& to,
+                                                          int dimension, double half_angle);
 
 /// Proofs of force closure all along an align, for each pair of waypoints that follow each other;
-/// nullopt where FindWayProof finds none for one of them.
+/// nullopt where FindPathProof finds none for one of them.
 /// @param located  its contacts placed on the object. @param half_angle  radians.
 [[nodiscard]] std::optional<AlignCertificate> FindAlignCertificate(const Align& located,
                                                                    int dimension,

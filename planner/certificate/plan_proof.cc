@@ -8,7 +8,7 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/motion/check_motion_proof.h"
-#include "planner/plan/motion_piece_json.h"
+#include "planner/plan/motion_segment_json.h"
 
 namespace regrasp {
 
@@ -49,13 +49,13 @@ std::vector<Entry> EntriesOf(const Plan& plan) {
 }
 
 /// The plan's own proof of a way where it holds, otherwise one that is found; empty where none is.
-MotionPieces ProveWay(const Entry& entry, std::size_t way, int dimension, double half_angle) {
+MotionSegments ProvePath(const Entry& entry, std::size_t way, int dimension, double half_angle) {
   const auto& [from, to] = entry.ways[way];
   if (entry.certificate != nullptr && way < entry.certificate->size()) {
-    const MotionPieces& given = (*entry.certificate)[way];
+    const MotionSegments& given = (*entry.certificate)[way];
     if (CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves()) return given;
   }
-  return FindWayProof(from, to, dimension, half_angle).value_or(MotionPieces());
+  return FindPathProof(from, to, dimension, half_angle).value_or(MotionSegments());
 }
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
@@ -106,7 +106,7 @@ std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle, i
     EntryProof proof;
     proof.rest = FindGraspProof(entry.rest, located.dimension, half_angle);
     for (std::size_t way = 0; way < entry.ways.size(); ++way) {
-      proof.ways.push_back(ProveWay(entry, way, located.dimension, half_angle));
+      proof.ways.push_back(ProvePath(entry, way, located.dimension, half_angle));
     }
     proofs.push_back(std::move(proof));
   }
@@ -128,7 +128,7 @@ std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
       const bool has = way < proofs[i].ways.size();
       verdict.ways.push_back(CheckMotionProof(entry.ways[way].from, entry.ways[way].to,
                                               located.dimension, mu,
-                                              has ? proofs[i].ways[way] : MotionPieces()));
+                                              has ? proofs[i].ways[way] : MotionSegments()));
     }
     verdicts.push_back(std::move(verdict));
   }
@@ -139,8 +139,8 @@ Json EntryProofJson(const EntryProof& proof, int dimension) {
   Json json = {{"rest", GraspProofJson(proof.rest, dimension)}};
   if (proof.ways.empty()) return json;
   json["ways"] = Json::array();
-  for (const MotionPieces& way : proof.ways) {
-    json["ways"].push_back(MotionPiecesJson(way, dimension));
+  for (const MotionSegments& way : proof.ways) {
+    json["ways"].push_back(MotionSegmentsJson(way, dimension));
   }
   return json;
 }
@@ -150,7 +150,7 @@ EntryProof ReadEntryProof(const JsonReader& json, int dimension) {
   proof.rest = ReadGraspProof(json.Member("rest"), dimension);
   if (!json.Has("ways")) return proof;
   for (const JsonReader& way : json.Member("ways").Elements()) {
-    proof.ways.push_back(ReadMotionPieces(way, dimension));
+    proof.ways.push_back(ReadMotionSegments(way, dimension));
   }
   return proof;
 }

@@ -6,7 +6,7 @@
 
 #include "planner/certificate/check_proof.h"
 #include "planner/certificate/force_proof.h"
-#include "planner/motion/motion_piece.h"
+#include "planner/motion/motion_segment.h"
 #include "planner/motion/proof_verdict.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
@@ -17,7 +17,7 @@ namespace regrasp {
 struct EntryProof {
   GraspProof rest;
   /// By pair of waypoints that follow each other; empty where no proof was found.
-  std::vector<MotionPieces> ways;
+  std::vector<MotionSegments> ways;
 };
 
 /// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included. The

@@ -167,7 +167,7 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
   const bool few = contacts.size() <= kPairLinesFirst;
   if (contacts.size() < (space ? 3 : 2)) return No(contacts.size(), 0);
   if (space && few) {
-    const PairLineVerdict verdict = JudgePairLines(contacts);
+    const PairLineVerdict verdict = TestPairLines(contacts);
     if (verdict == PairLineVerdict::kNo) return No(contacts.size(), 0);
     // This Yes has no forces to show.
     if (verdict == PairLineVerdict::kYes && proof == nullptr) {
@@ -176,8 +176,8 @@ ForceClosure DecideForceClosure(const UnitContacts& contacts, ForceClosureProof<
   }
   const ForceClosure answer = DecideOpenForceClosure<kDim>(contacts, proof);
   const bool unsettled = space && !few && answer.decision == Decision::kTooClose;
-  return unsettled && JudgePairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
-                                                                       : answer;
+  return unsettled && TestPairLines(contacts) == PairLineVerdict::kNo ? No(contacts.size(), 0)
+                                                                      : answer;
 }
 
 template ForceClosure DecideForceClosure<3>(const UnitContacts&, ForceClosureProof<3>*);

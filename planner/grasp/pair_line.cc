@@ -40,7 +40,7 @@ bool IsAntipodal(const UnitContact& a, const UnitContact& b) {
          b.tangential * std::abs(along_b) - b.axial * sliding_b > kTorqueRounding;
 }
 
-PairLineVerdict JudgePairLines(std::span<const UnitContact> contacts) {
+PairLineVerdict TestPairLines(std::span<const UnitContact> contacts) {
   bool accepted = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {

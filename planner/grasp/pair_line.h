@@ -41,6 +41,6 @@ inline constexpr double kOnLine = 1e-12;
 /// balance while the others push the same way about their line. Both answers are certain.
 ///
 /// @param contacts  in space, rims set, of the order of 1 in size.
-[[nodiscard]] PairLineVerdict JudgePairLines(std::span<const UnitContact> contacts);
+[[nodiscard]] PairLineVerdict TestPairLines(std::span<const UnitContact> contacts);
 
 }  // namespace regrasp

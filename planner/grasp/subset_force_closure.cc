@@ -94,7 +94,7 @@ class SubsetSearch {
   void ExtendTriple(int i, int j, int k) {
     for (int word = (k + 1) / TurnTable::kWordBits; word < turns_.words(); ++word) {
       const Word range = Range(k, word);
-      const Word open = range & ~SameWay(i, j, k, word);
+      const Word open = range & ~SamePath(i, j, k, word);
       const Word pairs = open & BalancedPair(i, j, k, word);
       const Word triples = open & ~pairs & FromTriples(i, j, k, word);
       counts_.subsets += std::popcount(range);
@@ -119,7 +119,7 @@ class SubsetSearch {
 
   /// Fourth contacts l for which, about the line of some pair of i, j, k, l, the other two turn the
   /// object the same way.
-  [[nodiscard]] Word SameWay(int i, int j, int k, int word) const {
+  [[nodiscard]] Word SamePath(int i, int j, int k, int word) const {
     Word result = 0;
     for (const auto& [a, b, c] : {std::array{i, j, k}, {i, k, j}, {j, k, i}}) {
       const TurnTable::Rows line = turns_.ByContact(a, b);

@@ -156,7 +156,7 @@ std::optional<Support> FindSupport(const MovingContacts& moving, int dimension) 
 }
 
 /// The contacts' forces at both ends of a piece.
-std::vector<Linear> ForcesOf(const MotionPiece& piece, int dimension) {
+std::vector<Linear> ForcesOf(const MotionSegment& piece, int dimension) {
   std::vector<Linear> forces;
   for (std::size_t i = 0; i < piece.start.size(); ++i) {
     Linear& force = forces.emplace_back(Linear{Exact(piece.start[i]), Exact(piece.end[i])});
@@ -210,7 +210,7 @@ bool StaysInsideCone(const Vector& force, const Rational& room, const ExactConta
 }
 
 ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Rational& mu,
-                        const MotionPiece& piece) {
+                        const MotionSegment& piece) {
   if (piece.start.size() != moving.size() || piece.end.size() != moving.size()) {
     return Nothing("not one force a contact");
   }
@@ -259,8 +259,8 @@ std::vector<ExactContact> At(std::span<const Contact> from, std::span<const Cont
 
 }  // namespace
 
-ProofVerdict CheckPieceProof(std::span<const Contact> from, std::span<const Contact> to,
-                             int dimension, double mu, const MotionPiece& piece) {
+ProofVerdict CheckSegmentProof(std::span<const Contact> from, std::span<const Contact> to,
+                               int dimension, double mu, const MotionSegment& piece) {
   if (from.size() != to.size()) return Nothing("not as many contacts after as before");
   if (!(piece.from >= 0 && piece.to > piece.from && piece.to <= 1)) {
     return Nothing("a piece is not a part of the way");
@@ -277,11 +277,11 @@ ProofVerdict CheckPieceProof(std::span<const Contact> from, std::span<const Cont
 }
 
 ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Contact> to,
-                              int dimension, double mu, std::span<const MotionPiece> pieces) {
+                              int dimension, double mu, std::span<const MotionSegment> pieces) {
   double reached = 0;
-  for (const MotionPiece& piece : pieces) {
+  for (const MotionSegment& piece : pieces) {
     if (piece.from != reached) return Nothing("the pieces do not follow each other");
-    ProofVerdict verdict = CheckPieceProof(from, to, dimension, mu, piece);
+    ProofVerdict verdict = CheckSegmentProof(from, to, dimension, mu, piece);
     if (!verdict.proves()) return verdict;
     reached = piece.to;
   }

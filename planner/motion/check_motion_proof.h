@@ -4,7 +4,7 @@
 #include <span>
 
 #include "planner/grasp/contact.h"
-#include "planner/motion/motion_piece.h"
+#include "planner/motion/motion_segment.h"
 #include "planner/motion/proof_verdict.h"
 
 namespace regrasp {
@@ -25,12 +25,12 @@ namespace regrasp {
 /// taken as doubles, and their cones kTurnedNormalBound narrower, which covers the rounding.
 [[nodiscard]] ProofVerdict CheckMotionProof(std::span<const Contact> from,
                                             std::span<const Contact> to, int dimension, double mu,
-                                            std::span<const MotionPiece> pieces);
+                                            std::span<const MotionSegment> pieces);
 
 /// The same of one piece, whose ends are anywhere in [0, 1].
-[[nodiscard]] ProofVerdict CheckPieceProof(std::span<const Contact> from,
-                                           std::span<const Contact> to, int dimension, double mu,
-                                           const MotionPiece& piece);
+[[nodiscard]] ProofVerdict CheckSegmentProof(std::span<const Contact> from,
+                                             std::span<const Contact> to, int dimension, double mu,
+                                             const MotionSegment& piece);
 
 /// Radians. Normals that turn farther, almost to the opposite, have no great circle to speak of:
 /// nothing is proved of them.

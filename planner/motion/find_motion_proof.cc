@@ -57,18 +57,18 @@ class MotionProofSearch {
       : motion_(motion), half_angle_(half_angle), nearness_(nearness) {}
 
   /// @param shortest  of the pieces that are looked at.
-  std::optional<std::vector<MotionPiece>> Find(double shortest) {
-    std::vector<MotionPiece> pieces;
+  std::optional<std::vector<MotionSegment>> Find(double shortest) {
+    std::vector<MotionSegment> pieces;
     if (!Cover({0, 1}, shortest, pieces)) return std::nullopt;
     return pieces;
   }
 
-  [[nodiscard]] std::optional<MotionPiece> Prove(const Piece& piece) const {
+  [[nodiscard]] std::optional<MotionSegment> Prove(const Piece& piece) const {
     const MovingContacts contacts = ContactsOn(piece);
     if (contacts.empty() || !Span(contacts)) return std::nullopt;
     MovingForces<1> forces;
     if (!FindForces(contacts, forces)) return std::nullopt;
-    MotionPiece proved{piece.from, piece.to, {}, {}};
+    MotionSegment proved{piece.from, piece.to, {}, {}};
     proved.start.reserve(forces.size());
     proved.end.reserve(forces.size());
     for (const ForceCoefficients<1>& coefficients : forces) {
@@ -81,7 +81,7 @@ class MotionProofSearch {
  private:
   static constexpr int kDim = kSpace == 3 ? 6 : 3;
 
-  bool Cover(const Piece& piece, double shortest, std::vector<MotionPiece>& pieces) const {
+  bool Cover(const Piece& piece, double shortest, std::vector<MotionSegment>& pieces) const {
     if (auto proved = Prove(piece)) {
       pieces.push_back(*std::move(proved));
       return true;
@@ -214,8 +214,8 @@ bool CanBeProved(const GraspMotion& motion) {
 
 }  // namespace
 
-std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimension,
-                                          double half_angle, double from, double to) {
+std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion, int dimension,
+                                              double half_angle, double from, double to) {
   CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   const Piece piece{from, to};
@@ -223,8 +223,8 @@ std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimensi
                         : MotionProofSearch<2>(motion, half_angle, kForChecks).Prove(piece);
 }
 
-std::optional<std::vector<MotionPiece>> FindMotionProof(const GraspMotion& motion, int dimension,
-                                                        double half_angle, double shortest) {
+std::optional<std::vector<MotionSegment>> FindMotionProof(const GraspMotion& motion, int dimension,
+                                                          double half_angle, double shortest) {
   CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForPlans).Find(shortest)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/motion/contact_motion.h"
-#include "planner/motion/motion_piece.h"
+#include "planner/motion/motion_segment.h"
 
 namespace regrasp {
 
@@ -23,19 +23,21 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 /// Looks closer to the limit than FindMotionProof does (kLargestWeightNearLimit).
 /// @returns nullopt where none was found; that is no proof of the opposite.
 /// @throws std::invalid_argument  half_angle out of range.
-[[nodiscard]] std::optional<MotionPiece> FindPieceProof(const GraspMotion& motion, int dimension,
-                                                        double half_angle, double from, double to);
+[[nodiscard]] std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion,
+                                                            int dimension, double half_angle,
+                                                            double from, double to);
 
-/// Looks for proofs all along a motion: pieces from 0 to 1 that follow each other (FindPieceProof).
-/// A piece without a proof is halved; an instant that is not force closure ends the search. Such
-/// instants are looked for only where the whole motion is not proved in one piece, as most are.
+/// Looks for proofs all along a motion: pieces from 0 to 1 that follow each other
+/// (FindSegmentProof). A piece without a proof is halved; an instant that is not force closure ends
+/// the search. Such instants are looked for only where the whole motion is not proved in one piece,
+/// as most are.
 ///
 /// Takes about 10 µs for four contacts in space where one piece is enough.
 /// @param dimension   3, or 2 for planar contacts. @param half_angle  radians, in (0, π/2).
 /// @param shortest    pieces shorter than this are not looked at.
 /// @returns nullopt where none was found; that is no proof of the opposite.
 /// @throws std::invalid_argument  half_angle out of range.
-[[nodiscard]] std::optional<std::vector<MotionPiece>> FindMotionProof(
+[[nodiscard]] std::optional<std::vector<MotionSegment>> FindMotionProof(
     const GraspMotion& motion, int dimension, double half_angle,
     double shortest = kShortestProofPiece);
 

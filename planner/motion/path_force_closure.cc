@@ -27,20 +27,21 @@ constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;
 constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
 
 /// Proofs of pieces of a motion that are found in floating point, and checked in exact arithmetic.
-class PieceProofs {
+class SegmentProofs {
  public:
-  PieceProofs(const GraspMotion& motion, int dimension) : motion_(motion), dimension_(dimension) {
+  SegmentProofs(const GraspMotion& motion, int dimension) : motion_(motion), dimension_(dimension) {
     for (const ContactMotion& contact : motion) {
       from_.push_back(contact.from());
       to_.push_back(contact.to());
     }
   }
 
-  [[nodiscard]] std::optional<MotionPiece> Prove(double half_angle, double from, double to) const {
-    auto proof = FindPieceProof(motion_, dimension_, half_angle, from, to);
+  [[nodiscard]] std::optional<MotionSegment> Prove(double half_angle, double from,
+                                                   double to) const {
+    auto proof = FindSegmentProof(motion_, dimension_, half_angle, from, to);
     if (!proof) return std::nullopt;
     const double mu = std::tan(half_angle);
-    if (!CheckPieceProof(from_, to_, dimension_, mu, *proof).proves()) return std::nullopt;
+    if (!CheckSegmentProof(from_, to_, dimension_, mu, *proof).proves()) return std::nullopt;
     return proof;
   }
 
@@ -115,7 +116,7 @@ class PathDecision {
   }
 
   const GraspMotion& motion_;
-  PieceProofs proofs_;
+  SegmentProofs proofs_;
   const WrenchFrame& frame_;
   double half_angle_;
   ProofBudget& budget_;
@@ -189,7 +190,7 @@ class PathAngle {
   }
 
   const GraspMotion& motion_;
-  PieceProofs proofs_;
+  SegmentProofs proofs_;
   const WrenchFrame& frame_;
   ProofBudget& budget_;
   RequiredHalfAngle bounds_;  ///< of the instants seen so far

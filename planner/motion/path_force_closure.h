@@ -5,7 +5,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/motion/contact_motion.h"
-#include "planner/motion/motion_piece.h"
+#include "planner/motion/motion_segment.h"
 #include "planner/motion/proof_budget.h"
 #include "planner/object/wrench_frame.h"
 
@@ -34,14 +34,14 @@ struct PathForceClosure {
   /// Of kTooClose: the search ended before it came to the end of the motion.
   bool ended_early = false;
   /// The proofs that were found, in order; after kYes they cover the whole motion.
-  MotionPieces pieces;
+  MotionSegments pieces;
 
   /// Proved everywhere.
   [[nodiscard]] bool holds() const { return decision == Decision::kYes; }
 };
 
 /// Decides force closure of a motion everywhere on the way, by bisection: an interval is halved
-/// until it has a proof (FindPieceProof) that exact arithmetic accepts (CheckPieceProof), an
+/// until it has a proof (FindSegmentProof) that exact arithmetic accepts (CheckSegmentProof), an
 /// instant fails IsForceClosure, or it is shorter than kShortestInterval.
 ///
 /// Ends early after kMostIntervals intervals, or where nothing is left of the budget.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/grasp/contact.h"
-#include "planner/motion/motion_piece.h"
+#include "planner/motion/motion_segment.h"
 
 namespace regrasp {
 
@@ -33,7 +33,7 @@ struct Switch {
 
 /// A claim that an align is force closure everywhere on the way, with its proof: for each pair of
 /// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
-using AlignCertificate = std::vector<MotionPieces>;
+using AlignCertificate = std::vector<MotionSegments>;
 
 /// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
 /// the same rate. The first waypoint is the grasp before the step.

@@ -9,7 +9,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/plan/contact_json.h"
-#include "planner/plan/motion_piece_json.h"
+#include "planner/plan/motion_segment_json.h"
 
 namespace regrasp {
 
@@ -44,10 +44,10 @@ AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int 
   }
   AlignCertificate certificate;
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    certificate.push_back(ReadMotionPieces(ways[w], dimension));
+    certificate.push_back(ReadMotionSegments(ways[w], dimension));
     const std::vector<JsonReader> pieces = ways[w].Elements();
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const MotionPiece& piece = certificate.back()[k];
+      const MotionSegment& piece = certificate.back()[k];
       const std::size_t fingers = step.waypoints[w].size();
       ExpectForces(pieces[k].Member("start"), piece.start.size(), fingers);
       ExpectForces(pieces[k].Member("end"), piece.end.size(), fingers);
@@ -167,8 +167,8 @@ Json AlignJson(const Align& step, int dimension) {
   json["waypoints"] = std::move(waypoints);
   if (step.certificate) {
     json["certificate"] = Json::array();
-    for (const MotionPieces& pieces : *step.certificate) {
-      json["certificate"].push_back(MotionPiecesJson(pieces, dimension));
+    for (const MotionSegments& pieces : *step.certificate) {
+      json["certificate"].push_back(MotionSegmentsJson(pieces, dimension));
     }
   }
   return json;

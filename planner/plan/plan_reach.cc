@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
-#include "planner/plan/reach.h"
+#include "planner/criteria/reach.h"
 
 namespace regrasp {
 
@@ -92,8 +92,8 @@ std::optional<double> FindMeeting(const ContactMotion& a, const ContactMotion& b
   return FindInstant(0, 1, fails, is_clear);
 }
 
-std::optional<std::string> FindWayObstacle(const Object& object, const FingerGrasp& from,
-                                           const FingerGrasp& to, double radius) {
+std::optional<std::string> FindPathObstacle(const Object& object, const FingerGrasp& from,
+                                            const FingerGrasp& to, double radius) {
   // Where points can be at both ends they can be on the way, which stays on the surface.
   if (radius <= 0) return std::nullopt;
   std::vector<ContactMotion> motions;
@@ -126,7 +126,7 @@ std::optional<std::string> FindAlignObstacle(const Object& object, const Align& 
       return waypoint + ": " + *found;
     }
     if (w == 0) continue;
-    const auto found = FindWayObstacle(object, align.waypoints[w - 1], align.waypoints[w], radius);
+    const auto found = FindPathObstacle(object, align.waypoints[w - 1], align.waypoints[w], radius);
     if (found) return "before " + waypoint + ", " + *found;
   }
   return std::nullopt;

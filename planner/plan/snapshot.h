@@ -19,7 +19,7 @@ struct FingerState {
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();   ///< inward normal at the contact
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();    ///< on the object; zero while free
   /// Points along which a finger that moved came, from the first to contact_W; empty for others.
-  std::vector<Eigen::Vector3d> way_W = {};
+  std::vector<Eigen::Vector3d> path_W = {};
 };
 
 /// The object and the hand at one instant: what the replay measured and a frame shows.

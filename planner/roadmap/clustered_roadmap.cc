@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "planner/graph/grasp_choice.h"
-#include "planner/plan/clearance.h"
-#include "planner/plan/reach.h"
-#include "planner/roadmap/contact_points.h"
+#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
+#include "planner/planning/grasp_choice.h"
+#include "planner/sampling/contact_points.h"
 
 namespace regrasp {
 
@@ -34,7 +34,7 @@ ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapO
   std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
   std::erase_if(contacts, [&](const Contact& contact) {
     options.deadline.Check();
-    return !HasStandingRoom(solid, contact) || !CanReach(solid, contact, options.finger_radius);
+    return !HasClearance(solid, contact) || !CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
   options.progress("clustering " + std::to_string(contacts.size()) + " contact points");

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "planner/base/deadline.h"
-#include "planner/graph/components.h"
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/contact_clusters.h"
 #include "planner/roadmap/roadmap.h"
+#include "planner/search/components.h"
 
 namespace regrasp {
 

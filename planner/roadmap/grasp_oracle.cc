@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/reach.h"
 
 namespace regrasp {
 

@@ -40,7 +40,7 @@ Replacements Replacements::AnyOf(std::vector<int> contacts, int count) {
   return {{std::move(contacts)}, std::vector<int>(count, 0), {}};
 }
 
-bool GraspTree::Offer::operator<(const Offer& other) const {
+bool GraspTree::QueueEntry::operator<(const QueueEntry& other) const {
   // The queue's top is the greatest: the least remote, then the first that came.
   return std::tie(other.remoteness, other.from, other.slot, other.position) <
          std::tie(remoteness, from, slot, position);
@@ -71,13 +71,13 @@ void GraspTree::Push(int from, int slot, int position) {
   for (int other = 0; other < 4; ++other) {
     if (other != slot) remoteness += remoteness_[grasp[other]];
   }
-  offers_.push({remoteness, from, slot, position});
+  queue_.push({remoteness, from, slot, position});
 }
 
 bool GraspTree::Step() {
   assert(!exhausted());
-  const Offer offer = offers_.top();
-  offers_.pop();
+  const QueueEntry offer = queue_.top();
+  queue_.pop();
   const Quadruple from = reached_[offer.from].grasp;
   const int contact = replacements_.lists[replacements_.list_of[from[offer.slot]]][offer.position];
   Push(offer.from, offer.slot, offer.position + 1);

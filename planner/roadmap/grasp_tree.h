@@ -39,7 +39,7 @@ class GraspTree {
 
   /// Tests the next grasp. @returns whether it was one to reach; then last() is it.
   bool Step();
-  [[nodiscard]] bool exhausted() const { return offers_.empty(); }
+  [[nodiscard]] bool exhausted() const { return queue_.empty(); }
 
   [[nodiscard]] const Quadruple& last() const { return reached_.back().grasp; }
   [[nodiscard]] bool Has(const Quadruple& grasp) const {
@@ -57,12 +57,12 @@ class GraspTree {
     int parent;
   };
   /// The next replacement of one contact of a reached grasp.
-  struct Offer {
+  struct QueueEntry {
     double remoteness;  ///< of the grasp that would be
     int from;
     int slot;
     int position;  ///< in the list
-    bool operator<(const Offer& other) const;
+    bool operator<(const QueueEntry& other) const;
   };
 
   void Reach(const Quadruple& grasp, int parent);
@@ -73,7 +73,7 @@ class GraspTree {
   GraspOracle& oracle_;
   std::vector<Reached> reached_;
   std::unordered_map<std::uint64_t, int> numbers_;
-  std::priority_queue<Offer> offers_;
+  std::priority_queue<QueueEntry> queue_;
 };
 
 /// How two grasps are joined, or why not.

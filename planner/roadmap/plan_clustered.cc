@@ -4,11 +4,11 @@
 #include <set>
 
 #include "planner/base/number.h"
-#include "planner/graph/plan_search.h"
 #include "planner/grasp/quality.h"
+#include "planner/planning/plan_search.h"
 #include "planner/roadmap/contact_chain.h"
 #include "planner/roadmap/find_contact.h"
-#include "planner/roadmap/surface_draw.h"
+#include "planner/sampling/surface_draw.h"
 
 namespace regrasp {
 
@@ -29,7 +29,7 @@ class ClusterPlanner {
   ClusterPlanner(const Polyhedron& solid, const RoadmapOptions& options)
       : solid_(solid),
         options_(options),
-        judge_(solid, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(solid, options.half_angle, options.min_quality, options.finger_radius),
         roadmap_(BuildClusteredRoadmap(solid, options)) {}
 
   RoadmapPlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {
@@ -52,7 +52,7 @@ class ClusterPlanner {
     } else {
       choice.grasp = choice.kind == Kind::kRandom
                          ? DrawContacts(choice, random)
-                         : DrawOnSurface(solid_, kContacts, judge_, random, choice.name,
+                         : DrawOnSurface(solid_, kContacts, evaluator_, random, choice.name,
                                          [&] { options_.deadline.Check(); });
       choice.kind = Kind::kGiven;
     }
@@ -172,7 +172,7 @@ class ClusterPlanner {
 
   const Polyhedron& solid_;
   const RoadmapOptions& options_;
-  GraspJudge judge_;
+  GraspEvaluator evaluator_;
   ClusteredRoadmap roadmap_;
 };
 

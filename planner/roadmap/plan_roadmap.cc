@@ -7,18 +7,18 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/graph/fewest_switches.h"
-#include "planner/graph/plan_search.h"
-#include "planner/graph/sequence.h"
-#include "planner/graph/widest_path.h"
+#include "planner/criteria/reach.h"
 #include "planner/grasp/quality.h"
-#include "planner/plan/reach.h"
-#include "planner/roadmap/contact_points.h"
+#include "planner/planning/plan_search.h"
+#include "planner/planning/switch_sequence.h"
 #include "planner/roadmap/find_contact.h"
 #include "planner/roadmap/plan_clustered.h"
 #include "planner/roadmap/roadmap_memory.h"
-#include "planner/roadmap/surface_draw.h"
 #include "planner/roadmap/vertex_quality.h"
+#include "planner/sampling/contact_points.h"
+#include "planner/sampling/surface_draw.h"
+#include "planner/search/fewest_switches.h"
+#include "planner/search/widest_path.h"
 
 namespace regrasp {
 
@@ -117,9 +117,9 @@ class RoadmapPlanner {
     }
     if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
     RandomStream random(options_.seed, use);
-    const GraspJudge judge(solid_, options_.half_angle, options_.min_quality,
-                           options_.finger_radius);
-    choice.grasp = DrawOnSurface(solid_, kContacts, judge, random, choice.name,
+    const GraspEvaluator evaluator(solid_, options_.half_angle, options_.min_quality,
+                                   options_.finger_radius);
+    choice.grasp = DrawOnSurface(solid_, kContacts, evaluator, random, choice.name,
                                  [&] { options_.deadline.Check(); });
     choice.kind = GraspChoice::Kind::kGiven;
     return choice;
@@ -153,28 +153,28 @@ class RoadmapPlanner {
   /// A vertex of good quality by the seed, out of the start's component where there is a start and
   /// then another one than it, if the component has another.
   int DrawVertex(const GraspChoice& choice, RandomUse use, std::optional<int> start) {
-    std::vector<int> urn = Urn(start);
+    std::vector<int> pool = Pool(start);
     RandomStream random(options_.seed, use);
-    const std::size_t draws = std::min<std::size_t>(urn.size(), kMaxVertexDraws);
+    const std::size_t draws = std::min<std::size_t>(pool.size(), kMaxVertexDraws);
     for (std::size_t i = 0; i < draws; ++i) {
-      std::swap(urn[i], urn[i + random.Index(urn.size() - i)]);
+      std::swap(pool[i], pool[i + random.Index(pool.size() - i)]);
       options_.deadline.Check();
-      if (quality_.IsGood(urn[i])) return urn[i];
+      if (quality_.IsGood(pool[i])) return pool[i];
     }
     throw NoGrasp{choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
                   (start ? "start's component of the roadmap" : "roadmap") +
                   " has a quality of at least " + FormatShort(options_.min_quality)};
   }
 
-  std::vector<int> Urn(std::optional<int> start) const {
-    std::vector<int> urn(roadmap_.vertex_count());
-    std::iota(urn.begin(), urn.end(), 0);
-    if (!start) return urn;
+  std::vector<int> Pool(std::optional<int> start) const {
+    std::vector<int> pool(roadmap_.vertex_count());
+    std::iota(pool.begin(), pool.end(), 0);
+    if (!start) return pool;
     const Components components = roadmap_.components();
     const int component = components.of_vertex[*start];
     if (components.sizes[component] == 1) return {*start};
-    std::erase_if(urn, [&](int v) { return v == *start || components.of_vertex[v] != component; });
-    return urn;
+    std::erase_if(pool, [&](int v) { return v == *start || components.of_vertex[v] != component; });
+    return pool;
   }
 
   std::vector<int> FindPath(int start, int goal) {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "planner/base/deadline.h"
-#include "planner/graph/grasp_choice.h"
-#include "planner/graph/plan_result.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "planner/planning/grasp_choice.h"
+#include "planner/planning/plan_result.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
 

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <iterator>
 
+#include "planner/criteria/reach.h"
 #include "planner/grasp/subset_force_closure.h"
-#include "planner/plan/reach.h"
 #include "planner/roadmap/combination_rank.h"
 
 namespace regrasp {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "planner/base/deadline.h"
-#include "planner/graph/components.h"
-#include "planner/graph/switching_graph.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
+#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
 
 namespace regrasp {
 

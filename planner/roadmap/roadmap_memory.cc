@@ -5,7 +5,7 @@
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/roadmap/combination_rank.h"
-#include "planner/roadmap/surface_sample.h"
+#include "planner/sampling/surface_sample.h"
 
 namespace regrasp {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "planner/graph/grasp_choice.h"
+#include "planner/planning/grasp_choice.h"
 
 namespace regrasp {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "planner/graph/plan_result.h"
+#include "planner/planning/plan_result.h"
 #include "tests/planner/counted_deadline.h"
 
 namespace regrasp {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "planner/contour/plan_contour.h"
+#include "planner/sets/contour/plan_contour.h"
 #include "render/contact_space_map.h"
 #include "render/contact_space_switch_page.h"
 #include "render/print_size.h"
@@ -36,7 +36,7 @@ std::vector<ContactSwitch> ManySwitches() {
       ContourPlanOptions options;
       options.half_angle = 0.45;
       options.seed = seed;
-      if (seed % 2 == 0) options.aim = SwitchAim::kRegion;
+      if (seed % 2 == 0) options.aim = SwitchObjective::kRegion;
       const PlanResult result = PlanOnContour(polygon, random, random, options);
       if (!result.plan) continue;
       for (ContactSwitch& step : SwitchesOf(polygon, *result.plan)) all.push_back(std::move(step));

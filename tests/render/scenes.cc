@@ -102,7 +102,7 @@ std::vector<Snapshot> MakeCubeSequence() {
   FingerState f4 = placed;
   f4.role = kHolding;
   FingerState moved = MakeFinger(2, FingerRole::kMoved, {0.03, 0.012, -0.012}, -x);
-  moved.way_W = {f2.contact_W, moved.contact_W};
+  moved.path_W = {f2.contact_W, moved.contact_W};
   return {MakeSnapshot({f0, f1, f2, f3}), MakeSnapshot({released, f1, f2, f3, placed}),
           MakeSnapshot({f1, moved, f3, f4})};
 }

@@ -35,9 +35,9 @@ TEST(ReplayAlign, IsImitatedWithASpareFingerAndEveryFingerEndsAtItsTarget) {
       EXPECT_EQ(state.role, FingerRole::kMoved);
       EXPECT_LT((shown.X_WO.inverse() * state.contact_W - target.contact.p).norm(),
                 kGood * cube.object.diameter());
-      ASSERT_EQ(state.way_W.size(), 2u);
-      EXPECT_GT((state.way_W.front() - state.contact_W).norm(), 1e-3);
-      EXPECT_LT((state.way_W.back() - state.contact_W).norm(), kGood * cube.object.diameter());
+      ASSERT_EQ(state.path_W.size(), 2u);
+      EXPECT_GT((state.path_W.front() - state.contact_W).norm(), 1e-3);
+      EXPECT_LT((state.path_W.back() - state.contact_W).norm(), kGood * cube.object.diameter());
       ++arrived;
     }
   }
@@ -129,11 +129,11 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
                             cube.At(2, -0.02, 0.03, -0.018), cube.At(3, -0.02, -0.03, -0.018)};
   FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
                     cube.At(2, 0.02, 0.03, 0.018), cube.At(3, 0.02, -0.03, 0.018)};
-  const int rough = CountMoves<FingersGoOver>(cube, from, to, 20, {4});
+  const int rough = CountMoves<FingerHandover>(cube, from, to, 20, {4});
   EXPECT_GT(rough, 0);
-  EXPECT_LT(rough, CountMoves<FingersGoOver>(cube, from, to, 5, {4}));
+  EXPECT_LT(rough, CountMoves<FingerHandover>(cube, from, to, 5, {4}));
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {4}), 0);
-  EXPECT_EQ(CountMoves<FingersGoOver>(cube, from, to, 5, {}), 0);
+  EXPECT_EQ(CountMoves<FingerHandover>(cube, from, to, 5, {}), 0);
   EXPECT_EQ(CountMoves<FingersRoll>(cube, from, to, 5, {}), 1);
   // Both pairs end askew: from somewhere on the way on nothing holds.
   to = {cube.At(0, 0.03, 0.029, 0.029), cube.At(1, -0.03, -0.029, -0.029),

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "planner/plan/clearance.h"
+#include "planner/criteria/clearance.h"
 #include "replay_cases.h"
 #include "sim/contact_patches.h"
 

@@ -2,7 +2,7 @@
 
 #include "replay_cases.h"
 #include "sim/motions.h"
-#include "sim/stage.h"
+#include "sim/replay_world.h"
 #include "sim/stillness.h"
 
 namespace regrasp {
@@ -12,13 +12,13 @@ struct HeldCube {
   CubeCase cube;
   Plan plan = MakePlan(cube.Start(), 25);
   ReplayObserver observer;
-  Stage stage;
+  ReplayWorld world;
 
   explicit HeldCube(const ReplayOptions& options = {})
-      : stage(cube.object, plan, MakeScene(cube.object, plan, 0, options), observer) {
-    TakeHold(stage, ToScene(cube.object, plan.scale, plan.initial));
-    (void)WaitUntilStill(stage);
-    stage.StartJudging();
+      : world(cube.object, plan, MakeScene(cube.object, plan, 0, options), observer) {
+    TakeHold(world, ToScene(cube.object, plan.scale, plan.initial));
+    (void)WaitUntilStill(world);
+    world.StartJudging();
   }
 };
 

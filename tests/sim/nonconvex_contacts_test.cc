@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/criteria/clearance.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/plan/clearance.h"
 #include "replay_cases.h"
 #include "sim/contact_patches.h"
 #include "sim/scaling.h"
@@ -235,7 +235,7 @@ FingerGrasp DrawGrasp(const Polyhedron& body, double half_angle, std::mt19937& r
     Grasp grasp;
     while (grasp.size() < 4) {
       const Contact contact = DrawContact(body, random);
-      if (HasStandingRoom(body, contact)) grasp.push_back(contact);
+      if (HasClearance(body, contact)) grasp.push_back(contact);
     }
     if (IsForceClosure(grasp, body.wrench_frame(), half_angle) &&
         QualityAtLeast(grasp, body.wrench_frame(), half_angle, kQuality)) {

@@ -108,7 +108,7 @@ struct Tally {
 };
 
 /// The plan passes the replay, and fails where the friction is less than its critical one.
-void Judge(const Polygon& polygon, const Plan& plan, Tally& tally) {
+void MotionMonitor(const Polygon& polygon, const Plan& plan, Tally& tally) {
   const PlanCheck check = CheckPlan(polygon, plan);
   ASSERT_TRUE(check.passed());
   const ReplayResult result = ReplayPlan(polygon, check.located, {});
@@ -142,7 +142,7 @@ TEST(PlanarCornerSweep, RandomWalksPassAndFailBelowTheirCriticalFriction) {
       for (int i = 0; i < 5; ++i) {
         SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
         const std::optional<Plan> plan = dice.DrawWalk();
-        if (plan) Judge(outline, *plan, tally);
+        if (plan) MotionMonitor(outline, *plan, tally);
       }
     }
   }
@@ -165,7 +165,7 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
       for (int i = 0; i < 3; ++i) {
         SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
         const std::optional<Plan> plan = dice.DrawSwitches(kSwitches);
-        if (plan) Judge(outline, *plan, tally);
+        if (plan) MotionMonitor(outline, *plan, tally);
       }
     }
   }

@@ -3,7 +3,7 @@
 
 #include "mujoco_file.h"
 #include "planar_cases.h"
-#include "planner/plan/clearance.h"
+#include "planner/criteria/clearance.h"
 #include "sim/contact_patches.h"
 #include "sim/visible_surface.h"
 

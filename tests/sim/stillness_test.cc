@@ -174,18 +174,18 @@ TEST(Stillness, AGoodGraspPassesAtEveryTimeStepByTheSameMotion) {
 
 TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
   HeldCube held;
-  const double before = held.stage.engine().time();
-  EXPECT_TRUE(WaitUntilStill(held.stage));
-  const double waited = held.stage.engine().time() - before;
-  EXPECT_NEAR(waited, kStillTime * held.stage.settings().natural_time_s, 1e-9 * before);
-  ComeToRest(held.stage);
-  EXPECT_EQ(held.stage.judge().reason(), Reason::kNone);
+  const double before = held.world.engine().time();
+  EXPECT_TRUE(WaitUntilStill(held.world));
+  const double waited = held.world.engine().time() - before;
+  EXPECT_NEAR(waited, kStillTime * held.world.settings().natural_time_s, 1e-9 * before);
+  ComeToRest(held.world);
+  EXPECT_EQ(held.world.monitor().reason(), Reason::kNone);
 }
 
 TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
   HeldCube held;
-  for (StageFinger& finger : held.stage.fingers()) finger.force_S.setZero();
-  EXPECT_FALSE(WaitUntilStill(held.stage));
+  for (WorldFinger& finger : held.world.fingers()) finger.force_S.setZero();
+  EXPECT_FALSE(WaitUntilStill(held.world));
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
   align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].ways;
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= 0.5;
   for (Vector3d& force : (*align.certificate)[0][0].end) force *= 0.5;
-  const MotionPiece given = (*align.certificate)[0][0];
+  const MotionSegment given = (*align.certificate)[0][0];
   EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].ways[0][0].start, given.start);
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= -1;
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Kind = ProofVerdict::Kind;
-using Pieces = std::vector<MotionPiece>;
+using Pieces = std::vector<MotionSegment>;
 
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
@@ -187,13 +187,13 @@ TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
   to[1].p += apart * x;
   to[3].p -= apart * x;
   const Vector3d slanted = weak * (up + apart / 2 * x);
-  MotionPiece piece{0, 1, {up, -up, slanted, -slanted}, {slanted, -slanted, up, -up}};
+  MotionSegment piece{0, 1, {up, -up, slanted, -slanted}, {slanted, -slanted, up, -up}};
   EXPECT_EQ(CheckMotionProof(from, to, 2, kMu, Pieces{piece}).kind, Kind::kNothing);
   // The control: at rest at either end they prove what they should.
-  MotionPiece start = piece;
+  MotionSegment start = piece;
   start.end = start.start;
   EXPECT_EQ(CheckMotionProof(from, from, 2, kMu, Pieces{start}).kind, Kind::kForceClosure);
-  MotionPiece end = piece;
+  MotionSegment end = piece;
   end.start = end.end;
   EXPECT_EQ(CheckMotionProof(to, to, 2, kMu, Pieces{end}).kind, Kind::kForceClosure);
 }
@@ -258,7 +258,7 @@ TEST_F(PiecesTest, BelongToOneMotion) {
 }
 
 TEST_F(PiecesTest, WrittenAsShortDecimalsStillProve) {
-  for (MotionPiece& piece : pieces) {
+  for (MotionSegment& piece : pieces) {
     for (auto* forces : {&piece.start, &piece.end}) {
       for (Vector3d& force : *forces) force = (force * 1e6).array().round() / 1e6;
     }

@@ -86,12 +86,12 @@ class PathForceClosureIn : public testing::TestWithParam<int> {
 
 /// Whether a piece of a motion is proved, by a proof that exact arithmetic accepts.
 bool IsProved(const GraspMotion& motion, int dimension, double half_angle, double from, double to) {
-  const auto proof = FindPieceProof(motion, dimension, half_angle, from, to);
+  const auto proof = FindSegmentProof(motion, dimension, half_angle, from, to);
   if (!proof) return false;
   EXPECT_EQ(proof->from, from);
   EXPECT_EQ(proof->to, to);
   const Grasp start = GraspAt(motion, 0), end = GraspAt(motion, 1);
-  return CheckPieceProof(start, end, dimension, std::tan(half_angle), *proof).proves();
+  return CheckSegmentProof(start, end, dimension, std::tan(half_angle), *proof).proves();
 }
 
 /// The largest reach around the middle of a motion that is proved, to 1 in 4000; 0 for none.

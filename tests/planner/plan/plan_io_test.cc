@@ -35,8 +35,8 @@ void ExpectSameCertificate(const std::optional<AlignCertificate>& a,
   for (std::size_t w = 0; w < a->size(); ++w) {
     ASSERT_EQ((*a)[w].size(), (*b)[w].size());
     for (std::size_t k = 0; k < (*a)[w].size(); ++k) {
-      const MotionPiece& one = (*a)[w][k];
-      const MotionPiece& other = (*b)[w][k];
+      const MotionSegment& one = (*a)[w][k];
+      const MotionSegment& other = (*b)[w][k];
       EXPECT_EQ(one.from, other.from);
       EXPECT_EQ(one.to, other.to);
       EXPECT_EQ(one.start, other.start);

@@ -1,4 +1,4 @@
-#include "planner/graph/grasp_choice.h"
+#include "planner/planning/grasp_choice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/roadmap/surface_sample.h"
+#include "planner/sampling/surface_sample.h"
 #include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {

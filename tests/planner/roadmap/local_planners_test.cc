@@ -247,22 +247,22 @@ TEST_P(LocalPlannersOn, LinkTakesTheFirstThatFindsAWay) {
   for (const Quadruple& grasp : grasps) {
     const LocalPlanners::Way way = problem_.local.Link(grasp);
     RoadmapLink expected = RoadmapLink::kNone;
-    std::vector<Quadruple> expected_way;
+    std::vector<Quadruple> expected_path;
     if (problem_.vertices.contains(grasp)) {
       expected = RoadmapLink::kVertex;
-      expected_way = {grasp};
+      expected_path = {grasp};
     } else if (const auto one = problem_.local.RunAlgorithm1(grasp); !one.empty()) {
       expected = RoadmapLink::kAlgorithm1;
-      expected_way = one;
+      expected_path = one;
     } else if (const auto two = problem_.local.RunAlgorithm2(grasp); !two.empty()) {
       expected = RoadmapLink::kAlgorithm2;
-      expected_way = two;
+      expected_path = two;
     } else if (const auto three = problem_.local.RunAlgorithm3(grasp); !three.empty()) {
       expected = RoadmapLink::kAlgorithm3;
-      expected_way = three;
+      expected_path = three;
     }
     EXPECT_EQ(way.link, expected);
-    EXPECT_EQ(way.grasps, expected_way);
+    EXPECT_EQ(way.grasps, expected_path);
     ++links[way.link];
   }
   EXPECT_GT(links[RoadmapLink::kVertex], 0);

@@ -9,12 +9,12 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/graph/fewest_switches.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "planner/roadmap/vertex_quality.h"
+#include "planner/search/fewest_switches.h"
 #include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {

@@ -7,10 +7,10 @@
 #include <array>
 
 #include "planner/base/angle.h"
-#include "planner/graph/fewest_switches.h"
+#include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/reach.h"
-#include "planner/roadmap/contact_points.h"
+#include "planner/sampling/contact_points.h"
+#include "planner/search/fewest_switches.h"
 #include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {

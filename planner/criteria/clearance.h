@@ -1,0 +1,25 @@
+#pragma once
+
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+/// The radius of the largest ball that touches the object from outside at `contact` and nowhere
+/// enters it, at most `limit`: how thick a fingertip can be there. 0 on a concave edge.
+///
+/// By the shrinking ball of Ma, Bae and Choi 2012: a ball tangent at p with inward normal n that
+/// contains a surface point q shrinks to the one through q, of radius |q − p|² / (−2 n·(q − p)).
+///
+/// Lengths are the object's own units; `contact.face` is the face that it lies on.
+[[nodiscard]] double ComputeClearance(const Object& object, const Contact& contact, double limit);
+
+/// A fingertip needs room: a ball of this radius, over the diameter, that touches at the contact.
+/// In a concave corner no finger can stand; the smallest fingertips of the replay need half of it.
+inline constexpr double kFingertipClearance = 5e-4;
+
+/// True iff a ball of that radius touches the object from outside at the contact and nowhere else.
+/// @param contact  knows its face.
+[[nodiscard]] bool HasClearance(const Object& object, const Contact& contact);
+
+}  // namespace regrasp

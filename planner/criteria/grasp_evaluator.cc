@@ -1,0 +1,84 @@
+#include "planner/criteria/grasp_evaluator.h"
+
+#include <algorithm>
+
+#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Of required half-angles that are only compared, radians.
+constexpr double kScoreAccuracy = 1e-5;
+
+/// Of qualities that are only compared: to a hundredth they would take ten times as long.
+constexpr double kScoreGap = 0.1;
+
+std::vector<double> NumbersOf(const Grasp& grasp) {
+  std::vector<double> numbers;
+  for (const Contact& contact : grasp) {
+    numbers.insert(numbers.end(), contact.p.begin(), contact.p.end());
+    numbers.insert(numbers.end(), contact.n.begin(), contact.n.end());
+    numbers.push_back(contact.face);
+  }
+  return numbers;
+}
+
+bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      if ((grasp[i].p - grasp[j].p).norm() <= same_point) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+GraspEvaluator::GraspEvaluator(const Object& object, double half_angle, double min_quality,
+                               double finger_radius)
+    : object_(object),
+      frame_(object.wrench_frame()),
+      half_angle_(half_angle),
+      min_quality_(min_quality),
+      same_point_(kSamePoint * object.diameter()),
+      finger_radius_(finger_radius) {}
+
+bool GraspEvaluator::CanStand(const Grasp& grasp) const {
+  return HaveDistinctPoints(grasp, same_point_) &&
+         std::all_of(grasp.begin(), grasp.end(),
+                     [&](const Contact& contact) { return HasClearance(object_, contact); }) &&
+         CanHold(object_, grasp, finger_radius_);
+}
+
+bool GraspEvaluator::IsGood(const Grasp& grasp) const {
+  return CanStand(grasp) && IsForceClosure(grasp, frame_, half_angle_) &&
+         QualityAtLeast(grasp, frame_, half_angle_, min_quality_);
+}
+
+double GraspEvaluator::Score(const Grasp& grasp) const {
+  const auto [known, is_new] = scores_.try_emplace(NumbersOf(grasp), 0);
+  if (is_new) known->second = ComputeScore(grasp);
+  return known->second;
+}
+
+double GraspEvaluator::ComputeScore(const Grasp& grasp) const {
+  if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle_)) {
+    return -1;
+  }
+  if (!QualityAtLeast(grasp, frame_, half_angle_, min_quality_)) {
+    return ComputeQuality(grasp, frame_, half_angle_, kScoreGap).lower / min_quality_ - 1;
+  }
+  const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
+  return required ? std::max(half_angle_ - required->upper, 0.0) : 0;
+}
+
+double GraspEvaluator::Quality(const Grasp& grasp) const {
+  return ComputeQuality(grasp, frame_, half_angle_).lower;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,93 @@
+#include "planner/criteria/reach.h"
+
+#include <algorithm>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/criteria/clearance.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Faces and fingers that touch are at their distance up to rounding, and don't overlap: a relative
+/// slack for computed distances, and one in diameters for the coordinates that they come from.
+constexpr double kTouches = 1 - 1e-9;
+constexpr double kRounding = 1e-12;
+
+/// How far from the contact the way of a finger is free is told to this share of the diameter.
+constexpr double kDistanceAccuracy = 1e-4;
+constexpr int kDistanceDigits = 3;
+
+/// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
+/// `way` before it rests.
+bool IsBlocked(const Object& object, const Contact& contact, double radius, double way) {
+  const Vector3d rest = BallCentre(contact, radius);
+  const double within = std::max(kTouches * radius - kRounding * object.diameter(), 0.0);
+  const auto near = object.FacesNearSegment(rest, rest - way * contact.n, within);
+  return std::ranges::any_of(near, [&](int face) { return face != contact.face; });
+}
+
+/// In a sealed cavity.
+bool IsShutIn(const Object& object, const Contact& contact) {
+  return contact.face >= 0 && object.IsEnclosed(contact.face);
+}
+
+}  // namespace
+
+Vector3d BallCentre(const Contact& contact, double radius) {
+  return contact.p - radius * contact.n;
+}
+
+bool CanReach(const Object& object, const Contact& contact, double radius) {
+  if (IsShutIn(object, contact)) return false;
+  return radius <= 0 || !IsBlocked(object, contact, radius, object.diameter());
+}
+
+bool KeepApart(std::span<const Contact> contacts, double radius) {
+  if (radius <= 0) return true;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (std::size_t j = i + 1; j < contacts.size(); ++j) {
+      const Vector3d between = BallCentre(contacts[i], radius) - BallCentre(contacts[j], radius);
+      if (between.norm() < kTouches * 2 * radius) return false;
+    }
+  }
+  return true;
+}
+
+bool CanHold(const Object& object, std::span<const Contact> grasp, double radius) {
+  return KeepApart(grasp, radius) && std::ranges::all_of(grasp, [&](const Contact& contact) {
+           return CanReach(object, contact, radius);
+         });
+}
+
+void CheckFingerRadius(const Object& object, double radius, const std::string& name) {
+  if (radius <= object.diameter()) return;
+  throw InputError(name + ": " + FormatShort(radius) + " is more than the object's diameter of " +
+                   FormatShort(object.diameter()) + " (it is in the unit of the object's file)");
+}
+
+std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,
+                                        double radius) {
+  if (CanReach(object, contact, radius)) return std::nullopt;
+  if (IsShutIn(object, contact)) {
+    return "its contact lies in a sealed cavity, where no finger comes from outside";
+  }
+  const double room = ComputeClearance(object, contact, radius);
+  if (room < kTouches * radius) {
+    return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +
+           FormatShort(room) + " fits";
+  }
+  double free = 0;
+  double blocked = object.diameter();
+  while (blocked - free > kDistanceAccuracy * object.diameter()) {
+    const double way = (free + blocked) / 2;
+    (IsBlocked(object, contact, radius, way) ? blocked : free) = way;
+  }
+  return "the object blocks its way to the contact along the normal: a finger of radius " +
+         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free way there";
+}
+
+}  // namespace regrasp

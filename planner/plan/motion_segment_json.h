@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/motion/motion_segment.h"
+#include "planner/plan/json_reader.h"
+
+namespace regrasp {
+
+[[nodiscard]] Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension);
+[[nodiscard]] Json MotionSegmentsJson(const MotionSegments& pieces, int dimension);
+/// @throws InputError
+[[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
+[[nodiscard]] MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
+
+}  // namespace regrasp

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/plan/plan.h"
+#include "planner/search/vertex_pair.h"
+
+namespace regrasp {
+
+/// A grasp that a sequence rests in.
+struct Rest {
+  Grasp grasp;
+  /// The switch of the graph that it was chosen for; none for what start and goal give.
+  std::optional<VertexPair> chosen_for;
+};
+
+/// A sequence and what is known of it.
+struct CandidateSequence {
+  FingerGrasp initial;
+  std::vector<Step> steps;
+  std::vector<Rest> rests;  ///< before all steps and after each
+};
+
+}  // namespace regrasp

@@ -1,0 +1,54 @@
+#include "planner/planning/rest_summary.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/base/number.h"
+#include "planner/grasp/required_half_angle.h"
+
+namespace regrasp {
+
+double SmallestMargin(const std::vector<Rest>& rests, const GraspEvaluator& evaluator) {
+  // A score is a lower bound of the margin, so that only the few smallest ones need it exactly.
+  std::vector<std::pair<double, const Rest*>> by_score;
+  for (const Rest& rest : rests) by_score.emplace_back(evaluator.Score(rest.grasp), &rest);
+  std::ranges::sort(by_score);
+  double smallest = evaluator.half_angle();
+  for (const auto& [score, rest] : by_score) {
+    if (score >= std::max(smallest, 0.0)) break;
+    const auto required = ComputeRequiredHalfAngle(rest->grasp, evaluator.frame());
+    smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
+  }
+  return smallest;
+}
+
+std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
+                                         const GraspEvaluator& evaluator) {
+  const auto name = [&](std::size_t step) {
+    if (step == 0) return std::string("the start grasp (step 0)");
+    return "the grasp after step " + std::to_string(step) + " of " +
+           std::to_string(rests.size() - 1);
+  };
+  double weakest = evaluator.min_quality();
+  std::size_t step = 0;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < rests.size(); ++i) {
+    if (evaluator.Score(rests[i].grasp) >= 0) continue;
+    if (warnings.empty() && !evaluator.CanStand(rests[i].grasp)) {
+      warnings.push_back("a fingertip has no room in " + name(i) +
+                         ": a contact is in a concave corner");
+    }
+    const double quality = evaluator.Quality(rests[i].grasp);
+    if (quality >= weakest) continue;
+    weakest = quality;
+    step = i;
+  }
+  if (weakest < evaluator.min_quality()) {
+    warnings.push_back(
+        "the sequence passes grasps below the quality " + FormatShort(evaluator.min_quality()) +
+        " that was asked for; the weakest is " + name(step) + " with " + FormatShort(weakest));
+  }
+  return warnings;
+}
+
+}  // namespace regrasp

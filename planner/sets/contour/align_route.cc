@@ -1,0 +1,215 @@
+#include "planner/sets/contour/align_route.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <tuple>
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// The way is pulled straight inside this share of each passage, about its middle, in so many
+/// rounds; more move it by less than a hundredth of a passage.
+constexpr double kUsedShare = 0.5;
+constexpr int kPullRounds = 30;
+
+/// Passages at least this share as wide as the narrowest one of the widest way are admitted.
+constexpr double kWideShare = 0.5;
+
+/// The least margin that lengths are divided by, radians.
+constexpr double kLeastMargin = 1e-6;
+
+/// A step through a passage.
+struct Crossing {
+  int passage;
+  bool forward;  ///< from the first piece to the second
+  PlaceRange range;
+  double place;  ///< of the contact that stays
+};
+
+class Router {
+ public:
+  Router(SetGeometry& geometry, const PlacedGrasp& from, const PlacedGrasp& to)
+      : geometry_(geometry), graph_(geometry.graph()), from_(from), to_(to) {}
+
+  std::vector<PlacedGrasp> Find() {
+    std::vector<Crossing> crossings = FindCrossings();
+    for (int round = 0; round < kPullRounds; ++round) Pull(crossings);
+    std::vector<PlacedGrasp> route = {from_};
+    for (const Crossing& crossing : crossings) {
+      route.push_back(Side(crossing, true));
+      route.push_back(Side(crossing, false));
+    }
+    route.push_back(to_);
+    return route;
+  }
+
+ private:
+  [[nodiscard]] int PieceOf(const Crossing& c, bool before) const {
+    return graph_.passages()[c.passage].pieces[before == c.forward ? 0 : 1];
+  }
+
+  /// Which contact of the piece on that side goes around the vertex.
+  [[nodiscard]] int TurningOf(const Crossing& c, bool before) const {
+    return graph_.pieces()[PieceOf(c, before)].edges[0] == graph_.passages()[c.passage].other ? 1
+                                                                                              : 0;
+  }
+
+  /// The grasp at a crossing, before the vertex or after it.
+  [[nodiscard]] PlacedGrasp Side(const Crossing& c, bool before) const {
+    const PiecePassage& passage = graph_.passages()[c.passage];
+    const Boundary& boundary = graph_.boundary();
+    const int turning = TurningOf(c, before);
+    PlacedGrasp grasp = {PieceOf(c, before), {}};
+    grasp.places[turning] = before == c.forward ? boundary.end(passage.edge)
+                                                : boundary.begin(boundary.next(passage.edge));
+    grasp.places[1 - turning] = c.place;
+    return grasp;
+  }
+
+  [[nodiscard]] Crossing MakeCrossing(int passage, bool forward) const {
+    const PlaceRange range = PassageRange(graph_, graph_.passages()[passage]);
+    return {passage, forward, range, (range.low + range.high) / 2};
+  }
+
+  /// How wide the middle of a passage is, by the normals of both of its sides, radians.
+  [[nodiscard]] double WidthOf(int passage) const {
+    const Crossing crossing = MakeCrossing(passage, true);
+    return std::min(geometry_.AngleMarginOf(Side(crossing, true)),
+                    geometry_.AngleMarginOf(Side(crossing, false)));
+  }
+
+  /// The width of the narrowest passage of the widest way: passages are opened from the widest on,
+  /// until the way is free.
+  [[nodiscard]] double WidestWidth() const {
+    std::vector<std::pair<double, int>> passages;
+    for (const int piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
+      for (const int passage : graph_.passages_at(piece)) {
+        if (graph_.passages()[passage].pieces[0] != piece) continue;
+        passages.emplace_back(WidthOf(passage), passage);
+      }
+    }
+    std::ranges::sort(passages, std::greater<>());
+    boost::disjoint_sets_with_storage<> joined(graph_.pieces().size());
+    for (const auto& [width, passage] : passages) {
+      const auto& [a, b] = graph_.passages()[passage].pieces;
+      joined.union_set(a, b);
+      if (joined.find_set(from_.piece) == joined.find_set(to_.piece)) return width;
+    }
+    return 0;
+  }
+
+  /// One over the margin of a grasp.
+  [[nodiscard]] double Hurry(const PlacedGrasp& grasp) const {
+    return 1 / std::max(geometry_.AngleMarginOf(grasp), kLeastMargin);
+  }
+
+  /// The crossings of the shortest way, in their order.
+  std::vector<Crossing> FindCrossings() {
+    if (from_.piece == to_.piece) return {};
+    const double widest = WidestWidth();
+    const double least = widest > 0 ? kWideShare * widest : widest;
+    struct Reached {
+      double cost = std::numeric_limits<double>::infinity();
+      int previous = -1;  ///< passage
+      bool forward = true;
+      double hurry = 0;
+      bool done = false;
+    };
+    std::map<int, Reached> reached;
+    std::priority_queue<std::tuple<double, int>, std::vector<std::tuple<double, int>>,
+                        std::greater<>>
+        queue;
+    const auto relax = [&](const PlacedGrasp& at, double hurry, double cost, int previous) {
+      for (const int next : graph_.passages_at(at.piece)) {
+        if (next == previous) continue;
+        const bool forward = graph_.passages()[next].pieces[0] == at.piece;
+        const PlacedGrasp there = Side(MakeCrossing(next, forward), true);
+        Reached& entry = reached[next];
+        if (entry.done) continue;
+        if (entry.hurry == 0) {
+          const double width = WidthOf(next);
+          entry.done = width < least;
+          entry.hurry = 1 / std::max(width, kLeastMargin);
+          if (entry.done) continue;
+        }
+        const double length = (there.places - at.places).norm();
+        const double total = cost + length * (hurry + entry.hurry) / 2;
+        if (total >= entry.cost) continue;
+        entry = {total, previous, forward, entry.hurry, false};
+        queue.emplace(total, next);
+      }
+    };
+    relax(from_, Hurry(from_), 0, -1);
+    // The goal is behind the passage with the least cost to it.
+    const double goal_hurry = Hurry(to_);
+    double best = std::numeric_limits<double>::infinity();
+    int last = -1;
+    while (!queue.empty()) {
+      const auto [cost, passage] = queue.top();
+      queue.pop();
+      if (cost >= best) break;
+      Reached& entry = reached[passage];
+      if (entry.done) continue;
+      entry.done = true;
+      const PlacedGrasp at = Side(MakeCrossing(passage, entry.forward), false);
+      if (at.piece == to_.piece) {
+        const double total =
+            cost + (to_.places - at.places).norm() * (entry.hurry + goal_hurry) / 2;
+        if (total < best) {
+          best = total;
+          last = passage;
+        }
+      }
+      relax(at, entry.hurry, cost, passage);
+    }
+    std::vector<Crossing> crossings;
+    for (int passage = last; passage >= 0; passage = reached[passage].previous) {
+      crossings.push_back(MakeCrossing(passage, reached[passage].forward));
+    }
+    std::reverse(crossings.begin(), crossings.end());
+    return crossings;
+  }
+
+  /// Moves every crossing towards the straight line between its neighbours.
+  void Pull(std::vector<Crossing>& crossings) const {
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      Crossing& c = crossings[i];
+      const PlacedGrasp previous = i == 0 ? from_ : Side(crossings[i - 1], false);
+      const PlacedGrasp next = i + 1 == crossings.size() ? to_ : Side(crossings[i + 1], true);
+      const int turning_before = TurningOf(c, true);
+      const int turning_after = TurningOf(c, false);
+      const double to_line =
+          std::abs(Side(c, true).places[turning_before] - previous.places[turning_before]);
+      const double from_line =
+          std::abs(Side(c, false).places[turning_after] - next.places[turning_after]);
+      if (to_line + from_line <= 0) continue;
+      const double share = to_line / (to_line + from_line);
+      const double straight = (1 - share) * previous.places[1 - turning_before] +
+                              share * next.places[1 - turning_after];
+      const double margin = (1 - kUsedShare) / 2 * (c.range.high - c.range.low);
+      c.place = std::clamp(straight, c.range.low + margin, c.range.high - margin);
+    }
+  }
+
+  SetGeometry& geometry_;
+  const ContourGraph& graph_;
+  const PlacedGrasp& from_;
+  const PlacedGrasp& to_;
+};
+
+}  // namespace
+
+std::vector<PlacedGrasp> FindAlignRoute(SetGeometry& geometry, const PlacedGrasp& from,
+                                        const PlacedGrasp& to) {
+  if (from == to) return {from};
+  return Router(geometry, from, to).Find();
+}
+
+}  // namespace regrasp

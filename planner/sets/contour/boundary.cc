@@ -1,0 +1,40 @@
+#include "planner/sets/contour/boundary.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+Boundary::Boundary(const Polygon& polygon) : polygon_(polygon) {
+  int edge = 0;
+  for (std::size_t ring = 0; ring < polygon.rings().size(); ++ring) {
+    const int count = static_cast<int>(polygon.rings()[ring].size());
+    first_edges_.push_back(edge);
+    double place = 0;
+    for (int k = 0; k < count; ++k) {
+      ring_of_.push_back(static_cast<int>(ring));
+      next_.push_back(edge + (k + 1) % count);
+      previous_.push_back(edge + (k + count - 1) % count);
+      begins_.push_back(place);
+      place += polygon.face_measure(edge + k);
+      ends_.push_back(place);
+    }
+    perimeters_.push_back(place);
+    edge += count;
+  }
+  first_edges_.push_back(edge);
+}
+
+double Boundary::PlaceOf(const Contact& contact) const {
+  const auto [from, to] = polygon_.edge(contact.face);
+  const double along = (contact.p - from).dot(to - from) / polygon_.face_measure(contact.face);
+  return std::clamp(begin(contact.face) + along, begin(contact.face), end(contact.face));
+}
+
+Contact Boundary::ContactAt(int edge, double place) const {
+  const auto [from, to] = polygon_.edge(edge);
+  // Divided by this difference, the end of an edge is its vertex to the last bit.
+  const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);
+  return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
+}
+
+}  // namespace regrasp

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/base/deadline.h"
+#include "planner/object/polygon.h"
+#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
+#include "planner/sets/contour/boundary.h"
+
+namespace regrasp {
+
+/// Fingers of the hand: two hold, one more is placed in a switch.
+inline constexpr int kContourFingers = 3;
+
+/// The 2-finger grasps of a pair of edges that squeeze or that stretch the object: with
+/// v = p_b − p_a, squeezing is v ∈ C(n_a) ∩ −C(n_b), stretching −v. In the contacts' places on the
+/// two edges a piece is a convex polygon of at most six corners.
+struct GraspPiece {
+  std::array<int, 2> edges;  ///< ascending
+  bool stretching = false;
+  /// Every two points of the two edges are such a grasp.
+  bool full = false;
+  /// Sides of the rectangle of places, {first edge at its begin, at its end, second edge at its
+  /// begin, at its end}, that the piece reaches with more than a point.
+  std::array<bool, 4> reaches = {};
+};
+
+/// Where two pieces meet: one contact goes around a vertex of the polygon while the other stays on
+/// its edge, through an open interval of it.
+struct PiecePassage {
+  std::array<int, 2> pieces;  ///< before the vertex and after it
+  int edge = 0;               ///< the edge that ends at the vertex, of the first piece
+  int other = 0;              ///< the edge of the contact that stays, of both
+};
+
+/// The switching graph of the 2-finger grasps of a whole boundary, holes included (Phoka 2010,
+/// chapter IV).
+///
+/// A vertex is a connected component of the interior of all graspable sets G(i, j), which go on
+/// from one pair of edges to the next across the polygon's vertices; the two fingers are
+/// interchangeable, so that a set and its mirror image are one vertex. An edge is a switch: the
+/// projections of two sets on the boundary overlap, whichever finger they belong to. What only
+/// touches does not meet. All of this is decided exactly for the doubles of the polygon's
+/// coordinates and of tan θ.
+///
+/// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
+/// 90°, or when its edges are numbered from another vertex; no grasp is lost when θ grows. Cutting
+/// an edge in two changes no component and no switch.
+class ContourGraph final : public SwitchingGraph {
+ public:
+  /// @param polygon     must outlive this object.
+  /// @param half_angle  θ, radians.
+  /// @throws std::invalid_argument  θ is not in (0, π/2).
+  /// @throws TimeUp  the deadline came.
+  ContourGraph(const Polygon& polygon, double half_angle, const Deadline& deadline = {});
+
+  [[nodiscard]] const Boundary& boundary() const { return boundary_; }
+  /// tan θ.
+  [[nodiscard]] double tangent() const { return tangent_; }
+
+  /// In the order of their edges, squeezing before stretching.
+  [[nodiscard]] const std::vector<GraspPiece>& pieces() const { return pieces_; }
+  [[nodiscard]] const std::vector<PiecePassage>& passages() const { return passages_; }
+  /// The vertex that a piece belongs to.
+  [[nodiscard]] int set_of(int piece) const { return set_of_[piece]; }
+  [[nodiscard]] std::span<const int> pieces_of(int set) const {
+    return {pieces_by_set_.data() + first_of_set_[set],
+            static_cast<std::size_t>(first_of_set_[set + 1] - first_of_set_[set])};
+  }
+  /// The passages from and to a piece, by their numbers.
+  [[nodiscard]] std::span<const int> passages_at(int piece) const {
+    return {passages_by_piece_.data() + first_passage_[piece],
+            static_cast<std::size_t>(first_passage_[piece + 1] - first_passage_[piece])};
+  }
+  /// The pieces on two edges, given in any order, by their numbers: none, one or two.
+  [[nodiscard]] std::vector<int> PiecesOn(int edge, int other) const;
+
+  /// Pairs of edges whose normals are within 2θ of opposite, and those with a piece.
+  [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }
+  [[nodiscard]] std::int64_t combination_count() const { return combinations_; }
+  [[nodiscard]] std::int64_t switch_count() const { return std::ssize(switches_); }
+  [[nodiscard]] const std::vector<std::array<int, 2>>& switches() const { return switches_; }
+  [[nodiscard]] Components components() const;
+
+  /// Wall time that the vertices and the edges took.
+  [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }
+  [[nodiscard]] double edge_seconds() const { return edge_seconds_; }
+
+  [[nodiscard]] int vertex_count() const override {
+    return static_cast<int>(first_of_set_.size()) - 1;
+  }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
+
+ private:
+  void GroupPieces();
+
+  Boundary boundary_;
+  double tangent_;
+  std::vector<GraspPiece> pieces_;
+  std::vector<PiecePassage> passages_;
+  std::vector<int> set_of_;
+  std::vector<int> pieces_by_set_;
+  std::vector<int> first_of_set_;
+  std::vector<int> passages_by_piece_;
+  std::vector<int> first_passage_;
+  std::vector<std::array<int, 2>> switches_;  ///< ascending
+  std::vector<std::vector<int>> neighbours_;
+  std::int64_t candidates_ = 0;
+  std::int64_t combinations_ = 0;
+  double vertex_seconds_ = 0;
+  double edge_seconds_ = 0;
+};
+
+}  // namespace regrasp

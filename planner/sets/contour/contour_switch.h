@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planner/sets/contour/set_geometry.h"
+
+namespace regrasp {
+
+/// Two grasps of two sets that have a contact in common: the one on `edge`.
+struct ContourSwitch {
+  PlacedGrasp before;
+  PlacedGrasp after;
+  int edge = 0;
+};
+
+/// How good it is to rest in a grasp, the more the better.
+using PlacedScore = std::function<double(const PlacedGrasp&)>;
+
+/// A switch between two sets, where both grasps are well inside (Phoka 2010, section 4.6.1): of the
+/// middles, and places towards the borders, of where two pieces project on the same places of an
+/// edge, the one with the best worse score. nullopt where doubles know no common place.
+[[nodiscard]] std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from,
+                                                               int to, const PlacedScore& score);
+
+/// The best switches that keep a contact of `before`, to a set; and the other way round.
+[[nodiscard]] std::optional<ContourSwitch> FindSwitchFrom(SetGeometry& geometry,
+                                                          const PlacedGrasp& before, int to,
+                                                          const PlacedScore& score);
+[[nodiscard]] std::optional<ContourSwitch> FindSwitchTo(SetGeometry& geometry, int from,
+                                                        const PlacedGrasp& after,
+                                                        const PlacedScore& score);
+
+/// The switch between two given grasps; nullopt where they have no contact in common.
+[[nodiscard]] std::optional<ContourSwitch> FindSwitchBetween(const ContourGraph& graph,
+                                                             const PlacedGrasp& before,
+                                                             const PlacedGrasp& after);
+
+/// The switch between two sets with the largest contact regions (Phoka 2010, section 4.6.2): it
+/// maximises the smaller of the half-widths of the largest squares about its two grasps. When the
+/// shared contact is held, each square is centred on an edge of its set's diagram; over each pair
+/// of such edges the smaller half-width is the lower one of two lines. Among equals the larger of
+/// the two half-widths decides.
+/// @param accepts  the best switch that it accepts is taken, of the best of every pair of edges;
+///                 the best of all where it accepts none of many.
+[[nodiscard]] std::optional<ContourSwitch> FindLargestSwitch(
+    SetGeometry& geometry, int from, int to,
+    const std::function<bool(const ContourSwitch&)>& accepts = [](const ContourSwitch&) {
+      return true;
+    });
+
+}  // namespace regrasp

@@ -1,0 +1,110 @@
+#include "planner/sets/contour/graph_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/search/components.h"
+#include "planner/sets/contour/grasp_pieces.h"
+#include "planner/sets/contour/projection_sweep.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Of the candidates; a share of a hundredth is then known to 10 %.
+constexpr int kTestedCandidates = 10'000;
+
+/// Counted in a tenth of a second. Pieces are joined to sets along neighbouring edges: of runs that
+/// are this long the sets that go on beyond them count for less than the pieces.
+constexpr int kEdgesOfRun = 20;
+constexpr int kRuns = 20;
+
+// Measured on outlines of 300 to 10,000 edges at 2° to 40°, as the peak of resident memory: a
+// candidate and the room that vectors keep to grow into; a piece with its passages and its places
+// in the lists of sets; a join with its two entries in the lists of neighbours.
+constexpr double kBytesOfCandidate = 12;
+constexpr double kBytesOfPiece = 80;
+constexpr double kBytesOfJoin = 17;
+/// The edges as exact predicates see them.
+constexpr double kBytesOfEdge = 500;
+/// The outline of a piece in contact space. Of 20 to 210 bytes for each piece of the graph, from a
+/// given start and goal to ones that are drawn from one set of all pieces.
+constexpr double kBytesOfOutline = 120;
+
+std::vector<int> DrawEdges(int count, RandomStream& random) {
+  std::vector<int> edges;
+  if (count <= kRuns * kEdgesOfRun) {
+    for (int edge = 0; edge < count; ++edge) edges.push_back(edge);
+    return edges;
+  }
+  for (const int run : random.Choose(count / kEdgesOfRun, kRuns)) {
+    for (int i = 0; i < kEdgesOfRun; ++i) edges.push_back(run * kEdgesOfRun + i);
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
+/// What is joined among some of the edges.
+struct Joins {
+  double candidates = 0;
+  double joins = 0;
+};
+
+Joins CountJoins(const EdgeTable& edges, const Boundary& boundary, const std::vector<int>& drawn) {
+  std::vector<TwoFingerCandidate> candidates = FindTwoFingerCandidates(edges.Of(drawn));
+  for (auto& [a, b] : candidates) {
+    a = drawn[a];
+    b = drawn[b];
+  }
+  const std::vector<GraspPiece> pieces = FindPieces(edges, candidates);
+  const std::vector<PiecePassage> passages = FindPassages(edges, boundary, pieces);
+  const Components sets =
+      FindComponents(static_cast<int>(pieces.size()), static_cast<int>(passages.size()),
+                     [&](int passage) { return std::span<const int>(passages[passage].pieces); });
+  std::vector<std::vector<int>> pieces_of(sets.count());
+  for (int piece = 0; piece < std::ssize(pieces); ++piece) {
+    pieces_of[sets.of_vertex[piece]].push_back(piece);
+  }
+  const auto joins = FindOverlaps(edges, boundary, pieces, sets.count(),
+                                  [&](int set) { return std::span<const int>(pieces_of[set]); });
+  return {static_cast<double>(candidates.size()), static_cast<double>(joins.size())};
+}
+
+MemoryNeed Estimate(const Polygon& polygon, double half_angle, double bytes_of_piece) {
+  const double tangent = std::tan(half_angle);  // before the processor rounds upward
+  const IntervalScope scope;
+  const EdgeTable edges(polygon, tangent);
+  RandomStream random(0, RandomUse::kCountedEdges);
+  const CandidateSample sample = DrawTwoFingerCandidates(edges, kTestedCandidates, random);
+  const auto candidates = static_cast<double>(sample.total);
+  const double pieces =
+      candidates * static_cast<double>(FindPieces(edges, sample.drawn).size()) / kTestedCandidates;
+  const std::vector<int> drawn = DrawEdges(polygon.face_count(), random);
+  const Joins counted = CountJoins(edges, Boundary(polygon), drawn);
+  const double count = polygon.face_count();
+  // At a place of the boundary there are so many more sets, and so many more places.
+  const double more_sets = counted.candidates > 0 ? candidates / counted.candidates : 0;
+  const double more_places = static_cast<double>(drawn.size()) / count;
+  const double joins = counted.joins * more_sets * more_sets * more_places;
+  const auto bytes_for = [=](double n) {
+    const double squares = n * n / (count * count);
+    return squares * (kBytesOfCandidate * candidates + bytes_of_piece * pieces) +
+           squares * n / count * kBytesOfJoin * joins + kBytesOfEdge * n;
+  };
+  return {"the graph of the planner contour", polygon.face_count(), "edges", bytes_for};
+}
+
+}  // namespace
+
+MemoryNeed EstimateContourGraph(const Polygon& polygon, double half_angle) {
+  return Estimate(polygon, half_angle, kBytesOfPiece);
+}
+
+MemoryNeed EstimateContourPlan(const Polygon& polygon, double half_angle) {
+  return Estimate(polygon, half_angle, kBytesOfPiece + kBytesOfOutline);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,221 @@
+#include "planner/sets/contour/grasp_pieces.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "planner/sets/polygon/common_cone.h"
+#include "planner/sets/polygon/two_finger.h"
+
+namespace regrasp {
+
+namespace {
+
+/// What doubles can tell of a pair.
+enum class Verdict { kNone, kAll, kUnknown };
+
+/// Classifies pairs by the signs of their cones' four borders at the four corners of the
+/// parallelogram of differences, where doubles are sure of them.
+class CornerFilter {
+ public:
+  explicit CornerFilter(const EdgeTable& edges) {
+    Vector2<double> low = edges.ends(0).a;
+    Vector2<double> high = low;
+    for (int e = 0; e < edges.size(); ++e) {
+      const EdgeFrame<double> frame = MakeEdgeFrame<double>(edges.ends(e), edges.tangent());
+      frames_.push_back(frame);
+      low = {std::min(low.x, frame.a.x), std::min(low.y, frame.a.y)};
+      high = {std::max(high.x, frame.a.x), std::max(high.y, frame.a.y)};
+    }
+    // Differences of coordinates are at most M, borders of cones (1 + tan θ) M; a cross product of
+    // the two is off by at most a dozen roundings of a value of 2 (1 + tan θ) M².
+    constexpr double kRoundings = 32 * std::numeric_limits<double>::epsilon();
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    bound_ =
+        kRoundings * (1 + edges.tangent()) * extent * extent + std::numeric_limits<double>::min();
+  }
+
+  /// For squeezing and for stretching.
+  [[nodiscard]] std::array<Verdict, 2> Classify(int a, int b) const {
+    const EdgeFrame<double>& from = frames_[a];
+    const EdgeFrame<double>& to = frames_[b];
+    const std::array<Vector2<double>, 4> corners = {to.a - from.a, to.b - from.a, to.a - from.b,
+                                                    to.b - from.b};
+    bool all_positive = true;
+    bool all_negative = true;
+    bool positive_excluded = false;
+    bool negative_excluded = false;
+    for (const Vector2<double>& border : {from.right, -from.left, -to.right, to.left}) {
+      double least = std::numeric_limits<double>::infinity();
+      double largest = -least;
+      for (const Vector2<double>& corner : corners) {
+        const double value = Cross(border, corner);
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+      }
+      all_positive = all_positive && least > bound_;
+      all_negative = all_negative && largest < -bound_;
+      positive_excluded = positive_excluded || largest < -bound_;
+      negative_excluded = negative_excluded || least > bound_;
+    }
+    const auto verdict = [](bool none, bool all) {
+      return none ? Verdict::kNone : all ? Verdict::kAll : Verdict::kUnknown;
+    };
+    return {verdict(positive_excluded, all_positive), verdict(negative_excluded, all_negative)};
+  }
+
+ private:
+  std::vector<EdgeFrame<double>> frames_;
+  double bound_ = 0;
+};
+
+/// The directions from a point to an edge; nullopt where it is on the edge's line.
+template <class NT>
+std::optional<DirectionCone<NT>> ViewOf(const Vector2<NT>& point, const EdgeFrame<NT>& edge) {
+  const Vector2<NT> a = edge.a - point;
+  const Vector2<NT> b = edge.b - point;
+  const int turn = Sign(Cross(a, b));
+  if (turn == 0) return std::nullopt;
+  if (turn > 0) return DirectionCone<NT>{a, b};
+  return DirectionCone<NT>{b, a};
+}
+
+/// The directions from a contact on one edge to a contact on another that make a grasp.
+template <class NT>
+std::optional<DirectionCone<NT>> GraspCone(const EdgeFrame<NT>& from, const EdgeFrame<NT>& to,
+                                           bool stretching) {
+  const auto squeezing = Intersect(ConeOf(from), -ConeOf(to));
+  return squeezing && stretching ? -*squeezing : squeezing;
+}
+
+/// Whether the contacts on `other` that make a grasp with the end of `edge` are more than a point.
+template <class NT>
+bool Reaches(const EdgeFrame<NT>& edge, bool at_end, const EdgeFrame<NT>& other, bool stretching) {
+  const auto cone = GraspCone(edge, other, stretching);
+  if (!cone) return false;
+  const auto view = ViewOf(at_end ? edge.b : edge.a, other);
+  return view && Intersect(*cone, *view);
+}
+
+/// The sides that a piece reaches, as GraspPiece::reaches.
+std::array<bool, 4> FindReachedSides(const EdgeTable& edges, int a, int b, bool stretching) {
+  std::array<bool, 4> reaches;
+  for (int side = 0; side < 4; ++side) {
+    const int edge = side < 2 ? a : b;
+    const int other = side < 2 ? b : a;
+    reaches[side] = DecideFiltered([&](auto zero) {
+      using NT = decltype(zero);
+      return Reaches(edges.frame<NT>(edge), side % 2 == 1, edges.frame<NT>(other), stretching);
+    });
+  }
+  return reaches;
+}
+
+/// The edge of the piece that is not `edge`.
+int OtherEdge(const GraspPiece& piece, int edge) {
+  return piece.edges[0] == edge ? piece.edges[1] : piece.edges[0];
+}
+
+bool ReachesEnd(const GraspPiece& piece, int edge, bool at_end) {
+  return piece.reaches[(piece.edges[0] == edge ? 0 : 2) + (at_end ? 1 : 0)];
+}
+
+/// Whether two pieces meet in more than a point where `edge` ends and `next` begins.
+bool Meet(const EdgeTable& edges, const GraspPiece& before, int edge, const GraspPiece& after,
+          int next) {
+  if (!ReachesEnd(before, edge, true) || !ReachesEnd(after, next, false)) return false;
+  if (before.full || after.full) return true;
+  const int other = OtherEdge(before, edge);
+  return DecideFiltered([&](auto zero) {
+    using NT = decltype(zero);
+    const EdgeFrame<NT> to = edges.frame<NT>(other);
+    const EdgeFrame<NT> from = edges.frame<NT>(edge);
+    const auto first = GraspCone(from, to, before.stretching);
+    const auto second = GraspCone(edges.frame<NT>(next), to, before.stretching);
+    if (!first || !second) return false;
+    const auto both = Intersect(*first, *second);
+    if (!both) return false;
+    const auto view = ViewOf(from.b, to);
+    return view && Intersect(*both, *view);
+  });
+}
+
+/// Finds pieces by their edges.
+class PieceIndex {
+ public:
+  PieceIndex(const std::vector<GraspPiece>& pieces, int edge_count)
+      : pieces_(pieces), first_(edge_count + 1) {
+    for (const GraspPiece& piece : pieces) ++first_[piece.edges[0] + 1];
+    for (int e = 0; e < edge_count; ++e) first_[e + 1] += first_[e];
+  }
+
+  /// −1 where there is none.
+  [[nodiscard]] int Find(int edge, int other, bool stretching) const {
+    const auto [a, b] = std::minmax(edge, other);
+    const auto begin = pieces_.begin() + first_[a];
+    const auto end = pieces_.begin() + first_[a + 1];
+    const auto key = [](const GraspPiece& piece) { return 2 * piece.edges[1] + piece.stretching; };
+    const auto found = std::ranges::lower_bound(begin, end, 2 * b + stretching, {}, key);
+    if (found == end || key(*found) != 2 * b + stretching) return -1;
+    return static_cast<int>(found - pieces_.begin());
+  }
+
+ private:
+  const std::vector<GraspPiece>& pieces_;
+  std::vector<int> first_;
+};
+
+}  // namespace
+
+std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
+                                   const std::vector<TwoFingerCandidate>& candidates,
+                                   const Deadline& deadline) {
+  const CornerFilter filter(edges);
+  std::vector<GraspPiece> pieces;
+  for (const TwoFingerCandidate& pair : candidates) {
+    deadline.Check();
+    const auto verdicts = filter.Classify(pair[0], pair[1]);
+    for (const bool stretching : {false, true}) {
+      const Verdict verdict = verdicts[stretching ? 1 : 0];
+      if (verdict == Verdict::kNone) continue;
+      GraspPiece piece = {pair, stretching, verdict == Verdict::kAll, {true, true, true, true}};
+      if (!piece.full) {
+        piece.reaches = FindReachedSides(edges, pair[0], pair[1], stretching);
+        if (piece.reaches == std::array<bool, 4>{}) continue;
+      }
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+std::vector<PiecePassage> FindPassages(const EdgeTable& edges, const Boundary& boundary,
+                                       const std::vector<GraspPiece>& pieces,
+                                       const Deadline& deadline) {
+  const PieceIndex index(pieces, edges.size());
+  std::vector<PiecePassage> passages;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    deadline.Check();
+    const GraspPiece& piece = pieces[i];
+    for (const int edge : piece.edges) {
+      const int other = OtherEdge(piece, edge);
+      const int next = boundary.next(edge);
+      if (next == other || !ReachesEnd(piece, edge, true)) continue;
+      const int neighbour = index.Find(next, other, piece.stretching);
+      if (neighbour < 0 || !Meet(edges, piece, edge, pieces[neighbour], next)) continue;
+      passages.push_back({{static_cast<int>(i), neighbour}, edge, other});
+    }
+  }
+  return passages;
+}
+
+FilteredRange PieceRange(const EdgeTable& edges, const GraspPiece& piece, int k) {
+  return FilteredRange([&edges, piece, k](auto zero) {
+    using NT = decltype(zero);
+    const ConvexRegion<NT> region = MakeTwoFingerRegion<NT>(
+        edges.frame<NT>(piece.edges[0]), edges.frame<NT>(piece.edges[1]), piece.stretching);
+    return TwoFingerRange(region, k);
+  });
+}
+
+}  // namespace regrasp

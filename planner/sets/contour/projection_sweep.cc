@@ -1,0 +1,149 @@
+#include "planner/sets/contour/projection_sweep.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "planner/sets/contour/grasp_pieces.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Where a projection begins or ends.
+struct Event {
+  /// At the edge's first end, inside it, at its second end.
+  enum class Where { kBegin, kInside, kEnd };
+
+  int edge = 0;
+  Where where = Where::kBegin;
+  const FilteredRange* range = nullptr;  ///< inside: this is one end of it
+  bool opens = false;
+  int set = 0;
+};
+
+/// Of two events inside one edge.
+int CompareInside(const Event& a, const Event& b) {
+  const auto compare = [&](const auto& of_a, const auto& of_b) {
+    const auto& x = a.opens ? of_a.low : of_a.high;
+    const auto& y = b.opens ? of_b.low : of_b.high;
+    return x < y ? -1 : y < x ? 1 : 0;
+  };
+  try {
+    return compare(a.range->by_intervals(), b.range->by_intervals());
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+  }
+  const ExactScope scope;
+  return compare(a.range->exact(), b.range->exact());
+}
+
+/// Intervals are open: at one place those that end come before those that begin.
+bool IsBefore(const Event& a, const Event& b) {
+  if (a.edge != b.edge) return a.edge < b.edge;
+  if (a.where != b.where) return a.where < b.where;
+  if (a.where == Event::Where::kInside) {
+    if (a.range == b.range) return a.opens && !b.opens;
+    const int order = CompareInside(a, b);
+    if (order != 0) return order < 0;
+  }
+  return !a.opens && b.opens;
+}
+
+class Sweep {
+ public:
+  Sweep(const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces)
+      : edges_(edges), boundary_(boundary), pieces_(pieces), covered_(edges.size()) {}
+
+  void AddSet(int set, std::span<const int> pieces) {
+    AddCovered(set, pieces);
+    for (const int piece : pieces) {
+      for (int k = 0; k < 2; ++k) AddPartial(set, piece, k);
+    }
+    for (const int edge : covered_edges_) covered_[edge] = 0;
+  }
+
+  std::vector<std::array<int, 2>> Run(int set_count, const Deadline& deadline) {
+    std::sort(events_.begin(), events_.end(), IsBefore);
+    std::vector<std::array<int, 2>> pairs;
+    std::vector<int> active;
+    std::vector<int> times(set_count);  // that a set is active
+    for (const Event& event : events_) {
+      deadline.Check();
+      int& count = times[event.set];
+      if (!event.opens) {
+        if (--count == 0) active.erase(std::find(active.begin(), active.end(), event.set));
+      } else if (++count == 1) {
+        for (const int other : active) {
+          pairs.push_back({std::min(event.set, other), std::max(event.set, other)});
+        }
+        active.push_back(event.set);
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
+
+ private:
+  /// The edges on which a piece projects on every place, in runs of edges that follow each other:
+  /// most of a large set.
+  void AddCovered(int set, std::span<const int> pieces) {
+    covered_edges_.clear();
+    for (const int i : pieces) {
+      const GraspPiece& piece = pieces_[i];
+      for (int k = 0; k < 2; ++k) {
+        char& covered = covered_[piece.edges[k]];
+        if (covered != 0 || !piece.reaches[2 * k] || !piece.reaches[2 * k + 1]) continue;
+        covered = 1;
+        covered_edges_.push_back(piece.edges[k]);
+      }
+    }
+    std::sort(covered_edges_.begin(), covered_edges_.end());
+    for (std::size_t i = 0; i < covered_edges_.size(); ++i) {
+      const int edge = covered_edges_[i];
+      const bool goes_on = i > 0 && covered_edges_[i - 1] == edge - 1 &&
+                           boundary_.ring_of(edge - 1) == boundary_.ring_of(edge);
+      if (goes_on) {
+        events_.back().edge = edge;
+        continue;
+      }
+      events_.push_back({edge, Event::Where::kBegin, nullptr, true, set});
+      events_.push_back({edge, Event::Where::kEnd, nullptr, false, set});
+    }
+  }
+
+  void AddPartial(int set, int piece, int k) {
+    const int edge = pieces_[piece].edges[k];
+    if (covered_[edge] != 0) return;
+    const auto& reaches = pieces_[piece].reaches;
+    const FilteredRange* range = &ranges_.emplace_back(PieceRange(edges_, pieces_[piece], k));
+    const auto where = [](bool at_border, Event::Where border) {
+      return at_border ? border : Event::Where::kInside;
+    };
+    events_.push_back({edge, where(reaches[2 * k], Event::Where::kBegin), range, true, set});
+    events_.push_back({edge, where(reaches[2 * k + 1], Event::Where::kEnd), range, false, set});
+  }
+
+  const EdgeTable& edges_;
+  const Boundary& boundary_;
+  const std::vector<GraspPiece>& pieces_;
+  std::vector<char> covered_;  ///< edges of the set at hand
+  std::vector<int> covered_edges_;
+  std::deque<FilteredRange> ranges_;
+  std::vector<Event> events_;
+};
+
+}  // namespace
+
+std::vector<std::array<int, 2>> FindOverlaps(
+    const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces,
+    int set_count, const std::function<std::span<const int>(int set)>& pieces_of,
+    const Deadline& deadline) {
+  Sweep sweep(edges, boundary, pieces);
+  for (int set = 0; set < set_count; ++set) {
+    deadline.Check();
+    sweep.AddSet(set, pieces_of(set));
+  }
+  return sweep.Run(set_count, deadline);
+}
+
+}  // namespace regrasp

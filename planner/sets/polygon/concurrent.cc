@@ -1,0 +1,282 @@
+#include "planner/sets/polygon/concurrent.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace regrasp {
+
+namespace {
+
+constexpr int kSidePatterns = 8;
+
+bool IsOuter(int sides, int k) { return (sides >> k & 1) != 0; }
+
+/// The half-planes of what sees an edge from one side, counter-clockwise: the edge's line, then,
+/// the line at infinity between them, the two rays. Tags have the polygon's vertices that they
+/// pass; the edge's line has the id `id`.
+template <class NT>
+struct SightRegion {
+  std::array<HalfPlane<NT>, 3> half_planes;
+  std::array<SideTag, 3> tags;
+};
+
+template <class NT>
+SightRegion<NT> MakeSightRegion(const EdgeFrame<NT>& e, const std::array<int, 2>& vertices,
+                                bool outer, int id) {
+  const auto [a, b] = vertices;
+  if (outer) {
+    return {{-LeftOf(e.along, e.a), LeftOf(-e.right, e.a), LeftOf(e.left, e.b)},
+            {SideTag{id, {a, b}}, {-1, {a, -1}}, {-1, {b, -1}}}};
+  }
+  return {{LeftOf(e.along, e.a), LeftOf(e.right, e.b), LeftOf(-e.left, e.a)},
+          {SideTag{id, {a, b}}, {-1, {b, -1}}, {-1, {a, -1}}}};
+}
+
+template <class NT>
+SightRegion<NT> MakeSightRegion(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                int sides, int k) {
+  const int edge = candidate.edges[k];
+  return MakeSightRegion(edges.frame<NT>(edge, candidate.tangent), edges.vertices(edge),
+                         IsOuter(sides, k), k);
+}
+
+template <class NT>
+void Clip(const SightRegion<NT>& sight, ConvexRegion<NT>& region) {
+  for (int i = 0; i < 3 && !region.empty(); ++i) region.Clip(sight.half_planes[i], sight.tags[i]);
+}
+
+template <class NT>
+ConvexRegion<NT> MakeSeeingFirstTwo(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                    int sides) {
+  const auto first = MakeSightRegion<NT>(edges, candidate, sides, 0);
+  const HalfPlane<NT> infinity = {NT(0), NT(0), NT(1)};
+  ConvexRegion<NT> region(
+      {first.half_planes[0], first.half_planes[1], infinity, first.half_planes[2]},
+      {first.tags[0], first.tags[1], SideTag(), first.tags[2]});
+  Clip(MakeSightRegion<NT>(edges, candidate, sides, 1), region);
+  return region;
+}
+
+template <class NT>
+ConvexRegion<NT> MakeFocusPart(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                               int sides) {
+  auto part = MakeSeeingFirstTwo<NT>(edges, candidate, sides);
+  Clip(MakeSightRegion<NT>(edges, candidate, sides, 2), part);
+  return part;
+}
+
+/// A half-plane whose border moves with contacts: constant + Σ rate · u is its third coefficient.
+template <class NT>
+struct MovingHalfPlane {
+  Vector2<NT> normal;
+  NT constant;
+  std::array<NT, 2> rate = {NT(0), NT(0)};
+};
+
+/// What a contact that moves along its edge sees inside its cone, on the inner side or the outer.
+template <class NT>
+std::array<MovingHalfPlane<NT>, 2> MakeMovingCone(const EdgeFrame<NT>& e, bool outer,
+                                                  int parameter) {
+  const auto left_of = [&](const Vector2<NT>& direction) {
+    MovingHalfPlane<NT> h;
+    h.normal = {-direction.y, direction.x};
+    h.constant = -Dot(h.normal, e.a);
+    h.rate[parameter] = -Dot(h.normal, e.along);
+    return h;
+  };
+  return outer ? std::array{left_of(-e.right), left_of(e.left)}
+               : std::array{left_of(e.right), left_of(-e.left)};
+}
+
+/// λ · h added to a half-plane of the parameters.
+template <class NT>
+void AddWeighted(const NT& weight, const MovingHalfPlane<NT>& h, HalfPlane<NT>& sum) {
+  sum.a = sum.a + weight * h.rate[0];
+  sum.b = sum.b + weight * h.rate[1];
+  sum.c = sum.c + weight * h.constant;
+}
+
+/// Cuts `region` to parameters for which every two and every three of the half-planes meet.
+template <class NT>
+void ClipToCommonPoints(const std::vector<MovingHalfPlane<NT>>& h, ConvexRegion<NT>& region) {
+  const int n = static_cast<int>(h.size());
+  std::vector<std::vector<NT>> cross(n, std::vector<NT>(n));
+  std::vector<std::vector<int>> turn(n, std::vector<int>(n, 0));
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      cross[i][j] = Cross(h[i].normal, h[j].normal);
+      cross[j][i] = -cross[i][j];
+      turn[i][j] = Sign(cross[i][j]);
+      turn[j][i] = -turn[i][j];
+      if (turn[i][j] != 0 || Sign(Dot(h[i].normal, h[j].normal)) > 0) continue;
+      HalfPlane<NT> sum;
+      AddWeighted(Dot(h[j].normal, h[j].normal), h[i], sum);
+      AddWeighted(NT(-Dot(h[i].normal, h[j].normal)), h[j], sum);
+      region.Clip(sum);
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        // Three normals balance iff they turn the same way around the circle.
+        if (turn[i][j] == 0 || turn[i][j] != turn[j][k] || turn[j][k] != turn[k][i]) continue;
+        HalfPlane<NT> sum;
+        const bool positive = turn[i][j] > 0;
+        AddWeighted(positive ? cross[j][k] : cross[k][j], h[i], sum);
+        AddWeighted(positive ? cross[k][i] : cross[i][k], h[j], sum);
+        AddWeighted(positive ? cross[i][j] : cross[j][i], h[k], sum);
+        region.Clip(sum);
+      }
+    }
+  }
+}
+
+template <class NT>
+ConvexRegion<NT> MakeContactPairs(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                  int sides, int k, int l) {
+  std::vector<MovingHalfPlane<NT>> half_planes;
+  for (const auto& [position, parameter] : {std::pair(k, 0), std::pair(l, 1)}) {
+    const EdgeFrame<NT> frame = edges.frame<NT>(candidate.edges[position], candidate.tangent);
+    for (const auto& h : MakeMovingCone(frame, IsOuter(sides, position), parameter)) {
+      half_planes.push_back(h);
+    }
+  }
+  const int third = 3 - k - l;
+  const int edge = candidate.edges[third];
+  const SightRegion<NT> sight = MakeSightRegion(edges.frame<NT>(edge, candidate.tangent),
+                                                edges.vertices(edge), IsOuter(sides, third), third);
+  for (const HalfPlane<NT>& h : sight.half_planes) half_planes.push_back({{h.a, h.b}, h.c, {}});
+  auto region = ConvexRegion<NT>::UnitSquare();
+  ClipToCommonPoints(half_planes, region);
+  return region;
+}
+
+/// The contacts on edge k that are seen from a part whose corners are known.
+template <class NT>
+ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>& part,
+                                  bool outer) {
+  // A focus point x sees the contacts between the feet of two rays through it, and the foot of the
+  // ray of direction v is cross(x − a, v) / |b − a|² for either border v of the cone.
+  const NT squared = Dot(e.along, e.along);
+  const auto foot = [&](const HomogeneousPoint<NT>& x, const Vector2<NT>& v) {
+    const Vector2<NT> from_a = {x.x - x.w * e.a.x, x.y - x.w * e.a.y};
+    return Ratio<NT>::Make(Cross(from_a, v), x.w * squared);
+  };
+  std::optional<ContactRange<NT>> range;
+  for (const auto& side : part.sides()) {
+    const ContactRange<NT> seen = {foot(side.from, outer ? e.left : e.right),
+                                   foot(side.from, outer ? e.right : e.left)};
+    range = range ? range->Join(seen) : seen;
+  }
+  return ContactRange<NT>::OnEdge(range->low, range->high);
+}
+
+}  // namespace
+
+void ConcurrentCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
+  const std::array<int, 2> first_two = {candidate.edges[0], candidate.edges[1]};
+  if (first_two == first_two_ && candidate.tangent == tangent_) return;
+  first_two_ = first_two;
+  tangent_ = candidate.tangent;
+  for (int sides = 0; sides < kSidePatterns / 2; ++sides) {
+    try {
+      seeing_two_[sides] = MakeSeeingFirstTwo<Interval>(edges_, candidate, sides);
+    } catch (const CGAL::Uncertain_conversion_exception&) {
+      seeing_two_[sides].reset();
+    }
+  }
+}
+
+std::vector<FocusComponent> ConcurrentCellFinder::Find(const ConcurrentCandidate& candidate) {
+  SeeFirstTwo(candidate);
+  std::array<std::optional<SightRegion<Interval>>, 2> seeing_third;
+  std::array<std::optional<FilteredRegion>, kSidePatterns> parts;
+  for (int sides = 0; sides < kSidePatterns; ++sides) {
+    const auto& seeing_two = seeing_two_[sides % (kSidePatterns / 2)];
+    if (seeing_two && seeing_two->empty()) continue;
+    const auto recipe = [&edges = edges_, candidate, sides](auto zero) {
+      return MakeFocusPart<decltype(zero)>(edges, candidate, sides);
+    };
+    if (!seeing_two) {
+      parts[sides] = FilteredRegion::Make(recipe);
+      continue;
+    }
+    parts[sides] = FilteredRegion::Make(recipe, [&] {
+      auto& sight = seeing_third[IsOuter(sides, 2) ? 1 : 0];
+      if (!sight) sight = MakeSightRegion<Interval>(edges_, candidate, sides, 2);
+      ConvexRegion<Interval> part = *seeing_two;
+      Clip(*sight, part);
+      return part;
+    });
+  }
+  std::array<int, kSidePatterns> component;
+  std::iota(component.begin(), component.end(), 0);
+  for (int sides = 0; sides < kSidePatterns; ++sides) {
+    if (!parts[sides]) continue;
+    for (int k = 0; k < 3; ++k) {
+      // Where a stretch of the edge borders the part on one side, the other side begins there.
+      if (!parts[sides]->region().HasSide(k)) continue;
+      const int from = component[sides];
+      const int to = component[sides ^ (1 << k)];
+      std::replace(component.begin(), component.end(), std::max(from, to), std::min(from, to));
+    }
+  }
+  std::vector<FocusComponent> components;
+  for (int first = 0; first < kSidePatterns; ++first) {
+    FocusComponent found;
+    for (int sides = first; sides < kSidePatterns; ++sides) {
+      if (component[sides] != first || !parts[sides]) continue;
+      found.parts.push_back({sides, std::move(*parts[sides])});
+    }
+    if (!found.parts.empty()) components.push_back(std::move(found));
+  }
+  return components;
+}
+
+bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b,
+                       std::span<const std::pair<int, int>> common) {
+  for (const FocusPart& part : a.parts) {
+    for (const FocusPart& other : b.parts) {
+      const bool same_sides = std::all_of(common.begin(), common.end(), [&](const auto& edge) {
+        return IsOuter(part.sides, edge.first) == IsOuter(other.sides, edge.second);
+      });
+      if (same_sides && FilteredRegion::Overlap(part.region, other.region)) return true;
+    }
+  }
+  return false;
+}
+
+FilteredRange FocusContactRange(const EdgeTable& edges, const ConcurrentCandidate& candidate,
+                                const FocusComponent& component, int k) {
+  return FilteredRange([&edges, &component, candidate, k](auto zero) {
+    using NT = decltype(zero);
+    const EdgeFrame<NT> frame = edges.frame<NT>(candidate.edges[k], candidate.tangent);
+    std::optional<ContactRange<NT>> range;
+    for (const FocusPart& part : component.parts) {
+      const bool outer = IsOuter(part.sides, k);
+      ContactRange<NT> seen;
+      if constexpr (std::is_same_v<NT, Exact>) {
+        seen = MakeContactRange(frame, part.region.exact(), outer);
+      } else {
+        seen = MakeContactRange(frame, part.region.region(), outer);
+      }
+      range = range ? range->Join(seen) : seen;
+    }
+    return *range;
+  });
+}
+
+std::vector<FilteredRegion> FocusContactPairs(const EdgeTable& edges,
+                                              const ConcurrentCandidate& candidate,
+                                              const FocusComponent& component, int k, int l) {
+  std::vector<FilteredRegion> pairs;
+  for (const FocusPart& part : component.parts) {
+    auto region = FilteredRegion::Make([&edges, candidate, sides = part.sides, k, l](auto zero) {
+      return MakeContactPairs<decltype(zero)>(edges, candidate, sides, k, l);
+    });
+    if (region) pairs.push_back(std::move(*region));
+  }
+  return pairs;
+}
+
+}  // namespace regrasp

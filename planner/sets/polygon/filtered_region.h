@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "planner/sets/polygon/convex_region.h"
+
+namespace regrasp {
+
+/// A convex region whose combinatorics are exact and whose coordinates are intervals; its exact
+/// coordinates are computed when a decision needs them. Everything here inside an IntervalScope.
+class FilteredRegion {
+ public:
+  /// @param recipe  for a zero of either number type, NT, gives a ConvexRegion<NT>; it may throw as
+  ///                Sign does. What it captures must live as long as the region.
+  /// @returns nullopt where the region is empty.
+  template <class Recipe>
+  static std::optional<FilteredRegion> Make(const Recipe& recipe) {
+    return Make(recipe, [&] { return recipe(Interval(0)); });
+  }
+
+  /// The same, `by_intervals` being a faster way to what recipe(Interval(0)) gives.
+  template <class Recipe, class ByIntervals>
+  static std::optional<FilteredRegion> Make(const Recipe& recipe, const ByIntervals& by_intervals) {
+    try {
+      ConvexRegion<Interval> region = by_intervals();
+      if (region.empty()) return std::nullopt;
+      FilteredRegion made;
+      made.region_ = std::move(region);
+      made.recipe_ = [recipe] { return recipe(Exact(0)); };
+      made.FindBox();
+      return made;
+    } catch (const CGAL::Uncertain_conversion_exception&) {
+    }
+    const ExactScope scope;
+    return Round(recipe(Exact(0)));
+  }
+
+  [[nodiscard]] const ConvexRegion<Interval>& region() const { return region_; }
+  [[nodiscard]] const ConvexRegion<Exact>& exact() const;
+
+  /// True iff two regions have a common interior.
+  [[nodiscard]] static bool Overlap(const FilteredRegion& a, const FilteredRegion& b);
+
+ private:
+  FilteredRegion() = default;
+  static std::optional<FilteredRegion> Round(ConvexRegion<Exact> region);
+  void FindBox();
+
+  struct Box {
+    double min_x = std::numeric_limits<double>::infinity();
+    double max_x = -std::numeric_limits<double>::infinity();
+    double min_y = std::numeric_limits<double>::infinity();
+    double max_y = -std::numeric_limits<double>::infinity();
+  };
+
+  ConvexRegion<Interval> region_;
+  Box box_;  ///< contains the region; it spares most tests
+  std::function<ConvexRegion<Exact>()> recipe_;
+  mutable std::shared_ptr<const ConvexRegion<Exact>> exact_;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/object/polygon.h"
+#include "planner/sets/polygon/grasp_set.h"
+
+namespace regrasp {
+
+/// The focus cell of a concurrent set, rounded to doubles for drawing: a convex counter-clockwise
+/// polygon for each of the set's parts, in their order.
+///
+/// At φ = φ* a cell may reach infinity; what is farther than `kFarthestFocus` diameters from the
+/// centroid is cut off.
+[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> FocusCell(const Polygon& polygon,
+                                                                  const GraspSet& set);
+
+inline constexpr double kFarthestFocus = 100;  ///< over D
+
+}  // namespace regrasp

@@ -1,0 +1,174 @@
+#include "planner/sets/polygon/graph_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace regrasp {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// Steps after which a walk inside a cell of at most five dimensions has forgotten where it began.
+constexpr int kWalkSteps = 32;
+
+/// Hit and run (Smith 1984): a uniform point of a chord in a random direction, again and again.
+VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
+  const Inequalities& set = cell.inequalities;
+  VectorXd z = cell.centre.z;
+  for (int step = 0; step < kWalkSteps; ++step) {
+    VectorXd direction(z.size());
+    for (double& x : direction) {
+      // Box and Muller: one normal deviate of two uniform ones.
+      const double radius = std::sqrt(-2 * std::log(1 - random.Uniform()));
+      x = radius * std::cos(2 * std::numbers::pi * random.Uniform());
+    }
+    const VectorXd slack = set.rows * z + set.offsets;
+    const VectorXd rate = set.rows * direction;
+    double back = -std::numeric_limits<double>::infinity();
+    double ahead = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < rate.size(); ++i) {
+      if (rate[i] > 0) back = std::max(back, -slack[i] / rate[i]);
+      if (rate[i] < 0) ahead = std::min(ahead, -slack[i] / rate[i]);
+    }
+    if (!std::isfinite(back) || !std::isfinite(ahead)) continue;
+    z += (back + random.Uniform() * (ahead - back)) * direction;
+  }
+  return z;
+}
+
+/// All subsets of 2 and 3 of `count` things, the larger ones first.
+std::vector<std::vector<int>> SubsetsOf(int count) {
+  std::vector<std::vector<int>> subsets;
+  for (const std::size_t size : {3, 2}) {
+    for (unsigned bits = 0; bits < 1U << count; ++bits) {
+      std::vector<int> subset;
+      for (int i = 0; i < count; ++i) {
+        if ((bits >> i & 1U) != 0) subset.push_back(i);
+      }
+      if (subset.size() == size) subsets.push_back(std::move(subset));
+    }
+  }
+  return subsets;
+}
+
+/// The parameters of a set's contacts that are given, in the order of its edges.
+using FixedParameters = std::vector<std::optional<double>>;
+
+/// All ways to keep contacts of a grasp in a set on these edges, none among them.
+std::vector<FixedParameters> ChooseKept(const Polygon& polygon, const Grasp& grasp,
+                                        const std::vector<int>& edges) {
+  std::vector<FixedParameters> choices = {FixedParameters()};
+  for (const int edge : edges) {
+    std::vector<FixedParameters> longer;
+    for (const FixedParameters& choice : choices) {
+      longer.push_back(choice);
+      longer.back().push_back(std::nullopt);
+      for (const Contact& contact : grasp) {
+        if (contact.face != edge) continue;
+        longer.push_back(choice);
+        longer.back().push_back(ParameterOf(polygon, contact));
+      }
+    }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+/// The point of a cell of largest slack whose first variables are those that are given.
+SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters& fixed) {
+  std::vector<Eigen::Index> free;
+  Inequalities rest = {Eigen::MatrixXd(), cell.offsets};
+  for (Eigen::Index v = 0; v < cell.rows.cols(); ++v) {
+    if (v < std::ssize(fixed) && fixed[v]) {
+      rest.offsets += *fixed[v] * cell.rows.col(v);
+    } else {
+      free.push_back(v);
+    }
+  }
+  rest.rows = cell.rows(Eigen::all, free);
+  const SlackSolution solution = MaximizeSlack(rest);
+  SlackSolution whole = {VectorXd(cell.rows.cols()), solution.slack};
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    if (fixed[v]) whole.z[static_cast<Eigen::Index>(v)] = *fixed[v];
+  }
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    whole.z[free[i]] = solution.z[static_cast<Eigen::Index>(i)];
+  }
+  return whole;
+}
+
+}  // namespace
+
+const SetCells& GraphCells::of(int vertex) {
+  deadline_.Check();
+  std::optional<SetCells>& cells = cells_[vertex];
+  if (!cells) cells.emplace(polygon_, graph_.sets()[vertex]);
+  return *cells;
+}
+
+double GraphCells::WidthOf(int vertex) {
+  deadline_.Check();
+  std::optional<double>& width = widths_[vertex];
+  if (!width) {
+    const GraspSet& set = graph_.sets()[vertex];
+    const bool parallel = set.type == GraspType::kParallel;
+    width = parallel ? ClearWidth(polygon_, set) : of(vertex).width();
+  }
+  return *width;
+}
+
+std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
+  std::vector<Attachment> attachments;
+  for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {
+    std::sort(contacts.begin(), contacts.end(),
+              [&](int a, int b) { return grasp[a].face < grasp[b].face; });
+    std::vector<int> edges;
+    VectorXd parameters(static_cast<Eigen::Index>(contacts.size()));
+    for (const int contact : contacts) {
+      parameters[static_cast<Eigen::Index>(edges.size())] = ParameterOf(polygon_, grasp[contact]);
+      edges.push_back(grasp[contact].face);
+    }
+    if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
+    for (const int vertex : graph_.SetsOn(edges)) {
+      if (!IsInSet(of(vertex), parameters)) continue;
+      attachments.push_back({vertex, parameters, contacts.size() == grasp.size()});
+    }
+  }
+  return attachments;
+}
+
+std::vector<Attachment> GraphCells::FindSwitches(const Grasp& grasp, int fingers) {
+  std::vector<Attachment> attachments;
+  for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
+    const std::vector<int>& edges = graph_.sets()[vertex].edges;
+    const int least_kept = static_cast<int>(grasp.size() + edges.size()) - fingers;
+    for (const FixedParameters& fixed : ChooseKept(polygon_, grasp, edges)) {
+      const auto kept = std::count_if(fixed.begin(), fixed.end(),
+                                      [](const auto& parameter) { return parameter.has_value(); });
+      if (kept < least_kept || kept == std::ssize(edges)) continue;
+      SlackSolution best;
+      for (const GraspCell& cell : of(vertex).cells()) {
+        SlackSolution solution = MaximizeSlackWith(cell.inequalities, fixed);
+        if (solution.slack > std::max(best.slack, kNoSlack)) best = std::move(solution);
+      }
+      if (best.slack > 0) attachments.push_back({vertex, best.z.head(std::ssize(edges)), false});
+    }
+  }
+  return attachments;
+}
+
+Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
+  const std::vector<GraspCell>& cells = of(vertex).cells();
+  Grasp grasp;
+  if (cells.empty()) return grasp;
+  const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);
+  for (const int edge : graph_.sets()[vertex].edges) {
+    grasp.push_back(ContactAt(polygon_, edge, z[static_cast<Eigen::Index>(grasp.size())]));
+  }
+  return grasp;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/sets/polygon/polygon_graph.h"
+#include "planner/sets/polygon/set_cells.h"
+
+namespace regrasp {
+
+/// A grasp of a vertex of the graph that another grasp is, or comes to by one switch.
+struct Attachment {
+  int vertex = 0;
+  Eigen::VectorXd parameters;  ///< of the set's contacts
+  bool whole = false;          ///< it is the grasp itself, no switch is needed
+};
+
+/// The cells of a graph's sets, made when first asked for.
+class GraphCells {
+ public:
+  /// @param deadline  when whatever asks for cells makes an end, by TimeUp.
+  GraphCells(const Polygon& polygon, const PolygonGraph& graph, Deadline deadline = {})
+      : polygon_(polygon),
+        graph_(graph),
+        deadline_(std::move(deadline)),
+        cells_(graph.sets().size()),
+        widths_(graph.sets().size()) {}
+
+  [[nodiscard]] const SetCells& of(int vertex);
+
+  /// The largest slack of a grasp in the set; of a parallel one ClearWidth, which is cheaper.
+  [[nodiscard]] double WidthOf(int vertex);
+
+  /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
+  /// first.
+  [[nodiscard]] std::vector<Attachment> FindAttachments(const Grasp& grasp);
+
+  /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
+  /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
+  /// to no set.
+  [[nodiscard]] std::vector<Attachment> FindSwitches(const Grasp& grasp, int fingers);
+
+  /// A grasp of the set, anywhere in it.
+  [[nodiscard]] Grasp DrawGrasp(int vertex, RandomStream& random);
+
+ private:
+  const Polygon& polygon_;
+  const PolygonGraph& graph_;
+  Deadline deadline_;
+  std::vector<std::optional<SetCells>> cells_;
+  std::vector<std::optional<double>> widths_;
+};
+
+}  // namespace regrasp

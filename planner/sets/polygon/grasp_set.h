@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/planning/spanning.h"  // IWYU pragma: export
+
+namespace regrasp {
+
+/// The kinds of force-closure grasps of a polygon (Phoka 2010, section 3.2).
+enum class GraspType {
+  kConcurrent,  ///< three contacts whose cones see one focus point, normals φ-positively spanning
+  kTwoFinger,   ///< two contacts, the line through them inside both cones
+  kParallel,    ///< three contacts with parallel forces, the middle one opposing the others
+};
+
+/// A vertex of the switching graph: a connected component of the grasps of one type on distinct
+/// edges. Contacts are a + u (b − a), 0 < u < 1, on an edge from a to b, material on the left.
+///
+/// A set is a union of convex parts, each given by linear inequalities once `part` is fixed:
+/// - concurrent: bit k of a part is set iff the focus point lies on the outer side of the line of
+///   edges[k]. A part holds the focus points x and contacts p_k with ±(x − p_k) in the cone of
+///   half-angle φ about the inward normal (+ on the inner side);
+/// - two-finger: part 0 squeezes, p_1 − p_0 in the cone at p_0 and p_0 − p_1 in the one at p_1;
+///   part 1 stretches, the mirror image;
+/// - parallel: a part is the position in `edges` of the centre contact, whose force opposes the
+///   other two (more than one only where θ ≥ 45°). It is a union of convex polytopes itself
+///   (planner/sets/polygon/parallel.h), always connected.
+struct GraspSet {
+  GraspType type = GraspType::kConcurrent;
+  std::vector<int> edges;  ///< ascending; three, or two of a two-finger set
+  double tangent = 0;      ///< tan φ of a concurrent set, tan θ of the others; exact as it stands
+  std::vector<int> parts;  ///< ascending
+};
+
+}  // namespace regrasp

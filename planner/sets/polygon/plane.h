@@ -1,0 +1,100 @@
+#pragma once
+
+#include "planner/sets/polygon/number_type.h"
+
+namespace regrasp {
+
+/// A vector of the plane over any number type.
+template <class NT>
+struct Vector2 {
+  NT x = NT(0);
+  NT y = NT(0);
+
+  friend Vector2 operator+(const Vector2& a, const Vector2& b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vector2 operator-(const Vector2& a, const Vector2& b) { return {a.x - b.x, a.y - b.y}; }
+  friend Vector2 operator-(const Vector2& a) { return {-a.x, -a.y}; }
+  friend Vector2 operator*(const NT& s, const Vector2& a) { return {s * a.x, s * a.y}; }
+};
+
+template <class NT>
+NT Cross(const Vector2<NT>& a, const Vector2<NT>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+template <class NT>
+NT Dot(const Vector2<NT>& a, const Vector2<NT>& b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+/// A point (x/w, y/w) of the plane, or for w = 0 the direction (x, y) in which a region is
+/// unbounded; w >= 0.
+template <class NT>
+struct HomogeneousPoint {
+  NT x = NT(0);
+  NT y = NT(0);
+  NT w = NT(0);
+};
+
+/// The open half-plane a x + b y + c > 0 (a x + b y + c w > 0 of a homogeneous point).
+template <class NT>
+struct HalfPlane {
+  NT a = NT(0);
+  NT b = NT(0);
+  NT c = NT(0);
+
+  friend HalfPlane operator-(const HalfPlane& h) { return {-h.a, -h.b, -h.c}; }
+};
+
+template <class NT>
+NT Evaluate(const HalfPlane<NT>& h, const HomogeneousPoint<NT>& p) {
+  return h.a * p.x + h.b * p.y + h.c * p.w;
+}
+
+/// Where the border of a convex region that turns left from `h` to `k` turns.
+template <class NT>
+HomogeneousPoint<NT> Corner(const HalfPlane<NT>& h, const HalfPlane<NT>& k) {
+  return {h.b * k.c - h.c * k.b, h.c * k.a - h.a * k.c, h.a * k.b - h.b * k.a};
+}
+
+/// The points on the left of the line through `p` along `direction`.
+template <class NT>
+HalfPlane<NT> LeftOf(const Vector2<NT>& direction, const Vector2<NT>& p) {
+  return {-direction.y, direction.x, direction.y * p.x - direction.x * p.y};
+}
+
+/// An edge of a polygon with the cone of friction at its points, over any number type. Lengths
+/// of vectors carry no meaning: normals and directions are not unit.
+template <class NT>
+struct EdgeFrame {
+  Vector2<NT> a;      ///< first end; material on the left
+  Vector2<NT> b;      ///< second end
+  Vector2<NT> along;  ///< b − a
+  Vector2<NT> right;  ///< right border of the cone about the inward normal, normal + tan · along
+  Vector2<NT> left;   ///< left border, normal − tan · along
+};
+
+/// An edge by its ends, doubles that stand for themselves.
+struct EdgeEnds {
+  Vector2<double> a;
+  Vector2<double> b;
+};
+
+template <class NT>
+Vector2<NT> Convert(const Vector2<double>& v) {
+  return {NT(v.x), NT(v.y)};
+}
+
+template <class NT>
+EdgeFrame<NT> MakeEdgeFrame(const EdgeEnds& ends, double tangent) {
+  EdgeFrame<NT> frame;
+  frame.a = Convert<NT>(ends.a);
+  frame.b = Convert<NT>(ends.b);
+  frame.along = frame.b - frame.a;
+  const Vector2<NT> normal = {-frame.along.y, frame.along.x};
+  const Vector2<NT> lean = NT(tangent) * frame.along;
+  frame.right = normal + lean;
+  frame.left = normal - lean;
+  return frame;
+}
+
+}  // namespace regrasp

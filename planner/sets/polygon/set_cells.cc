@@ -1,0 +1,295 @@
+#include "planner/sets/polygon/set_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace {
+
+bool IsOuter(int part, int k) { return (part >> k & 1) != 0; }
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// An affine function of the variables, made term by term.
+struct Affine {
+  VectorXd rates;
+  double constant = 0;
+};
+
+/// An edge in units of D about the centroid, with unit borders of its cone.
+struct Edge {
+  Vector2d a;
+  Vector2d along;
+  Vector2d right;
+  Vector2d left;
+};
+
+/// What makes the cells of one set.
+class CellMaker {
+ public:
+  CellMaker(const Polygon& polygon, const GraspSet& set) : set_(set) {
+    const Vector2d centre = polygon.mass_properties().centroid.head<2>();
+    const double d = polygon.diameter();
+    for (const int e : set.edges) {
+      const auto [a, b] = polygon.edge(e);
+      Edge edge;
+      edge.a = (a.head<2>() - centre) / d;
+      edge.along = (b - a).head<2>() / d;
+      const Vector2d normal(-edge.along.y(), edge.along.x());
+      edge.right = (normal + set.tangent * edge.along).normalized();
+      edge.left = (normal - set.tangent * edge.along).normalized();
+      edges_.push_back(edge);
+    }
+  }
+
+  std::vector<GraspCell> Make() {
+    for (const int part : set_.parts) {
+      switch (set_.type) {
+        case GraspType::kConcurrent:
+          MakeConcurrent(part);
+          break;
+        case GraspType::kTwoFinger:
+          MakeTwoFinger(part);
+          break;
+        case GraspType::kParallel:
+          MakeParallel(part);
+          break;
+      }
+    }
+    return std::move(cells_);
+  }
+
+  [[nodiscard]] double ClearWidth() const {
+    double width = 0;
+    for (const int a : set_.parts) {
+      const int b = a == 0 ? 1 : 0;
+      const int c = a == 2 ? 1 : 2;
+      const auto [right, left] = CommonConeOf(a, b, c);
+      for (const double sign : {1.0, -1.0}) {
+        std::vector<Affine> list = InsideEdges();
+        for (const Vector2d& border : {right, left}) {
+          AddSide(border, b, a, sign, list);
+          AddSide(border, c, a, -sign, list);
+        }
+        width = std::max(width, MaximizeSlack(Stack(list)).slack);
+      }
+    }
+    return width;
+  }
+
+  /// The grasp of largest slack where the focus point crosses the line of edge k, at the contact
+  /// there: the only point that the cones on both sides have in common.
+  [[nodiscard]] SlackSolution FocusAtContact(int part, int k) const {
+    std::vector<Affine> list = InsideEdges();
+    for (int j = 0; j < 3; ++j) {
+      if (j != k) AddCone(j, IsOuter(part, j), list);
+    }
+    Inequalities set = Stack(list);
+    // x = p_k takes the place of the focus point's variables.
+    Eigen::MatrixXd substitution = Eigen::MatrixXd::Zero(variables(), contacts());
+    substitution.topRows(contacts()).setIdentity();
+    substitution.col(k).tail(2) = edges_[k].along;
+    VectorXd constant = VectorXd::Zero(variables());
+    constant.tail(2) = edges_[k].a;
+    set.offsets += set.rows * constant;
+    set.rows = set.rows * substitution;
+    return MaximizeSlack(set);
+  }
+
+ private:
+  [[nodiscard]] int contacts() const { return static_cast<int>(edges_.size()); }
+  [[nodiscard]] int variables() const {
+    return contacts() + (set_.type == GraspType::kConcurrent ? 2 : 0);
+  }
+
+  [[nodiscard]] Affine Zero() const { return {VectorXd::Zero(variables()), 0}; }
+
+  /// sign · cross(direction, p_k).
+  void AddContact(const Vector2d& direction, int k, double sign, Affine& f) const {
+    f.constant += sign * Cross(direction, edges_[k].a);
+    f.rates[k] += sign * Cross(direction, edges_[k].along);
+  }
+  /// sign · cross(direction, x), x the focus point.
+  void AddFocus(const Vector2d& direction, double sign, Affine& f) const {
+    f.rates[contacts()] += sign * -direction.y();
+    f.rates[contacts() + 1] += sign * direction.x();
+  }
+
+  /// The contacts stay away from the ends of their edges.
+  [[nodiscard]] std::vector<Affine> InsideEdges() const {
+    std::vector<Affine> list;
+    for (int k = 0; k < contacts(); ++k) {
+      const double length = edges_[k].along.norm();
+      Affine first = Zero();
+      first.rates[k] = length;
+      Affine second = Zero();
+      second.rates[k] = -length;
+      second.constant = length;
+      list.push_back(first);
+      list.push_back(second);
+    }
+    return list;
+  }
+
+  static Inequalities Stack(const std::vector<Affine>& list) {
+    Inequalities set;
+    set.rows.resize(static_cast<Eigen::Index>(list.size()), list.front().rates.size());
+    set.offsets.resize(static_cast<Eigen::Index>(list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      set.rows.row(static_cast<Eigen::Index>(i)) = list[i].rates;
+      set.offsets[static_cast<Eigen::Index>(i)] = list[i].constant;
+    }
+    return set;
+  }
+
+  void AddCell(int part, const std::vector<Affine>& list) {
+    Inequalities inequalities = Stack(list);
+    SlackSolution centre = MaximizeSlack(inequalities);
+    if (centre.slack > kNoSlack) {
+      cells_.push_back({part, std::move(inequalities), std::move(centre)});
+    }
+  }
+
+  /// The focus point inside the cone at contact k.
+  void AddCone(int k, bool outer, std::vector<Affine>& list) const {
+    const double side = outer ? -1 : 1;
+    for (const auto& [border, sign] : {std::pair(edges_[k].right, 1.0), {edges_[k].left, -1.0}}) {
+      Affine f = Zero();
+      AddFocus(border, side * sign, f);
+      AddContact(border, k, -side * sign, f);
+      list.push_back(f);
+    }
+  }
+
+  void MakeConcurrent(int part) {
+    std::vector<Affine> list = InsideEdges();
+    for (int k = 0; k < 3; ++k) AddCone(k, IsOuter(part, k), list);
+    AddCell(part, list);
+  }
+
+  void MakeTwoFinger(int part) {
+    std::vector<Affine> list = InsideEdges();
+    const double sign = part == 0 ? 1 : -1;
+    // v = p_1 − p_0 inside the cone at 0 and −v inside the cone at 1, or both mirrored.
+    const auto add = [&](const Vector2d& border, double side) {
+      Affine f = Zero();
+      AddContact(border, 1, sign * side, f);
+      AddContact(border, 0, -sign * side, f);
+      list.push_back(f);
+    };
+    add(edges_[0].right, 1);
+    add(edges_[0].left, -1);
+    add(edges_[1].right, -1);
+    add(edges_[1].left, 1);
+    AddCell(part, list);
+  }
+
+  /// Grasps of the centre a: f of b on one side and f of c on the other, for one border of the
+  /// common cone each (the f are those of planner/sets/polygon/parallel.h). These eight cells
+  /// overlap and leave out nothing but grasps with two contacts at one point.
+  void MakeParallel(int a) {
+    const int b = a == 0 ? 1 : 0;
+    const int c = a == 2 ? 1 : 2;
+    const auto [right, left] = CommonConeOf(a, b, c);
+    const std::array<Vector2d, 2> borders = {right, left};
+    for (const double sign : {1.0, -1.0}) {
+      for (const Vector2d& of_b : borders) {
+        for (const Vector2d& of_c : borders) {
+          std::vector<Affine> list = InsideEdges();
+          AddSide(of_b, b, a, sign, list);
+          AddSide(of_c, c, a, -sign, list);
+          AddCell(a, list);
+        }
+      }
+    }
+  }
+
+  /// sign · cross(border, p_x − p_a) > 0.
+  void AddSide(const Vector2d& border, int x, int a, double sign, std::vector<Affine>& list) const {
+    Affine f = Zero();
+    AddContact(border, x, sign, f);
+    AddContact(border, a, -sign, f);
+    list.push_back(f);
+  }
+
+  /// The borders of the intersection of the cones of b and c and the mirrored one of a; they lie
+  /// within π of each other, so the innermost borders are theirs.
+  [[nodiscard]] std::pair<Vector2d, Vector2d> CommonConeOf(int a, int b, int c) const {
+    const auto is_inside = [&](const Vector2d& w, int k, double side) {
+      return Cross(side * edges_[k].right, w) >= -kNoSlack &&
+             Cross(w, side * edges_[k].left) >= -kNoSlack;
+    };
+    const auto innermost = [&](auto border) {
+      for (const auto& [k, side] : {std::pair(a, -1.0), {b, 1.0}, {c, 1.0}}) {
+        const Vector2d w = side * border(edges_[k]);
+        if (is_inside(w, a, -1) && is_inside(w, b, 1) && is_inside(w, c, 1)) return w;
+      }
+      // Only a cone that is too narrow for doubles has none.
+      return Vector2d(-border(edges_[a]));
+    };
+    return {innermost([](const Edge& e) { return e.right; }),
+            innermost([](const Edge& e) { return e.left; })};
+  }
+
+  const GraspSet& set_;
+  std::vector<Edge> edges_;
+  std::vector<GraspCell> cells_;
+};
+
+}  // namespace
+
+SetCells::SetCells(const Polygon& polygon, const GraspSet& set)
+    : polygon_(polygon), set_(set), cells_(CellMaker(polygon, set).Make()) {}
+
+std::optional<VectorXd> SetCells::Passage(int from, int to) const {
+  const GraspCell& a = cells_[from];
+  const GraspCell& b = cells_[to];
+  const auto contacts = static_cast<Eigen::Index>(set_.edges.size());
+  SlackSolution point;
+  if (set_.type == GraspType::kConcurrent) {
+    const auto differ = static_cast<unsigned>(a.part ^ b.part);
+    if (!std::has_single_bit(differ)) return std::nullopt;
+    point = CellMaker(polygon_, set_).FocusAtContact(a.part, std::countr_zero(differ));
+  } else {
+    Inequalities both;
+    both.rows.resize(a.inequalities.rows.rows() + b.inequalities.rows.rows(), contacts);
+    both.rows << a.inequalities.rows, b.inequalities.rows;
+    both.offsets.resize(both.rows.rows());
+    both.offsets << a.inequalities.offsets, b.inequalities.offsets;
+    point = MaximizeSlack(both);
+  }
+  if (point.slack <= kNoSlack) return std::nullopt;
+  return point.z.head(contacts);
+}
+
+double SetCells::width() const {
+  double width = 0;
+  for (const GraspCell& cell : cells_) width = std::max(width, cell.centre.slack);
+  return width;
+}
+
+double ClearWidth(const Polygon& polygon, const GraspSet& parallel) {
+  return CellMaker(polygon, parallel).ClearWidth();
+}
+
+double SlackInCell(const GraspCell& cell, const VectorXd& parameters) {
+  const Inequalities& all = cell.inequalities;
+  const Eigen::Index contacts = parameters.size();
+  const Eigen::Index rest = all.rows.cols() - contacts;
+  const Inequalities fixed = {all.rows.rightCols(rest),
+                              all.offsets + all.rows.leftCols(contacts) * parameters};
+  return rest == 0 ? fixed.offsets.minCoeff() : MaximizeSlack(fixed).slack;
+}
+
+bool IsInSet(const SetCells& set, const VectorXd& parameters, double slack) {
+  return std::any_of(set.cells().begin(), set.cells().end(),
+                     [&](const GraspCell& cell) { return SlackInCell(cell, parameters) > slack; });
+}
+
+}  // namespace regrasp

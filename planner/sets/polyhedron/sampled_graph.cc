@@ -1,0 +1,202 @@
+#include "planner/sets/polyhedron/sampled_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_set>
+
+#include "planner/base/random.h"
+#include "planner/sets/polyhedron/normal_quadruples.h"
+
+namespace regrasp {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// The region is found to this share of its size.
+constexpr double kRegionAccuracy = 1e-3;
+
+/// Moves one side of a box outwards until no focus point of a piece is beyond it.
+class RegionGrower {
+ public:
+  RegionGrower(const Polyhedron& solid, PolyhedronGraph& graph)
+      : finder_(graph.finder()), step_(kRegionAccuracy * solid.diameter()) {}
+
+  void Include(const FocusCell& cell, const FocusPiece& piece, AlignedBox3d& box) {
+    box.extend(piece.point);
+    volumes_.clear();
+    for (const int half : piece.halves) volumes_.push_back(finder_.VolumeOf(half, cell.tangent));
+    for (int axis = 0; axis < 3; ++axis) {
+      Grow(Vector3d::Unit(axis), box.max()[axis]);
+      double low = -box.min()[axis];
+      Grow(-Vector3d::Unit(axis), low);
+      box.min()[axis] = -low;
+    }
+  }
+
+ private:
+  /// Raises `limit` until no point of the piece has a larger x · direction.
+  void Grow(const Vector3d& direction, double& limit) {
+    double step = step_;
+    while (ReachesBeyond(direction, limit)) {
+      limit += step;
+      step *= 2;
+    }
+  }
+
+  [[nodiscard]] bool ReachesBeyond(const Vector3d& direction, double limit) {
+    const auto largest = [&](const Vector3d& x) {
+      Cut cut = {-direction, limit};
+      double value = cut.At(x);
+      for (const UnionVolume& volume : volumes_) {
+        const Cut other = volume.CutAt(x);
+        if (other.At(x) <= value) continue;
+        value = other.At(x);
+        cut = other;
+      }
+      return cut;
+    };
+    return finder_.HasPoint(largest);
+  }
+
+  FocusCellFinder& finder_;
+  double step_;
+  std::vector<UnionVolume> volumes_;
+};
+
+/// The quadruples that points see, with the halves of faces that they see them from.
+class Sampler {
+ public:
+  Sampler(const Polyhedron& solid, double half_angle, Spanning spanning)
+      : finder_(solid, std::tan(half_angle)), tangent_(std::tan(half_angle)) {
+    candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning);
+    found_.assign(candidates_.size(), 0);
+    seen_.assign(solid.face_count(), 0);
+    for (int half = 0; half < 2 * static_cast<int>(finder_.parts().parts.size()); ++half) {
+      volumes_.push_back(finder_.VolumeOf(half, tangent_));
+    }
+  }
+
+  void Include(const Vector3d& x) {
+    std::ranges::fill(seen_, 0);
+    for (std::size_t half = 0; half < volumes_.size(); ++half) {
+      if (volumes_[half].At(x) < 0) seen_[finder_.parts().parts[half / 2].face] = 1;
+    }
+    of_triples_.clear();
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const QuadrupleCandidate& candidate = candidates_[c];
+      const bool sees = std::ranges::all_of(candidate.faces, [&](int f) { return seen_[f] != 0; });
+      if (!sees || !SeesNarrowly(candidate, x)) continue;
+      found_[c] = 1;
+      ListTriples(static_cast<int>(c));
+    }
+    Link();
+  }
+
+  [[nodiscard]] SampledGraph Result() const {
+    SampledGraph graph;
+    std::vector<int> number(candidates_.size(), -1);
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      if (found_[c] == 0) continue;
+      number[c] = static_cast<int>(graph.quadruples.size());
+      graph.quadruples.push_back(candidates_[c].faces);
+    }
+    for (const std::uint64_t link : links_) {
+      graph.links.push_back({number[link >> 32], number[link & 0xffffffff]});
+    }
+    std::ranges::sort(graph.links);
+    graph.components = FindComponents(static_cast<int>(graph.quadruples.size()),
+                                      static_cast<int>(graph.links.size()),
+                                      [&](int i) { return std::span<const int>(graph.links[i]); })
+                           .count();
+    return graph;
+  }
+
+ private:
+  /// Cones of the candidate's own half-angle may be narrower than those of the friction.
+  [[nodiscard]] bool SeesNarrowly(const QuadrupleCandidate& candidate, const Vector3d& x) const {
+    if (candidate.tangent == tangent_) return true;
+    return std::ranges::all_of(candidate.faces, [&](int face) {
+      const auto& first = finder_.parts().first;
+      for (int half = 2 * first[face]; half < 2 * first[face + 1]; ++half) {
+        if (finder_.VolumeOf(half, candidate.tangent).At(x) < 0) return true;
+      }
+      return false;
+    });
+  }
+
+  void ListTriples(int candidate) {
+    const std::array<int, 4>& f = candidates_[candidate].faces;
+    for (std::size_t left_out = 0; left_out < f.size(); ++left_out) {
+      std::array<int, 3> triple;
+      for (std::size_t k = 0; k < 3; ++k) triple[k] = f[k < left_out ? k : k + 1];
+      of_triples_.push_back({triple, candidate});
+    }
+  }
+
+  void Link() {
+    std::ranges::sort(of_triples_);
+    for (std::size_t i = 0; i < of_triples_.size(); ++i) {
+      for (std::size_t j = i + 1;
+           j < of_triples_.size() && of_triples_[j].first == of_triples_[i].first; ++j) {
+        links_.insert(static_cast<std::uint64_t>(of_triples_[i].second) << 32 |
+                      static_cast<std::uint64_t>(of_triples_[j].second));
+      }
+    }
+  }
+
+  FocusCellFinder finder_;
+  double tangent_;
+  std::vector<QuadrupleCandidate> candidates_;
+  std::vector<char> found_;
+  std::vector<UnionVolume> volumes_;
+  std::vector<char> seen_;  ///< faces that the point at hand sees
+  std::vector<std::pair<std::array<int, 3>, int>> of_triples_;
+  std::unordered_set<std::uint64_t> links_;  ///< two candidates, the lower one in the upper half
+};
+
+}  // namespace
+
+AlignedBox3d FindSamplingRegion(const Polyhedron& solid, PolyhedronGraph& graph) {
+  AlignedBox3d box;
+  RegionGrower grower(solid, graph);
+  for (const FocusCell& cell : graph.cells()) {
+    for (const FocusPiece& piece : cell.pieces) grower.Include(cell, piece, box);
+  }
+  return box;
+}
+
+SampledGraph SamplePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning,
+                              const AlignedBox3d& region, int points, std::uint64_t seed) {
+  Sampler sampler(solid, half_angle, spanning);
+  RandomStream random(seed, RandomUse::kFocusPoints);
+  for (int i = 0; i < points && !region.isEmpty(); ++i) {
+    Vector3d share;
+    for (int axis = 0; axis < 3; ++axis) share[axis] = random.Uniform();
+    sampler.Include(region.min() + share.cwiseProduct(region.sizes()));
+  }
+  return sampler.Result();
+}
+
+SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph& graph) {
+  using Quadruple = std::array<int, 4>;
+  std::set<Quadruple> quadruples;
+  for (const FocusCell& cell : graph.cells()) quadruples.insert(cell.faces);
+  std::set<std::array<Quadruple, 2>> links;
+  for (const auto& [a, b] : graph.links()) {
+    links.insert({graph.cells()[a].faces, graph.cells()[b].faces});
+  }
+  SamplingShare share;
+  share.quadruples = std::ssize(quadruples);
+  share.links = std::ssize(links);
+  share.found_quadruples = std::ranges::count_if(
+      sampled.quadruples, [&](const Quadruple& q) { return quadruples.contains(q); });
+  share.found_links = std::ranges::count_if(sampled.links, [&](const auto& link) {
+    return links.contains({sampled.quadruples[link[0]], sampled.quadruples[link[1]]});
+  });
+  return share;
+}
+
+}  // namespace regrasp

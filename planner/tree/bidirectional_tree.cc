@@ -1,0 +1,293 @@
+#include "planner/tree/bidirectional_tree.h"
+
+#include <algorithm>
+
+#include "planner/tree/subset_search.h"
+#include "planner/tree/transition.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Random candidates at first; when all have been tried their number doubles.
+constexpr int kFirstCandidates = 8;
+
+/// Aligns to so many grasps of the other tree are tried from each new grasp.
+constexpr int kAlignsToMeet = 2;
+
+/// Force-closure tests that each tree may take before the other's turn, doubled in every round.
+constexpr std::int64_t kFirstTurn = 200;
+
+/// Draws for a grasp around another, over ever smaller surroundings.
+constexpr int kDrawsAround = 24;
+constexpr double kNarrower = 0.7;
+
+/// A grasp that is nearer than this to one of the tree, over the diameter, tells it nothing new: on
+/// the small faces of a mesh there are no others.
+constexpr double kLeastTravel = 0.05;
+
+/// Contacts have no way to go on it.
+bool IsSmall(int face, const Object& object) {
+  const double way = kLeastTravel * object.diameter();
+  return object.face_measure(face) < (object.dimension() == 3 ? way * way : way);
+}
+
+/// So many candidates later than the grasp before it on its tuple of faces a grasp gets its turn.
+constexpr int kBehind = 8;
+
+/// What a draw costs beside its test, in tests.
+constexpr int kDrawCost = 2;
+
+}  // namespace
+
+BidirectionalTree::BidirectionalTree(const ContactSet& from, const ContactSet& to,
+                                     const SurfaceSource& source, RandomStream& random,
+                                     SearchSpace& space)
+    : source_(source),
+      random_(random),
+      space_(space),
+      trees_{Tree{ReachedGrasps(from, space), {}, {}}, Tree{ReachedGrasps(to, space), {}, {}}} {
+  for (const ContactSet* set : {&to, &from}) {
+    for (const int contact : *set) {
+      if (std::find(candidates_.begin(), candidates_.end(), contact) == candidates_.end()) {
+        candidates_.push_back(contact);
+      }
+    }
+  }
+}
+
+std::optional<GraspPath> BidirectionalTree::Join() {
+  if (trees_[0].reached[0] == trees_[1].reached[0]) {
+    return GraspPath{trees_[0].reached[0], {}};
+  }
+  Meet(0, 0);
+  for (int side = 0; side < 2; ++side) MakeQueueEntry(side, 0);
+  bool around = false;
+  for (std::int64_t turn = kFirstTurn; !found_ && !space_.IsSpent() && space_.has_room();
+       turn *= 2) {
+    for (int side = 0; side < 2 && !found_; ++side) {
+      GrowBySwitches(side, space_.tests() + turn);
+      if (around && !found_) GrowAround(side, space_.tests() + turn);
+      if (around && !found_) GrowAcross(side, space_.tests() + turn);
+    }
+    around = true;
+  }
+  return found_;
+}
+
+void BidirectionalTree::AddCandidates() {
+  const int more = std::max(kFirstCandidates, static_cast<int>(candidates_.size()));
+  for (int i = 0; i < more && space_.has_room(); ++i) {
+    candidates_.push_back(space_.Add(source_.Draw(random_)));
+  }
+  for (Tree& tree : trees_) {
+    for (const QueueEntry& offer : tree.waiting) tree.offers.push(offer);
+    tree.waiting.clear();
+  }
+}
+
+void BidirectionalTree::GrowBySwitches(int side, std::int64_t until) {
+  Tree& tree = trees_[side];
+  while (!found_ && space_.tests() < until && !space_.IsSpent()) {
+    if (tree.offers.empty()) {
+      if (tree.waiting.empty() || !space_.has_room()) return;
+      AddCandidates();
+    }
+    QueueEntry offer = tree.offers.top();
+    tree.offers.pop();
+    if (offer.next >= static_cast<int>(candidates_.size())) {
+      tree.waiting.push_back(offer);
+      continue;
+    }
+    TryCandidate(side, offer.node, candidates_[offer.next]);
+    ++offer.next;
+    ++offer.rank;
+    tree.offers.push(offer);
+  }
+}
+
+void BidirectionalTree::TryCandidate(int side, int node, int candidate) {
+  const ContactSet set = trees_[side].reached[node];
+  const int fingers = space_.fingers();
+  if (set.Has(candidate) || !space_.CanMeet(set, candidate)) return;
+  if (set.size() < fingers - 1) {
+    TryToReach(side, set.With(candidate), node);
+    return;
+  }
+  for (const int contact : set) {
+    TryToReach(side, set.Without(contact).With(candidate), node);
+    if (found_) return;
+  }
+}
+
+void BidirectionalTree::TryToReach(int side, const ContactSet& set, int parent) {
+  if (trees_[side].reached.Find(set) < 0 && space_.Admits(set)) Reach(side, set, parent);
+}
+
+void BidirectionalTree::Reach(int side, const ContactSet& set, int parent,
+                              std::optional<FaceAlign> align) {
+  const int node = trees_[side].reached.Reach(set, parent, std::move(align));
+  Meet(side, node);
+  if (!found_) MakeQueueEntry(side, node);
+}
+
+void BidirectionalTree::MakeQueueEntry(int side, int node) {
+  Tree& tree = trees_[side];
+  const ContactSet set = tree.reached[node];
+  if (set.size() == space_.fingers()) {
+    // A full hand can only let go.
+    for (const int contact : set) TryToReach(side, set.Without(contact), node);
+    return;
+  }
+  const int on_tuple = static_cast<int>(tree.reached.OnTuple(TupleOf(set, space_)).size());
+  tree.offers.push({kBehind * (on_tuple - 1), node, 0});
+}
+
+std::vector<BidirectionalTree::NodeAt> BidirectionalTree::NearestOnTuple(int side,
+                                                                         const ContactSet& set,
+                                                                         int most) const {
+  const ReachedGrasps& reached = trees_[side].reached;
+  std::vector<NodeAt> ways;
+  for (const int node : reached.OnTuple(TupleOf(set, space_))) {
+    ways.push_back({DistanceBetween(set, reached[node], space_), node});
+  }
+  most = std::min(most, static_cast<int>(ways.size()));
+  std::partial_sort(ways.begin(), ways.begin() + most, ways.end());
+  ways.resize(most);
+  return ways;
+}
+
+void BidirectionalTree::Meet(int side, int node) {
+  const ReachedGrasps& own = trees_[side].reached;
+  const ReachedGrasps& other = trees_[1 - side].reached;
+  const ContactSet set = own[node];
+  const auto join = [&](int there, const GraspPath& between) {
+    GraspPath path = own.PathTo(node);
+    Append(between, path);
+    Append(Reversed(other.PathTo(there)), path);
+    found_ = side == 0 ? path : Reversed(path);
+  };
+  if (const int there = other.Find(set); there >= 0) {
+    join(there, {set, {}});
+    return;
+  }
+  const int any = static_cast<int>(random_.Index(other.size()));
+  if (const auto between = SearchOwnSubsets(set, other[any], space_)) {
+    join(any, *between);
+    return;
+  }
+  std::vector<NodeAt> near = NearestOnTuple(1 - side, set, kAlignsToMeet);
+  // A full hand, which can switch to nothing, may still come to the other's faces across edges.
+  if (near.empty() && set.size() == space_.fingers()) near.push_back({0, any});
+  for (const auto& [way, there] : near) {
+    if (auto align = AlignBetween(set, other[there], space_)) {
+      join(there, {set, {{other[there], std::move(align)}}});
+      return;
+    }
+  }
+}
+
+void BidirectionalTree::GrowAround(int side, std::int64_t until) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
+    const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
+    double reach = space_.object().diameter();
+    for (int draw = 0; draw < kDrawsAround && !found_; ++draw, reach *= kNarrower) {
+      space_.CountTests(kDrawCost);
+      if (draw % 2 == 0 ? AlignAround(side, node, reach) : SwitchAround(side, node, reach)) break;
+    }
+  }
+}
+
+bool BidirectionalTree::AlignAround(int side, int node, double reach) {
+  const ContactSet& from = trees_[side].reached[node];
+  // Of a full hand, which has no finger for a switch, one contact leaves its face.
+  const bool full = from.size() == space_.fingers();
+  const int leaving = full ? static_cast<int>(random_.Index(from.size())) : -1;
+  const double least_travel = kLeastTravel * space_.object().diameter();
+  Grasp drawn;
+  double straight = 0;
+  for (int i = 0; i < from.size(); ++i) {
+    const Contact& contact = space_.contact(from[i]);
+    drawn.push_back(i == leaving ? source_.DrawAround(contact, reach, random_)
+                                 : source_.DrawNear(contact, reach, random_));
+    straight += (drawn.back().p - contact.p).norm();
+  }
+  if (straight < least_travel) return false;
+  const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
+  if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
+  const ContactSet set = space_.Add(drawn);
+  for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
+    if (way < least_travel) return false;
+    node = near;
+  }
+  return AlignTo(side, node, set) >= 0;
+}
+
+bool BidirectionalTree::SwitchAround(int side, int node, double reach) {
+  const ContactSet set = trees_[side].reached[node];
+  if (set.size() == space_.fingers()) return false;
+  const int leaving = set[static_cast<int>(random_.Index(set.size()))];
+  Grasp drawn = space_.GraspOf(set.Without(leaving));
+  drawn.push_back(source_.DrawAround(space_.contact(leaving), reach, random_));
+  if (!space_.IsAdmitted(drawn) || !source_.Serves(drawn.back())) return false;
+  const int placed = space_.Add(drawn.back());
+  if (!space_.CanMeet(leaving, placed)) return false;
+  const ContactSet after = set.Without(leaving).With(placed);
+  space_.Accept(after);
+  if (trees_[side].reached.Find(after) < 0) Reach(side, after, node);
+  return true;
+}
+
+void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
+    const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
+    const ContactSet set = trees_[side].reached[node];
+    space_.CountTests(kDrawCost);
+    if (set.size() == space_.fingers()) continue;
+    const int leaving = static_cast<int>(random_.Index(set.size()));
+    const int face = FaceAcross(side);
+    const Grasp before = space_.GraspOf(set);
+    FaceTuple tuple;
+    for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
+    std::sort(tuple.begin(), tuple.end());
+    if (IsSmall(face, space_.object()) || space_.object().IsEnclosed(face) ||
+        !trees_[side].reached.OnTuple(tuple).empty())
+      continue;
+    const auto found =
+        FindTransition(before, leaving, source_.DrawOn(face, random_), source_, random_, space_);
+    if (!found) continue;
+    const int last = AlignAlong(side, node, std::span(found->way).subspan(1));
+    if (last < 0 || found_) continue;
+    const ContactSet after = space_.Add(found->after);
+    space_.Accept(after);
+    if (trees_[side].reached.Find(after) < 0) Reach(side, after, last);
+  }
+}
+
+int BidirectionalTree::FaceAcross(int side) {
+  const ReachedGrasps& other = trees_[1 - side].reached;
+  if (random_.Index(2) == 0) return static_cast<int>(random_.Index(space_.object().face_count()));
+  const ContactSet set = other[static_cast<int>(random_.Index(other.size()))];
+  return space_.contact(set[static_cast<int>(random_.Index(set.size()))]).face;
+}
+
+int BidirectionalTree::AlignTo(int side, int node, const ContactSet& set) {
+  space_.Accept(set);
+  if (trees_[side].reached.Find(set) < 0) {
+    auto align = AlignBetween(trees_[side].reached[node], set, space_);
+    if (!align) return -1;
+    Reach(side, set, node, std::move(align));
+  }
+  return trees_[side].reached.Find(set);
+}
+
+int BidirectionalTree::AlignAlong(int side, int node, std::span<const Grasp> way) {
+  if (way.empty() || found_) return node;
+  if (!space_.has_room()) return -1;
+  if (const int end = AlignTo(side, node, space_.Add(way.back())); end >= 0) return end;
+  if (way.size() == 1) return -1;
+  const int middle = AlignAlong(side, node, way.first(way.size() / 2));
+  return middle < 0 ? -1 : AlignAlong(side, middle, way.subspan(way.size() / 2));
+}
+
+}  // namespace regrasp

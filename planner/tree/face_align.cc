@@ -1,0 +1,311 @@
+#include "planner/tree/face_align.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "planner/grasp/force_closure.h"
+#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
+#include "planner/plan/plan_reach.h"
+#include "planner/tree/surface_route.h"
+
+namespace regrasp {
+
+namespace {
+
+/// The instant that is looked at before a proof is searched for: most motions that do not hold do
+/// not hold there. More of them cost more where motions hold than they spare where they do not.
+constexpr double kProbe = 0.5;
+
+/// Force-closure tests that take as long as a search for a proof, about.
+constexpr int kTestsOfAProof = 6;
+
+/// A motion that needs shorter pieces of a proof keeps too close to the limit.
+constexpr double kShortestStretch = 1.0 / 64;
+
+/// Of the quality that grasps at rest have: only those are shaken.
+constexpr double kQualityAtTurns = 0.25;
+
+GraspMotion MotionBetween(const Grasp& from, const Grasp& to) {
+  GraspMotion motion;
+  motion.reserve(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
+  return motion;
+}
+
+bool HoldsAt(const GraspMotion& motion, double t, SearchSpace& space) {
+  space.CountTests(1);
+  return IsForceClosure(GraspAt(motion, t), space.object().wrench_frame(), space.half_angle());
+}
+
+/// Whether fingers that are no points can carry an align out.
+bool IsFree(const std::vector<Grasp>& waypoints, const SearchSpace& space) {
+  if (space.demands().finger_radius == 0) return true;
+  Align align;
+  for (const Grasp& grasp : waypoints) {
+    FingerGrasp& held = align.waypoints.emplace_back();
+    for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
+  }
+  return !FindStepObstacle(space.object(), align.waypoints.front(), align,
+                           space.demands().finger_radius);
+}
+
+/// What remains of a set without the contacts of another.
+ContactSet Difference(const ContactSet& set, const ContactSet& other) {
+  ContactSet rest;
+  for (const int contact : set) {
+    if (!other.Has(contact)) rest.Insert(contact);
+  }
+  return rest;
+}
+
+/// The cheapest assignment of contacts to as many others, by trying all: they are five at most.
+class Pairing {
+ public:
+  Pairing(const ContactSet& from, const ContactSet& to, const SearchSpace& space)
+      : count_(from.size()) {
+    for (int i = 0; i < count_; ++i) {
+      bool some = false;
+      for (int k = 0; k < count_; ++k) {
+        costs_[i][k] = CostOf(space.contact(from[i]), space.contact(to[k]), space);
+        some = some || costs_[i][k] != kNever;
+      }
+      if (!some) return;
+    }
+    Assign(0, 0, {0, 0});
+  }
+
+  [[nodiscard]] bool found() const { return best_ != kNever; }
+  [[nodiscard]] int operator[](int i) const { return chosen_[i]; }
+
+ private:
+  /// Changes of face, and the way.
+  using Cost = std::pair<int, double>;
+  static constexpr Cost kNever = {std::numeric_limits<int>::max(), 0};
+
+  static Cost CostOf(const Contact& a, const Contact& b, const SearchSpace& space) {
+    const double way = (a.p - b.p).norm();
+    if (a.face == b.face) return {0, way};
+    return MayHandOver(a, b, space.object()) ? Cost{1, way} : kNever;
+  }
+
+  void Assign(int i, unsigned taken, const Cost& cost) {
+    if (cost >= best_) return;
+    if (i == count_) {
+      best_ = cost;
+      chosen_ = choice_;
+      return;
+    }
+    for (int k = 0; k < count_; ++k) {
+      if ((taken >> k & 1) != 0 || costs_[i][k] == kNever) continue;
+      choice_[i] = k;
+      Assign(i + 1, taken | 1u << k,
+             {cost.first + costs_[i][k].first, cost.second + costs_[i][k].second});
+    }
+  }
+
+  int count_;
+  std::array<std::array<Cost, ContactSet::kMostHeld>, ContactSet::kMostHeld> costs_{};
+  std::array<int, ContactSet::kMostHeld> choice_{};
+  std::array<int, ContactSet::kMostHeld> chosen_{};
+  Cost best_ = kNever;
+};
+
+/// A turn of a contact: it is at the `number`-th edge of its route when it has gone this share of
+/// the whole.
+struct Turn {
+  double share;
+  std::size_t contact;
+  std::size_t number;
+  auto operator<=>(const Turn&) const = default;
+};
+
+/// Contacts that go along their routes together.
+class JointPath {
+ public:
+  explicit JointPath(const std::vector<SurfaceRoute>& routes)
+      : routes_(routes), leg_(routes.size(), 0) {
+    for (std::size_t i = 0; i < routes.size(); ++i) shares_.push_back(SharesOf(routes[i]));
+  }
+
+  /// A grasp before and after each turn, and the ends.
+  std::vector<Grasp> Waypoints() {
+    std::vector<Grasp> waypoints = {At(0)};
+    double at = 0;
+    for (const Turn& turn : Turns()) {
+      if (turn.share > at) waypoints.push_back(At(turn.share));
+      at = turn.share;
+      ++leg_[turn.contact];
+      waypoints.push_back(At(at));
+    }
+    if (at < 1) waypoints.push_back(At(1));
+    return waypoints;
+  }
+
+ private:
+  /// Of a route's contacts: how much of the way is behind them.
+  static std::vector<double> SharesOf(const SurfaceRoute& route) {
+    const double whole = LengthOf(route);
+    std::vector<double> shares = {0};
+    for (std::size_t k = 1; k < route.size(); ++k) {
+      const double leg = (route[k].p - route[k - 1].p).norm();
+      shares.push_back(std::min(shares.back() + (whole > 0 ? leg / whole : 0), 1.0));
+    }
+    shares.back() = 1;
+    return shares;
+  }
+
+  [[nodiscard]] std::vector<Turn> Turns() const {
+    std::vector<Turn> turns;
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+      for (std::size_t k = 1; 2 * k < routes_[i].size(); ++k) {
+        turns.push_back({shares_[i][2 * k - 1], i, k});
+      }
+    }
+    std::sort(turns.begin(), turns.end());
+    return turns;
+  }
+
+  [[nodiscard]] Grasp At(double share) const {
+    Grasp grasp;
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+      const std::size_t k = 2 * leg_[i];
+      Contact contact = routes_[i][k];
+      const double begin = shares_[i][k];
+      const double end = shares_[i][k + 1];
+      const Eigen::Vector3d& goal = routes_[i][k + 1].p;
+      if (share >= end) {
+        contact.p = goal;
+      } else if (share > begin && contact.p != goal) {
+        const double t = (share - begin) / (end - begin);
+        contact.p = (1 - t) * contact.p + t * goal;
+      }
+      grasp.push_back(contact);
+    }
+    return grasp;
+  }
+
+  const std::vector<SurfaceRoute>& routes_;
+  std::vector<std::vector<double>> shares_;
+  std::vector<std::size_t> leg_;  ///< by contact: turns that it has made
+};
+
+/// The waypoints of an align with these pairs; none where a contact has no route.
+std::vector<Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& space) {
+  std::vector<SurfaceRoute> routes;
+  for (const auto& [a, b] : pairs) {
+    auto route = a == b ? SurfaceRoute{space.contact(a), space.contact(a)}
+                        : FindSurfaceRoute(space.object(), space.contact(a), space.contact(b));
+    if (!route) return {};
+    routes.push_back(*std::move(route));
+  }
+  return JointPath(routes).Waypoints();
+}
+
+/// Whether the grasps at the turns, where fingers wait, have some of the quality that is asked for.
+bool AreGood(const std::vector<Grasp>& waypoints, SearchSpace& space) {
+  const double asked = space.demands().min_quality;
+  if (asked == 0) return true;
+  space.SetMinQuality(kQualityAtTurns * asked);
+  const bool good = std::all_of(waypoints.begin() + 1, waypoints.end() - 1,
+                                [&](const Grasp& grasp) { return space.IsAdmitted(grasp); });
+  space.SetMinQuality(asked);
+  return good;
+}
+
+std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
+                               SearchSpace& space) {
+  std::vector<GraspMotion> motions;
+  for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
+    motions.push_back(MotionBetween(waypoints[w], waypoints[w + 1]));
+  }
+  for (const GraspMotion& motion : motions) {
+    if (!HoldsAt(motion, kProbe, space)) return std::nullopt;
+  }
+  if (!IsFree(waypoints, space) || !AreGood(waypoints, space)) return std::nullopt;
+  FaceAlign align{std::move(pairs), {}, {}};
+  for (const GraspMotion& motion : motions) {
+    space.CountTests(kTestsOfAProof);
+    auto proof = FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
+    if (!proof) return std::nullopt;
+    align.proof.push_back(*std::move(proof));
+  }
+  if (waypoints.size() > 2) align.between.assign(waypoints.begin() + 1, waypoints.end() - 1);
+  return align;
+}
+
+}  // namespace
+
+std::vector<Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space) {
+  std::vector<Grasp> waypoints(1);
+  Grasp last;
+  for (const auto& [from, to] : align.contacts) {
+    waypoints.front().push_back(space.contact(from));
+    last.push_back(space.contact(to));
+  }
+  waypoints.insert(waypoints.end(), align.between.begin(), align.between.end());
+  waypoints.push_back(std::move(last));
+  return waypoints;
+}
+
+bool AdmitsPath(const FaceAlign& align, SearchSpace& space) {
+  return AreGood(WaypointsOf(align, space), space);
+}
+
+double TravelOf(const FaceAlign& align, const SearchSpace& space) {
+  const std::vector<Grasp> waypoints = WaypointsOf(align, space);
+  double way = 0;
+  for (std::size_t w = 1; w < waypoints.size(); ++w) {
+    for (std::size_t i = 0; i < waypoints[w].size(); ++i) {
+      way += (waypoints[w][i].p - waypoints[w - 1][i].p).norm();
+    }
+  }
+  return way;
+}
+
+FaceTuple TupleOf(const ContactSet& set, const SearchSpace& space) {
+  FaceTuple tuple;
+  for (const int contact : set) tuple.push_back(space.contact(contact).face);
+  std::sort(tuple.begin(), tuple.end());
+  return tuple;
+}
+
+bool MayHandOver(const Contact& from, const Contact& to, const Object& object) {
+  return (from.p - to.p).norm() <= kNear * object.diameter() ||
+         object.AreNeighbours(from.face, to.face);
+}
+
+std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSet& to,
+                                         const SearchSpace& space) {
+  if (from.size() != to.size()) return std::nullopt;
+  const ContactSet left = Difference(from, to);
+  const ContactSet right = Difference(to, from);
+  const Pairing pairing(left, right, space);
+  if (!pairing.found()) return std::nullopt;
+  ContactPairs pairs;
+  int moving = 0;
+  for (const int contact : from) {
+    pairs.emplace_back(contact, to.Has(contact) ? contact : right[pairing[moving++]]);
+  }
+  return pairs;
+}
+
+double DistanceBetween(const ContactSet& from, const ContactSet& to, const SearchSpace& space) {
+  const auto pairs = PairContacts(from, to, space);
+  if (!pairs) return std::numeric_limits<double>::infinity();
+  double way = 0;
+  for (const auto& [a, b] : *pairs) way += (space.contact(a).p - space.contact(b).p).norm();
+  return way;
+}
+
+std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& to,
+                                      SearchSpace& space) {
+  auto pairs = PairContacts(from, to, space);
+  if (!pairs) return std::nullopt;
+  std::vector<Grasp> waypoints = FindWaypoints(*pairs, space);
+  if (waypoints.empty()) return std::nullopt;
+  return Prove(*std::move(pairs), std::move(waypoints), space);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/tree/face_align.h"
+
+namespace regrasp {
+
+/// A step between two grasps of a SearchSpace: a finger switch, or an align where there is one.
+struct PathStep {
+  ContactSet to;
+  std::optional<FaceAlign> align;
+};
+
+/// Grasps that follow each other.
+struct GraspPath {
+  ContactSet start;
+  std::vector<PathStep> steps;
+
+  [[nodiscard]] const ContactSet& end() const { return steps.empty() ? start : steps.back().to; }
+};
+
+/// The same align the other way round.
+[[nodiscard]] FaceAlign Reversed(FaceAlign align);
+
+/// The same path the other way round.
+[[nodiscard]] GraspPath Reversed(const GraspPath& path);
+
+/// Goes on with `more`, which begins where `path` ends.
+void Append(const GraspPath& more, GraspPath& path);
+
+}  // namespace regrasp

@@ -1,0 +1,149 @@
+#include "planner/tree/least_travel.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <queue>
+
+#include "planner/tree/path_plan.h"
+#include "planner/tree/subset_graph.h"
+
+namespace regrasp {
+
+namespace {
+
+using Mask = SubsetGraph::Mask;
+
+class TravelSearch {
+ public:
+  TravelSearch(const ContactSet& from, const ContactSet& to, const std::vector<int>& contacts,
+               int most_steps, double bound, SearchSpace& space)
+      : graph_(from, to, contacts, UseAligns::kYes, space),
+        space_(space),
+        most_steps_(most_steps),
+        bound_(bound),
+        distances_(contacts.size(), std::vector<double>(contacts.size())) {
+    for (int a = 0; a < graph_.contact_count(); ++a) {
+      for (int b = 0; b < graph_.contact_count(); ++b) distances_[a][b] = graph_.Distance(a, b);
+    }
+  }
+
+  std::optional<GraspPath> Search() {
+    for (;;) {
+      FindLastPaths();
+      const std::vector<Mask> way = Find();
+      if (way.empty()) return std::nullopt;
+      auto path = graph_.MakePath(way);
+      if (!path) continue;
+      // Over an edge an align's way is longer than the straight one.
+      if (TravelOf(*path, space_) < bound_) return path;
+      return std::nullopt;
+    }
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  /// A way to a grasp, and the one that it goes on from.
+  struct Label {
+    double travel;
+    int steps;
+    Mask mask;
+    int parent;  ///< in `settled_`; -1 for the start
+    bool operator<(const Label& other) const {
+      if (travel != other.travel) return travel > other.travel;
+      if (steps != other.steps) return steps > other.steps;
+      return mask > other.mask;
+    }
+  };
+
+  void FindLastPaths() {
+    last_path_.assign(graph_.mask_count(), kNone);
+    const auto any = [](Mask /*mask*/, double /*way*/ = 0) { return true; };
+    graph_.ForEachSwitch(graph_.to(), any,
+                         [&](Mask mask) { last_path_[mask] = PathOfSwitch(mask, graph_.to()); });
+    graph_.ForEachAlign(graph_.to(), any, [&](Mask mask, double way) {
+      last_path_[mask] = std::min(last_path_[mask], way);
+    });
+  }
+
+  /// The grasps of the way; none where there is none.
+  std::vector<Mask> Find() {
+    fewest_.assign(graph_.mask_count(), std::numeric_limits<int>::max());
+    settled_.clear();
+    queue_ = {};
+    queue_.push({0, 0, graph_.from(), -1});
+    while (!queue_.empty() && !space_.IsSpent()) {
+      const Label label = queue_.top();
+      queue_.pop();
+      // What was settled before has travelled less.
+      if (fewest_[label.mask] <= label.steps || !graph_.Admits(label.mask)) continue;
+      fewest_[label.mask] = label.steps;
+      settled_.push_back(label);
+      if (label.mask == graph_.to()) return PathToLast();
+      Expand(label, static_cast<int>(settled_.size()) - 1);
+    }
+    return {};
+  }
+
+  void Expand(const Label& label, int number) {
+    const int steps = label.steps + 1;
+    const auto push = [&](Mask next, double way) {
+      if (label.travel + way < bound_) queue_.push({label.travel + way, steps, next, number});
+    };
+    if (last_path_[label.mask] < kNone) push(graph_.to(), last_path_[label.mask]);
+    if (steps >= most_steps_) return;
+    const auto matters = [&](Mask next, double way = 0) {
+      return fewest_[next] > steps && label.travel + way < bound_ &&
+             (steps + 1 < most_steps_ || last_path_[next] < kNone);
+    };
+    graph_.ForEachSwitch(label.mask, matters,
+                         [&](Mask next) { push(next, PathOfSwitch(label.mask, next)); });
+    graph_.ForEachAlign(label.mask, matters, push);
+  }
+
+  /// As TravelOf has it.
+  [[nodiscard]] double PathOfSwitch(Mask from, Mask to) const {
+    const Mask left = from & ~to;
+    if (left == 0) return 0;
+    double way = 0;
+    for (Mask placed = to & ~from; placed != 0; placed &= placed - 1) {
+      const std::vector<double>& to_others = distances_[std::countr_zero(placed)];
+      double nearest = std::numeric_limits<double>::infinity();
+      for (Mask rest = left; rest != 0; rest &= rest - 1) {
+        nearest = std::min(nearest, to_others[std::countr_zero(rest)]);
+      }
+      way += nearest;
+    }
+    return way;
+  }
+
+  [[nodiscard]] std::vector<Mask> PathToLast() const {
+    std::vector<Mask> way;
+    for (int at = static_cast<int>(settled_.size()) - 1; at >= 0; at = settled_[at].parent) {
+      way.push_back(settled_[at].mask);
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  SubsetGraph graph_;
+  SearchSpace& space_;
+  int most_steps_;
+  double bound_;
+  std::vector<std::vector<double>> distances_;
+  std::vector<double> last_path_;  ///< by mask: of one step to the goal; kNone where there is none
+  std::vector<int> fewest_;        ///< by mask: steps of the ways settled so far
+  std::vector<Label> settled_;
+  std::priority_queue<Label> queue_;
+};
+
+}  // namespace
+
+std::optional<GraspPath> SearchLeastTravel(const ContactSet& from, const ContactSet& to,
+                                           const std::vector<int>& contacts, int most_steps,
+                                           double bound, SearchSpace& space) {
+  return TravelSearch(from, to, contacts, most_steps, bound, space).Search();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,101 @@
+#include "planner/tree/repair_quality.h"
+
+#include <algorithm>
+
+#include "planner/tree/subpath.h"
+#include "planner/tree/subset_search.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Qualities on the way to the one that is asked for.
+constexpr int kLevels = 8;
+
+/// Attempts in a row without a gain after which a path is left as it is.
+constexpr int kMostFailures = 30;
+
+/// Steps before and behind the weakest grasp that are replaced.
+constexpr int kMostAround = 3;
+
+/// Steps that the replacement may have more.
+constexpr int kMoreRepairSteps = 1;
+
+class QualityRepair {
+ public:
+  QualityRepair(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+                GraspPath& path)
+      : source_(source),
+        random_(random),
+        space_(space),
+        path_(path),
+        quality_(space.demands().min_quality) {}
+
+  double Run() {
+    int failures = 0;
+    while (failures < kMostFailures && !space_.IsSpent()) {
+      const auto [weakest, level] = Weakest();
+      if (weakest < 0) break;
+      failures = Raise(weakest, level + 1) ? 0 : failures + 1;
+    }
+    const double reached = QualityOf(Weakest().second);
+    space_.SetMinQuality(quality_);
+    return reached;
+  }
+
+ private:
+  [[nodiscard]] double QualityOf(int level) const { return quality_ * level / kLevels; }
+
+  /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the way there.
+  int LevelOf(const PathStep& step) {
+    const bool is_end = &step == &path_.steps.back();
+    int level = kLevels;
+    for (; level > 0; --level) {
+      space_.SetMinQuality(QualityOf(level));
+      if ((is_end || space_.Admits(step.to)) && (!step.align || AdmitsPath(*step.align, space_))) {
+        break;
+      }
+    }
+    return level;
+  }
+
+  /// The first of the steps of the lowest level, from 1, and that level; -1 where all are good.
+  std::pair<int, int> Weakest() {
+    std::pair<int, int> weakest = {-1, kLevels};
+    for (int number = 1; number <= static_cast<int>(path_.steps.size()); ++number) {
+      const int level = LevelOf(path_.steps[number - 1]);
+      if (level < weakest.second) weakest = {number, level};
+    }
+    return weakest;
+  }
+
+  bool Raise(int weakest, int level) {
+    const int around = 1 + static_cast<int>(random_.Index(kMostAround));
+    const int end = std::min(weakest + around, static_cast<int>(path_.steps.size()));
+    Subpath stretch = SubpathBetween(path_, std::max(weakest - around, 0), end);
+    if (static_cast<int>(stretch.contacts.size()) >= kMostSubsetContacts) return false;
+    FillAround(stretch, kMostSubsetContacts, source_, random_, space_);
+    space_.SetMinQuality(QualityOf(level));
+    const auto better = SearchSubsets(
+        GraspNumber(path_, stretch.begin), GraspNumber(path_, stretch.end), stretch.contacts,
+        UseAligns::kYes, stretch.end - stretch.begin + kMoreRepairSteps, space_);
+    if (!better) return false;
+    ReplaceSubpath(*better, stretch, path_);
+    return true;
+  }
+
+  const SurfaceSource& source_;
+  RandomStream& random_;
+  SearchSpace& space_;
+  GraspPath& path_;
+  double quality_;
+};
+
+}  // namespace
+
+double RepairQuality(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+                     GraspPath& path) {
+  return QualityRepair(source, random, space, path).Run();
+}
+
+}  // namespace regrasp

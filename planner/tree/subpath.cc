@@ -1,0 +1,83 @@
+#include "planner/tree/subpath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regrasp {
+
+namespace {
+
+/// Contacts are drawn as far away as half the diameter, or so many halvings less.
+constexpr int kHalvings = 5;
+
+/// Draws for each contact that is still missing.
+constexpr int kDraws = 8;
+
+void AddContact(int contact, std::vector<int>& contacts) {
+  if (std::find(contacts.begin(), contacts.end(), contact) == contacts.end()) {
+    contacts.push_back(contact);
+  }
+}
+
+void AddContacts(const ContactSet& set, std::vector<int>& contacts) {
+  for (const int contact : set) AddContact(contact, contacts);
+}
+
+}  // namespace
+
+const ContactSet& GraspNumber(const GraspPath& path, int number) {
+  return number == 0 ? path.start : path.steps[number - 1].to;
+}
+
+Subpath SubpathBetween(const GraspPath& path, int begin, int end) {
+  Subpath stretch{begin, end, {}};
+  for (int number = begin; number <= end; ++number) {
+    AddContacts(GraspNumber(path, number), stretch.contacts);
+  }
+  return stretch;
+}
+
+Subpath LongestSubpath(const GraspPath& path, int begin) {
+  Subpath stretch{begin, begin, {}};
+  for (int end = begin; end <= static_cast<int>(path.steps.size()); ++end) {
+    std::vector<int> contacts = stretch.contacts;
+    AddContacts(GraspNumber(path, end), contacts);
+    if (static_cast<int>(contacts.size()) > kSubpathContacts) break;
+    stretch.contacts = std::move(contacts);
+    stretch.end = end;
+  }
+  return stretch;
+}
+
+GraspPath PartOf(const GraspPath& path, const Subpath& stretch) {
+  const auto first = path.steps.begin();
+  return {GraspNumber(path, stretch.begin), {first + stretch.begin, first + stretch.end}};
+}
+
+void FillUp(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+            SearchSpace& space) {
+  while (static_cast<int>(stretch.contacts.size()) < most && space.has_room()) {
+    AddContact(space.Add(source.Draw(random)), stretch.contacts);
+  }
+}
+
+void FillAround(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+                SearchSpace& space) {
+  const auto own = static_cast<int>(stretch.contacts.size());
+  for (int draw = 0; draw < kDraws * (most - own); ++draw) {
+    if (static_cast<int>(stretch.contacts.size()) == most || !space.has_room()) return;
+    const Contact& near = space.contact(stretch.contacts[random.Index(own)]);
+    const int halvings = static_cast<int>(random.Index(kHalvings + 1));
+    const double reach = space.object().diameter() * std::ldexp(0.5, -halvings);
+    const Contact contact = source.DrawAround(near, reach, random);
+    if (source.Serves(contact)) AddContact(space.Add(contact), stretch.contacts);
+  }
+}
+
+void ReplaceSubpath(const GraspPath& by, const Subpath& stretch, GraspPath& path) {
+  const auto first = path.steps.begin();
+  const auto place = path.steps.erase(first + stretch.begin, first + stretch.end);
+  path.steps.insert(place, by.steps.begin(), by.steps.end());
+}
+
+}  // namespace regrasp

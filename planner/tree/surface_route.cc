@@ -1,0 +1,150 @@
+#include "planner/tree/surface_route.h"
+
+#include <algorithm>
+#include <queue>
+#include <set>
+
+#include "planner/criteria/clearance.h"
+#include "planner/grasp/angle_between.h"
+#include "planner/motion/check_motion_proof.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Each moves the points of a route nearer to the shortest way; it has kMostCrossings at most.
+constexpr int kPullRounds = 8;
+
+/// A point this near an edge, over the diameter, is on it: what rounding leaves of the border.
+constexpr double kOnEdge = 1e-10;
+
+/// The point of an edge on the shortest way from p to q, which lie on its two sides.
+Vector3d CrossingPoint(const FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
+  const double length = (edge.b - edge.a).norm();
+  if (!(length > 0)) return edge.a;
+  const Vector3d along = (edge.b - edge.a) / length;
+  const double p_along = (p - edge.a).dot(along);
+  const double q_along = (q - edge.a).dot(along);
+  const double p_off = (p - edge.a - p_along * along).norm();
+  const double q_off = (q - edge.a - q_along * along).norm();
+  const double share = p_off + q_off > 0 ? p_off / (p_off + q_off) : 0.5;
+  const double at = p_along + share * (q_along - p_along);
+  return edge.a + std::clamp(at, kFromCorner * length, (1 - kFromCorner) * length) * along;
+}
+
+/// A face that was reached, and where it was entered.
+struct Entry {
+  int face;
+  Vector3d at;
+  double way;  ///< to there
+  int crossings;
+  int parent;       ///< −1 for the first face
+  FaceBorder edge;  ///< of the parent, that was crossed
+};
+
+class RouteSearch {
+ public:
+  RouteSearch(const Object& object, const Contact& from, const Contact& to)
+      : object_(object), from_(from), to_(to) {}
+
+  std::optional<SurfaceRoute> Find() {
+    const int last = FindLast();
+    if (last < 0) return std::nullopt;
+    SurfaceRoute route = MakeRoute(last);
+    return Serves(route) ? std::optional(std::move(route)) : std::nullopt;
+  }
+
+ private:
+  /// The entry of the last face; −1 where it was not reached.
+  int FindLast() {
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
+        queue;
+    const auto push = [&](const Entry& entry) {
+      queue.emplace(entry.way + (to_.p - entry.at).norm(), static_cast<int>(entries_.size()));
+      entries_.push_back(entry);
+    };
+    std::set<int> done;
+    push({from_.face, from_.p, 0, 0, -1, {}});
+    while (!queue.empty()) {
+      const int number = queue.top().second;
+      queue.pop();
+      const Entry entry = entries_[number];
+      if (entry.face == to_.face) return number;
+      if (entry.crossings == kMostCrossings || !done.insert(entry.face).second) continue;
+      for (const FaceBorder& edge : object_.BordersOf(entry.face)) {
+        if (!CanCross(entry.face, edge) || done.contains(edge.beyond)) continue;
+        const Vector3d at = CrossingPoint(edge, entry.at, to_.p);
+        push({edge.beyond, at, entry.way + (at - entry.at).norm(), entry.crossings + 1, number,
+              edge});
+      }
+    }
+    return -1;
+  }
+
+  [[nodiscard]] bool CanCross(int face, const FaceBorder& edge) const {
+    return edge.convex && AngleBetween(object_.inward_normal(face),
+                                       object_.inward_normal(edge.beyond)) <= kMostTurn;
+  }
+
+  SurfaceRoute MakeRoute(int last) const {
+    std::vector<const Entry*> crossings;
+    for (int i = last; entries_[i].parent >= 0; i = entries_[i].parent) {
+      crossings.push_back(&entries_[i]);
+    }
+    std::reverse(crossings.begin(), crossings.end());
+    std::vector<Vector3d> points = {from_.p};
+    for (const Entry* crossing : crossings) points.push_back(crossing->at);
+    points.push_back(to_.p);
+    const double on_edge = kOnEdge * object_.diameter();
+    for (int round = 0; round < kPullRounds; ++round) {
+      for (std::size_t i = 0; i < crossings.size(); ++i) {
+        Vector3d& point = points[i + 1];
+        point = CrossingPoint(crossings[i]->edge, points[i], points[i + 2]);
+        for (const Vector3d& end : {from_.p, to_.p}) {
+          if ((point - end).norm() <= on_edge) point = end;
+        }
+      }
+    }
+    SurfaceRoute route = {from_};
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      const int beyond = crossings[i]->face;
+      route.push_back({points[i + 1], route.back().n, route.back().face});
+      route.push_back({points[i + 1], object_.inward_normal(beyond), beyond});
+    }
+    route.push_back(to_);
+    return route;
+  }
+
+  [[nodiscard]] bool Serves(const SurfaceRoute& route) const {
+    const double tolerance = kPointTolerance * object_.diameter();
+    for (std::size_t i = 0; i < route.size(); i += 2) {
+      if (!object_.ContainsSegment(route[i].face, route[i].p, route[i + 1].p, tolerance)) {
+        return false;
+      }
+    }
+    return std::all_of(route.begin() + 1, route.end() - 1,
+                       [&](const Contact& edge) { return HasClearance(object_, edge); });
+  }
+
+  const Object& object_;
+  const Contact& from_;
+  const Contact& to_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+std::optional<SurfaceRoute> FindSurfaceRoute(const Object& object, const Contact& from,
+                                             const Contact& to) {
+  return RouteSearch(object, from, to).Find();
+}
+
+double LengthOf(const SurfaceRoute& route) {
+  double length = 0;
+  for (std::size_t i = 1; i < route.size(); ++i) length += (route[i].p - route[i - 1].p).norm();
+  return length;
+}
+
+}  // namespace regrasp

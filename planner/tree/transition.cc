@@ -1,0 +1,120 @@
+#include "planner/tree/transition.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+namespace {
+
+/// A move is kept if it lowers the required half-angle to this share of what it is above the lowest
+/// of use; smaller gains are not worth a test.
+constexpr double kWorthwhile = 0.98;
+
+/// Moves go up to this share of the diameter at first, farther after one that was kept, less far
+/// after one that was not.
+constexpr double kFirstReach = 0.3;
+constexpr double kFarther = 1.5;
+constexpr double kNearer = 0.85;
+constexpr double kLeastReach = 1e-3;
+
+/// Halvings with which a lower level is found after a move.
+constexpr int kHalvings = 4;
+
+/// Where the later grasp needs more than this at the beginning it is left alone, radians.
+constexpr double kHighest = 1.2;
+
+class Descent {
+ public:
+  Descent(const Grasp& before, int leaving, const Contact& placed, const SurfaceSource& source,
+          RandomStream& random, SearchSpace& space)
+      : leaving_(leaving),
+        source_(source),
+        random_(random),
+        space_(space),
+        held_(before),
+        placed_(placed),
+        path_{before},
+        lowest_(space.demands().min_quality == 0 ? space.half_angle() : 0) {}
+
+  std::optional<Transition> Find() {
+    if (!space_.HoldsAt(After(held_, placed_), kHighest)) return std::nullopt;
+    level_ = kHighest;
+    Lower(held_, placed_);
+    double reach = kFirstReach;
+    while (reach > kLeastReach && !space_.IsSpent()) {
+      if (level_ <= space_.half_angle()) {
+        if (auto found = Finish()) return found;
+      }
+      reach *= Move(reach * space_.object().diameter()) ? kFarther : kNearer;
+      reach = std::min(reach, kFirstReach);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] Grasp After(const Grasp& held, const Contact& placed) const {
+    Grasp after = held;
+    after[leaving_] = placed;
+    return after;
+  }
+
+  bool Move(double reach) {
+    Grasp held;
+    for (const Contact& contact : held_) held.push_back(source_.DrawNear(contact, reach, random_));
+    const Contact placed = source_.DrawNear(placed_, reach, random_);
+    const double aim = lowest_ + kWorthwhile * (level_ - lowest_);
+    if (!space_.HoldsAt(After(held, placed), aim) || !space_.IsAdmitted(held)) return false;
+    const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
+    if (!serves(placed) || !std::ranges::all_of(held, serves)) return false;
+    level_ = aim;
+    Lower(held, placed);
+    held_ = held;
+    placed_ = placed;
+    path_.push_back(held);
+    return true;
+  }
+
+  /// Brings the level down to what the later grasp requires, about.
+  void Lower(const Grasp& held, const Contact& placed) {
+    const Grasp after = After(held, placed);
+    double below = lowest_;
+    if (below > 0 && space_.HoldsAt(after, below)) {
+      level_ = below;
+      return;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (below + level_) / 2;
+      (space_.HoldsAt(after, middle) ? level_ : below) = middle;
+    }
+  }
+
+  std::optional<Transition> Finish() {
+    const Grasp after = After(held_, placed_);
+    const bool together = std::all_of(held_.begin(), held_.end(), [&](const Contact& contact) {
+      return space_.CanMeet(contact, placed_);
+    });
+    if (!together || !space_.IsAdmitted(after)) return std::nullopt;
+    return Transition{path_, after};
+  }
+
+  int leaving_;
+  const SurfaceSource& source_;
+  RandomStream& random_;
+  SearchSpace& space_;
+  Grasp held_;
+  Contact placed_;
+  std::vector<Grasp> path_;
+  /// There is no use in less; for good grasps there may be.
+  double lowest_;
+  double level_ = 0;
+};
+
+}  // namespace
+
+std::optional<Transition> FindTransition(const Grasp& before, int leaving, const Contact& placed,
+                                         const SurfaceSource& source, RandomStream& random,
+                                         SearchSpace& space) {
+  return Descent(before, leaving, placed, source, random, space).Find();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,166 @@
+#include "planner/sampling/contact_points.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/planner/roadmap/solids.h"
+
+namespace regrasp {
+namespace {
+
+/// Rounding of a projection onto a face, relative to the diameter.
+constexpr double kOnFace = 1e-12;
+
+TEST(SpreadContactPoints, LieOnTheirFacesWithRoomToTheBorder) {
+  const Polyhedron box = MakeBox({0.1, 0.06, 0.03});
+  const std::vector<Contact> points = SpreadContactPoints(box, 60, 1);
+  ASSERT_EQ(points.size(), 60u);
+  for (const Contact& c : points) {
+    EXPECT_LE((box.ClosestPoint(c.face, c.p) - c.p).norm(), kOnFace * box.diameter());
+    EXPECT_EQ(c.n, box.inward_normal(c.face));
+    EXPECT_GE(box.DistanceToBorder(c.face, c.p), kBorderMargin * box.diameter());
+  }
+}
+
+TEST(SpreadContactPoints, GiveEachFaceItsShareOfTheArea) {
+  const Polyhedron box = MakeBox({0.1, 0.06, 0.03});
+  const std::vector<Contact> points = SpreadContactPoints(box, 100, 2);
+  double area = 0;
+  for (int face = 0; face < box.face_count(); ++face) area += box.face_measure(face);
+  for (int face = 0; face < box.face_count(); ++face) {
+    const auto count = std::count_if(points.begin(), points.end(),
+                                     [&](const Contact& c) { return c.face == face; });
+    // Purely random points would be off by more than four in one face out of three.
+    EXPECT_NEAR(count, 100 * box.face_measure(face) / area, 4) << "face " << face;
+  }
+}
+
+TEST(SpreadContactPoints, AreTheSameForTheSameSeedOnly) {
+  const Polyhedron cube = MakeCube();
+  const std::vector<Contact> a = SpreadContactPoints(cube, 30, 5);
+  const std::vector<Contact> b = SpreadContactPoints(cube, 30, 5);
+  const std::vector<Contact> c = SpreadContactPoints(cube, 30, 6);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].p, b[i].p);
+  EXPECT_NE(a[0].p, c[0].p);
+}
+
+TEST(SpreadContactPoints, AreCentroidsOfTheTrianglesWhereTheMeshIsFine) {
+  const auto off_centroids = [](const Polyhedron& solid, int count) {
+    const std::vector<Contact> points = SpreadContactPoints(solid, count, 1);
+    EXPECT_EQ(static_cast<int>(points.size()), count);
+    return std::count_if(points.begin(), points.end(), [&](const Contact& c) {
+      return std::none_of(solid.triangles().begin(), solid.triangles().end(),
+                          [&](const auto& triangle) {
+                            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                            for (const int v : triangle) sum += solid.vertices()[v];
+                            return (sum / 3 - c.p).norm() <= kOnFace * solid.diameter();
+                          });
+    });
+  };
+  EXPECT_EQ(off_centroids(MakeBox({0.06, 0.06, 0.06}, 10), 60), 0);
+  EXPECT_GT(off_centroids(MakeCube(), 60), 50);
+}
+
+TEST(SpreadContactPoints, DoNotDependOnTheUnitOfLength) {
+  const std::vector<Contact> metres = SpreadContactPoints(MakeBox({1, 2, 4}), 20, 3);
+  const std::vector<Contact> halves = SpreadContactPoints(MakeBox({2, 4, 8}), 20, 3);
+  ASSERT_EQ(metres.size(), halves.size());
+  for (std::size_t i = 0; i < metres.size(); ++i) EXPECT_EQ(2 * metres[i].p, halves[i].p);
+}
+
+TEST(SpreadContactPoints, RefusesNone) {
+  EXPECT_THROW((void)SpreadContactPoints(MakeCube(), 0, 1), std::invalid_argument);
+}
+
+/// The same solid, every vertex mapped.
+template <typename Map>
+Polyhedron Moved(const Polyhedron& solid, const Map& map) {
+  PolygonSoup soup;
+  for (const Eigen::Vector3d& v : solid.vertices()) soup.vertices.push_back(map(v));
+  for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
+  return Polyhedron::FromSoup(soup, "moved");
+}
+
+constexpr int kPotatoTriangles = 6 * 4 * 4 * 2;
+
+/// A box of four cells along each edge blown up to a potato, so that no two triangles are coplanar.
+Polyhedron MakePotato() {
+  return Moved(MakeBox({2, 3, 4}, 4), [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    const Eigen::Vector3d n = v.normalized();
+    return (1 + 0.1 * std::sin(2 * n.x() + 3 * n.y() + n.z())) * n;
+  });
+}
+
+TEST(MeshContacts, AreTheCentroidsOfAllTrianglesInTheirOrder) {
+  const Polyhedron potato = MakePotato();
+  ASSERT_EQ(potato.face_count(), kPotatoTriangles);
+  const std::vector<Contact> points = MeshContacts(potato, kPotatoTriangles, 1);
+  ASSERT_EQ(points.size(), std::size_t{kPotatoTriangles});
+  for (int i = 0; i < kPotatoTriangles; ++i) {
+    const auto& [a, b, c] = potato.triangles()[i];
+    const auto& v = potato.vertices();
+    EXPECT_LE((points[i].p - (v[a] + v[b] + v[c]) / 3).norm(), kOnFace * potato.diameter());
+    EXPECT_EQ(points[i].face, potato.face_of_triangle(i));
+    EXPECT_EQ(points[i].n, potato.inward_normal(points[i].face));
+  }
+}
+
+TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const auto map = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return 37.5 * (turn * v) + Eigen::Vector3d(3, -8, 21);
+  };
+  const Polyhedron potato = MakePotato();
+  const Polyhedron moved = Moved(potato, map);
+  const std::vector<Contact> before = MeshContacts(potato, 300, 1);
+  const std::vector<Contact> after = MeshContacts(moved, 300, 2);
+  ASSERT_EQ(before.size(), std::size_t{kPotatoTriangles});
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_LE((after[i].p - map(before[i].p)).norm(), kOnFace * moved.diameter());
+    EXPECT_LE((after[i].n - turn * before[i].n).norm(), kOnFace);
+  }
+}
+
+TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrFacesTooFew) {
+  const Polyhedron potato = MakePotato();
+  struct Case {
+    int most;
+    bool centroids;
+  };
+  int spread = 0;
+  for (const auto& [most, centroids] :
+       {Case{kPotatoTriangles - 1, false}, Case{kPotatoTriangles, true},
+        Case{kFewFaces * kPotatoTriangles, true}, Case{kFewFaces * kPotatoTriangles + 1, false}}) {
+    const std::vector<Contact> points = MeshContacts(potato, most, 1);
+    if (centroids) {
+      EXPECT_EQ(points.size(), std::size_t{kPotatoTriangles}) << most;
+      continue;
+    }
+    const std::vector<Contact> expected = SpreadContactPoints(potato, most, 1);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(most));
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].p, expected[i].p);
+    ++spread;
+  }
+  EXPECT_EQ(spread, 2);
+}
+
+TEST(MeshContacts, AreSpreadOnFlatFacesHoweverTheseAreCut) {
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 4);
+  ASSERT_EQ(cube.triangles().size(), std::size_t{kPotatoTriangles});
+  EXPECT_EQ(MeshContacts(cube, 300, 1).size(), 300u);
+  EXPECT_EQ(MeshContacts(MakeCube(), 300, 1).size(), 300u);
+}
+
+TEST(MeshContacts, RefusesNone) {
+  EXPECT_THROW((void)MeshContacts(MakeCube(), 0, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,70 @@
+#include "planner/search/shortest_paths.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/search/subset_graph.h"
+
+namespace regrasp {
+namespace {
+
+/// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no way.
+std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start) {
+  std::vector<int> distance(graph.vertex_count(), -1);
+  distance[start] = 0;
+  std::vector<int> neighbours;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int v = 0; v < graph.vertex_count(); ++v) {
+      if (distance[v] < 0) continue;
+      graph.GetNeighbours(v, neighbours);
+      for (const int n : neighbours) {
+        if (distance[n] >= 0 && distance[n] <= distance[v] + 1) continue;
+        distance[n] = distance[v] + 1;
+        changed = true;
+      }
+    }
+  }
+  return distance;
+}
+
+TEST(ShortestPaths, AreTheVerticesWhoseDistancesToBothEndsSumToTheFewestSwitches) {
+  std::mt19937 random(1);
+  int on_paths = 0;
+  int beside = 0;
+  int no_ways = 0;
+  for (int round = 0; round < 60; ++round) {
+    const SubsetGraph graph = SubsetGraph::Random(9, 0.2, random);
+    const int start = static_cast<int>(random() % graph.vertex_count());
+    const std::vector<int> from_start = BruteForceDistances(graph, start);
+    for (int goal = 0; goal < graph.vertex_count(); ++goal) {
+      const auto ways = FindShortestPaths(graph, start, goal);
+      ASSERT_EQ(ways.has_value(), from_start[goal] >= 0) << "round " << round;
+      if (!ways) {
+        ++no_ways;
+        continue;
+      }
+      ASSERT_EQ(ways->switches, from_start[goal]);
+      const std::vector<int> from_goal = BruteForceDistances(graph, goal);
+      for (int v = 0; v < graph.vertex_count(); ++v) {
+        const bool on = from_start[v] >= 0 && from_start[v] + from_goal[v] == ways->switches;
+        ASSERT_EQ(ways->depth[v], on ? from_start[v] : -1)
+            << "round " << round << ", " << start << " to " << goal << " at " << v;
+        ++(on ? on_paths : beside);
+      }
+    }
+  }
+  EXPECT_GT(on_paths, 1000);
+  EXPECT_GT(beside, 1000);
+  EXPECT_GT(no_ways, 50);
+}
+
+TEST(ShortestPaths, OfAVertexToItselfAreItself) {
+  const SubsetGraph chain({0b00001111, 0b00011110, 0b00111100});
+  const auto ways = FindShortestPaths(chain, 1, 1);
+  ASSERT_TRUE(ways.has_value());
+  EXPECT_EQ(ways->switches, 0);
+  EXPECT_EQ(ways->depth, (std::vector<int>{-1, 0, -1}));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/sets/contour/grasp_pieces.h"
+#include "planner/sets/contour/plan_contour.h"
+#include "planner/sets/contour/projection_sweep.h"
+#include "tests/planner/deadline_laws.h"
+#include "tests/planner/sets/contour/outlines.h"
+
+namespace regrasp {
+namespace {
+
+TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
+  const Polygon polygon = IrregularOutline(40, 0.8, 3);
+  const CountedDeadline never;
+  const ContourGraph graph(polygon, Radians(20), never.deadline());
+  EXPECT_GE(never.looks(), graph.candidate_count() + std::ssize(graph.pieces()));
+  ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
+    static_cast<void>(ContourGraph(polygon, Radians(20), deadline));
+  });
+}
+
+TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough) {
+  const Polygon polygon = IrregularOutline(40, 0.8, 3);
+  const double tangent = std::tan(Radians(20));
+  const IntervalScope scope;
+  const EdgeTable edges(polygon, tangent);
+  const Boundary boundary(polygon);
+  const CountedDeadline of_candidates, of_pieces, of_passages, of_overlaps;
+  const auto candidates = FindTwoFingerCandidates(edges, of_candidates.deadline());
+  EXPECT_EQ(of_candidates.looks(), 2 * edges.size());  // by angle, and in order
+  const auto pieces = FindPieces(edges, candidates, of_pieces.deadline());
+  EXPECT_EQ(of_pieces.looks(), std::ssize(candidates));
+  static_cast<void>(FindPassages(edges, boundary, pieces, of_passages.deadline()));
+  EXPECT_EQ(of_passages.looks(), std::ssize(pieces));
+  const int count = static_cast<int>(pieces.size());
+  std::vector<int> numbers(pieces.size());
+  for (int i = 0; i < count; ++i) numbers[i] = i;
+  const auto one_by_one = [&](int set) { return std::span<const int>(&numbers[set], 1); };
+  static_cast<void>(
+      FindOverlaps(edges, boundary, pieces, count, one_by_one, of_overlaps.deadline()));
+  // Each projects on both of its edges, which begins and ends.
+  EXPECT_EQ(of_overlaps.looks(), 5 * count);
+}
+
+TEST(ContourDeadline, EndsAPlanWhereverItComes) {
+  const Polygon polygon = IrregularOutline(60, 0.8, 3);
+  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
+  ContourPlanOptions options;
+  options.half_angle = Radians(20);
+  ExpectPlanEndsWhereverItComes("contour", 11, [&](const Deadline& deadline) {
+    options.deadline = deadline;
+    return PlanOnContour(polygon, random, random, options);
+  });
+}
+
+}  // namespace
+}  // namespace regrasp

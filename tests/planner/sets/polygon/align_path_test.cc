@@ -1,0 +1,97 @@
+#include "planner/sets/polygon/align_path.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "planner/motion/path_force_closure.h"
+#include "planner/sets/polygon/graph_cells.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+Grasp GraspAt(const Polygon& polygon, const GraspSet& set, const Eigen::VectorXd& parameters) {
+  Grasp grasp;
+  for (const int edge : set.edges) {
+    grasp.push_back(ContactAt(polygon, edge, parameters[static_cast<int>(grasp.size())]));
+  }
+  return grasp;
+}
+
+Eigen::VectorXd ParametersOf(const Polygon& polygon, const Grasp& grasp) {
+  Eigen::VectorXd parameters(static_cast<Eigen::Index>(grasp.size()));
+  for (std::size_t k = 0; k < grasp.size(); ++k) {
+    parameters[static_cast<Eigen::Index>(k)] = ParameterOf(polygon, grasp[k]);
+  }
+  return parameters;
+}
+
+/// Decided by the checker's certificates, which know nothing of grasp sets.
+bool IsForceClosureBetween(const Polygon& polygon, const Grasp& from, const Grasp& to,
+                           double half_angle) {
+  GraspMotion motion;
+  for (std::size_t k = 0; k < from.size(); ++k) motion.emplace_back(from[k], to[k]);
+  return DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds();
+}
+
+struct AlignCount {
+  std::array<int, kGraspTypes> direct{};
+  std::array<int, kGraspTypes> by_passages{};
+  int lost_at_half_the_friction = 0;
+};
+
+/// Aligns between two random grasps of every set.
+void CheckAligns(const Polygon& polygon, double degrees, std::uint64_t seed, AlignCount& count) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+  GraphCells cells(polygon, graph);
+  RandomStream random(seed, RandomUse::kStart);
+  for (int vertex = 0; vertex < graph.vertex_count(); ++vertex) {
+    const GraspSet& set = graph.sets()[vertex];
+    const Grasp from = cells.DrawGrasp(vertex, random);
+    const Grasp to = cells.DrawGrasp(vertex, random);
+    ASSERT_EQ(from.size(), set.edges.size());
+    const std::vector<Eigen::VectorXd> path =
+        FindAlignPath(cells.of(vertex), ParametersOf(polygon, from), ParametersOf(polygon, to));
+    ASSERT_GE(path.size(), 2U) << "vertex " << vertex;
+    EXPECT_EQ(path.front(), ParametersOf(polygon, from));
+    EXPECT_EQ(path.back(), ParametersOf(polygon, to));
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      EXPECT_TRUE(IsForceClosureBetween(polygon, GraspAt(polygon, set, path[i]),
+                                        GraspAt(polygon, set, path[i + 1]), Radians(degrees)))
+          << "vertex " << vertex << ", stretch " << i;
+    }
+    ++(path.size() == 2 ? count.direct : count.by_passages)[static_cast<int>(set.type)];
+    if (!IsForceClosureBetween(polygon, from, to, Radians(degrees / 2))) {
+      ++count.lost_at_half_the_friction;
+    }
+  }
+}
+
+TEST(AlignPath, KeepsForceClosureBetweenRandomGraspsOfASet) {
+  AlignCount count;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    SCOPED_TRACE(name);
+    for (const double degrees : {10.0, 20.0, 40.0, 50.0}) CheckAligns(polygon, degrees, 1, count);
+  }
+  for (const int direct : count.direct) EXPECT_GT(direct, 50);
+  EXPECT_GT(count.by_passages[static_cast<int>(GraspType::kConcurrent)], 10);
+  EXPECT_GT(count.by_passages[static_cast<int>(GraspType::kParallel)], 10);
+  EXPECT_GT(count.lost_at_half_the_friction, 100);
+}
+
+TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
+  const Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  const GraspSet& set = graph.sets()[graph.SetsOn({0, 2}).front()];
+  const SetCells cells(square, set);
+  // Edge 2 runs from the right to the left.
+  const Eigen::Vector2d upright(0.5, 0.5);
+  const Eigen::Vector2d leaning(0.9, 0.9);
+  EXPECT_EQ(FindAlignPath(cells, upright, Eigen::Vector2d(0.25, 0.75)).size(), 2U);
+  EXPECT_TRUE(FindAlignPath(cells, upright, leaning).empty());
+  EXPECT_TRUE(FindAlignPath(cells, leaning, upright).empty());
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/sets/polygon/candidates.h"
+#include "planner/sets/polygon/plan_polygon.h"
+#include "planner/sets/polygon/polygon_graph.h"
+#include "tests/planner/deadline_laws.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+/// Looks while the candidates of all types are listed.
+int LooksForCandidates(const Polygon& polygon, double half_angle) {
+  const double tangent = std::tan(half_angle);
+  const IntervalScope scope;
+  const EdgeTable edges(polygon, tangent);
+  const CountedDeadline never;
+  static_cast<void>(FindConcurrentCandidates(edges, Spanning::kAdaptive, never.deadline()));
+  static_cast<void>(FindTwoFingerCandidates(edges, never.deadline()));
+  static_cast<void>(FindParallelCandidates(edges, never.deadline()));
+  return never.looks();
+}
+
+TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWhereverItComes) {
+  const Polygon polygon = RegularPolygon(9);
+  const CountedDeadline never;
+  const PolygonGraph graph(polygon, Radians(20), Spanning::kAdaptive, never.deadline());
+  const GraspTypeCounts& concurrent = graph.counts(GraspType::kConcurrent);
+  const GraspTypeCounts& two_finger = graph.counts(GraspType::kTwoFinger);
+  const GraspTypeCounts& parallel = graph.counts(GraspType::kParallel);
+  ASSERT_TRUE(concurrent.vertices > 0 && two_finger.vertices > 0 && parallel.vertices > 0);
+  const int listing = LooksForCandidates(polygon, Radians(20));
+  EXPECT_GE(listing, 9 + 2 * 9 + 9);
+  const auto candidates = concurrent.candidates + two_finger.candidates + parallel.candidates;
+  // Vertices are listed, joined on each of their three pairs of edges, or as 2-finger ones, and
+  // concurrent ones with parallel ones of the same edges.
+  const auto joining = 3 * (concurrent.vertices + parallel.vertices) + two_finger.vertices;
+  EXPECT_EQ(never.looks(),
+            listing + candidates + graph.vertex_count() + joining + concurrent.vertices);
+  ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
+    static_cast<void>(PolygonGraph(polygon, Radians(20), Spanning::kAdaptive, deadline));
+  });
+}
+
+TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
+  const Polygon polygon = RegularPolygon(9);
+  PolygonPlanOptions options;
+  options.half_angle = Radians(20);
+  const GraspChoice start = {GraspChoice::Kind::kRandom, {}, "start"};
+  const GraspChoice goal = {GraspChoice::Kind::kRandomAny, {}, "goal"};
+  ExpectPlanEndsWhereverItComes("polygon", 11, [&](const Deadline& deadline) {
+    options.deadline = deadline;
+    return PlanOnPolygon(polygon, start, goal, options);
+  });
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,119 @@
+// Degenerate polygons, and the same ones a little off: parallel edges, equal normals, regular
+// polygons, sets that only touch. The graph against exact set operations, and against what is known
+// by construction.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "tests/planner/sets/polygon/graph_oracle.h"
+#include "tests/planner/sets/polygon/shapes.h"
+#include "tests/planner/sets/polygon/two_finger_oracle.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kSeed = 3;
+
+/// An angle whose tangent is this very double.
+double HalfAngleOf(double tangent) {
+  double angle = std::atan(tangent);
+  constexpr int kRoundings = 4;
+  for (int k = 0; k < kRoundings && std::tan(angle) > tangent; ++k)
+    angle = std::nextafter(angle, 0);
+  for (int k = 0; k < kRoundings && std::tan(angle) < tangent; ++k) {
+    angle = std::nextafter(angle, kInfinity);
+  }
+  EXPECT_EQ(std::tan(angle), tangent);
+  return angle;
+}
+
+/// Every coordinate moved up or down by what `step` says.
+Polygon Perturbed(const Polygon& polygon, const std::function<double(double, bool)>& step,
+                  std::mt19937_64& engine) {
+  std::vector<Ring> rings = polygon.rings();
+  for (Ring& ring : rings) {
+    for (Eigen::Vector2d& p : ring) {
+      for (double& x : p) x = step(x, std::bernoulli_distribution(0.5)(engine));
+    }
+  }
+  return Polygon::FromRings(rings, "perturbed");
+}
+
+double OneRounding(double x, bool up) {
+  if (x == 0) return x;  // the next double is no rounding of anything
+  return std::nextafter(x, up ? kInfinity : -kInfinity);
+}
+
+std::function<double(double, bool)> By(double amount) {
+  return [amount](double x, bool up) { return x + (up ? amount : -amount); };
+}
+
+struct Checked {
+  OracleCount concurrent;
+  TwoFingerCount two_finger;
+};
+
+void Check(const Polygon& polygon, double half_angle, Spanning spanning, Checked& total) {
+  const PolygonGraph graph(polygon, half_angle, spanning);
+  std::string difference;
+  total.concurrent += CompareWithSetOperations(polygon, graph, half_angle, spanning, difference);
+  EXPECT_EQ(difference, "");
+  const TwoFingerCount count = CompareTwoFingerSets(polygon, graph, half_angle, difference);
+  EXPECT_EQ(difference, "");
+  total.two_finger.candidates += count.candidates;
+  total.two_finger.sets += count.sets;
+  total.two_finger.switches += count.switches;
+}
+
+std::vector<NamedPolygon> DegeneratePolygons() {
+  std::vector<NamedPolygon> polygons;
+  const auto add = [&](const std::string& name, std::vector<Ring> rings) {
+    polygons.push_back({name, Polygon::FromRings(std::move(rings), name)});
+  };
+  for (const int n : {3, 5, 6}) {
+    polygons.push_back({"regular " + std::to_string(n), RegularPolygon(n)});
+  }
+  add("square frame", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}});
+  add("comb", {{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {0, 1}}});
+  // The hypotenuse's normal is 135° from both others: φ* = 22.5°.
+  add("right triangle", {{{0, 0}, {4, 0}, {0, 4}}});
+  // Normals of 3-4-5 triangles, and two edges in one line.
+  add("3-4-5", {{{0, 0}, {4, 0}, {8, 0}, {8, 3}, {4, 6}, {0, 3}}});
+  return polygons;
+}
+
+TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
+  std::mt19937_64 engine(kSeed);
+  Checked total;
+  const std::vector<std::pair<std::string, std::function<double(double, bool)>>> steps = {
+      {"as it is", [](double x, bool) { return x; }},
+      {"one rounding", OneRounding},
+      {"1e-12", By(1e-12)},
+      {"1e-6", By(1e-6)}};
+  for (const auto& [name, polygon] : DegeneratePolygons()) {
+    for (const auto& [how, step] : steps) {
+      const Polygon moved = Perturbed(polygon, step, engine);
+      for (const double half_angle :
+           {HalfAngleOf(0.25), Radians(30), HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
+        for (const Spanning spanning : kSpannings) {
+          SCOPED_TRACE(name + ", " + how + ", " + std::to_string(Degrees(half_angle)) + "° " +
+                       Name(spanning));
+          Check(moved, half_angle, spanning, total);
+        }
+      }
+    }
+  }
+  EXPECT_GT(total.concurrent.cells, 500);
+  EXPECT_GT(total.concurrent.switches, 500);
+  EXPECT_GT(total.two_finger.sets, 500);
+  EXPECT_GT(total.two_finger.switches, 500);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,92 @@
+#include "planner/sets/polygon/graph_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "planner/grasp/force_closure.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
+  Grasp grasp;
+  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(polygon, edge, u));
+  return grasp;
+}
+
+TEST(GraphCells, DrawsGraspsAllOverASet) {
+  const Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 40, Spanning::kAdaptive);
+  GraphCells cells(square, graph);
+  const int vertex = graph.SetsOn({0, 2}).front();
+  RandomStream random(1, RandomUse::kStart);
+  // Quarters of both edges that the contacts hit: all pairs but those that lean too far.
+  std::set<std::pair<int, int>> hit;
+  for (int i = 0; i < 500; ++i) {
+    const Grasp grasp = cells.DrawGrasp(vertex, random);
+    ASSERT_EQ(grasp.size(), 2U);
+    EXPECT_TRUE(IsForceClosure(grasp, square.wrench_frame(), Radians(40)));
+    hit.emplace(static_cast<int>(4 * ParameterOf(square, grasp[0])),
+                static_cast<int>(4 * ParameterOf(square, grasp[1])));
+  }
+  EXPECT_EQ(hit.size(), 16U);
+}
+
+TEST(GraphCells, DrawsTheSameGraspsFromTheSameSeed) {
+  const Polygon& blob = SmallPolygons()[4].polygon;
+  const PolygonGraph graph = MakeGraph(blob, 20, Spanning::kAdaptive);
+  const auto draw = [&](std::uint64_t seed) {
+    GraphCells cells(blob, graph);
+    RandomStream random(seed, RandomUse::kStart);
+    return cells.DrawGrasp(0, random).front().p;
+  };
+  EXPECT_EQ(draw(1), draw(1));
+  EXPECT_NE(draw(1), draw(2));
+}
+
+TEST(GraphCells, AttachWholeGraspsAndPartsOfThem) {
+  const Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  GraphCells cells(square, graph);
+  const int upright = graph.SetsOn({0, 2}).front();
+  const int level = graph.SetsOn({1, 3}).front();
+  const auto attach = [&](const std::vector<std::pair<int, double>>& places) {
+    return cells.FindAttachments(MakeGrasp(square, places));
+  };
+  const std::vector<Attachment> pair = attach({{2, 0.6}, {0, 0.5}});
+  ASSERT_EQ(pair.size(), 1U);
+  EXPECT_EQ(pair[0].vertex, upright);
+  EXPECT_TRUE(pair[0].whole);
+  EXPECT_NEAR((pair[0].parameters - Eigen::Vector2d(0.5, 0.6)).norm(), 0, 1e-15);
+  const std::vector<Attachment> four = attach({{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}});
+  ASSERT_EQ(four.size(), 2U);
+  EXPECT_EQ((std::set{four[0].vertex, four[1].vertex}), (std::set{upright, level}));
+  EXPECT_FALSE(four[0].whole || four[1].whole);
+  EXPECT_TRUE(attach({{0, 0.2}, {2, 0.2}}).empty());
+}
+
+TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
+  const Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  GraphCells cells(square, graph);
+  // Leans by 31°; another contact opposite either one makes a pair, or a new pair altogether.
+  const Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
+  const std::vector<Attachment> found = cells.FindSwitches(leaning, kPolygonFingers);
+  ASSERT_EQ(found.size(), 4U);
+  std::set<int> vertices;
+  for (const Attachment& attachment : found) {
+    EXPECT_FALSE(attachment.whole);
+    EXPECT_TRUE(IsInSet(cells.of(attachment.vertex), attachment.parameters));
+    vertices.insert(attachment.vertex);
+  }
+  EXPECT_EQ(vertices.size(), 2U);
+  // A hand of three fingers keeps one; with two there is none to spare.
+  EXPECT_EQ(cells.FindSwitches(leaning, 3).size(), 2U);
+  EXPECT_TRUE(cells.FindSwitches(leaning, 2).empty());
+}
+
+}  // namespace
+}  // namespace regrasp

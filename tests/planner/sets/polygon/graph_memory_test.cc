@@ -1,0 +1,65 @@
+#include "planner/sets/polygon/graph_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/object/object.h"
+#include "planner/sets/polygon/plan_polygon.h"
+#include "tests/planner/peak_memory.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::HasSubstr;
+
+#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+TEST(PolygonGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
+  struct Case {
+    const char* file;
+    double degrees;
+    Spanning spanning;
+  };
+  for (const auto& [file, degrees, spanning] : {Case{"polygon30.wkt", 30, Spanning::kAdaptive},
+                                                Case{"polygon35.wkt", 30, Spanning::kAdaptive},
+                                                Case{"polygon40.wkt", 20, Spanning::kAdaptive},
+                                                Case{"polygon40.wkt", 30, Spanning::kAdaptive},
+                                                Case{"polygon40.wkt", 30, Spanning::kUniform},
+                                                Case{"gear128.wkt", 5, Spanning::kAdaptive}}) {
+    const ObjectFile read = ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+    const auto& polygon = dynamic_cast<const Polygon&>(*read.object);
+    const double used = PeakBytesOf(
+        [&] { static_cast<void>(MakeGraph(polygon, degrees, spanning).vertex_count()); });
+    const double estimate = EstimatePolygonGraph(polygon, Radians(degrees), spanning).bytes();
+    ASSERT_GT(used, 1e7) << file;
+    EXPECT_GT(estimate, used / 2) << file << " at " << degrees;
+    EXPECT_LT(estimate, used * 2) << file << " at " << degrees;
+  }
+}
+#endif
+
+TEST(PolygonGraphMemory, TheEstimateGrowsWithTheEdges) {
+  double last = 0;
+  for (const int n : {4, 7, 15, 31, 63, 127, 1001, 10'001}) {
+    const MemoryNeed need =
+        EstimatePolygonGraph(RegularPolygon(n), Radians(15.5), Spanning::kAdaptive);
+    EXPECT_EQ(need.count, n);
+    EXPECT_GT(need.bytes(), last) << n;
+    last = need.bytes();
+  }
+  EXPECT_GT(last, 1e12);
+}
+
+TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
+  const Polygon polygon = RegularPolygon(1001);
+  PolygonPlanOptions options;
+  options.half_angle = Radians(20);
+  options.memory = 1e9;
+  const PlanResult result = PlanOnPolygon(polygon, {GraspChoice::Kind::kRandom, {}, "start"},
+                                          {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  EXPECT_FALSE(result.plan.has_value());
+  EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
+}
+
+}  // namespace
+}  // namespace regrasp

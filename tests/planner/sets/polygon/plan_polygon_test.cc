@@ -1,0 +1,448 @@
+#include "planner/sets/polygon/plan_polygon.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "planner/base/error.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "planner/plan/same_grasp.h"
+#include "planner/sets/polygon/graph_cells.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Kind = GraspChoice::Kind;
+using Status = PlanResult::Status;
+
+GraspChoice Given(const Grasp& grasp, const std::string& name = "given.json") {
+  return {Kind::kGiven, grasp, name};
+}
+GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
+GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
+
+PolygonPlanOptions Options(double degrees, std::uint64_t seed = 0) {
+  PolygonPlanOptions options;
+  options.half_angle = Radians(degrees);
+  options.seed = seed;
+  return options;
+}
+
+Polygon Model(const std::string& name) {
+  const ObjectFile file = ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+  return dynamic_cast<const Polygon&>(*file.object);
+}
+
+/// Contacts at parameters of edges.
+Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
+  Grasp grasp;
+  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(polygon, edge, u));
+  return grasp;
+}
+
+std::vector<Grasp> RestsOf(const Plan& plan) {
+  std::vector<Grasp> rests = {ContactsOf(plan.initial)};
+  FingerGrasp holding = plan.initial;
+  for (const Step& step : plan.steps) {
+    holding = GraspAfter(holding, step);
+    rests.push_back(ContactsOf(holding));
+  }
+  return rests;
+}
+
+/// A random grasp of every type that the polygon has.
+std::map<GraspType, Grasp> DrawEveryType(const Polygon& polygon, double degrees,
+                                         std::uint64_t seed) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+  GraphCells cells(polygon, graph);
+  RandomStream random(seed, RandomUse::kStart);
+  std::map<GraspType, std::vector<int>> vertices;
+  for (int v = 0; v < graph.vertex_count(); ++v) vertices[graph.sets()[v].type].push_back(v);
+  std::map<GraspType, Grasp> grasps;
+  for (const auto& [type, all] : vertices) {
+    // A set that is too thin for doubles gives no grasp.
+    Grasp& grasp = grasps[type];
+    while (grasp.empty()) grasp = cells.DrawGrasp(all[random.Index(all.size())], random);
+  }
+  return grasps;
+}
+
+/// True iff two vertices that hold these grasps, or a part of them, are in one component.
+bool AreJoined(const Polygon& polygon, double degrees, const Grasp& a, const Grasp& b) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+  GraphCells cells(polygon, graph);
+  const Components components = graph.components();
+  for (const Attachment& of_a : cells.FindAttachments(a)) {
+    for (const Attachment& of_b : cells.FindAttachments(b)) {
+      if (components.of_vertex[of_a.vertex] == components.of_vertex[of_b.vertex]) return true;
+    }
+  }
+  return false;
+}
+
+/// What the checker, which knows nothing of the planner, says of a plan, and the plan's own words.
+void ExpectGoodPlan(const Polygon& polygon, const PlanResult& result, const Grasp& start,
+                    const Grasp& goal) {
+  ASSERT_EQ(result.status, Status::kFound) << result.message;
+  const Plan& plan = *result.plan;
+  CheckOptions options;
+  options.start = &start;
+  options.goal = &goal;
+  const PlanCheck check = CheckPlan(polygon, plan, options);
+  for (const StepCheck& step : check.steps) {
+    EXPECT_EQ(ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
+  }
+  EXPECT_TRUE(check.passed());
+  EXPECT_EQ(plan.planner, "polygon");
+  EXPECT_EQ(plan.fingers, kPolygonFingers);
+  EXPECT_EQ(plan.dimension, 2);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    EXPECT_EQ(plan.initial[i].finger, static_cast<int>(i));
+    EXPECT_EQ(plan.initial[i].contact.p, start[i].p);
+  }
+  // Two aligns in a row would be one.
+  for (std::size_t i = 0; i + 1 < plan.steps.size(); ++i) {
+    EXPECT_FALSE(std::holds_alternative<Align>(plan.steps[i]) &&
+                 std::holds_alternative<Align>(plan.steps[i + 1]))
+        << "steps " << i + 1 << " and " << i + 2;
+  }
+}
+
+class PlanOnPolygonAt : public testing::TestWithParam<double> {};
+
+TEST_P(PlanOnPolygonAt, LeadsFromEveryTypeToEveryType) {
+  const double degrees = GetParam();
+  int plans = 0;
+  int apart = 0;
+  std::vector<NamedPolygon> polygons = SmallPolygons();
+  polygons.push_back({"square", Square(1)});
+  polygons.push_back({"hexagon", RegularPolygon(6)});
+  polygons.push_back({"polygon15", Model("polygon15.wkt")});
+  polygons.push_back({"polygon_hole", Model("polygon_hole.wkt")});
+  for (const auto& [name, polygon] : polygons) {
+    for (const auto& [start_type, start] : DrawEveryType(polygon, degrees, 1)) {
+      for (const auto& [goal_type, goal] : DrawEveryType(polygon, degrees, 2)) {
+        SCOPED_TRACE(name + ", type " + std::to_string(static_cast<int>(start_type)) + " to " +
+                     std::to_string(static_cast<int>(goal_type)));
+        const PlanResult result =
+            PlanOnPolygon(polygon, Given(start), Given(goal), Options(degrees));
+        if (AreJoined(polygon, degrees, start, goal)) {
+          ExpectGoodPlan(polygon, result, start, goal);
+          ++plans;
+        } else {
+          EXPECT_EQ(result.status, Status::kNoSequence);
+          EXPECT_FALSE(result.plan.has_value());
+          ++apart;
+        }
+      }
+    }
+  }
+  EXPECT_GT(plans, 15);
+  RecordProperty("apart", apart);
+}
+
+INSTANTIATE_TEST_SUITE_P(HalfAngles, PlanOnPolygonAt, testing::Values(10.0, 20.0, 40.0, 50.0),
+                         [](const auto& info) {
+                           return std::to_string(static_cast<int>(info.param)) + "degrees";
+                         });
+
+TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
+  int plans = 0;
+  for (const char* name : {"square.wkt", "triangle.wkt", "polygon20.wkt", "polygon40.wkt"}) {
+    const Polygon polygon = Model(name);
+    for (const double degrees : {15.0, 35.0}) {
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        SCOPED_TRACE(std::string(name) + ", seed " + std::to_string(seed));
+        const PlanResult result =
+            PlanOnPolygon(polygon, Random(), Random(), Options(degrees, seed));
+        ASSERT_EQ(result.status, Status::kFound) << result.message;
+        const Grasp start = ContactsOf(result.plan->initial);
+        ExpectGoodPlan(polygon, result, start, result.plan->goal);
+        for (const Grasp* grasp : {&start, &result.plan->goal}) {
+          EXPECT_TRUE(QualityAtLeast(*grasp, polygon.wrench_frame(), Radians(degrees), 0.01));
+        }
+        ++plans;
+      }
+    }
+  }
+  EXPECT_EQ(plans, 24);
+}
+
+TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
+  const Polygon polygon = Model("polygon15.wkt");
+  std::map<std::size_t, int> contacts;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const PlanResult result = PlanOnPolygon(polygon, RandomAny(), RandomAny(), Options(25, seed));
+    if (result.status != Status::kFound) continue;
+    const Grasp start = ContactsOf(result.plan->initial);
+    ExpectGoodPlan(polygon, result, start, result.plan->goal);
+    ++contacts[start.size()];
+  }
+  EXPECT_GT(contacts[2], 0);
+  EXPECT_GT(contacts[3], 0);
+  EXPECT_THAT(contacts, SizeIs(2));
+}
+
+TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
+  // At 20° the triangle has no grasp of two fingers.
+  const Polygon triangle = Model("triangle.wkt");
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const PlanResult result = PlanOnPolygon(triangle, RandomAny(), RandomAny(), Options(20, seed));
+    ASSERT_EQ(result.status, Status::kFound) << result.message;
+    EXPECT_THAT(result.plan->initial, SizeIs(3));
+    EXPECT_THAT(result.plan->goal, SizeIs(3));
+  }
+}
+
+TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
+  const Polygon polygon = Model("polygon15.wkt");
+  const auto plan = [&](std::uint64_t seed) {
+    return FormatPlan(*PlanOnPolygon(polygon, Random(), Random(), Options(20, seed)).plan);
+  };
+  EXPECT_EQ(plan(3), plan(3));
+  EXPECT_NE(plan(3), plan(4));
+}
+
+TEST(PlanOnPolygon, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.4}, {2, 0.6}});
+  const Grasp goal = {start[1], start[0]};
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  ExpectGoodPlan(square, result, start, goal);
+  EXPECT_THAT(result.plan->steps, IsEmpty());
+}
+
+TEST(PlanOnPolygon, OneAlignLeadsFromGraspToGraspOfASet) {
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.3}, {2, 0.7}});
+  const Grasp goal = MakeGrasp(square, {{2, 0.35}, {0, 0.65}});
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  ExpectGoodPlan(square, result, start, goal);
+  ASSERT_THAT(result.plan->steps, SizeIs(1));
+  EXPECT_TRUE(std::holds_alternative<Align>(result.plan->steps.front()));
+}
+
+TEST(PlanOnPolygon, TwoFingersAcrossTheSquareTurnByOneSwitch) {
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  ExpectGoodPlan(square, result, start, goal);
+  ASSERT_THAT(result.plan->steps, SizeIs(1));
+  const auto& step = std::get<Switch>(result.plan->steps.front());
+  EXPECT_THAT(step.place, SizeIs(2));
+  EXPECT_THAT(step.release, SizeIs(2));
+}
+
+TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
+  // No three edges of the square make a set that these grasps are in; two of their contacts do.
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
+  const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(10));
+  ExpectGoodPlan(square, result, start, goal);
+  const auto& first = std::get<Switch>(result.plan->steps.front());
+  EXPECT_THAT(first.place, IsEmpty());
+  EXPECT_FALSE(first.release.empty());
+  const auto& last = std::get<Switch>(result.plan->steps.back());
+  EXPECT_FALSE(last.place.empty());
+  EXPECT_THAT(last.release, IsEmpty());
+}
+
+TEST(PlanOnPolygon, MarginIsTheSmallestOfThePlansGrasps) {
+  const Polygon polygon = Model("polygon15.wkt");
+  const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), Options(20, 5));
+  ASSERT_EQ(result.status, Status::kFound);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Grasp& grasp : RestsOf(*result.plan)) {
+    const auto required = ComputeRequiredHalfAngle(grasp, polygon.wrench_frame());
+    smallest = std::min(smallest, Radians(20) - required.value().upper);
+  }
+  EXPECT_EQ(result.margin, smallest);
+  EXPECT_GT(result.margin, 0);
+}
+
+TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
+  const Polygon polygon = Model("polygon20.wkt");
+  int good = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), Options(20, seed));
+    ASSERT_EQ(result.status, Status::kFound);
+    const std::vector<Grasp> rests = RestsOf(*result.plan);
+    const bool all = std::all_of(rests.begin(), rests.end(), [&](const Grasp& grasp) {
+      return QualityAtLeast(grasp, polygon.wrench_frame(), Radians(20), 0.01);
+    });
+    EXPECT_EQ(all, result.warnings.empty()) << "seed " << seed;
+    good += all ? 1 : 0;
+  }
+  EXPECT_GE(good, 7);
+}
+
+TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
+  const Polygon square = Square(1);
+  PolygonPlanOptions options = Options(20);
+  options.min_quality = 0.9;  // more than any grasp has at this friction
+  const PlanResult result = PlanOnPolygon(square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
+                                          Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
+  ASSERT_EQ(result.status, Status::kFound);
+  ASSERT_THAT(result.warnings, SizeIs(1));
+  EXPECT_THAT(result.warnings[0], AllOf(HasSubstr("below the quality 0.9"), HasSubstr("step")));
+}
+
+TEST(PlanOnPolygon, CannotDrawAGraspBetterThanAll) {
+  for (const GraspChoice& choice : {Random(), RandomAny()}) {
+    PolygonPlanOptions options = Options(20);
+    options.min_quality = 0.9;
+    const PlanResult result = PlanOnPolygon(Square(1), choice, choice, options);
+    EXPECT_EQ(result.status, Status::kNoGrasp);
+    EXPECT_THAT(result.message, HasSubstr(choice.name + ": no"));
+    EXPECT_FALSE(result.plan.has_value());
+  }
+}
+
+TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
+  constexpr double kDegrees = 3;
+  const Polygon polygon = Model("polygon15.wkt");
+  const PolygonGraph graph = MakeGraph(polygon, kDegrees, Spanning::kAdaptive);
+  const Components components = graph.components();
+  ASSERT_GT(components.count(), 1);
+  GraphCells cells(polygon, graph);
+  RandomStream random(1, RandomUse::kStart);
+  int apart = 0;
+  for (int v = 0; v < graph.vertex_count(); ++v) {
+    if (components.of_vertex[v] == components.of_vertex[0]) continue;
+    const Grasp start = cells.DrawGrasp(v, random);
+    const Grasp goal = cells.DrawGrasp(0, random);
+    if (AreJoined(polygon, kDegrees, start, goal)) continue;
+    const PlanResult result = PlanOnPolygon(polygon, Given(start), Given(goal), Options(kDegrees));
+    EXPECT_EQ(result.status, Status::kNoSequence);
+    EXPECT_FALSE(result.plan.has_value());
+    EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns"));
+    for (const int vertex : {v, 0}) {
+      const int size = components.sizes[components.of_vertex[vertex]];
+      EXPECT_THAT(result.message, HasSubstr(std::to_string(size)));
+    }
+    ++apart;
+  }
+  EXPECT_GT(apart, 0);
+}
+
+/// Two pairs across the square whose torques cancel, so that hardly any friction holds, while each
+/// pair alone leans by atan 0.2 = 11.3°.
+Grasp MakePinwheel(const Polygon& square) {
+  return MakeGrasp(square, {{0, 0.6}, {2, 0.6}, {1, 0.4}, {3, 0.4}});
+}
+
+TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
+  const Polygon square = Square(1);
+  const Grasp pinwheel = MakePinwheel(square);
+  const Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const auto message = [&](const Grasp& from, const Grasp& to) {
+    const PlanResult result =
+        PlanOnPolygon(square, Given(from, "from.json"), Given(to, "to.json"), Options(5));
+    EXPECT_EQ(result.status, Status::kNoGrasp);
+    EXPECT_FALSE(result.plan.has_value());
+    return result.message;
+  };
+  EXPECT_THAT(message(pinwheel, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
+  EXPECT_THAT(message(pair, pinwheel), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
+  // With friction for a pair alone it can switch, and no finger has to where it is the goal itself.
+  ExpectGoodPlan(square, PlanOnPolygon(square, Given(pinwheel), Given(pair), Options(15)), pinwheel,
+                 pair);
+  const PlanResult same = PlanOnPolygon(square, Given(pinwheel), Given(pinwheel), Options(5));
+  ExpectGoodPlan(square, same, pinwheel, pinwheel);
+  EXPECT_THAT(same.plan->steps, IsEmpty());
+}
+
+TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
+  // The normals of a regular triangle span the plane up to 30°: under uniform spanning more
+  // friction leaves pairs of fingers alone, to which these turned grasps are too far off.
+  const Polygon triangle = RegularPolygon(3);
+  const Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
+  const Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
+  PolygonPlanOptions options = Options(35);
+  const PlanResult adaptive = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  ExpectGoodPlan(triangle, adaptive, start, goal);
+  ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
+  EXPECT_TRUE(std::holds_alternative<Align>(adaptive.plan->steps.front()));
+  options.spanning = Spanning::kUniform;
+  const PlanResult uniform = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  ExpectGoodPlan(triangle, uniform, start, goal);
+  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.front()).place.empty());
+  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.back()).place.empty());
+}
+
+TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
+  const Polygon square = Square(1);
+  const Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
+  const Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
+  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  ExpectGoodPlan(square, result, start, goal);
+}
+
+TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
+  int joined_under_adaptive = 0;
+  int plans = 0;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    const auto joined = [&](Spanning spanning) {
+      return MakeGraph(polygon, 20, spanning)
+          .edge_count(GraspType::kConcurrent, GraspType::kParallel);
+    };
+    EXPECT_EQ(joined(Spanning::kUniform), 0) << name;
+    joined_under_adaptive += joined(Spanning::kAdaptive) > 0 ? 1 : 0;
+    PolygonPlanOptions options = Options(20, 1);
+    options.spanning = Spanning::kUniform;
+    const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), options);
+    if (result.status != Status::kFound) continue;
+    ExpectGoodPlan(polygon, result, ContactsOf(result.plan->initial), result.plan->goal);
+    ++plans;
+  }
+  EXPECT_GT(joined_under_adaptive, 0);
+  EXPECT_GT(plans, 3);
+}
+
+TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
+  const Polygon square = Square(1);
+  const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const auto refusal = [&](const Grasp& start) -> std::string {
+    try {
+      (void)PlanOnPolygon(square, Given(start), Given(good), Options(20));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}})), HasSubstr("needs 2 to 4 contacts, found 1"));
+  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}, {3, 0.5}, {3, 0.25}})),
+              HasSubstr("found 5"));
+  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}, {0, 0.5}, {2, 0.5}})),
+              HasSubstr("contacts 0 and 1 are at the same point"));
+  // Leans by atan 0.5.
+  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.25}, {2, 0.25}})),
+              HasSubstr("needs a friction half-angle of 26.57°, given 20°"));
+}
+
+TEST(PlanOnPolygon, RefusesOptionsOutOfRange) {
+  const Polygon square = Square(1);
+  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), Options(90)), std::invalid_argument);
+  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), Options(0)), std::invalid_argument);
+  PolygonPlanOptions options = Options(20);
+  options.min_quality = -1;
+  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,156 @@
+#include "planner/sets/polygon/set_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/planner/sets/polygon/direct_conditions.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+/// Contacts drawn on distinct edges, in the order of the edges.
+struct Draw {
+  std::vector<int> edges;
+  Eigen::VectorXd parameters;
+  Grasp grasp;
+};
+
+Draw DrawContacts(const Polygon& polygon, int count, std::mt19937_64& engine) {
+  std::vector<int> all(polygon.face_count());
+  for (int e = 0; e < polygon.face_count(); ++e) all[e] = e;
+  Draw draw;
+  std::sample(all.begin(), all.end(), std::back_inserter(draw.edges), count, engine);
+  draw.parameters.resize(count);
+  std::uniform_real_distribution<double> uniform;
+  for (int k = 0; k < count; ++k) {
+    draw.parameters[k] = uniform(engine);
+    draw.grasp.push_back(ContactAt(polygon, draw.edges[k], draw.parameters[k]));
+  }
+  return draw;
+}
+
+/// How often cells agree with the direct conditions.
+struct Agreement {
+  int inside = 0;
+  int outside = 0;
+  int too_close = 0;
+};
+
+void Compare(const PolygonGraph& graph, const Polygon& polygon, const Draw& draw,
+             const std::vector<DirectKind>& kinds, Agreement& count) {
+  for (const int vertex : graph.SetsOn(draw.edges)) {
+    const GraspSet& set = graph.sets()[vertex];
+    std::vector<DirectKind> fitting = kinds;
+    std::erase_if(fitting, [&](const DirectKind& kind) {
+      return kind.type != set.type ||
+             !std::binary_search(set.parts.begin(), set.parts.end(), kind.part);
+    });
+    const bool certain = std::any_of(fitting.begin(), fitting.end(),
+                                     [](const DirectKind& kind) { return kind.certain; });
+    if (!certain && !fitting.empty()) {
+      ++count.too_close;
+      continue;
+    }
+    EXPECT_EQ(IsInSet(SetCells(polygon, set), draw.parameters), certain)
+        << "vertex " << vertex << " at " << draw.parameters.transpose();
+    ++(certain ? count.inside : count.outside);
+  }
+}
+
+TEST(SetCells, HoldWhatTheDirectConditionsSay) {
+  std::mt19937_64 engine(1);
+  Agreement count;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    for (const double degrees : {10.0, 25.0, 50.0}) {
+      for (const Spanning spanning : kSpannings) {
+        SCOPED_TRACE(name + " at " + std::to_string(degrees) + "°, " + Name(spanning));
+        const PolygonGraph graph = MakeGraph(polygon, degrees, spanning);
+        for (int i = 0; i < 300; ++i) {
+          const Draw two = DrawContacts(polygon, 2, engine);
+          Compare(graph, polygon, two, KindsOfTwo(two.grasp, Radians(degrees)), count);
+          const Draw three = DrawContacts(polygon, 3, engine);
+          Compare(graph, polygon, three,
+                  KindsOfThree(three.grasp, Radians(degrees), spanning, polygon.diameter()), count);
+        }
+      }
+    }
+  }
+  EXPECT_GT(count.inside, 1000);
+  EXPECT_GT(count.outside, 1000);
+  EXPECT_LT(count.too_close, 20);
+}
+
+TEST(SetCells, EveryPartOfASetHasACellWithSlackAtItsCentre) {
+  int cells = 0;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    const PolygonGraph graph = MakeGraph(polygon, 50, Spanning::kAdaptive);
+    for (const GraspSet& set : graph.sets()) {
+      const SetCells of_set(polygon, set);
+      const auto contacts = static_cast<Eigen::Index>(set.edges.size());
+      std::vector<int> parts;
+      for (const GraspCell& cell : of_set.cells()) {
+        EXPECT_GT(cell.centre.slack, kNoSlack) << name;
+        EXPECT_LE(cell.centre.slack, of_set.width());
+        EXPECT_NEAR(SlackInCell(cell, cell.centre.z.head(contacts)), cell.centre.slack, kNoSlack);
+        parts.push_back(cell.part);
+        ++cells;
+      }
+      parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+      EXPECT_EQ(parts, set.parts) << name;
+    }
+  }
+  EXPECT_GT(cells, 500);
+}
+
+TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
+  int parallel = 0;
+  int clear = 0;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    const PolygonGraph graph = MakeGraph(polygon, 30, Spanning::kAdaptive);
+    for (const GraspSet& set : graph.sets()) {
+      if (set.type != GraspType::kParallel) continue;
+      const double width = ClearWidth(polygon, set);
+      // More inequalities than any cell has.
+      EXPECT_LE(width, SetCells(polygon, set).width() + kNoSlack) << name;
+      EXPECT_GE(width, 0);
+      ++parallel;
+      clear += width > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(parallel, 30);
+  EXPECT_GT(clear, 10);
+}
+
+TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
+  // Two fingers across the unit square, on the bottom and the top: with room to the ends of the
+  // edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
+  for (const double size : {1.0, 1000.0}) {
+    const Polygon square = Square(size);
+    const PolygonGraph graph = MakeGraph(square, 45, Spanning::kAdaptive);
+    const std::vector<int> vertices = graph.SetsOn({0, 2});
+    ASSERT_EQ(vertices.size(), 1U);
+    const SetCells cells(square, graph.sets()[vertices.front()]);
+    ASSERT_EQ(cells.cells().size(), 1U);
+    const double to_ends = 0.5 / square.diameter() * size;
+    EXPECT_NEAR(cells.width(), to_ends, 1e-12);
+    EXPECT_NEAR(SlackInCell(cells.cells().front(), Eigen::Vector2d(0.25, 0.75)), to_ends / 2,
+                1e-12);
+  }
+}
+
+TEST(SetCells, ContactAndParameterAreInverse) {
+  const Polygon& ring = SmallPolygons().back().polygon;
+  for (int edge = 0; edge < ring.face_count(); ++edge) {
+    const Contact contact = ContactAt(ring, edge, 0.3);
+    EXPECT_EQ(contact.face, edge);
+    EXPECT_EQ(contact.n, ring.inward_normal(edge));
+    EXPECT_NEAR(ParameterOf(ring, contact), 0.3, 1e-15);
+    EXPECT_NEAR(ring.DistanceToBorder(edge, contact.p), 0.3 * ring.face_measure(edge), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

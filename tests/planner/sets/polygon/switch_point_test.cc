@@ -1,0 +1,190 @@
+#include "planner/sets/polygon/switch_point.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "planner/sets/polygon/graph_cells.h"
+#include "planner/sets/polygon/polygon_graph.h"
+#include "tests/planner/sets/polygon/shapes.h"
+
+namespace regrasp {
+namespace {
+
+std::vector<int> CommonEdges(const GraspSet& a, const GraspSet& b) {
+  std::vector<int> common;
+  std::set_intersection(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
+                        std::back_inserter(common));
+  return common;
+}
+
+/// What a hand of four fingers can do: both grasps in their sets, kept contacts in place.
+void ExpectFeasible(const SwitchSide& from, const SwitchSide& to, const SwitchPoint& point) {
+  EXPECT_TRUE(IsInSet(*from.cells, point.before));
+  EXPECT_TRUE(IsInSet(*to.cells, point.after));
+  EXPECT_LE(point.before.size() + point.after.size() - static_cast<int>(point.kept.size()),
+            kPolygonFingers);
+  for (const int edge : point.kept) {
+    const auto parameter = [&](const SwitchSide& side, const Eigen::VectorXd& parameters) {
+      const std::vector<int>& edges = side.set->edges;
+      return parameters[std::find(edges.begin(), edges.end(), edge) - edges.begin()];
+    };
+    EXPECT_EQ(parameter(from, point.before), parameter(to, point.after));
+  }
+}
+
+struct SwitchCount {
+  std::array<std::array<int, kGraspTypes>, kGraspTypes> found{};
+  int none = 0;
+};
+
+/// Whether the graph says of two sets if any of their grasps switch: where an edge is common to a
+/// 2-finger set and another, or two edges to sets of which one is parallel. Concurrent sets are not
+/// joined where only different focus points see the common contacts.
+bool GraphDecides(const GraspSet& a, const GraspSet& b) {
+  const auto is = [&](GraspType type) { return a.type == type || b.type == type; };
+  const auto common = CommonEdges(a, b).size();
+  if (is(GraspType::kTwoFinger)) return common > 0;
+  return is(GraspType::kParallel) && common == 2;
+}
+
+void CheckSwitches(const Polygon& polygon, double degrees, SwitchCount& count) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+  GraphCells cells(polygon, graph);
+  std::vector<int> neighbours;
+  for (int v = 0; v < graph.vertex_count(); ++v) {
+    graph.GetNeighbours(v, neighbours);
+    const std::set<int> joined(neighbours.begin(), neighbours.end());
+    for (int w = 0; w < graph.vertex_count(); ++w) {
+      const GraspSet& a = graph.sets()[v];
+      const GraspSet& b = graph.sets()[w];
+      if (v == w || (!joined.contains(w) && !GraphDecides(a, b))) continue;
+      const SwitchSide from = {&a, &cells.of(v), std::nullopt};
+      const SwitchSide to = {&b, &cells.of(w), std::nullopt};
+      const std::vector<SwitchPoint> points = FindSwitchPoints(from, to, kPolygonFingers);
+      EXPECT_EQ(!points.empty(), joined.contains(w)) << "vertices " << v << " and " << w;
+      for (const SwitchPoint& point : points) ExpectFeasible(from, to, point);
+      if (points.empty()) {
+        ++count.none;
+      } else {
+        ++count.found[static_cast<int>(a.type)][static_cast<int>(b.type)];
+      }
+    }
+  }
+}
+
+TEST(SwitchPoint, IsFoundWhereTheGraphHasASwitchAndNowhereElse) {
+  SwitchCount count;
+  for (const auto& [name, polygon] : SmallPolygons()) {
+    SCOPED_TRACE(name);
+    for (const double degrees : {15.0, 25.0}) CheckSwitches(polygon, degrees, count);
+  }
+  for (const auto& row : count.found) {
+    for (const int found : row) EXPECT_GT(found, 10);
+  }
+  EXPECT_GT(count.none, 10);
+}
+
+/// The square's sets of two fingers across it.
+class AcrossTheSquare : public testing::Test {
+ protected:
+  AcrossTheSquare()
+      : graph_(MakeGraph(square_, 30, Spanning::kAdaptive)), cells_(square_, graph_) {}
+
+  SwitchSide Side(const std::vector<int>& edges) {
+    const int vertex = graph_.SetsOn(edges).front();
+    return {&graph_.sets()[vertex], &cells_.of(vertex), std::nullopt};
+  }
+
+  Polygon square_ = Square(1);
+  PolygonGraph graph_;
+  GraphCells cells_;
+};
+
+TEST_F(AcrossTheSquare, PlacesTwoFingersAndReleasesTwo) {
+  const std::vector<SwitchPoint> points =
+      FindSwitchPoints(Side({0, 2}), Side({1, 3}), kPolygonFingers);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_TRUE(points.front().kept.empty());
+  // With three fingers there is nothing to keep.
+  EXPECT_TRUE(FindSwitchPoints(Side({0, 2}), Side({1, 3}), 3).empty());
+}
+
+TEST_F(AcrossTheSquare, StartsFromTheGraspAtHand) {
+  SwitchSide from = Side({0, 2});
+  from.fixed = Eigen::Vector2d(0.25, 0.7);
+  const std::vector<SwitchPoint> points = FindSwitchPoints(from, Side({1, 3}), kPolygonFingers);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points.front().before, *from.fixed);
+  from.fixed = Eigen::Vector2d(0.1, 0.1);  // leans by more than 30°
+  EXPECT_TRUE(FindSwitchPoints(from, Side({1, 3}), kPolygonFingers).empty());
+}
+
+/// The larger the farther the contacts are from the beginnings of their edges.
+double ScoreByPosition(const GraspSet&, const Eigen::VectorXd& parameters) {
+  return parameters.mean();
+}
+
+TEST_F(AcrossTheSquare, ImprovingRaisesTheScoreInsideTheSets) {
+  const SwitchSide from = Side({0, 2});
+  const SwitchSide to = Side({1, 3});
+  const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+  const SwitchPoint better = ImproveSwitch(from, to, point, ScoreByPosition);
+  ExpectFeasible(from, to, better);
+  EXPECT_NEAR(ScoreOf(from, to, point, ScoreByPosition), 0.5, 1e-9);
+  // Opposite edges run against each other: the sum of both parameters is within 1 ± tan 30°.
+  EXPECT_GT(ScoreOf(from, to, better, ScoreByPosition), 0.65);
+  EXPECT_LT(ScoreOf(from, to, better, ScoreByPosition), 0.79);
+  // Room is left on either side.
+  for (const auto& [side, parameters] :
+       {std::pair(&from, &better.before), std::pair(&to, &better.after)}) {
+    EXPECT_TRUE(IsInSet(*side->cells, *parameters, point.slack / 5));
+  }
+}
+
+TEST(ImproveSwitch, MovesKeptContactsTogether) {
+  const NamedPolygon& blob = SmallPolygons()[4];
+  const PolygonGraph graph = MakeGraph(blob.polygon, 25, Spanning::kAdaptive);
+  GraphCells cells(blob.polygon, graph);
+  std::vector<int> neighbours;
+  int kept = 0;
+  int improved = 0;
+  for (int v = 0; v < graph.vertex_count(); v += 5) {
+    graph.GetNeighbours(v, neighbours);
+    for (const int w : neighbours) {
+      const SwitchSide from = {&graph.sets()[v], &cells.of(v), std::nullopt};
+      const SwitchSide to = {&graph.sets()[w], &cells.of(w), std::nullopt};
+      const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+      const SwitchPoint better = ImproveSwitch(from, to, point, ScoreByPosition);
+      ExpectFeasible(from, to, better);
+      EXPECT_EQ(better.kept, point.kept);
+      const double gain =
+          ScoreOf(from, to, better, ScoreByPosition) - ScoreOf(from, to, point, ScoreByPosition);
+      EXPECT_GE(gain, 0);
+      kept += static_cast<int>(point.kept.size());
+      improved += gain > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(kept, 100);
+  EXPECT_GT(improved, 100);
+}
+
+TEST_F(AcrossTheSquare, ImprovingNeverLowersTheScoreAndEnds) {
+  const SwitchSide from = Side({0, 2});
+  const SwitchSide to = Side({1, 3});
+  const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+  for (const double constant : {-0.5, 0.0, 0.5}) {
+    const GraspScore score = [&](const GraspSet&, const Eigen::VectorXd&) { return constant; };
+    EXPECT_EQ(ImproveSwitch(from, to, point, score).before, point.before);
+  }
+  const GraspScore worst_at_first = [](const GraspSet&, const Eigen::VectorXd& parameters) {
+    return -1 - std::abs(parameters[0] - 0.5);
+  };
+  EXPECT_GE(ScoreOf(from, to, ImproveSwitch(from, to, point, worst_at_first), worst_at_first),
+            ScoreOf(from, to, point, worst_at_first));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "planner/grasp/force_closure.h"
+#include "planner/motion/contact_motion.h"
+#include "planner/sets/polyhedron/focus_geometry.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "tests/planner/sets/polyhedron/bodies.h"
+
+namespace regrasp {
+namespace {
+
+constexpr int kPlans = 200;
+constexpr int kPlansOfControls = 60;
+
+/// Grasps that are tested between two waypoints, both included.
+constexpr int kSamples = 65;
+
+/// A solid and the graph that plans are made on.
+struct PlanningCase {
+  std::string name;
+  const Polyhedron* body;
+  PolyhedronPlanOptions options;
+  std::unique_ptr<PolyhedronGraph> graph;
+};
+
+std::vector<NamedBody> Bodies() {
+  std::vector<NamedBody> bodies;
+  for (const std::string name : {"stone", "tetrahedron", "body14", "body24", "body36", "body38"}) {
+    const ObjectFile file =
+        ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name + ".obj");
+    bodies.push_back({name, dynamic_cast<const Polyhedron&>(*file.object)});
+  }
+  for (const NamedBody& small : SmallBodies()) bodies.push_back(small);
+  return bodies;
+}
+
+/// Bodies, half-angles and spannings whose graphs have grasps.
+std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
+  std::vector<PlanningCase> cases;
+  for (const NamedBody& named : bodies) {
+    for (const auto& [degrees, spanning] : {std::pair{10.0, Spanning::kUniform},
+                                            {14.0, Spanning::kUniform},
+                                            {10.0, Spanning::kAdaptive},
+                                            {20.0, Spanning::kAdaptive}}) {
+      PlanningCase made{named.name + ", " + std::to_string(degrees) + "°, " + Name(spanning),
+                        &named.body,
+                        {},
+                        {}};
+      made.options.half_angle = Radians(degrees);
+      made.options.spanning = spanning;
+      made.graph = std::make_unique<PolyhedronGraph>(named.body, Radians(degrees), spanning);
+      if (made.graph->vertex_count() > 0) cases.push_back(std::move(made));
+    }
+  }
+  return cases;
+}
+
+struct Tally {
+  int aligns = 0;
+  int segments = 0;
+  int grasps = 0;
+  int not_closed = 0;
+};
+
+/// Every grasp from waypoint to waypoint, by the one function.
+Tally Walk(const Align& align, const WrenchFrame& frame, double half_angle) {
+  Tally tally{1};
+  for (std::size_t w = 0; w + 1 < align.waypoints.size(); ++w) {
+    GraspMotion motion;
+    for (std::size_t k = 0; k < align.waypoints[w].size(); ++k) {
+      EXPECT_EQ(align.waypoints[w][k].finger, align.waypoints[w + 1][k].finger);
+      motion.emplace_back(align.waypoints[w][k].contact, align.waypoints[w + 1][k].contact);
+    }
+    ++tally.segments;
+    for (int i = 0; i < kSamples; ++i) {
+      const double t = static_cast<double>(i) / (kSamples - 1);
+      tally.not_closed += IsForceClosure(GraspAt(motion, t), frame, half_angle) ? 0 : 1;
+      ++tally.grasps;
+    }
+  }
+  return tally;
+}
+
+void Add(const Tally& more, Tally& sum) {
+  sum.aligns += more.aligns;
+  sum.segments += more.segments;
+  sum.grasps += more.grasps;
+  sum.not_closed += more.not_closed;
+}
+
+/// Visits `count` random plans.
+/// @returns how many there were.
+template <typename Visit>
+int ForEachPlan(int count, Visit visit) {
+  const std::vector<NamedBody> bodies = Bodies();
+  const std::vector<PlanningCase> cases = Cases(bodies);
+  EXPECT_GE(cases.size(), 25u);
+  int plans = 0;
+  for (std::uint64_t seed = 1; plans < count && seed <= kPlans; ++seed) {
+    for (const PlanningCase& one : cases) {
+      if (plans == count) break;
+      PolyhedronPlanOptions options = one.options;
+      options.seed = seed;
+      const GraspChoice random{GraspChoice::Kind::kRandom, {}, "random"};
+      const PlanResult result = PlanOnPolyhedron(*one.body, *one.graph, random, random, options);
+      if (result.status == PlanResult::Status::kNoGrasp) continue;  // none is as good as asked for
+      SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
+      EXPECT_EQ(result.status, PlanResult::Status::kFound) << result.message;
+      if (!result.plan) continue;
+      ++plans;
+      visit(one, *result.plan);
+    }
+  }
+  return plans;
+}
+
+TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure) {
+  Tally all;
+  std::map<std::string, int> aligns_of_body;
+  const int plans = ForEachPlan(kPlans, [&](const PlanningCase& one, const Plan& plan) {
+    for (const Step& step : plan.steps) {
+      const auto* align = std::get_if<Align>(&step);
+      if (!align) continue;
+      EXPECT_GE(align->waypoints.size(), 2u);
+      const Tally walked = Walk(*align, one.body->wrench_frame(), one.options.half_angle);
+      EXPECT_EQ(walked.not_closed, 0);
+      Add(walked, all);
+      ++aligns_of_body[one.name.substr(0, one.name.find(','))];
+    }
+  });
+  EXPECT_EQ(plans, kPlans);
+  EXPECT_GE(all.aligns, 200);
+  EXPECT_GT(all.segments, all.aligns) << "no align goes from piece to piece";
+  EXPECT_EQ(all.grasps, all.segments * kSamples);
+  EXPECT_GE(aligns_of_body.size(), 9u);
+  RecordProperty("aligns", all.aligns);
+  RecordProperty("segments", all.segments);
+}
+
+/// Visits the aligns of plans with Spanning::kUniform: there the forces of any three contacts of a
+/// grasp don't balance, wherever in their cones they are, and those of all four are linearly
+/// dependent in one way only, with four positive factors (Phoka 2010, 5.2).
+template <typename Visit>
+int ForEachUniformAlign(Visit visit) {
+  int aligns = 0;
+  ForEachPlan(kPlansOfControls, [&](const PlanningCase& one, const Plan& plan) {
+    if (one.options.spanning != Spanning::kUniform) return;
+    for (const Step& step : plan.steps) {
+      if (const auto* align = std::get_if<Align>(&step)) {
+        visit(one, *align);
+        ++aligns;
+      }
+    }
+  });
+  return aligns;
+}
+
+TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
+  const int pushed = ForEachUniformAlign([](const PlanningCase& one, const Align& align) {
+    // So far along its own plane that no other torque balances that of its force.
+    Align off = align;
+    for (FingerGrasp& grasp : off.waypoints) {
+      Contact& contact = grasp.front().contact;
+      contact.p += 1000 * one.body->diameter() * contact.n.unitOrthogonal();
+    }
+    const Tally walked = Walk(off, one.body->wrench_frame(), one.options.half_angle);
+    EXPECT_EQ(walked.not_closed, walked.grasps);
+    // One waypoint only: between good ones the way is bad all the same.
+    Align bent = align;
+    bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
+    EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.half_angle).not_closed, 0);
+  });
+  EXPECT_GE(pushed, 20);
+}
+
+TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
+  const int turned = ForEachUniformAlign([](const PlanningCase& one, const Align& align) {
+    // A finger that pushes out of the object instead of into it.
+    Align wrong = align;
+    for (FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
+    const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.half_angle);
+    EXPECT_EQ(walked.not_closed, walked.grasps);
+  });
+  EXPECT_GE(turned, 20);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/object/polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
+
+namespace regrasp {
+
+/// A solid with a name for messages.
+struct NamedBody {
+  std::string name;
+  Polyhedron body;
+};
+
+inline constexpr Spanning kBothSpannings[] = {Spanning::kUniform, Spanning::kAdaptive};
+
+[[nodiscard]] const char* Name(Spanning spanning);
+
+/// Vertices of a cube with every second corner: edges of 2√2, the centre at the origin.
+[[nodiscard]] Polyhedron RegularTetrahedron();
+
+/// The ends of the three unit axes.
+[[nodiscard]] Polyhedron RegularOctahedron();
+
+/// About the origin.
+[[nodiscard]] Polyhedron Box(const Eigen::Vector3d& size);
+
+using Ring = std::vector<Eigen::Vector2d>;
+
+/// The part between z = 0 and z = `height` of the cone over an outline (counter-clockwise, then
+/// holes, clockwise) whose copy at the top is `taper` times as large about the origin: its two ends
+/// have the outline's shape, holes go through.
+[[nodiscard]] Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper);
+
+/// An L about the origin, and a square with a square hole.
+[[nodiscard]] std::vector<Ring> LOutline();
+[[nodiscard]] std::vector<Ring> FrameOutline();
+
+/// The like without parallel edges, so that the sides of frusta hold grasps with the ends: a
+/// boomerang, and a pentagon with a triangular hole.
+[[nodiscard]] std::vector<Ring> BoomerangOutline();
+[[nodiscard]] std::vector<Ring> RingOutline();
+
+/// A tetrahedron, round and stretched stones, frusta of a boomerang and of a ring: few faces, none
+/// of them with a symmetry, convex and not.
+[[nodiscard]] const std::vector<NamedBody>& SmallBodies();
+
+/// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.
+[[nodiscard]] PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map);
+
+}  // namespace regrasp

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/sets/polyhedron/normal_quadruples.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "tests/planner/deadline_laws.h"
+#include "tests/planner/sets/polyhedron/bodies.h"
+
+namespace regrasp {
+namespace {
+
+TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
+  const Polyhedron body = RegularOctahedron();
+  const CountedDeadline never;
+  const PolyhedronGraph graph(body, Radians(15), Spanning::kAdaptive, never.deadline());
+  ASSERT_GT(graph.vertex_count(), 0);
+  const CountedDeadline listing;
+  static_cast<void>(FindQuadrupleCandidates(body, std::tan(Radians(15)), Spanning::kAdaptive,
+                                            listing.deadline()));
+  EXPECT_EQ(listing.looks(), 2 * (8 * 7 / 2));  // each pair of faces twice
+  // Cells are joined on each of their four triples of faces.
+  EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
+  ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
+    static_cast<void>(PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, deadline));
+  });
+}
+
+TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
+  const Polyhedron body = RegularOctahedron();
+  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
+  PolyhedronPlanOptions options;
+  options.half_angle = Radians(15);
+  ExpectPlanEndsWhereverItComes("polyhedron", 11, [&](const Deadline& deadline) {
+    options.deadline = deadline;
+    return PlanOnPolyhedron(body, random, random, options);
+  });
+}
+
+}  // namespace
+}  // namespace regrasp

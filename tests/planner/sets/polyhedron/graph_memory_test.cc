@@ -1,0 +1,59 @@
+#include "planner/sets/polyhedron/graph_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/polyhedron_stone.h"
+#include "planner/base/angle.h"
+#include "planner/object/object.h"
+#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "tests/planner/peak_memory.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::HasSubstr;
+
+const double kHalfAngle = Radians(15);
+
+#if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
+TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
+  for (const char* file : {"body40.obj", "body47.obj", "body67.obj"}) {
+    const ObjectFile read = ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+    const auto& solid = dynamic_cast<const Polyhedron&>(*read.object);
+    const double used = PeakBytesOf([&] {
+      static_cast<void>(PolyhedronGraph(solid, kHalfAngle, Spanning::kAdaptive).vertex_count());
+    });
+    const double estimate = EstimatePolyhedronGraph(solid, kHalfAngle, Spanning::kAdaptive).bytes();
+    ASSERT_GT(used, 4e6) << file;
+    EXPECT_GT(estimate, used / 2) << file;
+    EXPECT_LT(estimate, used * 2) << file;
+  }
+}
+#endif
+
+TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
+  double last = 0;
+  for (const int n : {8, 16, 32, 64, 128, 256, 512}) {
+    const MemoryNeed need =
+        EstimatePolyhedronGraph(MakeStone(n, {1, 1.2, 0.8}, 1), kHalfAngle, Spanning::kAdaptive);
+    EXPECT_EQ(need.count, n);
+    EXPECT_GT(need.bytes(), last) << n;
+    last = need.bytes();
+  }
+  EXPECT_GT(last, 1e11);
+}
+
+TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
+  PolyhedronPlanOptions options;
+  options.half_angle = kHalfAngle;
+  options.memory = 1e9;
+  const PlanResult result =
+      PlanOnPolyhedron(MakeStone(300, {1, 1, 1}, 1), {GraspChoice::Kind::kRandom, {}, "start"},
+                       {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  EXPECT_FALSE(result.plan.has_value());
+  EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,189 @@
+#include "planner/sets/polyhedron/normal_quadruples.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/planner/sets/polyhedron/bodies.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kSeed = 12;
+/// Combinations whose φ* is this near to θ (as tangents), or whose normals are this near to a
+/// half-space, are told apart by doubles alone.
+constexpr double kTooClose = 1e-9;
+
+std::vector<Vector3d> RandomNormals(int count, const Vector3d& stretch, std::mt19937_64& engine) {
+  std::normal_distribution<double> number;
+  std::vector<Vector3d> normals;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d drawn(number(engine), number(engine), number(engine));
+    normals.push_back(drawn.cwiseProduct(stretch).normalized());
+  }
+  return normals;
+}
+
+/// tan φ* by the definition. The normals positively span iff Σ λ_k n_k = 0 with all λ > 0, and φ*
+/// is where a plane through the origin first has all four cones on one side: the least, over
+/// planes, of the largest angle of a normal over it. The least is taken where three normals are
+/// equally high. Negative where the normals do not span.
+double LimitByDefinition(const std::array<Vector3d, 4>& n) {
+  // λ by Cramer's rule: the volumes of the other three, with alternating signs.
+  Eigen::Vector4d lambda(n[1].cross(n[2]).dot(n[3]), -n[0].cross(n[2]).dot(n[3]),
+                         n[0].cross(n[1]).dot(n[3]), -n[0].cross(n[1]).dot(n[2]));
+  if (lambda.sum() < 0) lambda = -lambda;
+  if (lambda.minCoeff() < kTooClose) return -1;
+  double least_sine = std::numeric_limits<double>::infinity();
+  for (int out = 0; out < 4; ++out) {
+    Eigen::Matrix3d three;
+    for (int k = 0, row = 0; k < 4; ++k) {
+      if (k != out) three.row(row++) = n[k].transpose();
+    }
+    // d · n = 1 for the three: along the unit d they are all 1 / |d| high.
+    least_sine = std::min(least_sine, 1 / (three.inverse() * Vector3d::Ones()).norm());
+  }
+  return least_sine / std::sqrt(1 - least_sine * least_sine);
+}
+
+struct Limited {
+  std::array<int, 4> faces;
+  double limit;  ///< tan φ*
+};
+
+/// Every 4-subset that spans, by the definition.
+std::vector<Limited> FindPlainly(const std::vector<Vector3d>& n) {
+  std::vector<Limited> spanning;
+  const int count = static_cast<int>(n.size());
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      for (int c = b + 1; c < count; ++c) {
+        for (int d = c + 1; d < count; ++d) {
+          const double limit = LimitByDefinition({n[a], n[b], n[c], n[d]});
+          if (limit > 0) spanning.push_back({{a, b, c, d}, limit});
+        }
+      }
+    }
+  }
+  return spanning;
+}
+
+/// @returns how many were found.
+std::size_t ExpectPlainCandidates(const std::vector<Vector3d>& normals) {
+  std::size_t count = 0;
+  const std::vector<Limited> plain = FindPlainly(normals);
+  for (const double degrees : {1, 10, 18, 40}) {
+    for (const Spanning spanning : kBothSpannings) {
+      SCOPED_TRACE(testing::Message() << normals.size() << " normals, " << degrees << " degrees");
+      const double tangent = std::tan(Radians(degrees));
+      const double least = spanning == Spanning::kUniform ? tangent : 0;
+      std::vector<Limited> expected;
+      for (const Limited& limited : plain) {
+        EXPECT_GT(std::abs(limited.limit - least), kTooClose);
+        if (limited.limit > least) expected.push_back(limited);
+      }
+      const auto found = FindQuadrupleCandidates(normals, tangent, spanning);
+      EXPECT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
+        EXPECT_EQ(found[i].faces, expected[i].faces);
+        EXPECT_NEAR(found[i].tangent, std::min(tangent, expected[i].limit), kTooClose);
+        EXPECT_LE(found[i].tangent, tangent);
+      }
+      count += found.size();
+    }
+  }
+  return count;
+}
+
+TEST(NormalQuadruples, AreThoseOfThePlainDefinition) {
+  std::mt19937_64 engine(kSeed);
+  std::size_t found_in_all = 0;
+  for (const Vector3d& stretch : {Vector3d(1, 1, 1), Vector3d(1, 1, 0.2), Vector3d(3, 0.5, 1)}) {
+    for (const int count : {4, 9, 30}) {
+      found_in_all += ExpectPlainCandidates(RandomNormals(count, stretch, engine));
+    }
+  }
+  // More than one word of bits.
+  found_in_all += ExpectPlainCandidates(RandomNormals(66, Vector3d::Ones(), engine));
+  EXPECT_GT(found_in_all, 100000U);
+}
+
+/// Whether some directions positively span, by Σ λ d = 0.
+bool Spans(const std::array<Vector3d, 4>& d) { return LimitByDefinition(d) > 0; }
+
+TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
+  std::mt19937_64 engine(kSeed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto normals = RandomNormals(25, Vector3d::Ones(), engine);
+  const auto found = FindQuadrupleCandidates(normals, 10, Spanning::kAdaptive);
+  ASSERT_GT(found.size(), 500U);
+  int beyond = 0;
+  for (std::size_t i = 0; i < found.size(); i += 5) {
+    const double limit = std::atan(found[i].tangent);
+    const auto tilted = [&](double share) {
+      std::array<Vector3d, 4> d;
+      for (int k = 0; k < 4; ++k) {
+        const Vector3d& n = normals[found[i].faces[k]];
+        const Vector3d u = n.unitOrthogonal();
+        const double around = 2 * M_PI * unit(engine);
+        const Vector3d aside = std::cos(around) * u + std::sin(around) * n.cross(u);
+        d[k] = std::cos(share * limit) * n + std::sin(share * limit) * aside;
+      }
+      return d;
+    };
+    for (int draw = 0; draw < 20; ++draw) ASSERT_TRUE(Spans(tilted(0.999 * unit(engine))));
+    // All four towards one plane, by a little more: those that are least high over it.
+    for (int out = 0; out < 4; ++out) {
+      Eigen::Matrix3d three;
+      for (int k = 0, row = 0; k < 4; ++k) {
+        if (k != out) three.row(row++) = normals[found[i].faces[k]].transpose();
+      }
+      const Vector3d up = (three.inverse() * Vector3d::Ones()).normalized();
+      std::array<Vector3d, 4> d;
+      for (int k = 0; k < 4; ++k) {
+        const Vector3d& n = normals[found[i].faces[k]];
+        const Vector3d down = (-up + up.dot(n) * n).normalized();
+        d[k] = std::cos(1.001 * limit) * n + (k == out ? -1 : 1) * std::sin(1.001 * limit) * down;
+      }
+      if (!Spans(d)) {
+        ++beyond;
+        break;
+      }
+    }
+  }
+  EXPECT_EQ(beyond, static_cast<int>((found.size() + 4) / 5));
+}
+
+std::size_t CountOf(const Polyhedron& body, double degrees, Spanning spanning) {
+  std::vector<Vector3d> normals;
+  for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
+  return FindQuadrupleCandidates(normals, std::tan(Radians(degrees)), spanning).size();
+}
+
+TEST(NormalQuadruples, OfARegularTetrahedronSpanBelowTheArcSineOfAThird) {
+  const double limit = Degrees(std::asin(1.0 / 3));
+  const Polyhedron body = RegularTetrahedron();
+  EXPECT_EQ(CountOf(body, limit - 1e-6, Spanning::kUniform), 1U);
+  EXPECT_EQ(CountOf(body, limit + 1e-6, Spanning::kUniform), 0U);
+  EXPECT_EQ(CountOf(body, limit + 1e-6, Spanning::kAdaptive), 1U);
+  EXPECT_EQ(CountOf(body, 80, Spanning::kAdaptive), 1U);
+}
+
+TEST(NormalQuadruples, OfBoxesDoNotSpanAndOfAnOctahedronTwoTetrahedraDo) {
+  for (const Spanning spanning : kBothSpannings) {
+    EXPECT_EQ(CountOf(Box({1, 2, 3}), 5, spanning), 0U);
+    // Normals (±1, ±1, ±1): any four that span leave no two opposite ones with another pair
+    // coplanar; what remains are every second corner of the cube, and the other ones.
+    EXPECT_EQ(CountOf(RegularOctahedron(), 5, spanning), 2U);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,274 @@
+// Concurrent grasps drawn without the graph: each lies in a piece that the graph has, and each cell
+// of small bodies is hit.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+
+#include "planner/grasp/force_closure.h"
+#include "tests/planner/sets/polyhedron/bodies.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegrees[] = {10, 18, 35};
+constexpr std::uint64_t kSeed = 8;
+constexpr int kFocusPoints = 1500;  // of one graph
+constexpr int kDirections = 4;      // a face and focus point
+constexpr int kTries = 50000;       // for a contact that is known to be there
+
+/// Contacts nearer to a face's border or a part's side than this, over the diameter, are not used:
+/// which part they are on depends on rounding.
+constexpr double kAtBorder = 1e-9;
+
+/// A contact that a focus point sees, and the half of the part it is on.
+struct Seen {
+  int half;
+  double slope;  ///< the tangent of the angle with the normal
+  Vector3d contact;
+};
+
+class GraspDraw {
+ public:
+  GraspDraw(const Polyhedron& body, const FaceParts& parts) : body_(body), parts_(parts) {}
+
+  /// Around the body, nearer and farther.
+  Vector3d FocusPoint() {
+    const double size = body_.diameter() * std::pow(4, 2 * unit_(engine_) - 2);
+    const Vector3d drawn(normal_(engine_), normal_(engine_), normal_(engine_));
+    return body_.mass_properties().centroid + size * drawn;
+  }
+
+  /// The contact of a face in a random direction inside the double cone about a focus point.
+  std::optional<Seen> See(int face, double tangent, const Vector3d& focus) {
+    const Vector3d n = body_.inward_normal(face);
+    const double height = n.dot(focus - body_.faces()[face].point);
+    const Vector3d u = n.unitOrthogonal();
+    const double slope = tangent * std::sqrt(unit_(engine_)) * (1 - kAtBorder);
+    const double around = 2 * M_PI * unit_(engine_);
+    const Vector3d aside = std::cos(around) * u + std::sin(around) * n.cross(u);
+    const Vector3d contact = focus - height * (n + slope * aside);
+    if (!IsOnFace(face, contact)) return std::nullopt;
+    const int part = PartOf(face, contact);
+    if (part < 0) return std::nullopt;
+    return Seen{2 * part + (height > 0 ? 0 : 1), slope, contact};
+  }
+
+  std::size_t Index(std::size_t count) { return engine_() % count; }
+
+ private:
+  /// By crossings of the face's border with a ray in its plane.
+  [[nodiscard]] bool IsOnFace(int face, const Vector3d& contact) const {
+    if (body_.DistanceToBorder(face, contact) < kAtBorder * body_.diameter()) return false;
+    const Vector3d n = body_.inward_normal(face);
+    const Vector3d u = n.unitOrthogonal();
+    const Vector3d v = n.cross(u);
+    bool inside = false;
+    for (const auto& [from, to] : body_.faces()[face].border) {
+      const Vector3d a = body_.vertices()[from] - contact;
+      const Vector3d b = body_.vertices()[to] - contact;
+      if ((v.dot(a) > 0) == (v.dot(b) > 0)) continue;
+      const double share = v.dot(a) / (v.dot(a) - v.dot(b));
+      if (u.dot(a) + share * (u.dot(b) - u.dot(a)) > 0) inside = !inside;
+    }
+    return inside;
+  }
+
+  /// The part that a point of a face is inside; −1 where it is between two.
+  [[nodiscard]] int PartOf(int face, const Vector3d& contact) const {
+    for (int p = parts_.first[face]; p < parts_.first[face + 1]; ++p) {
+      const FacePart& part = parts_.parts[p];
+      const Vector2d y(part.u.dot(contact - part.origin), part.v.dot(contact - part.origin));
+      bool inside = true;
+      for (std::size_t i = 0; i < part.outline.size(); ++i) {
+        const Vector2d& a = part.outline[i];
+        const Vector2d side = (part.outline[(i + 1) % part.outline.size()] - a).normalized();
+        const double depth = side.x() * (y - a).y() - side.y() * (y - a).x();
+        inside = inside && depth > kAtBorder * body_.diameter();
+      }
+      if (inside) return p;
+    }
+    return -1;
+  }
+
+  const Polyhedron& body_;
+  const FaceParts& parts_;
+  std::mt19937_64 engine_{kSeed};
+  std::uniform_real_distribution<double> unit_{0, 1};
+  std::normal_distribution<double> normal_;
+};
+
+bool IsHeld(const Polyhedron& body, const std::array<Seen, 4>& grasp,
+            const std::array<int, 4>& faces, double half_angle) {
+  std::vector<Contact> contacts;
+  for (std::size_t k = 0; k < grasp.size(); ++k) {
+    contacts.push_back({grasp[k].contact, body.inward_normal(faces[k]), faces[k]});
+  }
+  return IsForceClosure(contacts, body.wrench_frame(), half_angle);
+}
+
+struct Count {
+  int grasps = 0;
+  int outer = 0;  ///< with a contact seen from the outer side
+  int cells = 0;
+  std::set<std::array<int, 4>> pieces;
+};
+
+class GraspOracle {
+ public:
+  GraspOracle(const Polyhedron& body, double degrees, Spanning spanning)
+      : body_(body),
+        half_angle_(Radians(degrees)),
+        graph_(body, half_angle_, spanning),
+        draw_(body, graph_.finder().parts()) {
+    for (int cell = 0; cell < graph_.vertex_count(); ++cell) {
+      for (const FocusPiece& piece : graph_.cells()[cell].pieces) cell_of_[piece.halves] = cell;
+    }
+    std::vector<Vector3d> normals;
+    for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
+    candidates_ = FindQuadrupleCandidates(normals, std::tan(half_angle_), spanning);
+  }
+
+  /// Every grasp by contacts that random focus points see is in a cell.
+  void CheckDrawnGrasps(Count& count) {
+    for (int i = 0; i < kFocusPoints; ++i) {
+      const Vector3d focus = draw_.FocusPoint();
+      std::vector<std::vector<Seen>> seen(body_.face_count());
+      for (int face = 0; face < body_.face_count(); ++face) {
+        for (int k = 0; k < kDirections; ++k) {
+          if (const auto contact = draw_.See(face, std::tan(half_angle_), focus)) {
+            seen[face].push_back(*contact);
+          }
+        }
+      }
+      for (const QuadrupleCandidate& candidate : candidates_) {
+        const auto grasp = Choose(candidate, seen);
+        if (grasp) CheckGrasp(candidate, *grasp, focus, count);
+      }
+    }
+  }
+
+  /// From the deepest focus point of every piece contacts are found on its four halves, and they
+  /// hold the body.
+  void CheckEveryCell(Count& count) {
+    for (const FocusCell& cell : graph_.cells()) {
+      ++count.cells;
+      for (const FocusPiece& piece : cell.pieces) {
+        std::vector<UnionVolume> volumes;
+        for (const int half : piece.halves) {
+          volumes.push_back(graph_.finder().VolumeOf(half, cell.tangent));
+        }
+        const auto deepest = graph_.finder().FindDeepest(volumes);
+        ASSERT_TRUE(deepest);
+        std::array<Seen, 4> grasp;
+        bool found = true;
+        for (std::size_t k = 0; k < grasp.size(); ++k) {
+          found = found &&
+                  FindOn(cell.faces[k], piece.halves[k], cell.tangent, deepest->point, grasp[k]);
+        }
+        EXPECT_TRUE(found) << "depth " << deepest->value;
+        if (!found) continue;
+        EXPECT_TRUE(IsHeld(body_, grasp, cell.faces, half_angle_));
+        ++count.grasps;
+      }
+    }
+  }
+
+ private:
+  /// One contact of each face, of those within the candidate's own cones.
+  std::optional<std::array<Seen, 4>> Choose(const QuadrupleCandidate& candidate,
+                                            const std::vector<std::vector<Seen>>& seen) {
+    std::array<Seen, 4> grasp;
+    for (std::size_t k = 0; k < grasp.size(); ++k) {
+      const std::vector<Seen>& of_face = seen[candidate.faces[k]];
+      if (of_face.empty()) return std::nullopt;
+      grasp[k] = of_face[draw_.Index(of_face.size())];
+      if (grasp[k].slope >= candidate.tangent) return std::nullopt;
+    }
+    return grasp;
+  }
+
+  void CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
+                  const Vector3d& focus, Count& count) {
+    std::array<int, 4> halves;
+    for (std::size_t k = 0; k < grasp.size(); ++k) halves[k] = grasp[k].half;
+    const auto cell = cell_of_.find(halves);
+    ASSERT_NE(cell, cell_of_.end());
+    EXPECT_EQ(graph_.cells()[cell->second].faces, candidate.faces);
+    for (const int half : halves) {
+      EXPECT_LT(graph_.finder().VolumeOf(half, candidate.tangent).At(focus), 0);
+    }
+    EXPECT_TRUE(IsHeld(body_, grasp, candidate.faces, half_angle_));
+    ++count.grasps;
+    if (std::ranges::any_of(halves, [](int half) { return half % 2 == 1; })) ++count.outer;
+    count.pieces.insert(halves);
+  }
+
+  bool FindOn(int face, int half, double tangent, const Vector3d& focus, Seen& contact) {
+    for (int i = 0; i < kTries; ++i) {
+      const auto seen = draw_.See(face, tangent, focus);
+      if (!seen || seen->half != half) continue;
+      contact = *seen;
+      return true;
+    }
+    // Hardly any direction meets the face: its nearest point does. Which part that is on does not
+    // matter where there is one.
+    const auto& first = graph_.finder().parts().first;
+    if (first[face + 1] - first[face] > 1) return false;
+    contact.contact = body_.ClosestPoint(face, focus);
+    const Vector3d line = focus - contact.contact;
+    const double height = body_.inward_normal(face).dot(line) * (half % 2 == 0 ? 1 : -1);
+    return height > 0 && line.squaredNorm() < height * height * (1 + tangent * tangent);
+  }
+
+  const Polyhedron& body_;
+  double half_angle_;
+  PolyhedronGraph graph_;
+  GraspDraw draw_;
+  std::map<std::array<int, 4>, int> cell_of_;  // by the pieces' halves
+  std::vector<QuadrupleCandidate> candidates_;
+};
+
+template <class Check>
+Count CheckAll(const Check& check) {
+  Count count;
+  for (const NamedBody& named : SmallBodies()) {
+    for (const double degrees : kDegrees) {
+      for (const Spanning spanning : kBothSpannings) {
+        SCOPED_TRACE(named.name + " " + std::to_string(degrees) + " " + Name(spanning));
+        GraspOracle oracle(named.body, degrees, spanning);
+        check(oracle, count);
+      }
+    }
+  }
+  return count;
+}
+
+TEST(RandomGrasps, LieInPiecesThatTheGraphHasAndHoldTheBody) {
+  const Count count = CheckAll([](GraspOracle& o, Count& c) { o.CheckDrawnGrasps(c); });
+  RecordProperty("grasps", count.grasps);
+  RecordProperty("outer", count.outer);
+  RecordProperty("pieces", static_cast<int>(count.pieces.size()));
+  EXPECT_GT(count.grasps, 10000);
+  EXPECT_GT(count.outer, 200);
+  EXPECT_GT(count.pieces.size(), 300U);
+}
+
+TEST(RandomGrasps, AreFoundInEveryPieceOfEveryCell) {
+  const Count count = CheckAll([](GraspOracle& o, Count& c) { o.CheckEveryCell(c); });
+  RecordProperty("cells", count.cells);
+  RecordProperty("grasps", count.grasps);
+  EXPECT_GT(count.cells, 1000);
+  EXPECT_GT(count.grasps, count.cells);
+}
+
+}  // namespace
+}  // namespace regrasp

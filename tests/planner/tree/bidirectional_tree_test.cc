@@ -1,0 +1,126 @@
+#include "planner/tree/bidirectional_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/motion/check_motion_proof.h"
+#include "planner/plan/check.h"
+#include "planner/tree/improve_path.h"
+#include "planner/tree/path_plan.h"
+#include "planner/tree/subset_search.h"
+#include "tests/planner/tree/search_cases.h"
+
+namespace regrasp {
+namespace {
+
+constexpr std::int64_t kEffort = 300'000;
+
+Plan PlanOf(const GraspPath& path, const Grasp& from, const Grasp& to, const SearchSpace& space) {
+  const CandidateSequence draft = MakeCandidate(path, from, space);
+  Plan plan;
+  plan.dimension = space.dimension();
+  plan.half_angle = space.demands().half_angle;
+  plan.fingers = space.fingers();
+  plan.initial = draft.initial;
+  plan.steps = draft.steps;
+  plan.goal = to;
+  return plan;
+}
+
+/// Every align's proof in exact arithmetic. @returns how many there are.
+int CheckAligns(const GraspPath& path, const SearchSpace& space) {
+  int aligns = 0;
+  for (const PathStep& step : path.steps) {
+    if (!step.align) continue;
+    ++aligns;
+    const std::vector<Grasp> waypoints = WaypointsOf(*step.align, space);
+    for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
+      EXPECT_EQ(CheckMotionProof(waypoints[w], waypoints[w + 1], space.dimension(),
+                                 std::tan(space.half_angle()), step.align->proof.at(w))
+                    .kind,
+                ProofVerdict::Kind::kForceClosure);
+    }
+  }
+  return aligns;
+}
+
+struct Case {
+  const char* model;
+  double degrees;
+  int contacts;
+};
+
+class BidirectionalTreeCases : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Bodies, BidirectionalTreeCases,
+                         testing::Values(Case{"cube.obj", 5, 4}, Case{"prism.obj", 10, 4},
+                                         Case{"tetrahedron.obj", 10, 4}, Case{"stone.obj", 7, 4},
+                                         Case{"l_block.obj", 10, 5}, Case{"cube.obj", 30, 3},
+                                         Case{"polygon20.wkt", 6, 2}, Case{"triangle.wkt", 5, 3},
+                                         Case{"polygon_hole.wkt", 12, 4}),
+                         [](const auto& test) { return "case" + std::to_string(test.index); });
+
+TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
+  const ObjectFile file = ReadModel(GetParam().model);
+  const Object& object = *file.object;
+  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const SurfaceSource source(object);
+  RandomStream draws(11, RandomUse::kStart);
+  int joined = 0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const Grasp from = DrawGrasp(object, GetParam().contacts, demands, draws);
+    const Grasp to = DrawGrasp(object, GetParam().contacts, demands, draws);
+    SearchSpace space(object, demands);
+    space.SetLimits({.most_tests = kEffort});
+    RandomStream random(i, RandomUse::kCandidates);
+    BidirectionalTree trees(Take(from, space), Take(to, space), source, random, space);
+    const auto path = trees.Join();
+    ASSERT_TRUE(path) << i << ": " << trees.tree(0).size() << " and " << trees.tree(1).size();
+    ++joined;
+    CheckAligns(*path, space);
+    EXPECT_TRUE(CheckPlan(object, PlanOf(*path, from, to, space)).passed()) << i;
+
+    const GraspPath shorter = ShortcutPath(*path, source, random, space);
+    CheckAligns(shorter, space);
+    EXPECT_LE(shorter.steps.size(), path->steps.size());
+    const PlanCheck checked = CheckPlan(object, PlanOf(shorter, from, to, space));
+    EXPECT_TRUE(checked.passed()) << i;
+
+    const GraspPath wider = MaximiseMargin(shorter, 0, source, random, space);
+    EXPECT_LE(wider.steps.size(), shorter.steps.size());
+    EXPECT_LE(RequiredHalfAngleOf(wider, space), RequiredHalfAngleOf(shorter, space) + 1e-6);
+    CheckAligns(wider, space);
+    EXPECT_TRUE(CheckPlan(object, PlanOf(wider, from, to, space)).passed()) << i;
+  }
+  EXPECT_EQ(joined, 6);
+}
+
+TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
+  // At 0.1 degrees a cube's faces allow next to nothing; the ends are taken as they are.
+  const ObjectFile file = ReadModel("cube.obj");
+  RandomStream draws(2, RandomUse::kStart);
+  const Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
+  const Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
+  SearchSpace space(*file.object, {Radians(0.1), 0, 0});
+  space.SetLimits({.most_tests = 2000});
+  RandomStream random(0, RandomUse::kCandidates);
+  const SurfaceSource source(*file.object);
+  BidirectionalTree trees(Take(from, space), Take(to, space), source, random, space);
+  EXPECT_FALSE(trees.Join());
+  EXPECT_GE(space.tests(), 2000);
+  EXPECT_GE(trees.tree(0).size(), 1);
+}
+
+TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
+  const ObjectFile file = ReadModel("cube.obj");
+  RandomStream draws(2, RandomUse::kStart);
+  const Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
+  SearchSpace space(*file.object, {Radians(25), 0, 0});
+  RandomStream random(0, RandomUse::kCandidates);
+  const SurfaceSource source(*file.object);
+  const ContactSet set = Take(grasp, space);
+  const auto path = BidirectionalTree(set, set, source, random, space).Join();
+  ASSERT_TRUE(path);
+  EXPECT_TRUE(path->steps.empty());
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,128 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/planning/grasp_choice.h"
+#include "planner/sampling/contact_points.h"
+#include "planner/sampling/surface_sample.h"
+#include "planner/sampling/surface_source.h"
+#include "planner/sets/polyhedron/normal_quadruples.h"
+#include "tests/planner/object/meshes.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// [−1, 1]³ with the cavity [−0.9, 0.9]³, which has nearly half of the surface. First in the file
+/// comes the cavity or the outside.
+Polyhedron MakeHollowCube(bool cavity_first) {
+  PolygonSoup cavity = testing::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
+  testing::Turn(cavity);
+  const PolygonSoup outside = testing::BoxSoup(Vector3d::Constant(-1), Vector3d::Constant(1));
+  return Polyhedron::FromSoup(
+      cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
+}
+
+/// Counts contacts; none may be in the cavity.
+class OutsideOnly {
+ public:
+  explicit OutsideOnly(const Object& object) : object_(object) {}
+  void See(const Contact& contact) {
+    EXPECT_FALSE(object_.IsEnclosed(contact.face));
+    EXPECT_NEAR(contact.p.lpNorm<Eigen::Infinity>(), 1, 1e-9);
+    ++seen_;
+  }
+  [[nodiscard]] int seen() const { return seen_; }
+
+ private:
+  const Object& object_;
+  int seen_ = 0;
+};
+
+class SealedCavity : public ::testing::TestWithParam<bool> {
+ protected:
+  const Polyhedron hollow_ = MakeHollowCube(GetParam());
+  OutsideOnly outside_{hollow_};
+  RandomStream random_{1, RandomUse::kStart};
+};
+
+INSTANTIATE_TEST_SUITE_P(CavityFirst, SealedCavity, ::testing::Bool());
+
+TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
+  const SurfaceSource source(hollow_);
+  Contact contact = source.Draw(random_);
+  for (int i = 0; i < 300; ++i) {
+    outside_.See(contact = source.Draw(random_));
+    // A wall of 0.1 away from it.
+    outside_.See(source.DrawAround(contact, 0.2, random_));
+    outside_.See(source.DrawOn(contact.face, random_));
+  }
+  EXPECT_EQ(outside_.seen(), 900);
+}
+
+TEST_P(SealedCavity, RoadmapsHaveNoContactPointsThere) {
+  const SurfaceSampler sampler(hollow_);
+  for (int i = 0; i < 300; ++i) outside_.See(sampler.Draw(random_));
+  EXPECT_NEAR(sampler.area(), 24, 1e-12);
+  for (const Contact& contact : SpreadContactPoints(hollow_, 50, 1)) outside_.See(contact);
+  EXPECT_EQ(outside_.seen(), 350);
+}
+
+TEST(SealedCavityOfAMesh, HasNoContactPoints) {
+  PolygonSoup cavity = testing::SphereSoup(12);
+  PolygonSoup outside = cavity;
+  for (Vector3d& p : outside.vertices) p *= 1.2;
+  testing::Turn(cavity);
+  const Polyhedron hollow = Polyhedron::FromSoup(testing::Join(cavity, outside), "hollow");
+  const auto enclosed = std::ranges::count_if(
+      hollow.faces(), [](const Polyhedron::Face& face) { return face.enclosed; });
+  EXPECT_EQ(2 * enclosed, hollow.face_count());
+  const std::vector<Contact> points =
+      MeshContacts(hollow, static_cast<int>(hollow.triangles().size()), 1);
+  EXPECT_EQ(2 * points.size(), hollow.triangles().size());
+  for (const Contact& contact : points) EXPECT_FALSE(hollow.IsEnclosed(contact.face));
+}
+
+TEST(SealedCavityOfATetrahedron, HasNoFocusCells) {
+  PolygonSoup outside = testing::CornerTetrahedronSoup();
+  PolygonSoup cavity = outside;
+  testing::Turn(cavity);
+  for (Vector3d& p : outside.vertices) p = 9 * p - Vector3d::Ones();
+  for (const bool cavity_first : {false, true}) {
+    const Polyhedron hollow = Polyhedron::FromSoup(
+        cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
+    const auto candidates =
+        FindQuadrupleCandidates(hollow, std::tan(Radians(10)), Spanning::kAdaptive);
+    ASSERT_EQ(candidates.size(), 1u);
+    const std::array<int, 4> expected =
+        cavity_first ? std::array{4, 5, 6, 7} : std::array{0, 1, 2, 3};
+    EXPECT_EQ(candidates.front().faces, expected);
+  }
+}
+
+TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
+  GraspChoice choice;
+  choice.name = "grasp.json";
+  for (const double x : {-0.9, 0.9}) {
+    for (int face = 0; face < hollow_.face_count(); ++face) {
+      if (hollow_.IsEnclosed(face) && hollow_.inward_normal(face).x() * x > 0) {
+        choice.grasp.push_back({{x, 0, 0}, hollow_.inward_normal(face), face});
+      }
+    }
+  }
+  ASSERT_EQ(choice.grasp.size(), 2u);
+  EXPECT_THAT(
+      [&] { CheckFingersFit(choice, hollow_, 0); },
+      ThrowsMessage<InputError>(HasSubstr("finger 0: its contact lies in a sealed cavity")));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "planner/base/angle.h"
+#include "planner/sampling/surface_source.h"
+#include "planner/tree/search_space.h"
+
+namespace regrasp {
+
+[[nodiscard]] inline ObjectFile ReadModel(const std::string& file) {
+  return ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+}
+
+/// A random grasp of so many contacts that the demands admit.
+[[nodiscard]] inline Grasp DrawGrasp(const Object& object, int contacts,
+                                     const GraspDemands& demands, RandomStream& random) {
+  const SurfaceSource source(object);
+  SearchSpace space(object, demands);
+  constexpr int kMostDraws = 1'000'000;
+  for (int draw = 0; draw < kMostDraws; ++draw) {
+    Grasp grasp;
+    for (int i = 0; i < contacts; ++i) grasp.push_back(source.Draw(random));
+    if (space.IsAdmitted(grasp)) return grasp;
+  }
+  ADD_FAILURE() << "no grasp was drawn";
+  return {};
+}
+
+[[nodiscard]] inline ContactSet Take(const Grasp& grasp, SearchSpace& space) {
+  const ContactSet set = space.Add(grasp);
+  space.Accept(set);
+  return set;
+}
+
+}  // namespace regrasp

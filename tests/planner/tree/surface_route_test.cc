@@ -1,0 +1,135 @@
+#include "planner/tree/surface_route.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/object/polygon.h"
+#include "planner/plan/motion_fault.h"
+#include "tests/planner/tree/search_cases.h"
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+Contact On(const Object& object, const Vector3d& near) {
+  const int face = object.FacesNear(near, object.diameter()).front();
+  return {object.ClosestPoint(face, near), object.inward_normal(face), face};
+}
+
+/// Every leg is a motion that a plan may have.
+void ExpectLegal(const Object& object, const SurfaceRoute& route) {
+  ASSERT_EQ(route.size() % 2, 0u);
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    EXPECT_EQ(FindMotionFault(object, route[i - 1], route[i]), std::nullopt);
+  }
+}
+
+/// The shortest way over one edge of all its points, each leg straight.
+double ShortestOver(const FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
+  constexpr int kPoints = 20'000;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kPoints; ++i) {
+    const Vector3d at = edge.a + static_cast<double>(i) / kPoints * (edge.b - edge.a);
+    least = std::min(least, (p - at).norm() + (at - q).norm());
+  }
+  return least;
+}
+
+TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
+  const ObjectFile file = ReadModel("cube.obj");
+  const Object& cube = *file.object;
+  const SurfaceSource source(cube);
+  RandomStream random(1, RandomUse::kStart);
+  int over_edges = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Contact from = source.Draw(random);
+    const Contact to = source.Draw(random);
+    if (!cube.AreNeighbours(from.face, to.face)) continue;
+    const auto route = FindSurfaceRoute(cube, from, to);
+    ASSERT_TRUE(route);
+    ExpectLegal(cube, *route);
+    EXPECT_GE(LengthOf(*route), (from.p - to.p).norm());
+    const auto back = FindSurfaceRoute(cube, to, from);
+    ASSERT_TRUE(back);
+    if (route->size() != 4 || back->size() != 4) continue;
+    ++over_edges;
+    EXPECT_NEAR(LengthOf(*back), LengthOf(*route), 1e-12);
+    for (const FaceBorder& edge : cube.BordersOf(from.face)) {
+      if (edge.beyond != to.face) continue;
+      // The grid of the other route, and the corners that are left out.
+      const double accuracy = 1e-3 * cube.diameter();
+      EXPECT_NEAR(LengthOf(*route), ShortestOver(edge, from.p, to.p), accuracy);
+    }
+  }
+  EXPECT_GT(over_edges, 50);
+}
+
+TEST(SurfaceRoute, OnOneFaceIsStraight) {
+  const ObjectFile file = ReadModel("cube.obj");
+  const SurfaceSource source(*file.object);
+  RandomStream random(2, RandomUse::kStart);
+  const Contact from = source.Draw(random);
+  const Contact to = source.DrawOn(from.face, random);
+  const auto route = FindSurfaceRoute(*file.object, from, to);
+  ASSERT_TRUE(route);
+  ASSERT_EQ(route->size(), 2u);
+  EXPECT_EQ(LengthOf(*route), (from.p - to.p).norm());
+}
+
+TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
+  const ObjectFile file = ReadModel("ellipsoid1000.obj");
+  const Object& body = *file.object;
+  const SurfaceSource source(body);
+  RandomStream random(3, RandomUse::kStart);
+  int longest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Contact from = source.Draw(random);
+    const Contact to = source.DrawAround(from, 0.06 * body.diameter(), random);
+    const auto route = FindSurfaceRoute(body, from, to);
+    if (!route) continue;
+    ExpectLegal(body, *route);
+    // On a body so smooth the way along the surface is hardly longer than the straight line.
+    EXPECT_LT(LengthOf(*route), 1.2 * (from.p - to.p).norm() + 1e-3 * body.diameter());
+    longest = std::max(longest, static_cast<int>(route->size()));
+  }
+  EXPECT_EQ(longest, 2 * (kMostCrossings + 1));
+}
+
+TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
+  // An L. The concave corner is at (1, 1).
+  const Polygon ell = Polygon::FromWkt("POLYGON((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))", "ell");
+  const Contact low = On(ell, {2, 1, 0});
+  const Contact high = On(ell, {1, 2, 0});
+  ASSERT_TRUE(ell.AreNeighbours(low.face, high.face));
+  EXPECT_FALSE(FindSurfaceRoute(ell, low, high));
+  // The convex corners beside it are passed.
+  EXPECT_TRUE(FindSurfaceRoute(ell, low, On(ell, {3, 0.5, 0})));
+  EXPECT_TRUE(FindSurfaceRoute(ell, On(ell, {0.5, 3, 0}), high));
+}
+
+TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
+  const ObjectFile file = ReadModel("l_block.obj");
+  const Object& block = *file.object;
+  int concave = 0;
+  for (int face = 0; face < block.face_count(); ++face) {
+    for (const FaceBorder& edge : block.BordersOf(face)) {
+      if (edge.convex) continue;
+      ++concave;
+      const Vector3d middle = (edge.a + edge.b) / 2;
+      const double off = 0.05 * block.diameter();
+      // One moves off the edge along the other face's outward normal.
+      const Vector3d n = block.inward_normal(face);
+      const Vector3d m = block.inward_normal(edge.beyond);
+      const Contact from{block.ClosestPoint(face, middle - off * m), n, face};
+      const Contact to{block.ClosestPoint(edge.beyond, middle - off * n), m, edge.beyond};
+      const auto route = FindSurfaceRoute(block, from, to);
+      if (!route) continue;
+      ExpectLegal(block, *route);
+      EXPECT_GT(route->size(), 4u) << "not over the concave edge itself";
+    }
+  }
+  EXPECT_EQ(concave, 2) << "one edge, seen from both sides";
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,111 @@
+#include "planner/tree/transition.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/grasp/force_closure.h"
+#include "tests/planner/tree/search_cases.h"
+
+namespace regrasp {
+namespace {
+
+constexpr std::int64_t kEffort = 20'000;
+
+std::vector<int> FacesOf(const Grasp& grasp) {
+  std::vector<int> faces;
+  for (const Contact& contact : grasp) faces.push_back(contact.face);
+  return faces;
+}
+
+SearchSpace SpaceFor(const Object& object, const GraspDemands& demands) {
+  SearchSpace space(object, demands);
+  space.SetLimits({.most_tests = kEffort});
+  return space;
+}
+
+TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
+  const ObjectFile file = ReadModel("pyramid.obj");
+  const Object& object = *file.object;
+  const GraspDemands demands{Radians(5), 0, 0};
+  const SurfaceSource source(object);
+  RandomStream random(3, RandomUse::kCandidates);
+  RandomStream draws(3, RandomUse::kStart);
+  int found = 0, moved = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Grasp before = DrawGrasp(object, 4, demands, draws);
+    const int leaving = static_cast<int>(random.Index(4));
+    const int face = static_cast<int>(random.Index(object.face_count()));
+    const Contact placed = source.DrawOn(face, random);
+    SearchSpace space = SpaceFor(object, demands);
+    const auto transition = FindTransition(before, leaving, placed, source, random, space);
+    if (!transition) continue;
+    ++found;
+    ASSERT_FALSE(transition->way.empty());
+    EXPECT_EQ(transition->way.front().front().p, before.front().p);
+    for (const Grasp& grasp : transition->way) {
+      EXPECT_EQ(FacesOf(grasp), FacesOf(before));
+      EXPECT_TRUE(IsForceClosure(grasp, object.wrench_frame(), demands.half_angle));
+    }
+    const Grasp& last = transition->way.back();
+    if (transition->way.size() > 1) ++moved;
+    EXPECT_TRUE(IsForceClosure(transition->after, object.wrench_frame(), demands.half_angle));
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(transition->after[k].p == last[k].p, k != leaving) << "one finger is switched";
+      EXPECT_TRUE(space.CanMeet(last[k], transition->after[leaving]));
+    }
+    EXPECT_EQ(transition->after[leaving].face, face);
+  }
+  EXPECT_GE(found, 8);
+  EXPECT_GE(moved, 6) << "hardly any of these grasps allows the switch where it stands";
+}
+
+TEST(FindTransition, FindsNoneWhereTheLaterFacesHoldNothing) {
+  // Two contacts on one face of a cube and one on a neighbouring face: at 10° nothing pushes back.
+  const ObjectFile file = ReadModel("cube.obj");
+  const Object& object = *file.object;
+  const GraspDemands demands{Radians(10), 0, 0};
+  const SurfaceSource source(object);
+  RandomStream random(5, RandomUse::kCandidates);
+  RandomStream draws(5, RandomUse::kStart);
+  int tried = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Grasp before = DrawGrasp(object, 3, demands, draws);
+    for (int leaving = 0; leaving < 3; ++leaving) {
+      const Contact& left = before[(leaving + 1) % 3];
+      if (left.face != before[(leaving + 2) % 3].face) continue;
+      Contact placed = source.Draw(random);
+      while (placed.n.dot(left.n) < -0.5) placed = source.Draw(random);
+      SearchSpace space = SpaceFor(object, demands);
+      EXPECT_FALSE(FindTransition(before, leaving, placed, source, random, space));
+      ++tried;
+    }
+  }
+  EXPECT_GE(tried, 20);
+}
+
+TEST(FindTransition, IsTheSameForTheSameSeed) {
+  const ObjectFile file = ReadModel("pyramid.obj");
+  const Object& object = *file.object;
+  const GraspDemands demands{Radians(8), 0, 0};
+  const SurfaceSource source(object);
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto find = [&] {
+      RandomStream draws(seed, RandomUse::kStart);
+      const Grasp before = DrawGrasp(object, 4, demands, draws);
+      RandomStream random(seed, RandomUse::kCandidates);
+      SearchSpace space = SpaceFor(object, demands);
+      const Contact placed = source.Draw(random);
+      return FindTransition(before, 1, placed, source, random, space);
+    };
+    const auto once = find(), again = find();
+    ASSERT_EQ(once.has_value(), again.has_value());
+    if (!once) continue;
+    ++found;
+    ASSERT_EQ(once->way.size(), again->way.size());
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(once->after[k].p, again->after[k].p);
+  }
+  EXPECT_GT(found, 0);
+}
+
+}  // namespace
+}  // namespace regrasp
