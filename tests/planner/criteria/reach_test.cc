@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "bodies.h"
+#include "tests/planner/plan/bodies.h"
 
 namespace regrasp {
 namespace {
