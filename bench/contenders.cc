@@ -84,7 +84,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     answer.seconds = ProcessorSeconds() - begin;
     answer.result.status = PlanResult::Status::kNoSequence;
     if (path) {
-      const GraspEvaluator evaluator(object, setting.half_angle, setting.min_quality);
+      const GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
       answer.result = ResultOf(MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
                                space.fingers(), pair.goal);
     }

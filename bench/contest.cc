@@ -55,7 +55,7 @@ int Standing::JoinedOf(std::size_t pairs) const {
 
 std::vector<GraspPair> DrawPairs(const Object& object, const ContestSetting& setting,
                                  const ContestLimits& limits) {
-  const GraspEvaluator evaluator(object, setting.half_angle, setting.min_quality);
+  const GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
   RandomStream of_start(kDrawSeed, RandomUse::kStart);
   RandomStream of_goal(kDrawSeed, RandomUse::kGoal);
   std::vector<GraspPair> pairs;

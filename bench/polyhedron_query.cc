@@ -61,7 +61,7 @@ QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spannin
   PolyhedronPlanOptions options;
   options.half_angle = Radians(degrees);
   options.spanning = spanning;
-  const GraspEvaluator evaluator(solid, options.half_angle, options.min_quality);
+  const GraspEvaluator evaluator(solid, {options.half_angle, options.min_quality});
   PolyhedronGraph graph(solid, options.half_angle, spanning);
   FocusGeometry geometry(solid, graph);
   QueryMaker maker(graph, geometry, evaluator);

@@ -39,25 +39,24 @@ bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
 
 }  // namespace
 
-GraspEvaluator::GraspEvaluator(const Object& object, double half_angle, double min_quality,
-                               double finger_radius)
+GraspEvaluator::GraspEvaluator(const Object& object, const GraspCriteria& criteria,
+                               const Hand& hand)
     : object_(object),
       frame_(object.wrench_frame()),
-      half_angle_(half_angle),
-      min_quality_(min_quality),
-      same_point_(kSamePoint * object.diameter()),
-      finger_radius_(finger_radius) {}
+      criteria_(criteria),
+      hand_(hand),
+      same_point_(kSamePoint * object.diameter()) {}
 
 bool GraspEvaluator::CanStand(const Grasp& grasp) const {
   return HaveDistinctPoints(grasp, same_point_) &&
          std::all_of(grasp.begin(), grasp.end(),
                      [&](const Contact& contact) { return HasClearance(object_, contact); }) &&
-         CanHold(object_, grasp, finger_radius_);
+         CanHold(object_, grasp, finger_radius());
 }
 
 bool GraspEvaluator::IsGood(const Grasp& grasp) const {
-  return CanStand(grasp) && IsForceClosure(grasp, frame_, half_angle_) &&
-         QualityAtLeast(grasp, frame_, half_angle_, min_quality_);
+  return CanStand(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
+         QualityAtLeast(grasp, frame_, half_angle(), min_quality());
 }
 
 double GraspEvaluator::Score(const Grasp& grasp) const {
@@ -67,18 +66,18 @@ double GraspEvaluator::Score(const Grasp& grasp) const {
 }
 
 double GraspEvaluator::ComputeScore(const Grasp& grasp) const {
-  if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle_)) {
+  if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle())) {
     return -1;
   }
-  if (!QualityAtLeast(grasp, frame_, half_angle_, min_quality_)) {
-    return ComputeQuality(grasp, frame_, half_angle_, kScoreGap).lower / min_quality_ - 1;
+  if (!QualityAtLeast(grasp, frame_, half_angle(), min_quality())) {
+    return ComputeQuality(grasp, frame_, half_angle(), kScoreGap).lower / min_quality() - 1;
   }
   const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
-  return required ? std::max(half_angle_ - required->upper, 0.0) : 0;
+  return required ? std::max(half_angle() - required->upper, 0.0) : 0;
 }
 
 double GraspEvaluator::Quality(const Grasp& grasp) const {
-  return ComputeQuality(grasp, frame_, half_angle_).lower;
+  return ComputeQuality(grasp, frame_, half_angle()).lower;
 }
 
 }  // namespace regrasp

@@ -3,7 +3,9 @@
 #include <map>
 #include <vector>
 
+#include "planner/criteria/grasp_criteria.h"
 #include "planner/grasp/contact.h"
+#include "planner/hand/hand.h"
 #include "planner/object/object.h"
 
 namespace regrasp {
@@ -15,11 +17,8 @@ inline constexpr double kSamePoint = 2 * kPointTolerance;
 /// What a planner asks of grasps that a hand is to rest in.
 class GraspEvaluator {
  public:
-  /// @param object      must outlive this object.
-  /// @param half_angle  friction, radians. @param min_quality  see QualityAtLeast.
-  /// @param finger_radius  of fingers that are not points (reach.h), the object's unit of length.
-  GraspEvaluator(const Object& object, double half_angle, double min_quality,
-                 double finger_radius = 0);
+  /// @param object  must outlive this object.
+  GraspEvaluator(const Object& object, const GraspCriteria& criteria, const Hand& hand = {});
 
   /// Force closure, of the quality that is asked for, and fingers can stand in it.
   [[nodiscard]] bool IsGood(const Grasp& grasp) const;
@@ -36,9 +35,9 @@ class GraspEvaluator {
   [[nodiscard]] double Quality(const Grasp& grasp) const;
 
   [[nodiscard]] const WrenchFrame& frame() const { return frame_; }
-  [[nodiscard]] double half_angle() const { return half_angle_; }
-  [[nodiscard]] double min_quality() const { return min_quality_; }
-  [[nodiscard]] double finger_radius() const { return finger_radius_; }
+  [[nodiscard]] double half_angle() const { return criteria_.half_angle; }
+  [[nodiscard]] double min_quality() const { return criteria_.min_quality; }
+  [[nodiscard]] double finger_radius() const { return hand_.fingertip_radius; }
   [[nodiscard]] const Object& object() const { return object_; }
 
  private:
@@ -46,10 +45,9 @@ class GraspEvaluator {
 
   const Object& object_;
   WrenchFrame frame_;
-  double half_angle_;
-  double min_quality_;
+  GraspCriteria criteria_;
+  Hand hand_;
   double same_point_;
-  double finger_radius_;
   mutable std::map<std::vector<double>, double> scores_;  ///< by the numbers of a grasp
 };
 

@@ -17,8 +17,8 @@ constexpr int kManyEdges = 100;
 GraspChoice Draw(const Polygon& polygon, GraspChoice choice, RandomUse use,
                  const PolygonPlanOptions& options) {
   if (choice.kind == GraspChoice::Kind::kGiven) return choice;
-  const GraspEvaluator evaluator(polygon, options.half_angle, options.min_quality,
-                                 options.finger_radius);
+  const GraspEvaluator evaluator(polygon, {options.half_angle, options.min_quality},
+                                 {.fingertip_radius = options.finger_radius});
   RandomStream random(options.seed, use);
   auto grasp = DrawAnyGrasp(polygon, kLeastContacts, kMostDrawn, evaluator, random,
                             [&] { options.deadline.Check(); });

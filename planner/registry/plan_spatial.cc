@@ -15,8 +15,8 @@ constexpr int kMostFaces = 100;
 GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
                  const RoadmapOptions& options) {
   if (choice.kind == GraspChoice::Kind::kGiven) return choice;
-  const GraspEvaluator evaluator(solid, options.half_angle, options.min_quality,
-                                 options.finger_radius);
+  const GraspEvaluator evaluator(solid, {options.half_angle, options.min_quality},
+                                 {.fingertip_radius = options.finger_radius});
   RandomStream random(options.seed, use);
   choice.grasp = DrawOnSurface(solid, kContacts, evaluator, random, choice.name,
                                [&] { options.deadline.Check(); });

@@ -29,7 +29,8 @@ class ClusterPlanner {
   ClusterPlanner(const Polyhedron& solid, const RoadmapOptions& options)
       : solid_(solid),
         options_(options),
-        evaluator_(solid, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(solid, {options.half_angle, options.min_quality},
+                   {.fingertip_radius = options.finger_radius}),
         roadmap_(BuildClusteredRoadmap(solid, options)) {}
 
   RoadmapPlanResult Plan(const GraspChoice& start, const GraspChoice& goal) {

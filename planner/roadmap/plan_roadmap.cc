@@ -117,8 +117,8 @@ class RoadmapPlanner {
     }
     if (choice.kind != GraspChoice::Kind::kRandomAny) return choice;
     RandomStream random(options_.seed, use);
-    const GraspEvaluator evaluator(solid_, options_.half_angle, options_.min_quality,
-                                   options_.finger_radius);
+    const GraspEvaluator evaluator(solid_, {options_.half_angle, options_.min_quality},
+                                   {.fingertip_radius = options_.finger_radius});
     choice.grasp = DrawOnSurface(solid_, kContacts, evaluator, random, choice.name,
                                  [&] { options_.deadline.Check(); });
     choice.kind = GraspChoice::Kind::kGiven;

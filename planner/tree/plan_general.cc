@@ -49,7 +49,8 @@ class Planner {
   Planner(const Object& object, const GeneralPlanOptions& options)
       : object_(object),
         options_(options),
-        evaluator_(object, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(object, {options.half_angle, options.min_quality},
+                   {.fingertip_radius = options.finger_radius}),
         source_(object, options.finger_radius),
         random_(options.seed, RandomUse::kCandidates) {}
 
@@ -218,8 +219,8 @@ class Planner {
 
 GraspChoice ResolveGrasp(const Object& object, const GraspChoice& choice, RandomUse use,
                          const GeneralPlanOptions& options) {
-  const GraspEvaluator evaluator(object, options.half_angle, options.min_quality,
-                                 options.finger_radius);
+  const GraspEvaluator evaluator(object, {options.half_angle, options.min_quality},
+                                 {.fingertip_radius = options.finger_radius});
   if (choice.kind == Kind::kGiven) {
     const int fewest = object.dimension() == 3 ? 3 : 2;
     CheckGivenGrasp(choice, {"general", fewest, FingersOf(object)}, evaluator.frame(),

@@ -23,7 +23,8 @@ class ContourPlanner {
                  const ContourPlanOptions& options)
       : polygon_(polygon),
         options_(options),
-        evaluator_(polygon, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(polygon, {options.half_angle, options.min_quality},
+                   {.fingertip_radius = options.finger_radius}),
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
         graph_(MakeGraph()),

@@ -33,7 +33,8 @@ class PolygonPlanner {
                  const PolygonPlanOptions& options)
       : polygon_(polygon),
         options_(options),
-        evaluator_(polygon, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(polygon, {options.half_angle, options.min_quality},
+                   {.fingertip_radius = options.finger_radius}),
         start_(std::move(start)),
         goal_(std::move(goal)),
         graph_(MakeGraph()),

@@ -60,7 +60,8 @@ class PolyhedronPlanner {
                     GraspChoice goal, const PolyhedronPlanOptions& options)
       : solid_(solid),
         options_(options),
-        evaluator_(solid, options.half_angle, options.min_quality, options.finger_radius),
+        evaluator_(solid, {options.half_angle, options.min_quality},
+                   {.fingertip_radius = options.finger_radius}),
         start_choice_(std::move(start)),
         goal_choice_(std::move(goal)),
         graph_(graph),

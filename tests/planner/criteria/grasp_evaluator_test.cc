@@ -21,7 +21,7 @@ Grasp Across(const Polygon& square, double bottom, double top) {
 
 TEST(GraspEvaluator, ScoresGoodGraspsByTheirMargin) {
   const Polygon square = Square(1);
-  const GraspEvaluator evaluator(square, Radians(30), 0.01);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   EXPECT_TRUE(evaluator.IsGood(Across(square, 0.5, 0.5)));
   EXPECT_NEAR(evaluator.Score(Across(square, 0.5, 0.5)), Radians(30), 1e-4);
   EXPECT_NEAR(evaluator.Score(Across(square, 0.4, 0.6)), Radians(30) - std::atan(0.2), 1e-4);
@@ -29,7 +29,7 @@ TEST(GraspEvaluator, ScoresGoodGraspsByTheirMargin) {
 
 TEST(GraspEvaluator, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
   const Polygon square = Square(1);
-  const GraspEvaluator evaluator(square, Radians(30), 0.01);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   // tan 30° = 0.577.
   const Grasp weak = Across(square, 0.22, 0.79);
   const Grasp weaker = Across(square, 0.22, 0.796);
@@ -42,13 +42,13 @@ TEST(GraspEvaluator, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
   EXPECT_FALSE(evaluator.IsGood(open));
   EXPECT_EQ(evaluator.Score(open), -1);
   // Asked for nothing, the weak grasp is good.
-  EXPECT_TRUE(GraspEvaluator(square, Radians(30), 0).IsGood(weak));
-  EXPECT_GT(GraspEvaluator(square, Radians(30), 0).Score(weak), 0);
+  EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0}).IsGood(weak));
+  EXPECT_GT(GraspEvaluator(square, {Radians(30), 0}).Score(weak), 0);
 }
 
 TEST(GraspEvaluator, TwoContactsAtOnePointAreNoGrasp) {
   const Polygon square = Square(1);
-  const GraspEvaluator evaluator(square, Radians(30), 0.01);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   Grasp grasp = Across(square, 0.5, 0.5);
   grasp.push_back(Across(square, 0.5 + 1e-7, 0.5)[0]);
   EXPECT_FALSE(evaluator.IsGood(grasp));
@@ -62,16 +62,20 @@ TEST(GraspEvaluator, FingersOfARadiusNeedRoom) {
   const Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
                        {{1.4, 0, 0}, square.inward_normal(0), 0},
                        {{1, 2, 0}, square.inward_normal(2), 2}};
-  EXPECT_TRUE(GraspEvaluator(square, Radians(30), 0.01).CanStand(grasp));
-  EXPECT_TRUE(GraspEvaluator(square, Radians(30), 0.01, 0.39).CanStand(grasp));
-  EXPECT_FALSE(GraspEvaluator(square, Radians(30), 0.01, 0.41).CanStand(grasp));
-  EXPECT_LT(GraspEvaluator(square, Radians(30), 0.01, 0.41).Score(grasp), 0);
-  EXPECT_GE(GraspEvaluator(square, Radians(30), 0.01, 0.39).Score(grasp), 0);
+  EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0.01}).CanStand(grasp));
+  EXPECT_TRUE(
+      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).CanStand(grasp));
+  EXPECT_FALSE(
+      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.41}).CanStand(grasp));
+  EXPECT_LT(GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.41}).Score(grasp),
+            0);
+  EXPECT_GE(GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).Score(grasp),
+            0);
 }
 
 TEST(GraspEvaluator, RemembersTheScoreOfEachGraspApart) {
   const Polygon square = Square(1);
-  const GraspEvaluator evaluator(square, Radians(30), 0.01);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   const double first = evaluator.Score(Across(square, 0.5, 0.5));
   const double second = evaluator.Score(Across(square, 0.4, 0.6));
   EXPECT_GT(first, second);

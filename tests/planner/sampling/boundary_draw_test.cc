@@ -14,7 +14,7 @@ TEST(DrawAnyGrasp, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) {
   const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/triangle.wkt");
   const auto& triangle = dynamic_cast<const Polygon&>(*file.object);
   for (const double degrees : {5.0, 25.0, 29.9, 31.0, 50.0}) {
-    const GraspEvaluator evaluator(triangle, Radians(degrees), 0);
+    const GraspEvaluator evaluator(triangle, {Radians(degrees), 0});
     RandomStream random(3, RandomUse::kStart);
     RandomStream same(3, RandomUse::kStart);
     const auto grasp = DrawAnyGrasp(triangle, 2, 2, evaluator, random);

@@ -321,7 +321,7 @@ TEST(PlanOnContour, RandomGraspsAreAsGoodAsAsked) {
     options.min_quality = 0.05;
     const PlanResult result = PlanOnContour(polygon, choice, choice, options);
     ASSERT_TRUE(result.plan) << result.message;
-    const GraspEvaluator evaluator(polygon, options.half_angle, options.min_quality);
+    const GraspEvaluator evaluator(polygon, {options.half_angle, options.min_quality});
     EXPECT_TRUE(evaluator.IsGood(ContactsOf(result.plan->initial)));
     EXPECT_TRUE(evaluator.IsGood(result.plan->goal));
     options.min_quality = 10;
