@@ -14,7 +14,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/plan/plan_io.h"
-#include "sim/report_seal.h"
+#include "report/report_seal.h"
 
 namespace regrasp {
 

@@ -21,9 +21,9 @@
 #include "planner/object/reading.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
-#include "render/contact_space_figure.h"
-#include "render/figure_mark.h"
-#include "render/plan_figure.h"
+#include "render/figures/contact_space_figure.h"
+#include "render/figures/figure_mark.h"
+#include "render/figures/plan_figure.h"
 
 namespace {
 

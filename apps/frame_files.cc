@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "planner/base/file.h"
-#include "render/caption.h"
-#include "render/contact_sheet.h"
-#include "render/webp.h"
+#include "render/frames/contact_sheet.h"
+#include "render/picture/caption.h"
+#include "render/picture/webp.h"
 
 namespace regrasp {
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/report_page.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
-#include "render/frame.h"
-#include "render/replay_animation.h"
-#include "sim/report.h"
+#include "render/frames/frame.h"
+#include "render/frames/replay_animation.h"
+#include "report/page/report_page.h"
+#include "report/report.h"
 
 namespace regrasp {
 

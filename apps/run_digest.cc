@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
-#include "sim/engine.h"
+#include "sim/scene/engine.h"
 
 namespace regrasp {
 

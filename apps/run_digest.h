@@ -3,7 +3,7 @@
 #include <string>
 
 #include "apps/validate_options.h"
-#include "sim/report.h"
+#include "report/report.h"
 
 namespace regrasp {
 

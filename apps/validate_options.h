@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "apps/options.h"
-#include "render/frame.h"
-#include "render/replay_animation.h"
-#include "sim/settings.h"
-#include "sim/trials.h"
+#include "render/frames/frame.h"
+#include "render/frames/replay_animation.h"
+#include "sim/replay/trials.h"
+#include "sim/scene/settings.h"
 
 namespace regrasp {
 

@@ -10,7 +10,6 @@
 #include "apps/frame_files.h"
 #include "apps/held_folder.h"
 #include "apps/output_files.h"
-#include "apps/page/report_page.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -21,9 +20,10 @@
 #include "planner/criteria/reach.h"
 #include "planner/object/reading.h"
 #include "planner/plan/plan_io.h"
-#include "sim/junit.h"
-#include "sim/report.h"
-#include "sim/trajectory.h"
+#include "report/junit.h"
+#include "report/page/report_page.h"
+#include "report/report.h"
+#include "sim/replay/trajectory.h"
 
 namespace regrasp {
 

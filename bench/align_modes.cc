@@ -25,7 +25,7 @@
 #include "planner/sets/contour/plan_contour.h"
 #include "planner/sets/polygon/plan_polygon.h"
 #include "planner/sets/polyhedron/plan_polyhedron.h"
-#include "sim/replay.h"
+#include "sim/replay/replay.h"
 
 namespace {
 

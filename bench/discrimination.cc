@@ -27,7 +27,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/sampling/surface_source.h"
-#include "sim/replay.h"
+#include "sim/replay/replay.h"
 
 namespace {
 

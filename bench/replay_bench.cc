@@ -18,9 +18,9 @@
 #include "planner/plan/check.h"
 #include "planner/roadmap/plan_roadmap.h"
 #include "planner/sets/polygon/plan_polygon.h"
-#include "sim/replay.h"
-#include "sim/replay_world.h"
-#include "sim/scene.h"
+#include "sim/replay/replay.h"
+#include "sim/scene/scene.h"
+#include "sim/world/replay_world.h"
 
 namespace {
 

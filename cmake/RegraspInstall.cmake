@@ -2,11 +2,11 @@
 include(CMakePackageConfigHelpers)
 
 get_property(regrasp_libraries GLOBAL PROPERTY REGRASP_LIBRARIES)
-install(TARGETS regrasp_options regrasp_planner ${regrasp_libraries} EXPORT regraspTargets
+install(TARGETS regrasp_options ${regrasp_libraries} EXPORT regraspTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY planner sim render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp
+install(DIRECTORY planner sim render report DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp
         FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY apps/page apps/batch DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp/apps
+install(DIRECTORY apps/batch DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regrasp/apps
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY models scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/regrasp)
 install(EXPORT regraspTargets NAMESPACE regrasp::

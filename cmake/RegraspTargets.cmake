@@ -31,6 +31,17 @@ function(regrasp_library name)
   set_property(GLOBAL APPEND PROPERTY REGRASP_LIBRARIES regrasp_${name})
 endfunction()
 
+# regrasp_package(NAME lib...)
+#
+# The folders of a folder together: an interface library `regrasp_NAME` (exported as regrasp::NAME).
+function(regrasp_package name)
+  add_library(regrasp_${name} INTERFACE)
+  add_library(regrasp::${name} ALIAS regrasp_${name})
+  set_target_properties(regrasp_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(regrasp_${name} INTERFACE ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY REGRASP_LIBRARIES regrasp_${name})
+endfunction()
+
 # regrasp_tests(NAME [lib...]): one executable of the folder's *_test.cc, its tests found by ctest.
 function(regrasp_tests name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)

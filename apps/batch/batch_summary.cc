@@ -4,7 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
-#include "sim/junit.h"
+#include "report/junit.h"
 
 namespace regrasp {
 

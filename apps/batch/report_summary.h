@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/base/json.h"
-#include "sim/report.h"
+#include "report/report.h"
 
 namespace regrasp {
 

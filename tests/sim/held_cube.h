@@ -1,9 +1,9 @@
 #pragma once
 
-#include "replay_cases.h"
-#include "sim/motions.h"
-#include "sim/replay_world.h"
-#include "sim/stillness.h"
+#include "sim/control/motions.h"
+#include "sim/world/replay_world.h"
+#include "sim/world/stillness.h"
+#include "tests/sim/replay_cases.h"
 
 namespace regrasp {
 

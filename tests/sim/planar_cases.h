@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/object/polygon.h"
-#include "replay_cases.h"
+#include "tests/sim/replay_cases.h"
 
 namespace regrasp {
 

@@ -9,7 +9,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
-#include "sim/replay.h"
+#include "sim/replay/replay.h"
 
 namespace regrasp {
 

@@ -2,13 +2,13 @@
 #include <cstdio>
 
 #include "apps/batch/batch_summary.h"
-#include "apps/page/quantity.h"
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
-#include "render/frame.h"
-#include "sim/replay.h"
+#include "render/frames/frame.h"
+#include "report/page/quantity.h"
+#include "sim/replay/replay.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

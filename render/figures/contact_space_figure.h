@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/object/polygon.h"
+#include "planner/plan/plan.h"
+#include "planner/sets/contour/set_geometry.h"
+#include "render/figures/contact_space_track.h"
+#include "render/figures/figure_format.h"
+
+namespace regrasp {
+
+/// Figures of a plan of 2-finger grasps in contact space, as files' bytes, whichever planner made
+/// it: the overview (contact_space_overview.h) and one of each switch
+/// (contact_space_switch_page.h).
+class ContactSpaceFigures {
+ public:
+  /// @param polygon, plan  located and legal; every grasp at rest has two contacts
+  ///                       (FindOtherThanTwoFingers). Both must outlive this object.
+  ContactSpaceFigures(const Polygon& polygon, const Plan& plan);
+  ContactSpaceFigures(const ContactSpaceFigures&) = delete;
+  ContactSpaceFigures& operator=(const ContactSpaceFigures&) = delete;
+
+  [[nodiscard]] std::string DrawOverview(FigureFormat format);
+
+  /// @param entry  k for step k.
+  /// @returns nullopt where the step is not a switch that keeps a contact, or one of its grasps is
+  ///          in no set: at the very border of force closure.
+  [[nodiscard]] std::optional<std::string> DrawSwitch(int entry, FigureFormat format);
+
+ private:
+  const Plan& plan_;
+  ContourGraph graph_;
+  SetGeometry geometry_;
+  std::vector<TrackEntry> track_;
+  std::map<int, int> names_;
+};
+
+}  // namespace regrasp

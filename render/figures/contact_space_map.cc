@@ -1,0 +1,138 @@
+#include "render/figures/contact_space_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "render/figures/contact_space_unfolding.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+Vector2d Mirrored(const Vector2d& p) { return {p.y(), p.x()}; }
+
+SpaceShape Mirrored(const SpaceShape& shape) {
+  SpaceShape mirrored = {{shape.rings[1], shape.rings[0]}, {}};
+  for (const Vector2d& p : shape.points) mirrored.points.push_back(Mirrored(p));
+  return mirrored;
+}
+
+void AddBoth(const SpaceShape& shape, std::vector<SpaceShape>& shapes) {
+  shapes.push_back(shape);
+  shapes.push_back(Mirrored(shape));
+}
+
+std::array<int, 2> RingsOf(const ContourGraph& graph, int set) {
+  const auto& edges = graph.pieces()[graph.pieces_of(set).front()].edges;
+  return {graph.boundary().ring_of(edges[0]), graph.boundary().ring_of(edges[1])};
+}
+
+/// The largest square in a set, at an end of an edge of its diagram; of size 0 where there is none.
+struct LargestSquare {
+  Vector2d centre = Vector2d::Zero();
+  double size = 0;
+};
+
+LargestSquare FindLargest(const std::vector<DiagramEdge>& diagram) {
+  LargestSquare largest;
+  for (const DiagramEdge& edge : diagram) {
+    if (edge.from_size > largest.size) largest = {edge.from, edge.from_size};
+    if (edge.to_size > largest.size) largest = {edge.to, edge.to_size};
+  }
+  return largest;
+}
+
+MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
+  const ContourGraph& graph = geometry.graph();
+  MapSet made;
+  made.set = set;
+  made.name = name;
+  made.stretching = graph.pieces()[graph.pieces_of(set).front()].stretching;
+  const auto rings = RingsOf(graph, set);
+  for (const int piece : graph.pieces_of(set)) {
+    const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
+    if (!outline.empty()) AddBoth({rings, outline}, made.pieces);
+  }
+  for (const BorderSegment& segment : SetBorder(graph, set)) {
+    AddBoth({rings, {segment.from, segment.to}}, made.border);
+  }
+  if (!name) return made;
+  const auto [centre, size] = FindLargest(geometry.DiagramOf(set));
+  made.largest = size;
+  if (size > 0) made.label_places = {{rings, centre}, {{rings[1], rings[0]}, Mirrored(centre)}};
+  return made;
+}
+
+/// The way of an align. Where a contact turns from the last edge of a ring to the first its place
+/// becomes zero; no edge is as long as half of its ring.
+void AddPath(const Boundary& boundary, const std::vector<AxisGrasp>& way,
+             std::vector<SpaceShape>& ways) {
+  SpaceShape shape;
+  const auto finish = [&] {
+    if (shape.points.size() > 1) ways.push_back(shape);
+    shape.points.clear();
+  };
+  for (const AxisGrasp& grasp : way) {
+    const SpacePoint at = PointOf(boundary, grasp);
+    for (int axis = 0; !shape.points.empty() && axis < 2; ++axis) {
+      const double jump = std::abs(at.places[axis] - shape.points.back()[axis]);
+      if (jump > boundary.perimeter(at.rings[axis]) / 2) finish();
+    }
+    shape.rings = at.rings;
+    shape.points.push_back(at.places);
+  }
+  finish();
+}
+
+}  // namespace
+
+std::string SetName(int k) {
+  constexpr int kLetters = 26;
+  std::string letters;
+  for (int rest = k; rest >= 0; rest = rest / kLetters - 1) {
+    letters.insert(letters.begin(), static_cast<char>('A' + rest % kLetters));
+  }
+  return letters;
+}
+
+std::map<int, int> NameSets(const SetGeometry& geometry, const std::vector<TrackEntry>& track) {
+  std::map<int, int> names;
+  for (const TrackEntry& entry : track) {
+    const auto at = geometry.Locate({entry.grasp[0].contact, entry.grasp[1].contact});
+    if (!at) continue;
+    names.try_emplace(geometry.graph().set_of(at->piece), static_cast<int>(names.size()));
+  }
+  return names;
+}
+
+ContactSpaceMap MapContactSpace(SetGeometry& geometry, const std::vector<TrackEntry>& track) {
+  const ContourGraph& graph = geometry.graph();
+  ContactSpaceMap map;
+  map.set_count = graph.vertex_count();
+  std::set<int> used;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const TrackEntry& entry = track[i];
+    map.rests.push_back(PointOf(graph.boundary(), entry.grasp));
+    used.insert(map.rests.back().rings.begin(), map.rests.back().rings.end());
+    AddPath(graph.boundary(), entry.way, map.ways);
+    if (entry.kind == std::string_view("switch")) {
+      map.switches.push_back({map.rests[i - 1], map.rests[i], entry.shared_axis});
+    }
+  }
+  map.rings.assign(used.begin(), used.end());
+  const std::map<int, int> names = NameSets(geometry, track);
+  for (int set = 0; set < graph.vertex_count(); ++set) {
+    const auto rings = RingsOf(graph, set);
+    if (!used.contains(rings[0]) || !used.contains(rings[1])) continue;
+    const auto name = names.find(set);
+    map.sets.push_back(
+        MakeSet(geometry, set, name == names.end() ? std::nullopt : std::optional(name->second)));
+  }
+  return map;
+}
+
+}  // namespace regrasp

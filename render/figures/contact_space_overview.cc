@@ -1,0 +1,236 @@
+#include "render/figures/contact_space_overview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "render/figures/contact_space_axis.h"
+#include "render/figures/contact_space_paint.h"
+#include "render/figures/figure_page.h"
+#include "render/figures/panel_text.h"
+#include "render/figures/print_size.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/label_layout.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+// Points.
+constexpr double kTopRoom = 8;
+constexpr double kRightRoom = 13;
+constexpr double kRingGap = 22;
+constexpr double kPathWidth = 1;
+constexpr double kSwitchWidth = 0.7;
+constexpr double kDotRadius = 1.6;
+constexpr double kMarkRadius = 4.4;
+
+/// A ring is drawn at least this share as long as the longest one.
+constexpr double kLeastShare = 0.25;
+/// Boundaries of more edges than this are as wide as two columns.
+constexpr int kManyEdges = 60;
+
+constexpr Color kHatchInk = {120, 126, 136};
+constexpr Color kOtherBorder = {150, 155, 164};
+
+/// What it costs a number to cover things: the weights of label_layout.h.
+constexpr double kDotWeight = 2;
+constexpr double kTravelWeight = 0.8;
+
+/// Where the rings lie along an axis of the page.
+struct RingSpan {
+  double from;
+  double length;
+};
+
+class Overview {
+ public:
+  Overview(const Boundary& boundary, const ContactSpaceMap& map);
+
+  [[nodiscard]] double width() const { return kLeftRoom + extent_ + kRightRoom; }
+  [[nodiscard]] double height() const { return kTopRoom + extent_ + kBottomRoom; }
+  void Draw(cairo_t* cr) const;
+
+ private:
+  [[nodiscard]] int IndexOf(int ring) const {
+    return static_cast<int>(std::ranges::find(map_.rings, ring) - map_.rings.begin());
+  }
+  [[nodiscard]] PlotWindow WindowOf(const std::array<int, 2>& rings) const;
+  [[nodiscard]] Vector2d ToPage(const SpacePoint& p) const {
+    return WindowOf(p.rings).ToPage(p.places);
+  }
+  void DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const;
+  void DrawAxes(cairo_t* cr) const;
+  void DrawPlan(cairo_t* cr) const;
+  [[nodiscard]] bool HasClearanceAt(const MapSet& set, const SpacePoint& place) const;
+  void DrawMarks(cairo_t* cr) const;
+
+  const Boundary& boundary_;
+  const ContactSpaceMap& map_;
+  std::vector<RingSpan> spans_;
+  double extent_ = 0;  ///< of all rings and gaps
+};
+
+Overview::Overview(const Boundary& boundary, const ContactSpaceMap& map)
+    : boundary_(boundary), map_(map) {
+  std::vector<double> shares;
+  int edges = 0;
+  for (const int ring : map.rings) {
+    shares.push_back(boundary.perimeter(ring));
+    edges += boundary.first_edge(ring + 1) - boundary.first_edge(ring);
+  }
+  const double longest = std::ranges::max(shares);
+  for (double& share : shares) share = std::max(share, kLeastShare * longest);
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const bool wide = shares.size() > 1 || edges > kManyEdges;
+  extent_ = (wide ? kTwoColumnWidth : kColumnWidth) - kLeftRoom - kRightRoom;
+  const double drawn = extent_ - static_cast<double>(shares.size() - 1) * kRingGap;
+  double from = 0;
+  for (const double share : shares) {
+    spans_.push_back({from, drawn * share / sum});
+    from += spans_.back().length + kRingGap;
+  }
+}
+
+PlotWindow Overview::WindowOf(const std::array<int, 2>& rings) const {
+  const RingSpan& across = spans_[IndexOf(rings[0])];
+  const RingSpan& up = spans_[IndexOf(rings[1])];
+  PlotWindow window;
+  window.high = {boundary_.perimeter(rings[0]), boundary_.perimeter(rings[1])};
+  window.scale = Vector2d(across.length, up.length).cwiseQuotient(window.high);
+  window.corner = {kLeftRoom + across.from, kTopRoom + extent_ - up.from - up.length};
+  return window;
+}
+
+void Overview::DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const {
+  const PlotWindow window = WindowOf(rings);
+  SaveAndClip(cr, window);
+  std::vector<Outline> hatched;
+  for (const MapSet& set : map_.sets) {
+    std::vector<Outline> pieces;
+    for (const SpaceShape& shape : set.pieces) {
+      if (shape.rings == rings) pieces.push_back(shape.points);
+    }
+    FillPieces(cr, window, pieces, set.name ? PlanSetTint(*set.name) : OtherSetTint(set.set));
+    if (set.stretching) hatched.insert(hatched.end(), pieces.begin(), pieces.end());
+  }
+  HatchPieces(cr, window, hatched, kHatchInk);
+  for (const bool named : {false, true}) {
+    std::vector<Segment> border;
+    for (const MapSet& set : map_.sets) {
+      if (set.name.has_value() != named) continue;
+      for (const SpaceShape& shape : set.border) {
+        if (shape.rings == rings) border.push_back({shape.points[0], shape.points[1]});
+      }
+    }
+    StrokeSegments(cr, window, border, named ? kInk : kOtherBorder, named ? kSetBorder : kThinLine);
+  }
+  cairo_restore(cr);
+  DrawFrame(cr, window);
+}
+
+void Overview::DrawAxes(cairo_t* cr) const {
+  for (const int ring : map_.rings) {
+    DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}),
+                   AxisTitle(boundary_, "u", ring));
+    DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}),
+                 AxisTitle(boundary_, "u′", ring));
+  }
+}
+
+void Overview::DrawPlan(cairo_t* cr) const {
+  SetColor(cr, kInk);
+  for (const MapSwitch& step : map_.switches) {
+    if (step.shared_axis) {
+      SetDash(cr);
+    } else {
+      SetDots(cr);
+    }
+    StrokeLine(cr, ToPage(step.from), ToPage(step.to), kSwitchWidth);
+  }
+  ClearDash(cr);
+  for (const SpaceShape& way : map_.ways) {
+    const PlotWindow window = WindowOf(way.rings);
+    cairo_new_path(cr);
+    for (const Vector2d& p : way.points) {
+      const Vector2d at = window.ToPage(p);
+      cairo_line_to(cr, at.x(), at.y());
+    }
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cr, kPathWidth);
+    cairo_stroke(cr);
+  }
+  for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kDotRadius);
+}
+
+/// True iff a set's largest square has room for its name, and no grasp is there.
+bool Overview::HasClearanceAt(const MapSet& set, const SpacePoint& place) const {
+  const double half = set.largest * WindowOf(place.rings).scale.minCoeff();
+  return half >= kMarkRadius && std::ranges::none_of(map_.rests, [&](const SpacePoint& rest) {
+           return (ToPage(rest) - ToPage(place)).norm() < kMarkRadius + kDotRadius;
+         });
+}
+
+/// The numbers of the grasps and the names of the sets.
+void Overview::DrawMarks(cairo_t* cr) const {
+  std::vector<std::string> marks;
+  std::vector<LabelAnchor> anchors;
+  std::vector<Obstacle> obstacles;
+  for (std::size_t i = 0; i < map_.rests.size(); ++i) {
+    const Vector2d at = ToPage(map_.rests[i]);
+    marks.push_back(std::to_string(i));
+    anchors.push_back({at, Vector2d::Zero()});
+    obstacles.push_back({at, at, kDotRadius, kDotWeight});
+  }
+  for (const MapSwitch& step : map_.switches) {
+    obstacles.push_back({ToPage(step.from), ToPage(step.to), 0, kTravelWeight});
+  }
+  for (const SpaceShape& way : map_.ways) {
+    const PlotWindow window = WindowOf(way.rings);
+    for (std::size_t i = 1; i < way.points.size(); ++i) {
+      obstacles.push_back(
+          {window.ToPage(way.points[i - 1]), window.ToPage(way.points[i]), 0, kTravelWeight});
+    }
+  }
+  for (const MapSet& set : map_.sets) {
+    for (const SpacePoint& place : set.label_places) {
+      const Vector2d at = ToPage(place);
+      if (HasClearanceAt(set, place)) {
+        DrawMark(cr, SetName(*set.name), at);
+        obstacles.push_back({at, at, kMarkRadius, kDotWeight});
+      } else {
+        marks.push_back(SetName(*set.name));
+        anchors.push_back({at, Vector2d::Zero()});
+      }
+    }
+  }
+  const std::vector<Vector2d> centres = PlaceLabels(
+      anchors, obstacles, kMarkRadius, static_cast<int>(width()), static_cast<int>(height()));
+  for (std::size_t i = 0; i < marks.size(); ++i) DrawMark(cr, marks[i], centres[i]);
+}
+
+void Overview::Draw(cairo_t* cr) const {
+  for (const int across : map_.rings) {
+    for (const int up : map_.rings) DrawSets(cr, {across, up});
+  }
+  DrawAxes(cr);
+  DrawPlan(cr);
+  DrawMarks(cr);
+}
+
+}  // namespace
+
+std::string DrawContactSpace(const Boundary& boundary, const ContactSpaceMap& map,
+                             const std::string& caption, FigureFormat format) {
+  const Overview overview(boundary, map);
+  const std::vector<std::string> lines = WrapCaption(caption, overview.width());
+  FigurePage page(format, overview.width(), overview.height() + CaptionHeight(lines.size()));
+  overview.Draw(page.context());
+  DrawCaption(page.context(), lines, overview.width() / 2, overview.height());
+  return page.Finish();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,122 @@
+#include "render/figures/contact_space_paint.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/picture/cairo_paint.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+// Points.
+constexpr double kHatchSpacing = 2.4;  ///< between lines, measured across
+constexpr double kHatchWidth = 0.3;
+constexpr double kHatchSlope = 2;  ///< steeper than most lines of a set
+constexpr double kDotRim = 0.7;
+constexpr double kDash = 2.4;
+constexpr double kDotDash = 0.8;
+
+void AddPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces) {
+  cairo_new_path(cr);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
+  std::vector<Vector2d> points;
+  for (const Outline& outline : pieces) {
+    points.clear();
+    for (const Vector2d& p : outline) points.push_back(window.ToPage(p));
+    AddOutline(cr, points);
+  }
+}
+
+}  // namespace
+
+Color PlanSetTint(int index) {
+  static constexpr std::array<Color, 6> kTints = {{
+      {128, 177, 218},  // blue
+      {247, 206, 108},  // amber
+      {150, 214, 176},  // green
+      {204, 148, 186},  // mauve
+      {240, 160, 124},  // coral
+      {178, 172, 224},  // violet
+  }};
+  return kTints[index % kTints.size()];
+}
+
+Color OtherSetTint(int set) {
+  static constexpr std::array<unsigned char, 3> kGreys = {224, 236, 213};
+  const unsigned char grey = kGreys[set % kGreys.size()];
+  return {grey, grey, grey};
+}
+
+void SaveAndClip(cairo_t* cr, const PlotWindow& window) {
+  cairo_save(cr);
+  cairo_new_path(cr);
+  cairo_rectangle(cr, window.corner.x(), window.corner.y(), window.size().x(), window.size().y());
+  cairo_clip(cr);
+}
+
+void FillPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
+                Color color) {
+  AddPieces(cr, window, pieces);
+  SetColor(cr, color);
+  cairo_fill(cr);
+}
+
+void HatchPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
+                 Color color) {
+  if (pieces.empty()) return;
+  cairo_save(cr);
+  AddPieces(cr, window, pieces);
+  cairo_clip(cr);
+  const Vector2d from = window.corner;
+  const Vector2d to = window.corner + window.size();
+  const double height = to.y() - from.y();
+  const double step = kHatchSpacing * std::hypot(1.0, 1 / kHatchSlope);
+  const double run = height / kHatchSlope;
+  cairo_new_path(cr);
+  for (double x = from.x() - run; x < to.x(); x += step) {
+    cairo_move_to(cr, x, to.y());
+    cairo_line_to(cr, x + run, from.y());
+  }
+  SetColor(cr, color);
+  cairo_set_line_width(cr, kHatchWidth);
+  cairo_stroke(cr);
+  cairo_restore(cr);
+}
+
+void StrokeSegments(cairo_t* cr, const PlotWindow& window, std::span<const Segment> segments,
+                    Color color, double width) {
+  cairo_new_path(cr);
+  for (const Segment& segment : segments) {
+    const Vector2d a = window.ToPage(segment[0]);
+    const Vector2d b = window.ToPage(segment[1]);
+    cairo_move_to(cr, a.x(), a.y());
+    cairo_line_to(cr, b.x(), b.y());
+  }
+  SetColor(cr, color);
+  cairo_set_line_width(cr, width);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  cairo_stroke(cr);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+}
+
+void DrawDot(cairo_t* cr, const Vector2d& at, double radius) {
+  for (const bool rim : {true, false}) {
+    cairo_new_path(cr);
+    cairo_arc(cr, at.x(), at.y(), radius + (rim ? kDotRim : 0), 0, 2 * std::numbers::pi);
+    SetColor(cr, rim ? kWhite : kInk);
+    cairo_fill(cr);
+  }
+}
+
+void SetDash(cairo_t* cr) { cairo_set_dash(cr, &kDash, 1, 0); }
+
+void SetDots(cairo_t* cr) { cairo_set_dash(cr, &kDotDash, 1, 0); }
+
+void ClearDash(cairo_t* cr) { cairo_set_dash(cr, nullptr, 0, 0); }
+
+}  // namespace regrasp

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/figures/contact_space_track.h"
+#include "render/figures/contact_space_unfolding.h"
+
+namespace regrasp {
+
+/// One of the two sets of a switch, unfolded: the place of the contact that stays upwards, that of
+/// the other one to the right.
+struct ContactSwitchSide {
+  int name = 0;  ///< of the set (SetName)
+  bool stretching = false;
+  int grasp_entry = 0;  ///< of the plan: the grasp after it
+  int other_ring = 0;
+  UnfoldedSet set;
+  Eigen::Vector2d grasp = Eigen::Vector2d::Zero();
+  double size = 0;        ///< half-width of the largest square about the grasp
+  PlaceRange projection;  ///< of the set, on the length of the contact that stays
+};
+
+/// What the figure of a switch shows: both sets with that length in line.
+struct ContactSwitch {
+  int entry = 0;
+  int shared_ring = 0;
+  std::array<ContactSwitchSide, 2> sides;  ///< before and after
+  PlaceRange overlap;                      ///< of the two projections, about the contact that stays
+};
+
+/// @param entry  of the track, a switch.
+/// @returns nullopt where no contact stays, or a grasp lies in no set: at the very border of force
+///          closure.
+[[nodiscard]] std::optional<ContactSwitch> DescribeContactSwitch(
+    SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
+    const std::map<int, int>& names);
+
+}  // namespace regrasp

@@ -1,0 +1,81 @@
+#include "render/figures/contact_space_track.h"
+
+#include <algorithm>
+#include <cassert>
+#include <variant>
+
+namespace regrasp {
+
+namespace {
+
+/// The contacts of a grasp on the axes that their fingers have.
+AxisGrasp OnAxes(const FingerGrasp& grasp, const AxisGrasp& axes) {
+  assert(grasp.size() == 2);
+  const bool turned = grasp[0].finger == axes[1].finger;
+  return {grasp[turned ? 1 : 0], grasp[turned ? 0 : 1]};
+}
+
+bool Holds(const FingerGrasp& grasp, int finger) {
+  return std::ranges::any_of(grasp, [&](const FingerContact& c) { return c.finger == finger; });
+}
+
+void Follow(const Align& step, const AxisGrasp& before, TrackEntry& entry) {
+  for (const FingerGrasp& waypoint : step.waypoints) {
+    entry.way.push_back(OnAxes(waypoint, before));
+  }
+  entry.grasp = entry.way.back();
+}
+
+void Follow(const Switch& step, const AxisGrasp& before, TrackEntry& entry) {
+  const FingerGrasp after = GraspAfter({before[0], before[1]}, step);
+  assert(after.size() == 2);
+  entry.grasp = {after[0], after[1]};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!Holds(after, before[axis].finger)) continue;
+    entry.shared_axis = axis;
+    const bool first = after[0].finger == before[axis].finger;
+    entry.grasp[axis] = after[first ? 0 : 1];
+    entry.grasp[1 - axis] = after[first ? 1 : 0];
+    break;
+  }
+}
+
+}  // namespace
+
+std::optional<RestSize> FindOtherThanTwoFingers(const Plan& plan) {
+  FingerGrasp grasp = plan.initial;
+  for (std::size_t entry = 0;; ++entry) {
+    if (grasp.size() != 2) return RestSize{static_cast<int>(entry), static_cast<int>(grasp.size())};
+    if (entry == plan.steps.size()) return std::nullopt;
+    grasp = GraspAfter(grasp, plan.steps[entry]);
+  }
+}
+
+std::vector<TrackEntry> TrackPlan(const Plan& plan) {
+  assert(!FindOtherThanTwoFingers(plan));
+  TrackEntry hold;
+  hold.kind = "hold";
+  hold.grasp = {plan.initial[0], plan.initial[1]};
+  if (hold.grasp[0].contact.face > hold.grasp[1].contact.face) {
+    std::swap(hold.grasp[0], hold.grasp[1]);
+  }
+  std::vector<TrackEntry> track = {hold};
+  for (const Step& step : plan.steps) {
+    TrackEntry entry;
+    entry.kind = StepKind(step);
+    std::visit([&](const auto& s) { Follow(s, track.back().grasp, entry); }, step);
+    track.push_back(std::move(entry));
+  }
+  return track;
+}
+
+SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp) {
+  SpacePoint point;
+  for (int axis = 0; axis < 2; ++axis) {
+    point.rings[axis] = boundary.ring_of(grasp[axis].contact.face);
+    point.places[axis] = boundary.PlaceOf(grasp[axis].contact);
+  }
+  return point;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,159 @@
+#include "render/figures/contact_space_unfolding.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <queue>
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// Where a piece lies in the plane: its places in this order or the other, moved by whole periods.
+struct Placement {
+  bool swapped = false;
+  Vector2d offset = Vector2d::Zero();
+
+  [[nodiscard]] Vector2d operator()(const Vector2d& places) const {
+    return (swapped ? Vector2d(places.y(), places.x()) : places) + offset;
+  }
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+/// A neighbour of a piece, as it continues a placement of that piece.
+struct Continuation {
+  int piece;
+  Placement placement;
+};
+
+Continuation Continue(const ContourGraph& graph, const PiecePassage& passage, int piece,
+                      const Placement& placement) {
+  const Boundary& boundary = graph.boundary();
+  const bool forward = passage.pieces[0] == piece;
+  const int beyond = passage.pieces[forward ? 1 : 0];
+  const int next = boundary.next(passage.edge);
+  const int edge = forward ? passage.edge : next;
+  const int edge_beyond = forward ? next : passage.edge;
+  const int turning = graph.pieces()[piece].edges[0] == edge ? 0 : 1;
+  const int axis = placement.swapped ? 1 - turning : turning;
+  Continuation found = {beyond, placement};
+  found.placement.swapped = graph.pieces()[beyond].edges[axis] != edge_beyond;
+  // Zero, or a period where the ring begins again.
+  const double step = boundary.end(passage.edge) - boundary.begin(next);
+  found.placement.offset[axis] += forward ? step : -step;
+  return found;
+}
+
+/// The passage as a line, at the border of one of its pieces.
+Segment PassageLine(const ContourGraph& graph, const PiecePassage& passage, int piece) {
+  const Boundary& boundary = graph.boundary();
+  const bool forward = passage.pieces[0] == piece;
+  const int other = graph.pieces()[piece].edges[0] == passage.other ? 0 : 1;
+  const PlaceRange range = PassageRange(graph, passage);
+  Segment line;
+  line[0][1 - other] = line[1][1 - other] =
+      forward ? boundary.end(passage.edge) : boundary.begin(boundary.next(passage.edge));
+  line[0][other] = range.low;
+  line[1][other] = range.high;
+  return line;
+}
+
+class Unfolder {
+ public:
+  Unfolder(const ContourGraph& graph, int root, const Placement& placement) : graph_(graph) {
+    placements_.emplace(root, placement);
+    queue_.push(root);
+    while (!queue_.empty()) {
+      PlaceNeighbours(queue_.front());
+      queue_.pop();
+    }
+  }
+
+  [[nodiscard]] const std::map<int, Placement>& placements() const { return placements_; }
+
+  [[nodiscard]] std::vector<Segment> FindCuts() const {
+    std::vector<Segment> cuts;
+    for (const auto& [piece, placement] : placements_) {
+      for (const int i : graph_.passages_at(piece)) {
+        const PiecePassage& passage = graph_.passages()[i];
+        const Continuation next = Continue(graph_, passage, piece, placement);
+        if (placements_.at(next.piece) == next.placement) continue;
+        const Segment line = PassageLine(graph_, passage, piece);
+        cuts.push_back({placement(line[0]), placement(line[1])});
+      }
+    }
+    return cuts;
+  }
+
+ private:
+  void PlaceNeighbours(int piece) {
+    for (const int i : graph_.passages_at(piece)) {
+      const Continuation next =
+          Continue(graph_, graph_.passages()[i], piece, placements_.at(piece));
+      if (placements_.emplace(next.piece, next.placement).second) queue_.push(next.piece);
+    }
+  }
+
+  const ContourGraph& graph_;
+  std::map<int, Placement> placements_;
+  std::queue<int> queue_;
+};
+
+}  // namespace
+
+std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set) {
+  const Boundary& boundary = graph.boundary();
+  std::vector<BorderSegment> parts;
+  for (const BorderSegment& segment : SetBorder(graph, set)) {
+    const bool upright = segment.from.x() == segment.to.x();
+    if (!upright && segment.from.y() != segment.to.y()) {  // it cuts one piece
+      parts.push_back(segment);
+      continue;
+    }
+    const int along = upright ? 1 : 0;
+    const auto& edges = graph.pieces()[segment.piece].edges;
+    const int ring = boundary.ring_of(edges[along]);
+    for (int edge = boundary.first_edge(ring); edge < boundary.first_edge(ring + 1); ++edge) {
+      BorderSegment part = segment;
+      part.from[along] = std::max(segment.from[along], boundary.begin(edge));
+      part.to[along] = std::min(segment.to[along], boundary.end(edge));
+      if (part.from[along] >= part.to[along] || edge == edges[1 - along]) continue;
+      for (const int piece : graph.PiecesOn(edges[1 - along], edge)) {
+        if (graph.set_of(piece) != set) continue;
+        part.piece = piece;
+        parts.push_back(part);
+      }
+    }
+  }
+  return parts;
+}
+
+UnfoldedSet UnfoldSet(SetGeometry& geometry, const PlacedGrasp& root, int upright) {
+  assert(upright == 0 || upright == 1);
+  const ContourGraph& graph = geometry.graph();
+  const int set = graph.set_of(root.piece);
+  const Unfolder unfolder(graph, root.piece, {.swapped = upright == 0});
+  UnfoldedSet unfolded;
+  for (const auto& [piece, placement] : unfolder.placements()) {
+    Outline outline;
+    for (const Vector2d& p : geometry.OutlineOf(piece)) outline.push_back(placement(p));
+    if (placement.swapped) std::ranges::reverse(outline);
+    if (!outline.empty()) unfolded.pieces.push_back(std::move(outline));
+  }
+  const auto place = [&](int piece, const Vector2d& a, const Vector2d& b) {
+    const Placement& placement = unfolder.placements().at(piece);
+    return Segment{placement(a), placement(b)};
+  };
+  for (const BorderSegment& part : SplitBorder(graph, set)) {
+    unfolded.border.push_back(place(part.piece, part.from, part.to));
+  }
+  for (const DiagramEdge& edge : geometry.DiagramOf(set)) {
+    unfolded.diagram.push_back(place(edge.piece, edge.from, edge.to));
+  }
+  unfolded.cuts = unfolder.FindCuts();
+  return unfolded;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,64 @@
+#include "render/figures/finger_marker.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "render/picture/cairo_paint.h"
+#include "render/picture/palette.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kWhiteRim = 0.5;      ///< points, around a filled marker
+constexpr double kOutlineWidth = 0.9;  ///< points
+
+/// A regular polygon of the same area as the disc.
+struct MarkerShape {
+  int corners;   ///< 0 for a disc
+  double start;  ///< angle of the first corner, radians
+};
+constexpr std::array<MarkerShape, 5> kShapes = {
+    {{0, 0}, {4, kPi / 4}, {3, -kPi / 2}, {4, 0}, {5, -kPi / 2}}};
+
+void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centre, double radius) {
+  cairo_new_path(cr);
+  if (shape.corners == 0) {
+    cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * kPi);
+    return;
+  }
+  const double step = 2 * kPi / shape.corners;
+  const double reach = radius * std::sqrt(2 * kPi / (shape.corners * std::sin(step)));
+  for (int k = 0; k < shape.corners; ++k) {
+    const double angle = shape.start + k * step;
+    cairo_line_to(cr, centre.x() + reach * std::cos(angle), centre.y() + reach * std::sin(angle));
+  }
+  cairo_close_path(cr);
+}
+
+}  // namespace
+
+void DrawFingerMarker(cairo_t* cr, int finger, const Eigen::Vector2d& centre, double radius,
+                      bool outline) {
+  const int count = static_cast<int>(kShapes.size());
+  const MarkerShape& shape = kShapes[((finger % count) + count) % count];
+  AddPath(cr, shape, centre, radius);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
+  if (outline) {
+    SetColor(cr, kWhite);
+    cairo_fill_preserve(cr);
+    SetColor(cr, FingerColor(finger));
+    cairo_set_line_width(cr, kOutlineWidth);
+    cairo_stroke(cr);
+    return;
+  }
+  SetColor(cr, kWhite);
+  cairo_set_line_width(cr, 2 * kWhiteRim);
+  cairo_stroke_preserve(cr);
+  SetColor(cr, FingerColor(finger));
+  cairo_fill(cr);
+}
+
+}  // namespace regrasp

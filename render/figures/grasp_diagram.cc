@@ -1,0 +1,263 @@
+#include "render/figures/grasp_diagram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "planner/sets/polygon/common_cone.h"
+#include "planner/sets/polygon/convex_region.h"
+#include "planner/sets/polygon/focus_cell.h"
+#include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/polygon/plane.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector2d;
+using Region = ConvexRegion<double>;
+using Frame = EdgeFrame<double>;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Where the cones' intersection has a smaller area, over D², they only touch and rounding made the
+/// rest: the tolerance for reading points, squared.
+constexpr double kLeastArea = kPointTolerance * kPointTolerance;
+
+/// Cones are this much narrower where it is computed what sees a grasp, relative: at φ* borders of
+/// two cones can lie on one line, and where they meet would be a matter of rounding. Corners are
+/// then known to 1e-16 / 1e-9 of the diameter, far below what a page shows.
+constexpr double kNarrower = 1 - 1e-9;
+
+Vector2d Head(const Eigen::Vector3d& v) { return v.head<2>(); }
+Vector2d ToEigen(const Vector2<double>& v) { return {v.x, v.y}; }
+Vector2<double> FromEigen(const Vector2d& v) { return {v.x(), v.y()}; }
+
+double AngleOf(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
+Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+double CrossOf(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double Area(const Outline& outline) {
+  double twice = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    twice += CrossOf(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
+  }
+  return twice / 2;
+}
+
+Vector2d Centroid(const Outline& outline) {
+  const Vector2d& origin = outline.front();
+  Vector2d sum = Vector2d::Zero();
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    const Vector2d a = outline[i] - origin;
+    const Vector2d b = outline[i + 1] - origin;
+    sum += CrossOf(a, b) * (a + b) / 6;
+  }
+  return origin + sum / Area(outline);
+}
+
+/// The points that see all contacts in their double-sided cones: a convex part for each choice of
+/// sides that has an interior.
+class CommonPoints {
+ public:
+  explicit CommonPoints(const Polygon& polygon)
+      : centre_(Head(polygon.mass_properties().centroid)), diameter_(polygon.diameter()) {}
+
+  [[nodiscard]] std::vector<Outline> Find(const std::vector<DoubleCone>& cones) const {
+    std::vector<Outline> parts;
+    for (unsigned sides = 0; sides < 1U << cones.size(); ++sides) {
+      Region region = Page();
+      for (std::size_t k = 0; k < cones.size(); ++k) {
+        const double side = ((sides >> k) & 1U) != 0 ? -1 : 1;
+        Clip(cones[k].apex, side * cones[k].axis, kNarrower * cones[k].half_angle, region);
+      }
+      Outline outline = ToOutline(region);
+      if (outline.size() > 2 && Area(outline) > kLeastArea * diameter_ * diameter_) {
+        parts.push_back(std::move(outline));
+      }
+    }
+    return parts;
+  }
+
+ private:
+  [[nodiscard]] Region Page() const {
+    const double reach = kFarthestFocus * diameter_;
+    const double x = centre_.x();
+    const double y = centre_.y();
+    return Region({HalfPlane<double>{0, 1, reach - y},
+                   {-1, 0, reach + x},
+                   {0, -1, reach + y},
+                   {1, 0, reach - x}},
+                  {});
+  }
+
+  /// Cuts a region to one side of a double-sided cone.
+  static void Clip(const Vector2d& apex, const Vector2d& axis, double half_angle, Region& region) {
+    const Vector2<double> p = FromEigen(apex);
+    const double middle = AngleOf(axis);
+    region.Clip(LeftOf(FromEigen(Direction(middle - half_angle)), p));
+    region.Clip(LeftOf(FromEigen(-Direction(middle + half_angle)), p));
+  }
+
+  static Outline ToOutline(const Region& region) {
+    Outline outline;
+    for (const Region::Side& side : region.sides()) {
+      outline.emplace_back(side.from.x / side.from.w, side.from.y / side.from.w);
+    }
+    return outline;
+  }
+
+  Vector2d centre_;
+  double diameter_;
+};
+
+/// The focus cell of three edges, all its parts.
+std::vector<Outline> CellOf(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+  GraspSet set;
+  set.tangent = std::tan(half_angle);
+  for (const Contact& contact : grasp) set.edges.push_back(contact.face);
+  std::sort(set.edges.begin(), set.edges.end());
+  set.parts = {0, 1, 2, 3, 4, 5, 6, 7};
+  return FocusCell(polygon, set);
+}
+
+Frame FrameOf(const Polygon& polygon, int face, double half_angle) {
+  const auto [a, b] = polygon.edge(face);
+  return MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))}, std::tan(half_angle));
+}
+
+/// φ* of some normals; not positive where they do not positively span the plane.
+double LargestSpanningAngle(const Grasp& grasp) {
+  std::vector<double> angles;
+  for (const Contact& contact : grasp) angles.push_back(AngleOf(Head(contact.n)));
+  std::sort(angles.begin(), angles.end());
+  double largest_gap = angles.front() + 2 * kPi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    largest_gap = std::max(largest_gap, angles[i] - angles[i - 1]);
+  }
+  return (kPi - largest_gap) / 2;
+}
+
+std::vector<DoubleCone> FrictionCones(const Grasp& grasp, double half_angle) {
+  std::vector<DoubleCone> cones;
+  for (const Contact& contact : grasp) {
+    cones.push_back({Head(contact.p), Head(contact.n), half_angle});
+  }
+  return cones;
+}
+
+std::optional<GraspDiagram> TryTwoFinger(const Grasp& grasp, double half_angle) {
+  const Vector2d line = Head(grasp[1].p - grasp[0].p).normalized();
+  const double first = line.dot(Head(grasp[0].n));
+  const double second = -line.dot(Head(grasp[1].n));
+  const double least = std::cos(half_angle);
+  const bool squeezing = first > least && second > least;
+  const bool stretching = -first > least && -second > least;
+  if (!squeezing && !stretching) return std::nullopt;
+  GraspDiagram diagram;
+  diagram.kind = DiagramKind::kTwoFinger;
+  diagram.cones = FrictionCones(grasp, half_angle);
+  return diagram;
+}
+
+std::optional<GraspDiagram> TryConcurrent(const Polygon& polygon, const Grasp& grasp,
+                                          double friction) {
+  const double half_angle = std::min(friction, LargestSpanningAngle(grasp));
+  if (half_angle <= 0) return std::nullopt;
+  GraspDiagram diagram;
+  diagram.kind = DiagramKind::kConcurrent;
+  diagram.cones = FrictionCones(grasp, half_angle);
+  const std::vector<Outline> common = CommonPoints(polygon).Find(diagram.cones);
+  if (common.empty()) return std::nullopt;
+  diagram.focus = Centroid(
+      *std::max_element(common.begin(), common.end(),
+                        [](const Outline& a, const Outline& b) { return Area(a) < Area(b); }));
+  diagram.focus_cell = CellOf(polygon, grasp, half_angle);
+  return diagram;
+}
+
+/// The middle of the widest range of directions in a cone whose lines through `a` separate `b` from
+/// `c`; nullopt where there are none. All of a cone's directions are within π of its right border.
+std::optional<Vector2d> SeparatingDirection(const DirectionCone<double>& cone, const Vector2d& a,
+                                            const Vector2d& b, const Vector2d& c) {
+  const Vector2d right = ToEigen(cone.right);
+  const Vector2d left = ToEigen(cone.left);
+  const double start = AngleOf(right);
+  const double width = std::atan2(CrossOf(right, left), right.dot(left));
+  std::vector<double> turns = {0, width};
+  for (const Vector2d& way : {Vector2d(b - a), Vector2d(c - a)}) {
+    const double turn = std::remainder(AngleOf(way) - start, kPi);  // the line, not its direction
+    for (const double t : {turn, turn + kPi}) {
+      if (t > 0 && t < width) turns.push_back(t);
+    }
+  }
+  std::sort(turns.begin(), turns.end());
+  std::optional<Vector2d> best;
+  double widest = 0;
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    const Vector2d direction = Direction(start + (turns[i] + turns[i + 1]) / 2);
+    const bool separates = CrossOf(direction, b - a) * CrossOf(direction, c - a) < 0;
+    if (separates && turns[i + 1] - turns[i] > widest) {
+      widest = turns[i + 1] - turns[i];
+      best = direction;
+    }
+  }
+  return best;
+}
+
+std::optional<GraspDiagram> TryParallel(const Polygon& polygon, const Grasp& grasp,
+                                        double half_angle) {
+  for (int a = 0; a < 3; ++a) {
+    const Contact& centre = grasp[a];
+    const Contact& b = grasp[(a + 1) % 3];
+    const Contact& c = grasp[(a + 2) % 3];
+    const auto cone =
+        CommonCone(FrameOf(polygon, centre.face, half_angle), FrameOf(polygon, b.face, half_angle),
+                   FrameOf(polygon, c.face, half_angle));
+    if (!cone) continue;
+    const auto direction = SeparatingDirection(*cone, Head(centre.p), Head(b.p), Head(c.p));
+    if (!direction) continue;
+    const Vector2d right = ToEigen(cone->right).normalized();
+    const Vector2d left = ToEigen(cone->left).normalized();
+    const Vector2d axis = (right + left).normalized();
+    const double width = std::atan2(CrossOf(right, left), right.dot(left));
+    GraspDiagram diagram;
+    diagram.kind = DiagramKind::kParallel;
+    diagram.force_direction = *direction;
+    for (const Contact& contact : grasp) {
+      const double inward = axis.dot(Head(contact.n)) < 0 ? -1 : 1;
+      diagram.cones.push_back({Head(contact.p), inward * axis, width / 2});
+    }
+    return diagram;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+  if (!(half_angle > 0) || !(half_angle < kPi / 2)) {
+    throw std::invalid_argument("DescribeGrasp: the half-angle is not in (0, pi/2)");
+  }
+  for (const Contact& contact : grasp) {
+    if (contact.face < 0 || contact.face >= polygon.face_count()) {
+      throw std::invalid_argument("DescribeGrasp: a contact has no face");
+    }
+  }
+  std::optional<GraspDiagram> diagram;
+  if (grasp.size() == 2) diagram = TryTwoFinger(grasp, half_angle);
+  if (grasp.size() == 3) {
+    // Where both serve, the wider cones show more of the grasp.
+    diagram = TryConcurrent(polygon, grasp, half_angle);
+    auto parallel = TryParallel(polygon, grasp, half_angle);
+    const auto width = [](const GraspDiagram& d) { return d.cones.front().half_angle; };
+    if (parallel && (!diagram || width(*parallel) > width(*diagram))) diagram = std::move(parallel);
+  }
+  if (diagram) return *diagram;
+  GraspDiagram other;
+  other.cones = FrictionCones(grasp, half_angle);
+  return other;
+}
+
+}  // namespace regrasp

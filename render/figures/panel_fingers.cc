@@ -1,0 +1,217 @@
+#include "render/figures/panel_fingers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "render/figures/finger_marker.h"
+#include "render/figures/panel_grasp.h"
+#include "render/figures/panel_path.h"
+#include "render/figures/panel_text.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/label_layout.h"
+#include "render/picture/palette.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+// Points.
+constexpr double kMarkerRadius = 2.7;
+constexpr double kRingRadius = 4.6;
+constexpr double kRingWidth = 0.8;
+constexpr double kArrowWidth = 1.0;
+constexpr double kArrowNear =
+    6.2;  ///< from the contact to the arrow of a placed or released finger
+constexpr double kArrowFar = 16;
+constexpr double kPathOffset = 4.4;  ///< from the border to the arrow of a moved finger
+constexpr double kTick = 1.6;        ///< half of its length
+constexpr double kNumberRadius = 4.8;
+
+/// An arrow into a hole or a notch takes this share of the room there.
+constexpr double kShareOfRoom = 0.8;
+
+/// Two fingers nearer than this have their arrows this far aside, so that they don't overlap.
+constexpr double kNearby = 7;
+constexpr double kAside = 3;
+
+/// A moved finger whose way is shorter, points, has no arrow: its marker covers it.
+constexpr double kShortestPath = 1;
+
+/// What it costs a number to cover things: the weights of label_layout.h.
+constexpr double kMarkerWeight = 2;
+constexpr double kArrowWeight = 1.5;
+constexpr double kFocusWeight = 1.5;
+constexpr double kLineWeight = 0.4;
+constexpr double kBorderWeight = 0.25;
+constexpr double kConeWeight = 0.12;
+
+struct FingerShape {
+  const DiagramFinger* finger;
+  Vector2d contact;
+  Vector2d outward;
+  std::vector<Vector2d> arrow;  ///< empty where there is none
+};
+
+std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finger,
+                              const PanelView& view) {
+  const Vector2d contact = view.ToPanel(finger.contact.p);
+  const Vector2d outward = PanelView::ToPanelDirection(finger.contact.outward);
+  const double room = kShareOfRoom * view.scale * OutwardRoom(polygon, finger.contact);
+  const double far = std::min(kArrowFar, std::max(room, kArrowNear + kArrowHead));
+  const Vector2d near_end = contact + kArrowNear * outward;
+  const Vector2d far_end = contact + far * outward;
+  switch (finger.role) {
+    case FingerRole::kPlaced:
+      return {far_end, near_end};
+    case FingerRole::kReleased:
+      return {near_end, far_end};
+    case FingerRole::kMoved: {
+      const std::vector<Vector2d> way = PathBeside(finger.path, view, kPathOffset).points;
+      double length = 0;
+      for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+      return length < kShortestPath ? std::vector<Vector2d>() : way;
+    }
+    case FingerRole::kFree:
+    case FingerRole::kHolding:
+      break;
+  }
+  return {};
+}
+
+/// Where one finger takes the place of another, one arrow arrives beside the one that leaves.
+void MoveArrowAside(FingerShape& shape, const std::vector<FingerShape>& shapes) {
+  const FingerRole role = shape.finger->role;
+  if (role != FingerRole::kPlaced && role != FingerRole::kReleased) return;
+  const Vector2d tangent(-shape.outward.y(), shape.outward.x());
+  for (const FingerShape& other : shapes) {
+    const Vector2d away = shape.contact - other.contact;
+    if (&other == &shape || other.arrow.empty() || away.norm() > kNearby) continue;
+    const double along = away.dot(tangent);
+    const bool forward = along != 0 ? along > 0 : role == FingerRole::kPlaced;
+    for (Vector2d& p : shape.arrow) p += (forward ? kAside : -kAside) * tangent;
+    return;
+  }
+}
+
+std::vector<FingerShape> ShapesOf(const Polygon& polygon, const StepDiagram& diagram,
+                                  const PanelView& view) {
+  std::vector<FingerShape> shapes;
+  for (const DiagramFinger& finger : diagram.fingers) {
+    shapes.push_back({&finger, view.ToPanel(finger.contact.p),
+                      PanelView::ToPanelDirection(finger.contact.outward),
+                      ArrowOf(polygon, finger, view)});
+  }
+  for (FingerShape& shape : shapes) MoveArrowAside(shape, shapes);
+  return shapes;
+}
+
+void DrawRing(cairo_t* cr, const Vector2d& centre, Color color) {
+  cairo_new_path(cr);
+  cairo_arc(cr, centre.x(), centre.y(), kRingRadius, 0, 2 * std::numbers::pi);
+  SetColor(cr, color);
+  cairo_set_line_width(cr, kRingWidth);
+  cairo_stroke(cr);
+}
+
+void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
+  const DiagramFinger& finger = *shape.finger;
+  const Color color = FingerColor(finger.finger);
+  SetColor(cr, color);
+  StrokeArrow(cr, shape.arrow, kArrowWidth);
+  if (finger.role == FingerRole::kMoved) {
+    for (const auto& [at, across] : PathBeside(finger.path, view, kPathOffset).ticks) {
+      SetColor(cr, color);
+      StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
+    }
+    DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
+                     /*outline=*/true);
+  }
+  if (finger.role == FingerRole::kPlaced) DrawRing(cr, shape.contact, color);
+  DrawFingerMarker(cr, finger.finger, shape.contact, kMarkerRadius,
+                   /*outline=*/finger.role == FingerRole::kReleased);
+}
+
+std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& diagram,
+                                  const std::vector<FingerShape>& shapes, const PanelView& view) {
+  std::vector<Obstacle> obstacles;
+  for (int face = 0; face < polygon.face_count(); ++face) {
+    const auto [a, b] = polygon.edge(face);
+    obstacles.push_back({view.ToPanel(a.head<2>()), view.ToPanel(b.head<2>()), 0, kBorderWeight});
+  }
+  for (const FingerShape& shape : shapes) {
+    const bool ring = shape.finger->role == FingerRole::kPlaced;
+    obstacles.push_back(
+        {shape.contact, shape.contact, ring ? kRingRadius : kMarkerRadius, kMarkerWeight});
+    for (std::size_t i = 1; i < shape.arrow.size(); ++i) {
+      obstacles.push_back({shape.arrow[i - 1], shape.arrow[i], 1, kArrowWeight});
+    }
+    if (shape.finger->role == FingerRole::kMoved) {
+      const Vector2d start = view.ToPanel(shape.finger->path.front().p);
+      obstacles.push_back({start, start, kMarkerRadius, kMarkerWeight});
+    }
+  }
+  for (const DoubleCone& cone : diagram.grasp.cones) {
+    const Vector2d apex = view.ToPanel(cone.apex);
+    for (const int side : {1, -1}) {
+      const double length = ConeLength(polygon, diagram.grasp, cone, side, view);
+      const Vector2d axis = side * length * PanelView::ToPanelDirection(cone.axis);
+      obstacles.push_back({apex, apex + axis, length * std::sin(cone.half_angle) / 2, kConeWeight});
+    }
+    if (diagram.grasp.force_direction) {
+      const Vector2d way =
+          (view.width + view.height) * PanelView::ToPanelDirection(*diagram.grasp.force_direction);
+      obstacles.push_back({apex - way, apex + way, 0, kLineWeight});
+    }
+    if (diagram.grasp.focus) {
+      const Vector2d focus = view.ToPanel(*diagram.grasp.focus);
+      obstacles.push_back({apex, focus, 0, kLineWeight});
+      obstacles.push_back({focus, focus, 2, kFocusWeight});
+    }
+  }
+  return obstacles;
+}
+
+}  // namespace
+
+double OutwardRoom(const Polygon& polygon, const BorderPoint& from) {
+  const auto cross = [](const Vector2d& a, const Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  double room = std::numeric_limits<double>::infinity();
+  for (int face = 0; face < polygon.face_count(); ++face) {
+    const auto [begin, end] = polygon.edge(face);
+    const Vector2d a = begin.head<2>() - from.p;
+    const Vector2d along = (end - begin).head<2>();
+    const double slope = cross(from.outward, along);
+    if (slope == 0) continue;
+    const double distance = cross(a, along) / slope;
+    const double place = cross(a, from.outward) / slope;
+    const bool hit = place >= 0 && place <= 1 && distance > kPointTolerance * polygon.diameter();
+    if (hit) room = std::min(room, distance);
+  }
+  return room;
+}
+
+void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+                 const PanelView& view) {
+  const std::vector<FingerShape> shapes = ShapesOf(polygon, diagram, view);
+  std::vector<LabelAnchor> anchors;
+  for (const FingerShape& shape : shapes) {
+    DrawShape(cr, shape, view);
+    anchors.push_back({shape.contact, shape.outward});
+  }
+  const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, view);
+  const std::vector<Vector2d> centres =
+      PlaceLabels(anchors, obstacles, kNumberRadius, static_cast<int>(view.width),
+                  static_cast<int>(view.height));
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    DrawFingerNumber(cr, shapes[i].finger->finger, centres[i]);
+  }
+}
+
+}  // namespace regrasp

@@ -1,0 +1,140 @@
+#include "render/figures/panel_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string>
+
+#include "render/picture/cairo_paint.h"
+#include "render/picture/palette.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr double kHalo = 1.6;  ///< points
+constexpr char kClauseEnd = ';';
+
+/// The same font on every page: unhinted, so that an SVG, a PDF and a PNG have the same layout.
+void SetFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(cr, options);
+  cairo_font_options_destroy(options);
+}
+
+double TextWidth(cairo_t* cr, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+/// The parts of a text, each up to a separator and with it, without spaces around.
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size() - 1) + 1;
+    std::string part = text.substr(begin, end - begin);
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    if (!part.empty()) parts.push_back(part);
+    begin = end;
+  }
+  return parts;
+}
+
+/// The words of a clause; numbers stay with the word before them.
+std::vector<std::string> Words(const std::string& clause) {
+  std::vector<std::string> words;
+  for (const std::string& word : Split(clause, ' ')) {
+    const bool number = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+    if (number && !words.empty()) {
+      words.back() += " " + word;
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> WrapCaption(const std::string& caption, double width) {
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
+                                                                   cairo_destroy);
+  SetFont(context.get(), kCaptionFont, /*bold=*/false);
+  const auto fits = [&](const std::string& text) {
+    return TextWidth(context.get(), text) <= width;
+  };
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& text) {
+    if (!lines.empty() && fits(lines.back() + " " + text)) {
+      lines.back() += " " + text;
+    } else {
+      lines.push_back(text);
+    }
+  };
+  for (const std::string& clause : Split(caption, kClauseEnd)) {
+    if (fits(clause)) {
+      add(clause);
+    } else {
+      for (const std::string& word : Words(clause)) add(word);
+    }
+  }
+  return lines;
+}
+
+void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top) {
+  SetFont(cr, kCaptionFont, /*bold=*/false);
+  SetColor(cr, kInk);
+  double base = top;
+  for (const std::string& line : lines) {
+    base += kLineHeight;
+    cairo_move_to(cr, x - TextWidth(cr, line) / 2, base);
+    cairo_show_text(cr, line.c_str());
+  }
+}
+
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
+  SetFont(cr, kLabelFont, /*bold=*/false);
+  SetColor(cr, kInk);
+  const double width = TextWidth(cr, text);
+  double left = base.x();
+  if (align == TextAlign::kCentre) left -= width / 2;
+  if (align == TextAlign::kRight) left -= width;
+  cairo_move_to(cr, left, base.y());
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
+}
+
+void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre) {
+  SetFont(cr, kNumberFont, /*bold=*/true);
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, text.c_str(), &e);
+  const double x = centre.x() - e.x_bearing - e.width / 2;
+  const double y = centre.y() - e.y_bearing - e.height / 2;
+  cairo_new_path(cr);
+  cairo_move_to(cr, x, y);
+  cairo_text_path(cr, text.c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  SetColor(cr, kWhite);
+  cairo_set_line_width(cr, kHalo);
+  cairo_stroke(cr);
+  cairo_move_to(cr, x, y);
+  SetColor(cr, kInk);
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr);
+}
+
+void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
+  DrawMark(cr, std::to_string(finger), centre);
+}
+
+}  // namespace regrasp

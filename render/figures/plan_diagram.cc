@@ -1,0 +1,121 @@
+#include "render/figures/plan_diagram.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "render/picture/caption.h"
+
+namespace regrasp {
+
+namespace {
+
+BorderPoint BorderPointOf(const Contact& contact) {
+  return {contact.p.head<2>(), -contact.n.head<2>()};
+}
+
+const char* TypeName(DiagramKind kind) {
+  switch (kind) {
+    case DiagramKind::kTwoFinger:
+      return "2-finger grasp";
+    case DiagramKind::kConcurrent:
+      return "concurrent grasp";
+    case DiagramKind::kParallel:
+      return "parallel grasp";
+    case DiagramKind::kOther:
+      break;
+  }
+  return "other grasp";
+}
+
+/// The type of the grasp, with φ where its cones are narrower than those of the friction.
+std::string Describe(const GraspDiagram& grasp, double friction) {
+  std::string name = TypeName(grasp.kind);
+  if (grasp.kind != DiagramKind::kConcurrent) return name;
+  const auto degrees = [](double radians) { return FormatShort(Degrees(radians), 3) + "°"; };
+  const std::string drawn = degrees(grasp.cones.front().half_angle);
+  const std::string theta = degrees(friction);
+  return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
+}
+
+const FingerContact* Find(const FingerGrasp& grasp, int finger) {
+  const auto found = std::find_if(grasp.begin(), grasp.end(),
+                                  [&](const FingerContact& c) { return c.finger == finger; });
+  return found == grasp.end() ? nullptr : &*found;
+}
+
+/// Where a finger is at the waypoints of an align.
+std::vector<BorderPoint> PathOf(const Align& align, int finger) {
+  std::vector<BorderPoint> path;
+  for (const FingerGrasp& waypoint : align.waypoints) {
+    const FingerContact* at = Find(waypoint, finger);
+    if (at != nullptr) path.push_back(BorderPointOf(at->contact));
+  }
+  return path;
+}
+
+bool Moves(const std::vector<BorderPoint>& path) {
+  return std::any_of(path.begin(), path.end(),
+                     [&](const BorderPoint& point) { return point.p != path.front().p; });
+}
+
+void AddActions(const FingerGrasp& /*before*/, const Align& align,
+                std::vector<DiagramFinger>& fingers) {
+  for (DiagramFinger& finger : fingers) {
+    std::vector<BorderPoint> path = PathOf(align, finger.finger);
+    if (!Moves(path)) continue;
+    finger.role = FingerRole::kMoved;
+    finger.path = std::move(path);
+  }
+}
+
+void AddActions(const FingerGrasp& before, const Switch& step,
+                std::vector<DiagramFinger>& fingers) {
+  for (DiagramFinger& finger : fingers) {
+    if (Find(step.place, finger.finger) != nullptr) finger.role = FingerRole::kPlaced;
+  }
+  for (const int released : step.release) {
+    const FingerContact* at = Find(before, released);
+    if (at == nullptr) continue;
+    fingers.push_back({released, FingerRole::kReleased, BorderPointOf(at->contact), {}});
+  }
+}
+
+}  // namespace
+
+std::string PanelLabel(int index) {
+  constexpr int kLetters = 26;
+  std::string letters;
+  for (int rest = index; rest >= 0; rest = rest / kLetters - 1) {
+    letters.insert(letters.begin(), static_cast<char>('a' + rest % kLetters));
+  }
+  return "(" + letters + ")";
+}
+
+std::vector<StepDiagram> DescribePlan(const Polygon& polygon, const Plan& plan) {
+  std::vector<StepDiagram> diagrams;
+  FingerGrasp grasp = plan.initial;
+  const int entries = static_cast<int>(plan.steps.size()) + 1;
+  for (int entry = 0; entry < entries; ++entry) {
+    const FingerGrasp before = grasp;
+    const Step* step = entry > 0 ? &plan.steps[entry - 1] : nullptr;
+    if (step != nullptr) grasp = GraspAfter(before, *step);
+    StepDiagram diagram;
+    diagram.kind = step != nullptr ? StepKind(*step) : "hold";
+    diagram.grasp = DescribeGrasp(polygon, ContactsOf(grasp), plan.half_angle);
+    diagram.caption = PanelLabel(entry) + " " + EntryTitle(plan, entry) + "; " +
+                      Describe(diagram.grasp, plan.half_angle);
+    for (const FingerContact& held : grasp) {
+      diagram.fingers.push_back(
+          {held.finger, FingerRole::kHolding, BorderPointOf(held.contact), {}});
+    }
+    if (step != nullptr) {
+      std::visit([&](const auto& s) { AddActions(before, s, diagram.fingers); }, *step);
+    }
+    diagrams.push_back(std::move(diagram));
+  }
+  return diagrams;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,192 @@
+#include "render/frames/annotation.h"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/picture/cairo_image.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/label_layout.h"
+#include "render/picture/round_length.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Shares of the image's height, and pixels.
+constexpr double kFontSize = 0.024;
+constexpr double kSmallestFont = 7;
+constexpr double kMargin = 0.032;
+constexpr double kLongestBar = 0.20;
+
+// In font sizes.
+constexpr double kNumberSize = 1.2;
+constexpr double kLabelRadius = 0.66;
+constexpr double kHalo = 0.32;
+constexpr double kRingGap = 0.36;
+constexpr double kRingWidth = 0.14;
+
+/// Labels should not cover these; to cover a cone is a lesser evil.
+constexpr double kFingerWeight = 1;
+constexpr double kConeWeight = 0.25;
+constexpr double kTextWeight = 3;
+/// The friction cone counts as a strip of this share of its length.
+constexpr double kConeStrip = 0.3;
+
+/// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
+constexpr double kShade = 0.82;
+
+Color NumberColor(int finger) {
+  const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
+  const Color color = FingerColor(finger);
+  return {shade(color.r), shade(color.g), shade(color.b)};
+}
+
+void SetFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+double TextWidth(cairo_t* cr, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+/// Fills the current path over a white halo.
+void FillWithHalo(cairo_t* cr, Color color, double halo) {
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_set_line_width(cr, halo);
+  cairo_stroke_preserve(cr);
+  SetColor(cr, color);
+  cairo_fill(cr);
+}
+
+void DrawCentred(cairo_t* cr, const std::string& text, const Vector2d& centre, Color color,
+                 double halo) {
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, text.c_str(), &e);
+  cairo_move_to(cr, centre.x() - e.x_bearing - e.width / 2,
+                centre.y() - e.y_bearing - e.height / 2);
+  cairo_text_path(cr, text.c_str());
+  FillWithHalo(cr, color, halo);
+}
+
+/// A ring just outside the ball, dark within white, so that it shows on any ground.
+void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, double font) {
+  const Vector2d centre = camera.Project(glyph.ball);
+  const double radius = glyph.ball_radius * camera.PixelsPerUnit(glyph.ball) + kRingGap * font;
+  for (const bool white : {true, false}) {
+    cairo_new_path(cr);
+    cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * std::numbers::pi);
+    cairo_set_line_width(cr, (white ? 2.2 : 1) * kRingWidth * font);
+    white ? cairo_set_source_rgb(cr, 1, 1, 1) : SetColor(cr, NumberColor(glyph.finger));
+    cairo_stroke(cr);
+  }
+}
+
+std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
+  std::vector<Obstacle> obstacles;
+  for (const FingerGlyph& glyph : fingers) {
+    const double pixels = camera.PixelsPerUnit(glyph.ball);
+    const Vector2d ball = camera.Project(glyph.ball);
+    obstacles.push_back({ball, ball, glyph.ball_radius * pixels, kFingerWeight});
+    obstacles.push_back(
+        {ball, camera.Project(glyph.end), glyph.ball_radius / 2 * pixels, kFingerWeight});
+    obstacles.push_back({camera.Project(glyph.contact),
+                         camera.Project(glyph.contact - glyph.outward * kConeLength),
+                         kConeStrip * kConeLength * pixels, kConeWeight});
+    for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+      obstacles.push_back(
+          {camera.Project(glyph.way[i - 1]), camera.Project(glyph.way[i]), 0, kFingerWeight});
+    }
+  }
+  return obstacles;
+}
+
+void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph> fingers,
+                 std::vector<Obstacle> text, double font) {
+  std::vector<LabelAnchor> anchors;
+  for (const FingerGlyph& glyph : fingers) {
+    const Vector2d anchor = camera.Project(glyph.end);
+    anchors.push_back({anchor, anchor - camera.Project(glyph.contact)});
+  }
+  std::vector<Obstacle> obstacles = ObstaclesOf(camera, fingers);
+  obstacles.insert(obstacles.end(), text.begin(), text.end());
+  const std::vector<Vector2d> centres =
+      PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
+  SetFont(cr, kNumberSize * font, /*bold=*/true);
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].finger),
+                kHalo * font);
+  }
+}
+
+/// Writes the caption, in a smaller font where it would be too wide, and returns what it covers.
+std::vector<Obstacle> DrawCaption(cairo_t* cr, const Camera& camera, const std::string& caption,
+                                  double font) {
+  if (caption.empty()) return {};
+  const double margin = kMargin * camera.height;
+  const double room = camera.width * (1 - kLongestBar) - 3 * margin;
+  SetFont(cr, font, /*bold=*/false);
+  const double size = font * std::min(1.0, room / TextWidth(cr, caption));
+  if (size < kSmallestFont) return {};
+  SetFont(cr, size, /*bold=*/false);
+  const double base = camera.height - margin;
+  cairo_move_to(cr, margin, base);
+  cairo_text_path(cr, caption.c_str());
+  FillWithHalo(cr, kInk, kHalo * font);
+  const double middle = base - size / 3;
+  return {{{margin, middle}, {margin + TextWidth(cr, caption), middle}, size / 2, kTextWeight}};
+}
+
+std::vector<Obstacle> DrawScaleBar(cairo_t* cr, const Camera& camera, double metres_per_unit,
+                                   double font) {
+  if (font < kSmallestFont) return {};
+  const double pixels_per_metre = camera.PixelsPerUnit(Eigen::Vector3d::Zero()) / metres_per_unit;
+  const double metres = RoundLength(kLongestBar * camera.width / pixels_per_metre);
+  const double length = metres * pixels_per_metre;
+  const double margin = kMargin * camera.height;
+  const double y = camera.height - margin;
+  const double right = camera.width - margin;
+  const double left = right - length;
+  const double tick = font / 4;
+  for (const double x : {left, right}) {
+    cairo_move_to(cr, x, y - tick);
+    cairo_line_to(cr, x, y + tick);
+  }
+  cairo_move_to(cr, left, y);
+  cairo_line_to(cr, right, y);
+  cairo_set_line_width(cr, std::max(1.0, font / 10));
+  SetColor(cr, kInk);
+  cairo_stroke(cr);
+  SetFont(cr, font, /*bold=*/false);
+  DrawCentred(cr, FormatLength(metres), {(left + right) / 2, y - 0.8 * font}, kInk, kHalo * font);
+  return {{{left, y - font / 2}, {right, y - font / 2}, font, kTextWeight}};
+}
+
+}  // namespace
+
+Image Annotate(const Image& image, const Camera& camera, std::span<const FingerGlyph> fingers,
+               const std::string& caption, double metres_per_unit) {
+  const CairoImage page(image);
+  cairo_t* cr = page.context();
+  const double font = kFontSize * image.height;
+  for (const FingerGlyph& glyph : fingers) {
+    if (glyph.role == FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
+  }
+  std::vector<Obstacle> text = DrawCaption(cr, camera, caption, font);
+  for (const Obstacle& bar : DrawScaleBar(cr, camera, metres_per_unit, font)) text.push_back(bar);
+  DrawNumbers(cr, camera, fingers, text, std::max(font, kSmallestFont));
+  return page.ToImage();
+}
+
+}  // namespace regrasp

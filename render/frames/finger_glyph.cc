@@ -1,0 +1,159 @@
+#include "render/frames/finger_glyph.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Lengths in diameters of the object.
+constexpr double kBallRadius = 0.030;
+constexpr double kStemRadius = 0.013;
+constexpr double kStemLength = 0.125;  // from the contact to the stem's end
+constexpr double kForceRadius = 0.0055;
+constexpr double kLongestForce = 0.20;
+constexpr double kShortestForce = 0.055;
+constexpr double kMotionGap = 0.030;
+constexpr double kMotionLength = 0.085;
+constexpr double kMotionRadius = 0.009;
+constexpr double kTrackRadius = 0.007;
+constexpr double kTrackDash = 0.030;
+
+/// Shares of the free space in front of a contact that ball and stem may take.
+constexpr double kBallShare = 0.15;
+constexpr double kStemShare = 0.75;
+constexpr double kGapShare = 0.2;
+
+/// Nearer than this a ray meets the face that it starts on.
+constexpr double kRaySkip = 1e-4;
+
+constexpr double kConeOpacity = 0.5;
+constexpr double kGhostOpacity = 0.33;
+
+/// The pose of a mesh that opens along +z at the origin: apex at `apex`, opening along `direction`.
+Eigen::Isometry3d PoseAlong(const Vector3d& apex, const Vector3d& direction) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction).matrix();
+  pose.translation() = apex;
+  return pose;
+}
+
+void AddArrow(const Vector3d& tail, const Vector3d& tip, double radius, Color color,
+              const GlyphMeshes& meshes, std::vector<Shape>& shapes) {
+  const Vector3d direction = (tip - tail).normalized();
+  const Vector3d neck = tip - direction * (0.8 * kArrowHeadLength);
+  shapes.push_back({Rod{tail, neck, radius}, color});
+  shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -direction)}, color});
+}
+
+void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
+              std::vector<Shape>& shapes) {
+  const double size = glyph.force.norm();
+  if (!(size > 0 && largest_force > 0)) return;
+  const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
+  AddArrow(glyph.contact, glyph.contact + glyph.force / size * length, kForceRadius, kForceInk,
+           meshes, shapes);
+}
+
+/// Dashes along the way that a finger came, just off the surface, and a small ball at its start.
+void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes) {
+  double length = 0;
+  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+    length += (glyph.way[i] - glyph.way[i - 1]).norm();
+  }
+  if (length < kTrackDash) return;
+  const Vector3d lift = glyph.outward * kTrackRadius;
+  shapes.push_back({Ball{glyph.way.front() + lift, 2 * kTrackRadius}, color});
+  // Gaps and dashes take turns; a dash that goes round a corner is drawn in two.
+  double before = 0;
+  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+    const Vector3d from = glyph.way[i - 1] + lift;
+    const Vector3d leg = glyph.way[i] - glyph.way[i - 1];
+    const double after = before + leg.norm();
+    for (int k = static_cast<int>(before / (2 * kTrackDash)); (2 * k + 1) * kTrackDash < after;
+         ++k) {
+      const double start = std::max((2 * k + 1) * kTrackDash, before) - before;
+      const double end = std::min((2 * k + 2) * kTrackDash, after) - before;
+      if (start >= end) continue;
+      shapes.push_back(
+          {Rod{from + leg * (start / leg.norm()), from + leg * (end / leg.norm()), kTrackRadius},
+           color});
+    }
+    before = after;
+  }
+}
+
+/// How far the fingertip is from the surface, metres.
+double GapOf(const FingerState& state, double fingertip_radius_m) {
+  const double away = (state.contact_W - state.tip_W).dot(state.normal_W.normalized());
+  return std::max(0.0, away - fingertip_radius_m);
+}
+
+bool IsInMotion(FingerRole role) {
+  return role == FingerRole::kPlaced || role == FingerRole::kReleased;
+}
+
+}  // namespace
+
+Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
+  Eigen::Isometry3d pose = X_WO;
+  pose.translation() = FromWorld(X_WO * centroid_m);
+  return pose;
+}
+
+std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const PictureFrame& frame,
+                                          const FacetMesh& surface, GapView gaps) {
+  const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
+  std::vector<FingerGlyph> glyphs;
+  for (const FingerState& state : snapshot.fingers) {
+    if (state.role == FingerRole::kFree) continue;
+    FingerGlyph glyph;
+    glyph.finger = state.finger;
+    glyph.role = state.role;
+    glyph.contact = frame.FromWorld(state.contact_W);
+    for (const Vector3d& p_W : state.path_W) glyph.way.push_back(frame.FromWorld(p_W));
+    glyph.outward = -state.normal_W.normalized();
+    glyph.force = state.force_W;
+    const double room =
+        RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
+    glyph.ball_radius = std::min(kBallRadius, kBallShare * room);
+    const double stem = std::min(kStemLength, kStemShare * room);
+    const double gap =
+        gaps == GapView::kNone ? 0 : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
+    const Vector3d tip =
+        glyph.contact + std::min(kGapScale * gap, kGapShare * room) * glyph.outward;
+    glyph.ball = tip + glyph.outward * glyph.ball_radius;
+    glyph.stem_end = tip + glyph.outward * stem;
+    const bool roomy = room > kStemLength + kMotionGap + kMotionLength;
+    glyph.end = IsInMotion(state.role) && roomy
+                    ? Vector3d(glyph.stem_end + glyph.outward * (kMotionGap + kMotionLength))
+                    : glyph.stem_end;
+    glyphs.push_back(glyph);
+  }
+  return glyphs;
+}
+
+void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
+                     std::vector<Shape>& shapes) {
+  const Color color = FingerColor(glyph.finger);
+  const bool ghost = glyph.role == FingerRole::kReleased;
+  const double opacity = ghost ? kGhostOpacity : 1;
+  const double stem_radius = kStemRadius * glyph.ball_radius / kBallRadius;
+  shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
+  const Vector3d stem_start = glyph.ball + glyph.outward * glyph.ball_radius;
+  shapes.push_back({Rod{stem_start, glyph.stem_end, stem_radius}, color, opacity});
+  if (glyph.end != glyph.stem_end) {
+    const Vector3d near = glyph.stem_end + glyph.outward * kMotionGap;
+    AddArrow(ghost ? near : glyph.end, ghost ? glyph.end : near, kMotionRadius, color, meshes,
+             shapes);
+  }
+  if (ghost) return;
+  const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
+  shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
+  AddForce(glyph, largest_force, meshes, shapes);
+  if (glyph.role == FingerRole::kMoved) AddTrack(glyph, color, shapes);
+}
+
+}  // namespace regrasp

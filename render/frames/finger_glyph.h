@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "planner/plan/snapshot.h"
+#include "render/frames/body_shape.h"
+#include "render/frames/canvas.h"
+
+namespace regrasp {
+
+/// The picture's frame P: the object's frame at the start with its origin at the centroid and the
+/// diameter as the unit of length.
+struct PictureFrame {
+  double diameter_m = 1;
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Eigen::Vector3d FromWorld(const Eigen::Vector3d& p_W) const {
+    return (p_W - centroid_m) / diameter_m;
+  }
+  /// Where the body is in the picture.
+  [[nodiscard]] Eigen::Isometry3d BodyPose(const Eigen::Isometry3d& X_WO) const;
+};
+
+/// One finger as it is drawn: a ball that touches at `contact` and a stem that ends at `end`.
+struct FingerGlyph {
+  int finger = 0;
+  FingerRole role = FingerRole::kHolding;
+  Eigen::Vector3d contact;
+  Eigen::Vector3d outward;  ///< unit, against the contact's normal
+  Eigen::Vector3d ball;
+  Eigen::Vector3d stem_end;
+  Eigen::Vector3d
+      end;  ///< of all that is drawn: the stem, or the arrow of a placed or released one
+  std::vector<Eigen::Vector3d> way;  ///< of an align, up to the contact; empty for others
+  Eigen::Vector3d force;             ///< newtons, on the object
+  double ball_radius = 0;
+};
+
+/// Whether a finger in the air is drawn away from its contact.
+enum class GapView {
+  kNone,   ///< at its contact: what a finger did in a step, seen at its end
+  kShown,  ///< kGapScale times as far as it is, so that the eye sees it come and go
+};
+inline constexpr double kGapScale = 3;
+
+/// The fingers of a snapshot that are drawn: all but the free ones. In narrow places (a hole, an
+/// inner corner) balls and stems are smaller, so that they don't run into the opposite wall.
+[[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot,
+                                                        const PictureFrame& frame,
+                                                        const FacetMesh& surface,
+                                                        GapView gaps = GapView::kNone);
+
+/// The canvas's meshes that glyphs are made of.
+struct GlyphMeshes {
+  int friction_cone;
+  int arrow_head;
+};
+
+/// Slant length of the friction cones, in diameters.
+inline constexpr double kConeLength = 0.15;
+/// The head of every arrow: a cone with this half-angle (radians) and slant length.
+inline constexpr double kArrowHeadHalfAngle = 0.36;
+inline constexpr double kArrowHeadLength = 0.040;
+
+/// The shapes of one finger: ball, stem, friction cone and force; a released finger is a ghost with
+/// an arrow that leaves, a placed one has an arrow that arrives, a moved one a track behind it.
+/// @param largest_force  of the whole sequence, newtons: the longest arrow.
+void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
+                     std::vector<Shape>& shapes);
+
+}  // namespace regrasp

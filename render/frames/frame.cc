@@ -1,0 +1,304 @@
+#include "render/frames/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "planner/sets/polyhedron/focus_view.h"
+#include "render/frames/annotation.h"
+#include "render/frames/body_shape.h"
+#include "render/frames/camera.h"
+#include "render/frames/canvas.h"
+#include "render/frames/finger_glyph.h"
+#include "render/frames/viewpoint.h"
+#include "render/picture/palette.h"
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Half of the vertical field of view: a long lens, so that parallel edges look so.
+const double kTanHalfHeight = std::tan(0.15);
+
+constexpr double kEdgeRadius = 0.0026;  // in diameters
+/// The more edges a body has beyond this, the thinner they are drawn: those of a fine mesh would
+/// cover it.
+constexpr double kManyEdges = 150;
+
+/// Representatives of clusters, in diameters.
+constexpr double kRepresentativeRadius = 0.005;
+/// Of the near surface where it shows clusters.
+constexpr double kClusterOpacity = 0.85;
+
+/// Opacity of the body's near surface, and of its far surface behind that.
+constexpr double kOutsideOpacity = 0.33;
+constexpr double kInsideOpacity = 0.30;
+/// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
+constexpr double kPrismOpacity = 0.9;
+constexpr Color kPrism = {205, 221, 241};
+
+/// The focus point, the lines to it and the outlines of contact regions, in diameters.
+constexpr double kFocusRadius = 0.014;
+constexpr double kFocusLineRadius = 0.0020;
+constexpr double kRegionLineRadius = 0.0030;
+constexpr Color kFocus = {150, 30, 90};
+
+/// A contact of the replay is this near to the face that it is planned on, in diameters.
+constexpr double kFocusReach = 1e-2;
+
+/// Room for a finger's number beyond its end, in diameters.
+constexpr double kLabelRoom = 0.05;
+
+/// An object that moved farther than this (diameters) does not widen the picture.
+constexpr double kFarAway = 0.5;
+
+constexpr int kMaxSupersampling = 4;
+
+/// The clusters' meshes come last, one a colour.
+enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
+
+/// a + (b − a) · opacity.
+void BlendOver(Image& a, const Image& b, double opacity) {
+  constexpr int kOne = 256;
+  const int weight = static_cast<int>(std::lround(opacity * kOne));
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    const int sum = a.rgb[i] * (kOne - weight) + b.rgb[i] * weight;
+    a.rgb[i] = static_cast<unsigned char>((sum + kOne / 2) / kOne);
+  }
+}
+
+void CheckOptions(const FrameOptions& options) {
+  const auto good = [](int side) { return side >= kMinFrameSide && side <= kMaxFrameSide; };
+  if (!good(options.width) || !good(options.height) || options.supersampling < 1 ||
+      options.supersampling > kMaxSupersampling) {
+    throw std::invalid_argument("FrameRenderer: image size or supersampling out of range");
+  }
+}
+
+/// The surface's triangles, those of one colour a mesh.
+std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface, const ClusterView& clusters) {
+  std::vector<FacetMesh> meshes(kClusterColors);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    FacetMesh& mesh = meshes[clusters.color_of_triangle[i]];
+    mesh.triangles.push_back(surface.triangles[i]);
+    mesh.normals.push_back(surface.normals[i]);
+  }
+  return meshes;
+}
+
+std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
+                                  const std::optional<ClusterView>& clusters) {
+  std::vector<FacetMesh> meshes = {
+      body.surface, TurnInsideOut(body.surface),
+      planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
+      MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+  if (clusters) {
+    for (FacetMesh& mesh : MakeClusterMeshes(body.surface, *clusters)) {
+      meshes.push_back(std::move(mesh));
+    }
+  }
+  return meshes;
+}
+
+/// Turns the friction cones, which are flat in the plane, about their axes into the plane.
+void LayFlat(std::vector<Shape>& shapes) {
+  for (Shape& shape : shapes) {
+    auto* mesh = std::get_if<MeshInstance>(&shape.form);
+    if (mesh == nullptr || mesh->mesh != kConeMesh) continue;
+    const Vector3d axis = mesh->pose.linear().col(2);
+    mesh->pose.linear() << Vector3d::UnitZ().cross(axis), Vector3d::UnitZ(), axis;
+  }
+}
+
+bool IsNear(const Eigen::Isometry3d& pose) {
+  return pose.translation().allFinite() && pose.translation().norm() < kFarAway;
+}
+
+}  // namespace
+
+class FrameRenderer::Impl {
+ public:
+  Impl(const Object& object, double scale, double half_angle,
+       const std::vector<Snapshot>& snapshots, const FrameOptions& options)
+      : options_(options),
+        object_(object),
+        scale_(scale),
+        half_angle_(half_angle),
+        body_(MakeBodyShape(object, options.thickness)),
+        frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
+        camera_(MakeCamera(object.dimension() == 2, snapshots)),
+        largest_force_(LargestForce(snapshots)),
+        planar_(object.dimension() == 2),
+        canvas_(MakeMeshes(body_, planar_, half_angle, options.clusters),
+                options.width * options.supersampling, options.height * options.supersampling) {}
+
+  Image Render(const Snapshot& snapshot, const std::string& caption) {
+    const std::vector<FingerGlyph> fingers =
+        MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps);
+    const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
+    std::vector<Shape> shapes = MakeEdges(pose);
+    for (const FingerGlyph& glyph : fingers) {
+      AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
+    }
+    if (planar_) LayFlat(shapes);
+    if (options_.show_focus) AddFocus(snapshot, shapes);
+    if (options_.clusters) AddRepresentatives(snapshot, shapes);
+    return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
+  }
+
+ private:
+  /// The body is translucent in two layers, exactly and independent of the order of its triangles:
+  /// the picture without it, then that with its far surface opaque, then that with its near surface
+  /// opaque, laid over each other. What the body hides, edges too, comes out paler by itself.
+  Image DrawLayers(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
+    const auto draw = [&] { return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling); };
+    Image image = draw();
+    shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
+    BlendOver(image, draw(), kInsideOpacity);
+    shapes.pop_back();
+    BlendOver(image, DrawWithNearSurface(shapes, pose), NearOpacity());
+    return image;
+  }
+
+  Image DrawWithNearSurface(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
+    if (!options_.clusters) {
+      shapes.push_back({MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside});
+    } else {
+      for (int color = 0; color < kClusterColors; ++color) {
+        shapes.push_back({MeshInstance{kClusterMesh + color, pose}, kClusterPalette[color]});
+      }
+    }
+    return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling);
+  }
+
+  [[nodiscard]] double NearOpacity() const {
+    if (planar_) return kPrismOpacity;
+    return options_.clusters ? kClusterOpacity : kOutsideOpacity;
+  }
+
+  void AddRepresentatives(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
+    for (const Vector3d& p : options_.clusters->representatives) {
+      shapes.push_back(
+          {Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius}, kInk});
+    }
+  }
+
+  [[nodiscard]] std::vector<Shape> MakeEdges(const Eigen::Isometry3d& pose) const {
+    std::vector<Shape> shapes;
+    const auto edges = static_cast<double>(body_.edges.size());
+    const double radius = kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges));
+    for (const auto& [a, b] : body_.edges) {
+      shapes.push_back({Rod{pose * a, pose * b, radius}, kInk});
+    }
+    return shapes;
+  }
+
+  /// The contacts of the fingers that hold, where they are planned, on the object.
+  [[nodiscard]] Grasp HeldGrasp(const Snapshot& snapshot) const {
+    const Eigen::Isometry3d X_OW = snapshot.X_WO.inverse();
+    Grasp grasp;
+    for (const FingerState& finger : snapshot.fingers) {
+      if (finger.role == FingerRole::kFree || finger.role == FingerRole::kReleased) continue;
+      Contact contact = {X_OW * finger.contact_W / scale_, X_OW.linear() * finger.normal_W};
+      double most = -1;
+      for (const int face : object_.FacesNear(contact.p, kFocusReach * object_.diameter())) {
+        const double along = object_.inward_normal(face).dot(contact.n);
+        if (along <= most) continue;
+        most = along;
+        contact.face = face;
+      }
+      if (contact.face < 0) return {};
+      contact.p = object_.ClosestPoint(contact.face, contact.p);
+      grasp.push_back(contact);
+    }
+    return grasp;
+  }
+
+  void AddFocus(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
+    const auto* solid = dynamic_cast<const Polyhedron*>(&object_);
+    if (solid == nullptr) return;
+    const Grasp grasp = HeldGrasp(snapshot);
+    const auto view = DescribeFocus(*solid, grasp, half_angle_);
+    if (!view) return;
+    const auto place = [&](const Vector3d& p) {
+      return frame_.FromWorld(snapshot.X_WO * (scale_ * p));
+    };
+    shapes.push_back({Ball{place(view->focus), kFocusRadius}, kFocus});
+    for (const Contact& contact : grasp) {
+      shapes.push_back({Rod{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
+    }
+    for (const std::vector<Vector3d>& region : view->regions) {
+      for (std::size_t i = 0; i < region.size(); ++i) {
+        shapes.push_back(
+            {Rod{place(region[i]), place(region[(i + 1) % region.size()]), kRegionLineRadius},
+             kFocus});
+      }
+    }
+  }
+
+  [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<Snapshot>& snapshots) const {
+    std::vector<std::vector<FingerGlyph>> frames;
+    std::vector<Vector3d> points;
+    AddBody(Eigen::Isometry3d::Identity(), points);
+    for (const Snapshot& snapshot : snapshots) {
+      const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
+      if (!IsNear(pose)) continue;
+      frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps));
+      AddBody(pose, points);
+      for (const FingerGlyph& glyph : frames.back()) {
+        points.push_back(glyph.contact);
+        points.push_back(glyph.end + glyph.outward * kLabelRoom);
+      }
+    }
+    const Vector3d back = ChooseViewpoint(body_, planar, frames);
+    return FitCamera(CameraAxes(back), kTanHalfHeight, options_.width, options_.height, Margins(),
+                     points);
+  }
+
+  void AddBody(const Eigen::Isometry3d& pose, std::vector<Vector3d>& points) const {
+    for (const auto& corners : body_.surface.triangles) {
+      for (const Vector3d& p : corners) points.push_back(pose * p);
+    }
+  }
+
+  static double LargestForce(const std::vector<Snapshot>& snapshots) {
+    double largest = 0;
+    for (const Snapshot& snapshot : snapshots) {
+      for (const FingerState& finger : snapshot.fingers) {
+        if (finger.role != FingerRole::kReleased) {
+          largest = std::max(largest, finger.force_W.norm());
+        }
+      }
+    }
+    return largest;
+  }
+
+  FrameOptions options_;
+  const Object& object_;
+  double scale_;
+  double half_angle_;
+  BodyShape body_;
+  PictureFrame frame_;
+  Camera camera_;
+  double largest_force_;
+  bool planar_;
+  Canvas canvas_;
+};
+
+FrameRenderer::FrameRenderer(const Object& object, double scale, double half_angle,
+                             const std::vector<Snapshot>& snapshots, const FrameOptions& options) {
+  CheckOptions(options);
+  impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
+}
+FrameRenderer::~FrameRenderer() = default;
+FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
+FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;
+
+Image FrameRenderer::Render(const Snapshot& snapshot, const std::string& caption) {
+  return impl_->Render(snapshot, caption);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/object/object.h"
+#include "planner/plan/snapshot.h"
+#include "planner/roadmap/cluster_view.h"
+#include "render/frames/body_shape.h"
+#include "render/frames/finger_glyph.h"
+#include "render/picture/image.h"
+
+namespace regrasp {
+
+/// Sizes that frames may have, along either axis.
+inline constexpr int kMinFrameSide = 48;
+inline constexpr int kMaxFrameSide = 4096;
+
+struct FrameOptions {
+  int width = 1280;
+  int height = 960;
+  int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
+  double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+  /// Fingers in the air are drawn away from their contacts (render/frames/finger_glyph.h).
+  GapView gaps = GapView::kNone;
+  /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
+  /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
+  bool show_focus = false;
+  /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
+  std::optional<ClusterView> clusters = std::nullopt;
+};
+
+/// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a
+/// stem along the normal, one colour and number a finger for the whole sequence, true friction
+/// cones, force arrows, and the finger that moves told apart: a placed one has a ring and an arrow
+/// that arrives, a released one is a ghost with an arrow that leaves, an aligned one has a dashed
+/// track. Planar objects are nearly opaque prisms, seen from above at a slight tilt, with contacts
+/// and flat friction cones on their top.
+///
+/// One renderer serves a whole plan, with one camera, so that frames can be laid side by side. The
+/// camera is chosen once so that the contacts of all `snapshots` are seen as well as possible.
+/// Force arrows have one scale for all of them too. Deterministic: the same bytes every time.
+class FrameRenderer {
+ public:
+  /// @param object      must outlive this renderer.
+  /// @param scale       metres per unit of the object.
+  /// @param half_angle  of the friction cones drawn, radians.
+  /// @param snapshots   of the whole sequence, to choose the camera.
+  /// @throws EnvironmentError       no off-screen rendering context.
+  /// @throws std::invalid_argument  a side is outside [kMinFrameSide, kMaxFrameSide], or
+  ///                                supersampling outside [1, 4].
+  FrameRenderer(const Object& object, double scale, double half_angle,
+                const std::vector<Snapshot>& snapshots, const FrameOptions& options = {});
+  ~FrameRenderer();
+  FrameRenderer(FrameRenderer&&) noexcept;
+  FrameRenderer& operator=(FrameRenderer&&) noexcept;
+
+  /// @param caption  one line of UTF-8 at the bottom left; none where empty.
+  [[nodiscard]] Image Render(const Snapshot& snapshot, const std::string& caption = "");
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace regrasp

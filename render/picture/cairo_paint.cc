@@ -1,0 +1,64 @@
+#include "render/picture/cairo_paint.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+/// Half the width of an arrow's head over its length.
+constexpr double kHeadSlope = 0.42;
+
+}  // namespace
+
+void SetColor(cairo_t* cr, Color color, double opacity) {
+  constexpr double kMax = 255;
+  if (opacity < 1) {
+    cairo_set_source_rgba(cr, color.r / kMax, color.g / kMax, color.b / kMax, opacity);
+  } else {
+    cairo_set_source_rgb(cr, color.r / kMax, color.g / kMax, color.b / kMax);
+  }
+}
+
+void AddOutline(cairo_t* cr, std::span<const Vector2d> points) {
+  cairo_new_sub_path(cr);
+  for (const Vector2d& p : points) cairo_line_to(cr, p.x(), p.y());
+  cairo_close_path(cr);
+}
+
+void StrokeLine(cairo_t* cr, const Vector2d& a, const Vector2d& b, double width) {
+  cairo_new_path(cr);
+  cairo_move_to(cr, a.x(), a.y());
+  cairo_line_to(cr, b.x(), b.y());
+  cairo_set_line_width(cr, width);
+  cairo_stroke(cr);
+}
+
+void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  if (!(length > 0)) return;
+  const double head = std::min(kArrowHead, length);
+  // The shaft ends inside the head; what of the path is nearer to the tip is left out.
+  const Vector2d& tip = path.back();
+  std::size_t last = path.size() - 1;
+  while (last > 0 && (path[last - 1] - tip).norm() < head) --last;
+  const Vector2d& from = path[last == 0 ? 0 : last - 1];
+  const Vector2d direction = (tip - from).normalized();
+  const Vector2d base = tip - head * direction;
+  cairo_new_path(cr);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(cr, width);
+  for (std::size_t i = 0; i < last; ++i) cairo_line_to(cr, path[i].x(), path[i].y());
+  cairo_line_to(cr, base.x(), base.y());
+  cairo_stroke(cr);
+  const Vector2d side = kHeadSlope * head * Vector2d(-direction.y(), direction.x());
+  const std::vector<Vector2d> triangle = {tip, base + side, base - side};
+  AddOutline(cr, triangle);
+  cairo_fill(cr);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,99 @@
+#include "render/picture/label_layout.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace regrasp {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kAngles = 24;
+/// Distances from the anchor to the label's centre, in label radii, and what each costs.
+constexpr double kDistances[] = {1.15, 1.7, 2.4, 3.3, 4.5};
+constexpr double kDistanceCost = 0.35;  ///< per label radius
+constexpr double kAngleCost = 0.4;      ///< for the side opposite to the wanted one
+constexpr double kOverlapCost = 6;      ///< for covering by one label radius
+constexpr double kOutsideCost = 100;
+/// Other labels count as obstacles of this weight, a little larger than they are.
+constexpr double kLabelWeight = 2;
+constexpr double kLabelMargin = 1.1;
+constexpr int kRounds = 4;
+
+double DistanceToSegment(const Vector2d& p, const Obstacle& obstacle) {
+  const Vector2d way = obstacle.b - obstacle.a;
+  const double square = way.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - obstacle.a).dot(way) / square, 0.0, 1.0) : 0;
+  return (p - obstacle.a - t * way).norm();
+}
+
+double Cover(const Vector2d& centre, double radius, const Obstacle& obstacle) {
+  const double gap = DistanceToSegment(centre, obstacle) - obstacle.radius - radius;
+  return gap < 0 ? -gap / radius * obstacle.weight : 0;
+}
+
+struct Layout {
+  std::span<const LabelAnchor> anchors;
+  std::span<const Obstacle> obstacles;
+  double radius;
+  int width, height;
+  std::vector<Vector2d> centres;
+
+  [[nodiscard]] double Cost(std::size_t label, const Vector2d& centre) const {
+    double cost = 0;
+    for (const Obstacle& obstacle : obstacles) {
+      cost += kOverlapCost * Cover(centre, radius, obstacle);
+    }
+    for (std::size_t other = 0; other < centres.size(); ++other) {
+      if (other == label) continue;
+      const Obstacle taken = {centres[other], centres[other], radius * kLabelMargin, kLabelWeight};
+      cost += kOverlapCost * Cover(centre, radius, taken);
+    }
+    const bool inside = centre.x() >= radius && centre.x() <= width - radius &&
+                        centre.y() >= radius && centre.y() <= height - radius;
+    return inside ? cost : cost + kOutsideCost;
+  }
+
+  [[nodiscard]] Vector2d BestPlace(std::size_t label) const {
+    const auto& [anchor, direction] = anchors[label];
+    const double wanted = std::atan2(direction.y(), direction.x());
+    Vector2d best = anchor;
+    double best_cost = std::numeric_limits<double>::infinity();
+    for (const double distance : kDistances) {
+      for (int i = 0; i < kAngles; ++i) {
+        const double turn = 2 * std::numbers::pi * i / kAngles;
+        const double angle = wanted + turn;
+        const Vector2d centre =
+            anchor + distance * radius * Vector2d(std::cos(angle), std::sin(angle));
+        const double cost =
+            Cost(label, centre) + kDistanceCost * distance + kAngleCost * (1 - std::cos(turn)) / 2;
+        if (cost < best_cost) {
+          best_cost = cost;
+          best = centre;
+        }
+      }
+    }
+    return best;
+  }
+};
+
+}  // namespace
+
+std::vector<Vector2d> PlaceLabels(std::span<const LabelAnchor> anchors,
+                                  std::span<const Obstacle> obstacles, double label_radius,
+                                  int width, int height) {
+  Layout layout = {anchors, obstacles, label_radius, width, height, {}};
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    layout.centres.push_back(layout.BestPlace(i));
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < anchors.size(); ++i) layout.centres[i] = layout.BestPlace(i);
+  }
+  return layout.centres;
+}
+
+}  // namespace regrasp

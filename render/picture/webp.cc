@@ -1,0 +1,136 @@
+#include "render/picture/webp.h"
+
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace regrasp {
+
+namespace {
+
+/// Of 100: thin edges and small numbers stay sharp.
+constexpr float kQuality = 82;
+constexpr int kBytesPerPixel = 3;
+
+WebPConfig MakeConfig() {
+  WebPConfig config;
+  const bool good = WebPConfigPreset(&config, WEBP_PRESET_DRAWING, kQuality) != 0;
+  assert(good && "libwebp of another version than its header");
+  static_cast<void>(good);
+  return config;
+}
+
+void CheckSize(int width, int height) {
+  if (width < 1 || height < 1 || width > WEBP_MAX_DIMENSION || height > WEBP_MAX_DIMENSION) {
+    throw std::invalid_argument("WebP: an image of a size that it cannot hold");
+  }
+}
+
+/// What fails although sizes are right is out of memory.
+void Require(bool good) {
+  if (!good) throw std::bad_alloc();
+}
+
+/// A WebPPicture that frees itself.
+class Picture {
+ public:
+  explicit Picture(const Image& image) {
+    const bool good = WebPPictureInit(&picture_) != 0;
+    assert(good && "libwebp of another version than its header");
+    static_cast<void>(good);
+    picture_.use_argb = 1;  // scaled and cut into frames in RGB
+    picture_.width = image.width;
+    picture_.height = image.height;
+    Require(WebPPictureImportRGB(&picture_, image.rgb.data(), kBytesPerPixel * image.width) != 0);
+  }
+  ~Picture() { WebPPictureFree(&picture_); }
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  [[nodiscard]] WebPPicture* get() { return &picture_; }
+
+ private:
+  WebPPicture picture_;
+};
+
+}  // namespace
+
+std::string EncodeWebp(const Image& image, int width) {
+  CheckSize(image.width, image.height);
+  if (width < 1) throw std::invalid_argument("EncodeWebp: no width");
+  Picture picture(image);
+  if (width < image.width) {
+    const double height = std::round(static_cast<double>(image.height) * width / image.width);
+    Require(WebPPictureRescale(picture.get(), width, std::max(1, static_cast<int>(height))) != 0);
+  }
+  WebPConfig config = MakeConfig();
+  config.use_sharp_yuv = 1;  // thin coloured lines keep their colour
+  WebPMemoryWriter writer;
+  WebPMemoryWriterInit(&writer);
+  picture.get()->writer = WebPMemoryWrite;
+  picture.get()->custom_ptr = &writer;
+  const bool good = WebPEncode(&config, picture.get()) != 0;
+  const std::string bytes(reinterpret_cast<const char*>(writer.mem), good ? writer.size : 0);
+  WebPMemoryWriterClear(&writer);
+  Require(good);
+  return bytes;
+}
+
+class WebpAnimation::Impl {
+ public:
+  Impl(int width, int height) : width_(width), height_(height), config_(MakeConfig()) {
+    WebPAnimEncoderOptions options;
+    const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
+    assert(good && "libwebpmux of another version than its header");
+    static_cast<void>(good);
+    encoder_ = WebPAnimEncoderNew(width, height, &options);
+    Require(encoder_ != nullptr);
+  }
+  ~Impl() { WebPAnimEncoderDelete(encoder_); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void Add(const Image& image, int duration_ms) {
+    if (image.width != width_ || image.height != height_ || duration_ms < 1) {
+      throw std::invalid_argument("WebpAnimation: an image of another size, or no duration");
+    }
+    Picture picture(image);
+    Require(WebPAnimEncoderAdd(encoder_, picture.get(), time_ms_, &config_) != 0);
+    time_ms_ += duration_ms;
+  }
+
+  std::string Finish() {
+    assert(time_ms_ > 0);
+    // A null picture says when the last one ends.
+    Require(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
+    WebPData data;
+    WebPDataInit(&data);
+    const bool good = WebPAnimEncoderAssemble(encoder_, &data) != 0;
+    const std::string bytes(reinterpret_cast<const char*>(data.bytes), good ? data.size : 0);
+    WebPDataClear(&data);
+    Require(good);
+    return bytes;
+  }
+
+ private:
+  int width_, height_;
+  WebPConfig config_;
+  WebPAnimEncoder* encoder_ = nullptr;
+  int time_ms_ = 0;
+};
+
+WebpAnimation::WebpAnimation(int width, int height) {
+  CheckSize(width, height);
+  impl_ = std::make_unique<Impl>(width, height);
+}
+WebpAnimation::~WebpAnimation() = default;
+
+void WebpAnimation::Add(const Image& image, int duration_ms) { impl_->Add(image, duration_ms); }
+std::string WebpAnimation::Finish() { return impl_->Finish(); }
+
+}  // namespace regrasp

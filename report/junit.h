@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/report.h"
+
+namespace regrasp {
+
+enum class JunitOutcome { kPassed, kFailed, kError, kSkipped };
+
+struct JunitCase {
+  std::string name;
+  JunitOutcome outcome = JunitOutcome::kPassed;
+  std::string message;  ///< of a failure or an error, in a word or a line
+  std::string text;     ///< of a failure, for people
+};
+
+/// The cases of one plan.
+struct JunitSuite {
+  std::string name;
+  std::vector<JunitCase> cases;
+};
+
+/// A suite named after the plan with a case for each entry of its report.
+[[nodiscard]] JunitSuite MakeJunitSuite(const Report& report);
+
+/// JUnit XML for CI servers.
+[[nodiscard]] std::string FormatJunit(const std::vector<JunitSuite>& suites);
+
+}  // namespace regrasp

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/plan/plan.h"
+#include "report/report.h"
+
+namespace regrasp {
+
+/// The picture of an entry of a report, ready to be put into a page.
+struct PagePicture {
+  std::string webp;  ///< bytes of a WebP file; empty where the entry has no picture
+  int width = 0;     ///< pixels, as is the height
+  int height = 0;
+};
+
+/// The text of report.html: what a report says, for people, as one HTML page that needs no other
+/// file and no script: verdict, settings, plots of displacement and of the margin to the friction
+/// cone over the steps, a table with a line per step, and the pictures.
+///
+/// Every text from outside is escaped, and the page forbids scripts and requests in its own header.
+/// Well-formed XML too. Same report, same bytes.
+/// @param plan      the one that was reported on, for the names of steps.
+/// @param pictures  one per entry of the report, or none at all.
+[[nodiscard]] std::string FormatReportHtml(const Report& report, const Plan& plan,
+                                           const std::vector<PagePicture>& pictures);
+
+/// How wide a picture should be, pixels, so that a page of `count` of them can be sent by mail: the
+/// more, the smaller.
+[[nodiscard]] int PagePictureWidth(int count);
+
+}  // namespace regrasp

@@ -1,0 +1,220 @@
+#include "report/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "planner/base/number.h"
+#include "planner/certificate/align_certificate.h"
+#include "planner/object/polygon.h"
+
+namespace regrasp {
+
+namespace {
+
+/// How many steps from the first on pass the analytic check.
+int CountPassing(const std::vector<StepCheck>& steps) {
+  const auto fails = [](const StepCheck& step) {
+    return step.skipped || step.reason != Reason::kNone;
+  };
+  return static_cast<int>(std::find_if(steps.begin(), steps.end(), fails) - steps.begin());
+}
+
+void Replay(const Object& object, const Plan& located, const ReplayOptions& options,
+            const ReplayObserver& observer, int count, Report& report) {
+  ReplayResult result = ReplayPlan(object, located, options, observer, count);
+  report.settings = result.settings;
+  for (StepReplay& step : result.steps) {
+    report.steps[step.index].replay = std::move(step);
+  }
+}
+
+/// Contact regions are measured for switches that are known to be right.
+void MeasureRegions(const Object& object, const Plan& located, int count, Report& report) {
+  const auto* polygon = dynamic_cast<const Polygon*>(&object);
+  if (polygon == nullptr) return;
+  FingerGrasp before = located.initial;
+  for (int index = 1; index < count; ++index) {
+    const Step& step = located.steps[index - 1];
+    if (const auto* change = std::get_if<Switch>(&step)) {
+      report.steps[index].region =
+          MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
+    }
+    before = GraspAfter(before, step);
+  }
+}
+
+/// Certificates are checked of aligns that are known to be right.
+void CheckCertificates(const Plan& located, int count, Report& report) {
+  for (int index = 1; index < count; ++index) {
+    const auto* align = std::get_if<Align>(&located.steps[index - 1]);
+    if (align == nullptr || !align->certificate) continue;
+    report.steps[index].certificate = CheckAlignCertificate(
+        *align, report.dimension, std::tan(report.half_angle), *align->certificate);
+  }
+}
+
+/// What each finger needs, and why examinations disagree, of the steps that pass the analysis.
+void ExamineSteps(const Object& object, const Plan& located, int count, Report& report) {
+  for (int index = 0; index < count; ++index) {
+    ReportStep& step = report.steps[index];
+    step.needs = NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
+    if (!step.replay) continue;
+    step.disagreement =
+        ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
+  }
+}
+
+/// What follows the first failure is skipped, whoever found it.
+void SkipAfterFailure(std::vector<ReportStep>& steps) {
+  bool failed = false;
+  for (ReportStep& step : steps) {
+    step.skipped = failed || step.check.skipped;
+    failed = failed || step.reason() != Reason::kNone;
+    // Nothing passes that was not replayed.
+    if (!failed && !step.replay) throw std::logic_error("the replay left out a step");
+  }
+}
+
+}  // namespace
+
+std::string_view VerdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kSkipped:
+      return "skipped";
+  }
+  return "";
+}
+
+Reason ReportStep::reason() const {
+  if (skipped) return Reason::kNone;
+  if (check.reason != Reason::kNone) return check.reason;
+  return replay ? replay->reason : Reason::kNone;
+}
+
+const std::string& ReportStep::detail() const {
+  return replay && check.reason == Reason::kNone ? replay->detail : check.detail;
+}
+
+Verdict ReportStep::verdict() const {
+  if (skipped) return Verdict::kSkipped;
+  return reason() == Reason::kNone ? Verdict::kPass : Verdict::kFail;
+}
+
+bool Report::passed() const {
+  return std::all_of(steps.begin(), steps.end(),
+                     [](const ReportStep& step) { return step.verdict() == Verdict::kPass; });
+}
+
+int Report::weakest_step() const {
+  int weakest = -1;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const ReportStep& step : steps) {
+    if (step.skipped || !step.check.required) continue;
+    if (step.check.required->upper > largest) {
+      largest = step.check.required->upper;
+      weakest = step.check.index;
+    }
+  }
+  return weakest;
+}
+
+int Report::weakest_finger_step() const {
+  std::vector<FingerFriction> weakest;
+  std::vector<int> index;
+  for (const ReportStep& step : steps) {
+    const int finger = step.skipped ? -1 : WeakestOf(step.needs);
+    if (finger < 0) continue;
+    weakest.push_back(step.needs[finger].friction);
+    index.push_back(step.check.index);
+  }
+  const int found = WeakestFinger(weakest);
+  return found < 0 ? -1 : index[found];
+}
+
+std::vector<std::string> Report::warnings() const {
+  std::vector<std::string> warnings;
+  for (const ReportStep& step : steps) {
+    const std::string name = "step " + std::to_string(step.check.index);
+    if (step.region && !step.region->holds) {
+      warnings.push_back(name + ": the plan claims a contact region of " +
+                         FormatShort(*step.region->claimed) + ", but it is " +
+                         FormatShort(step.region->half_width));
+    }
+    if (step.certificate && !step.certificate->proves()) {
+      warnings.push_back(name + ": the plan's certificate does not hold: " + step.certificate->why);
+    }
+  }
+  return warnings;
+}
+
+Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
+                const ReplayOptions& replay, const ReplayObserver& observer) {
+  const PlanCheck checked = CheckPlan(object, plan, check);
+  Report report;
+  report.scale = plan.scale;
+  report.dimension = plan.dimension;
+  report.planner = plan.planner;
+  report.half_angle = check.half_angle.value_or(plan.half_angle);
+  report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;
+  for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
+  const int passing = CountPassing(checked.steps);
+  MeasureRegions(object, checked.located, passing, report);
+  CheckCertificates(checked.located, passing, report);
+  if (passing > 0) {
+    ReplayOptions options = replay;
+    options.half_angle = report.half_angle;
+    options.finger_radius = report.finger_radius;
+    Replay(object, checked.located, options, observer, passing, report);
+    ExamineSteps(object, checked.located, passing, report);
+  }
+  SkipAfterFailure(report.steps);
+  return report;
+}
+
+void AddProofs(const Plan& located, Report& report) {
+  int entries = 0;
+  for (const ReportStep& step : report.steps) {
+    const Reason reason = step.check.reason;
+    const bool judged = reason == Reason::kNone || reason == Reason::kNotForceClosure ||
+                        reason == Reason::kNotProved;
+    if (step.check.skipped || !judged) break;
+    ++entries;
+  }
+  const std::vector<EntryProof> proofs = FindPlanProofs(located, report.half_angle, entries);
+  for (std::size_t i = 0; i < proofs.size(); ++i) report.steps[i].proof = proofs[i];
+}
+
+Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, double scale) {
+  Plan plan;
+  plan.scale = scale;
+  plan.dimension = object.dimension();
+  plan.half_angle = half_angle;
+  plan.fingers = static_cast<int>(grasp.size());
+  for (int finger = 0; finger < plan.fingers; ++finger) {
+    plan.initial.push_back({finger, grasp[finger]});
+  }
+  plan.goal = grasp;
+  return plan;
+}
+
+Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle, double scale,
+                     const ReplayOptions& replay, const ReplayObserver& observer) {
+  Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
+  plan.finger_radius = replay.finger_radius;
+  Report report = Validate(object, plan, {}, replay, observer);
+  const WrenchFrame frame = object.wrench_frame();
+  report.grasp.emplace();
+  report.grasp->fingers = MeasureFingerFriction(grasp, frame, half_angle);
+  if (!report.grasp->fingers.empty()) {
+    report.grasp->quality = ComputeQuality(grasp, frame, half_angle);
+  }
+  return report;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/certificate/plan_proof.h"
+#include "planner/grasp/finger_friction.h"
+#include "planner/grasp/quality.h"
+#include "planner/object/object.h"
+#include "planner/plan/check.h"
+#include "planner/plan/switch_region.h"
+#include "sim/measure/weakest_finger.h"
+#include "sim/replay/disagreement.h"
+#include "sim/replay/replay.h"
+#include "sim/replay/trials.h"
+
+namespace regrasp {
+
+enum class Verdict { kPass, kFail, kSkipped };
+
+/// "pass", "fail" or "skipped", as the report spells it.
+[[nodiscard]] std::string_view VerdictName(Verdict verdict);
+
+/// One entry of a report: the hold or a step, what the analysis and the replay say of it.
+struct ReportStep {
+  StepCheck check;
+  /// Of a switch between 2-finger grasps of a polygon that passes the analytic check.
+  std::optional<SwitchRegion> region;
+  /// What exact arithmetic says of the proof that the plan gives for an align, if it gives one and
+  /// the align passes the analytic check.
+  std::optional<ProofVerdict> certificate;
+  std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
+  bool skipped = false;              ///< a step before it failed, in the analysis or the replay
+  std::vector<NeedOfFinger> needs;   ///< of a step that passes the analytic check
+  std::optional<Disagreement> disagreement;  ///< between the examinations of a step
+  std::optional<EntryProof> proof;           ///< where AddProofs was asked
+  std::string frame;  ///< file name of the picture, empty where there is none
+
+  /// The analytic reason, or else that of the replay; kNone for a skipped step.
+  [[nodiscard]] Reason reason() const;
+  [[nodiscard]] const std::string& detail() const;
+  [[nodiscard]] Verdict verdict() const;
+};
+
+/// What is said of a single grasp.
+struct GraspReport {
+  /// Bounds on ε of the grasp (planner/grasp/quality.h); 0 where it is not force closure.
+  QualityBounds quality;
+  /// What each finger needs of its own friction, in the order of the file; empty where the grasp is
+  /// not force closure.
+  std::vector<FingerFriction> fingers;
+};
+
+/// A file, told by its content.
+struct FileDigest {
+  std::string name;
+  std::string sha256;
+};
+
+/// What a report comes from and what stands beside it.
+struct RunRecord {
+  std::string sha256;             ///< of all that the report comes from
+  std::vector<FileDigest> files;  ///< the other results of the same run
+};
+
+/// Everything that `validate` says of a plan; report.json is this.
+struct Report {
+  std::string object_file, object_sha256;
+  std::string plan_file, plan_sha256;  ///< or those of the grasp
+  std::string planner;
+  double scale = 1;
+  int dimension = 3;
+  double half_angle = 0;  ///< checked against, radians
+  /// Of the fingers, the object's unit of length; points where none.
+  std::optional<double> finger_radius = std::nullopt;
+  std::optional<ReplaySettings> settings;  ///< none where nothing was replayed
+  std::vector<ReportStep> steps;
+  /// Of a single grasp instead of a plan: the only entry is its hold.
+  std::optional<GraspReport> grasp = std::nullopt;
+  /// Repeats with noise, where they were asked for and the nominal replay passes. They do not
+  /// change the verdict.
+  std::optional<TrialSummary> trials = std::nullopt;
+  std::optional<RunRecord> run = std::nullopt;  ///< none: not told
+
+  [[nodiscard]] bool passed() const;
+  /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
+  /// where no step has one.
+  [[nodiscard]] int weakest_step() const;
+  /// The step with the weakest finger of all (sim/measure/weakest_finger.h), the first of equal
+  /// ones; −1 where no step has one.
+  [[nodiscard]] int weakest_finger_step() const;
+  /// For people, without a verdict: each switch whose contact region is smaller than claimed, each
+  /// align whose certificate does not hold.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+};
+
+/// Checks a plan analytically and replays the steps that pass, up to the first that fails: a step
+/// that fails the analytic check is not replayed, and what follows a failed step is skipped. Both
+/// use the friction of `check` where it is given, otherwise the plan's.
+///
+/// Files' names and digests, and frames, are left to the caller.
+/// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
+[[nodiscard]] Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
+                              const ReplayOptions& replay, const ReplayObserver& observer = {});
+
+/// Holds one grasp: the report of a plan without steps whose hand has just the fingers of the
+/// grasp, numbered in its order, with what is said of a single grasp.
+/// @param grasp       placed on the object, not empty.
+/// @param half_angle  friction, radians.
+/// @param scale       metres per unit of the object.
+/// @throws InputError             the body cannot be simulated.
+/// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
+[[nodiscard]] Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle,
+                                   double scale, const ReplayOptions& replay,
+                                   const ReplayObserver& observer = {});
+
+/// Adds the proofs of force closure, or of its loss, of every entry that the analytic check came to
+/// and that has no fault but the loss.
+/// @param located  the plan that the report is about (LocatePlan).
+void AddProofs(const Plan& located, Report& report);
+
+/// The plan without steps that a grasp makes: fingers are numbered in its order.
+[[nodiscard]] Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle,
+                                double scale);
+
+/// The text of report.json. Beside what docs/formats.md promises it has, for each step, `detail`
+/// for people, `undecided` and, for an align, how it was carried out. Bytes of file names that are
+/// not UTF-8 are replaced.
+[[nodiscard]] std::string FormatReportJson(const Report& report);
+
+/// A readable table: a line per step with required half-angle, displacement, slip and verdict, and
+/// the contact region in plans where a step has one; then why a step failed, the weakest step, and
+/// the verdict.
+[[nodiscard]] std::string FormatReportTable(const Report& report);
+
+}  // namespace regrasp

@@ -1,0 +1,191 @@
+#include <cmath>
+#include <utility>
+
+#include "planner/base/angle.h"
+#include "planner/base/json.h"
+#include "report/report.h"
+#include "report/report_seal.h"
+#include "report/simulation_json.h"
+#include "report/stress_table.h"
+#include "report/trials_report.h"
+
+namespace regrasp {
+
+namespace {
+
+Json MakeSettings(const Report& report) {
+  Json settings = {{"friction_half_angle_deg", Degrees(report.half_angle)},
+                   {"mu", std::tan(report.half_angle)}};
+  if (report.finger_radius) settings["finger_radius"] = *report.finger_radius;
+  if (!report.settings) return settings;
+  const ReplaySettings& replay = *report.settings;
+  settings["mu"] = replay.mu;
+  settings["mass_kg"] = replay.mass_kg;
+  settings["squeeze_N"] = replay.squeeze_N;
+  settings["gravity_m_s2"] = replay.gravity_m_s2;
+  if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
+  settings["shake"] = replay.shake;
+  settings["protocol"] = ProtocolName(replay.protocol);
+  settings["stress"] = replay.stress;
+  settings["tolerance"] = replay.tolerance;
+  settings["align"] = replay.align == AlignChoice::kSlide ? "slide" : "imitate";
+  settings["fingertip_radius_m"] = replay.fingertip_radius_m;
+  settings["finger_mass_kg"] = replay.finger_mass_kg;
+  settings["finger_stiffness_N_m"] = replay.finger_stiffness_N_m;
+  settings["timestep_s"] = replay.timestep_s;
+  return settings;
+}
+
+Json MakeForceClosure(const ReportStep& step) {
+  if (step.check.skipped) return nullptr;
+  Json required = nullptr;
+  if (step.check.required) required = Degrees(step.check.required->upper);
+  return {{"holds", step.check.force_closure}, {"required_half_angle_deg", required}};
+}
+
+Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
+  const int weakest = step.skipped ? -1 : WeakestOf(step.needs);
+  if (weakest < 0) return nullptr;
+  return FingerNeedJson(step.needs[weakest].finger, step.needs[weakest].friction, half_angle);
+}
+
+/// What the plan takes as a whole: the least of every margin, and where.
+Json MakeMargins(const Report& report) {
+  Json finger = nullptr;
+  if (const int step = report.weakest_finger_step(); step >= 0) {
+    finger = MakeWeakestFinger(report.steps[step], report.half_angle);
+    finger["step"] = step;
+  }
+  Json required = nullptr;
+  if (const int step = report.weakest_step(); step >= 0) {
+    const double angle = report.steps[step].check.required->upper;
+    required = {{"step", step}, {"required_half_angle_deg", Degrees(angle)}};
+  }
+  Json stress = nullptr;
+  if (const auto weakest = FindWeakestPush(report)) {
+    stress = StressJson({weakest->stress})[0];
+    stress["step"] = weakest->step;
+  }
+  return {{"friction", required}, {"weakest_finger", finger}, {"stress", stress}};
+}
+
+Json MakeAlignMode(const std::optional<StepReplay>& replay) {
+  switch (replay ? replay->align_mode : AlignMode::kNone) {
+    case AlignMode::kImitated:
+      return "imitated";
+    case AlignMode::kSlid:
+      return "slid";
+    case AlignMode::kMixed:
+      return "mixed";
+    default:
+      return nullptr;
+  }
+}
+
+Json MakeAlignShares(const std::optional<StepReplay>& replay) {
+  if (!replay || replay->align_mode == AlignMode::kNone) return nullptr;
+  const AlignShares& shares = replay->align_shares;
+  return {
+      {"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
+}
+
+/// `step` gets its contact region, if it has one.
+void AddRegion(const std::optional<SwitchRegion>& region, Json& step) {
+  if (!region) return;
+  Json claimed = nullptr;
+  if (region->claimed) claimed = *region->claimed;
+  step["region"] = {
+      {"half_width", region->half_width}, {"claimed", claimed}, {"holds", region->holds}};
+}
+
+Json MakeCertificate(const std::optional<ProofVerdict>& certificate) {
+  if (!certificate) return nullptr;
+  return certificate->proves() ? "holds" : "does-not-hold";
+}
+
+/// An empty text is null.
+Json MakeText(std::string_view text) {
+  return text.empty() ? Json(nullptr) : Json(std::string(text));
+}
+
+/// What the replay measured, where there was one.
+void AddReplay(const ReportStep& step, Json& json) {
+  if (!step.replay || step.skipped) return;
+  json["protocols"] = ProtocolsJson(*step.replay);
+  if (!step.replay->stress.empty()) json["stress"] = StressJson(step.replay->stress);
+}
+
+Json MakeStep(const ReportStep& step, const Report& report) {
+  Json json = {{"index", step.check.index},
+               {"kind", step.check.kind},
+               {"verdict", std::string(VerdictName(step.verdict()))},
+               {"reason", MakeText(ReasonName(step.reason()))},
+               {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
+               {"force_closure", MakeForceClosure(step)},
+               {"undecided", step.check.undecided},
+               {"align_mode", MakeAlignMode(step.replay)},
+               {"align_shares", MakeAlignShares(step.replay)},
+               {"certificate", MakeCertificate(step.certificate)},
+               {"simulation", step.replay ? SimulationJson(*step.replay) : Json(nullptr)},
+               {"cause", CauseJson(step.disagreement)},
+               {"weakest_finger", MakeWeakestFinger(step, report.half_angle)},
+               {"frame", MakeText(step.frame)}};
+  AddReplay(step, json);
+  AddRegion(step.region, json);
+  if (step.proof) json["proof"] = EntryProofJson(*step.proof, report.dimension);
+  return json;
+}
+
+Json MakePlan(const Report& report) {
+  if (report.grasp) return nullptr;
+  return {{"file", report.plan_file}, {"sha256", report.plan_sha256}, {"planner", report.planner}};
+}
+
+Json MakeGrasp(const Report& report) {
+  const GraspReport& grasp = *report.grasp;
+  Json fingers = Json::array();
+  for (std::size_t i = 0; i < grasp.fingers.size(); ++i) {
+    fingers.push_back(FingerNeedJson(static_cast<int>(i), grasp.fingers[i], report.half_angle));
+  }
+  const int weakest = WeakestFinger(grasp.fingers);
+  return {{"file", report.plan_file},
+          {"sha256", report.plan_sha256},
+          {"quality", grasp.quality.lower},
+          {"quality_at_most", grasp.quality.upper},
+          {"weakest_finger", weakest < 0 ? Json(nullptr) : Json(weakest)},
+          {"fingers", fingers}};
+}
+
+Json RunJson(const RunRecord& run) {
+  Json files = Json::array();
+  for (const FileDigest& file : run.files) {
+    files.push_back({{"file", file.name}, {"sha256", file.sha256}});
+  }
+  return {{"sha256", run.sha256}, {"files", files}};
+}
+
+}  // namespace
+
+std::string FormatReportJson(const Report& report) {
+  Json json = {{"format", "regrasp-report"},
+               {"version", 1},
+               {"verdict", report.passed() ? "pass" : "fail"},
+               {"object",
+                {{"file", report.object_file},
+                 {"sha256", report.object_sha256},
+                 {"scale", report.scale},
+                 {"dimension", report.dimension}}},
+               {"plan", MakePlan(report)},
+               {"settings", MakeSettings(report)}};
+  if (report.run) json["run"] = RunJson(*report.run);
+  if (report.grasp) json["grasp"] = MakeGrasp(report);
+  if (report.trials) json["trials"] = TrialsJson(*report.trials);
+  const int weakest = report.weakest_step();
+  json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
+  json["margins"] = MakeMargins(report);
+  json["steps"] = Json::array();
+  for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
+  return SealReport(std::move(json));
+}
+
+}  // namespace regrasp

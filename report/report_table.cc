@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/base/text_table.h"
+#include "planner/grasp/quality.h"
+#include "report/report.h"
+#include "report/stress_table.h"
+#include "report/trials_report.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Angles to a hundredth of a degree, lengths to two significant digits.
+constexpr int kAngleDecimals = 2;
+constexpr int kLengthDigits = 2;
+
+constexpr char kNothing[] = "-";
+
+std::string RequiredAngle(const ReportStep& step) {
+  if (step.check.skipped) return kNothing;
+  if (!step.check.required) return "none";
+  return FormatFixed(Degrees(step.check.required->upper), kAngleDecimals);
+}
+
+/// Which columns a table has beside those that it always has.
+struct Columns {
+  bool regions = false;
+  bool fixed = false;  ///< the verdict at fixed squeeze, beside the adapted one that decides
+};
+
+Columns ColumnsOf(const Report& report) {
+  const auto has = [&](auto property) { return std::ranges::any_of(report.steps, property); };
+  return {has([](const ReportStep& step) { return step.region.has_value(); }),
+          has([](const ReportStep& step) {
+            return step.replay && step.replay->adapted && step.replay->fixed;
+          })};
+}
+
+std::string FixedVerdict(const ReportStep& step) {
+  if (!step.replay || !step.replay->fixed || step.skipped) return kNothing;
+  const Reason reason = step.replay->fixed->reason;
+  return reason == Reason::kNone ? "pass" : "fail: " + std::string(ReasonName(reason));
+}
+
+TextRow MakeRow(const ReportStep& step, const Columns& columns) {
+  const auto length = [&](double StepReplay::*member) -> std::string {
+    return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
+  };
+  std::string verdict(VerdictName(step.verdict()));
+  if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
+  TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
+                 length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
+  if (columns.regions) {
+    row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
+  }
+  if (columns.fixed) row.push_back(FixedVerdict(step));
+  row.push_back(verdict);
+  return row;
+}
+
+std::string FormatWeakest(const Report& report) {
+  const int weakest = report.weakest_step();
+  if (weakest < 0) return "";
+  const ReportStep& step = report.steps[weakest];
+  return "weakest: step " + std::to_string(weakest) + " (" + step.check.kind +
+         "), which needs a friction half-angle of " + RequiredAngle(step) + " of " +
+         FormatFixed(Degrees(report.half_angle), kAngleDecimals) + " degrees\n";
+}
+
+/// Quality and weakest finger of a single grasp.
+std::string FormatGraspLines(const Report& report) {
+  const int weakest = WeakestFinger(report.grasp->fingers);
+  if (weakest < 0) return "";
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  const FingerFriction& finger = report.grasp->fingers[weakest];
+  std::string text = "quality: " + QualityText(report.grasp->quality) + "\nweakest: finger " +
+                     std::to_string(weakest);
+  if (finger.needed) {
+    text += ", which alone needs a friction half-angle of " + degrees(finger.required);
+  } else {
+    text += ", without which the others need a friction half-angle of " + degrees(*finger.without);
+  }
+  return text + " of " + degrees(report.half_angle) + " degrees\n";
+}
+
+std::string FormatFailure(const Report& report) {
+  for (const ReportStep& step : report.steps) {
+    if (step.verdict() == Verdict::kFail && !step.detail().empty()) {
+      return "step " + std::to_string(step.check.index) + ": " + step.detail() + "\n";
+    }
+  }
+  return "";
+}
+
+std::string FormatCauses(const Report& report) {
+  std::string text;
+  for (const ReportStep& step : report.steps) {
+    if (!step.disagreement) continue;
+    const bool fixed = step.disagreement->between == Between::kFixedFails;
+    text += "step " + std::to_string(step.check.index) + ": " +
+            (fixed ? "a fixed squeeze fails, " : "") + "likely cause: " + step.disagreement->text +
+            "\n";
+  }
+  return text;
+}
+
+/// The weakest finger of the whole plan.
+std::string FormatWeakestFinger(const Report& report) {
+  const int index = report.weakest_finger_step();
+  if (index < 0 || report.grasp) return "";
+  const ReportStep& step = report.steps[index];
+  const NeedOfFinger& need = step.needs[WeakestOf(step.needs)];
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  std::string text =
+      "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index);
+  if (need.friction.needed) {
+    text += ", which alone needs " + degrees(need.friction.required);
+  } else {
+    text += ", without which the others need " + degrees(*need.friction.without);
+  }
+  return text + " of " + degrees(report.half_angle) + " degrees\n";
+}
+
+std::string FormatUndecided(const Report& report) {
+  long undecided = 0;
+  for (const ReportStep& step : report.steps) undecided += step.check.undecided;
+  if (undecided == 0) return "";
+  return "undecided: " + std::to_string(undecided) +
+         " pieces of aligns, a millionth of the path each\n";
+}
+
+std::string FormatTrials(const Report& report) {
+  if (!report.trials) return "";
+  const std::string failures = TrialsFailureText(*report.trials);
+  return "trials: " + TrialsShareText(*report.trials) + "\n" +
+         (failures.empty() ? "" : "trials that fail: " + failures + "\n") +
+         "noise: " + TrialsNoiseText(*report.trials) + "\n";
+}
+
+}  // namespace
+
+std::string FormatReportTable(const Report& report) {
+  const Columns columns = ColumnsOf(report);
+  std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
+  if (columns.regions) rows.front().push_back("region");
+  if (columns.fixed) rows.front().push_back("fixed_squeeze");
+  rows.front().push_back("verdict");
+  for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
+  return FormatRows(rows) + FormatFailure(report) + FormatCauses(report) + FormatUndecided(report) +
+         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) +
+         FormatWeakestFinger(report) + FormatStressTable(report) + FormatTrials(report) +
+         "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
+}
+
+}  // namespace regrasp

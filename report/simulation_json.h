@@ -1,0 +1,28 @@
+#pragma once
+
+#include "planner/base/json.h"
+#include "sim/measure/weakest_finger.h"
+#include "sim/replay/disagreement.h"
+#include "sim/replay/replay.h"
+
+namespace regrasp {
+
+/// "adapted", "fixed" or "both".
+[[nodiscard]] const char* ProtocolName(Protocol protocol);
+
+/// The member `simulation` of an entry: motion, slip, cone margins.
+[[nodiscard]] Json SimulationJson(const StepReplay& replay);
+
+/// The member `protocols`: what each protocol that ran says.
+[[nodiscard]] Json ProtocolsJson(const StepReplay& replay);
+
+/// The member `stress`: an array with an element for each direction.
+[[nodiscard]] Json StressJson(const std::vector<DirectionStress>& stress);
+
+/// The member `cause`; null where nothing disagrees.
+[[nodiscard]] Json CauseJson(const std::optional<Disagreement>& disagreement);
+
+/// What one finger needs of its own friction.
+[[nodiscard]] Json FingerNeedJson(int finger, const FingerFriction& friction, double half_angle);
+
+}  // namespace regrasp

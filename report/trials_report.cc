@@ -1,0 +1,67 @@
+#include "report/trials_report.h"
+
+#include "planner/base/number.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr int kPercentDigits = 3;
+
+std::string Percent(double share) { return FormatShort(100 * share, kPercentDigits); }
+
+}  // namespace
+
+Json TrialsJson(const TrialSummary& summary) {
+  const ShareInterval interval = summary.interval();
+  Json reasons = Json::object();
+  for (const auto& [reason, count] : summary.reasons) {
+    reasons[std::string(ReasonName(reason))] = count;
+  }
+  Json steps = Json::array();
+  for (const auto& [index, count] : summary.steps) {
+    steps.push_back({{"index", index}, {"failed", count}});
+  }
+  return {{"count", summary.options.count},
+          {"seed", summary.options.seed},
+          {"position_noise", summary.options.position_noise},
+          {"friction_error", summary.options.friction_error},
+          {"mass_error", summary.options.mass_error},
+          {"passed", summary.passed},
+          {"share", summary.share()},
+          {"confidence", kTrialConfidence},
+          {"interval", {interval.lower, interval.upper}},
+          {"reasons", reasons},
+          {"steps", steps}};
+}
+
+std::string TrialsShareText(const TrialSummary& summary) {
+  const ShareInterval interval = summary.interval();
+  return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
+         " pass: " + Percent(summary.share()) + " %, with " + Percent(kTrialConfidence) +
+         " % confidence between " + Percent(interval.lower) + " and " + Percent(interval.upper) +
+         " %";
+}
+
+std::string TrialsFailureText(const TrialSummary& summary) {
+  std::string text;
+  for (const auto& [reason, count] : summary.reasons) {
+    text +=
+        (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(ReasonName(reason));
+  }
+  const char* before = "; first in ";
+  for (const auto& [index, count] : summary.steps) {
+    text += before + ("step " + std::to_string(index)) + ": " + std::to_string(count);
+    before = ", ";
+  }
+  return text;
+}
+
+std::string TrialsNoiseText(const TrialSummary& summary) {
+  const TrialOptions& options = summary.options;
+  return "contacts off by " + FormatShort(options.position_noise) + " diameters, friction by " +
+         Percent(options.friction_error) + " %, mass by " + Percent(options.mass_error) +
+         " % (standard deviations); seed " + std::to_string(options.seed);
+}
+
+}  // namespace regrasp

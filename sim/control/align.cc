@@ -1,0 +1,92 @@
+#include "sim/control/align.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/control/motions.h"
+#include "sim/control/roll.h"
+#include "sim/control/slide.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Contacts this close, over D, are one: the finger stays.
+constexpr double kSamePoint = 1e-9;
+
+bool Stays(const ReplayWorld& world, const Contact& from, const Contact& to) {
+  return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * world.settings().diameter_m;
+}
+
+std::vector<int> FingersOf(const FingerGrasp& grasp) {
+  std::vector<int> fingers;
+  for (const FingerContact& held : grasp) fingers.push_back(held.finger);
+  return fingers;
+}
+
+/// The verdict stands; to go on with an object that is lost takes long and tells nothing.
+bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != Reason::kNone; }
+
+void HandOver(ReplayWorld& world, const FingerHandover& move) {
+  SwitchFingers(world, move.stand_ins, FingersOf(move.targets));
+  SwitchFingers(world, move.targets, FingersOf(move.stand_ins));
+}
+
+/// The finger that the others balance best goes first.
+void Slide(ReplayWorld& world, const FingerGrasp& from, const FingerGrasp& to) {
+  std::vector<std::size_t> waiting;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (!Stays(world, from[i].contact, to[i].contact)) waiting.push_back(i);
+  }
+  while (!waiting.empty()) {
+    const auto next = std::ranges::max_element(waiting, {}, [&](std::size_t i) {
+      return SlideMargin(world, from[i].finger, from[i].contact, to[i].contact);
+    });
+    SlideFinger(world, from[*next].finger, from[*next].contact, to[*next].contact);
+    waiting.erase(next);
+  }
+}
+
+}  // namespace
+
+AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
+  bool over = false;
+  bool slid = false;
+  for (const AlignMove& move : script_B.moves) {
+    if (HasFailed(world)) break;
+    if (const auto* fingers = std::get_if<FingerHandover>(&move)) {
+      over = true;
+      HandOver(world, *fingers);
+    } else if (const auto* roll = std::get_if<FingersRoll>(&move)) {
+      slid = true;
+      RollFingers(world, roll->from, roll->to);
+    } else {
+      slid = true;
+      const auto& grasps = std::get<FingersSlide>(move).grasps;
+      for (std::size_t i = 1; i < grasps.size() && !HasFailed(world); ++i) {
+        Slide(world, grasps[i - 1], grasps[i]);
+      }
+    }
+  }
+  if (!slid) return AlignMode::kImitated;
+  return over ? AlignMode::kMixed : AlignMode::kSlid;
+}
+
+void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B) {
+  for (WorldFinger& finger : world.fingers()) {
+    finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
+  }
+  for (const FingerContact& start : waypoints_B.front()) {
+    const auto end = std::ranges::find(waypoints_B.back(), start.finger, &FingerContact::finger);
+    if (end == waypoints_B.back().end() || Stays(world, start.contact, end->contact)) continue;
+    WorldFinger& finger = world.fingers()[start.finger];
+    finger.role = FingerRole::kMoved;
+    finger.path_B.clear();
+    for (const FingerGrasp& grasp_B : waypoints_B) {
+      const auto at = std::ranges::find(grasp_B, start.finger, &FingerContact::finger);
+      if (at != grasp_B.end()) finger.path_B.push_back(at->contact.p);
+    }
+  }
+}
+
+}  // namespace regrasp

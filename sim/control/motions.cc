@@ -1,0 +1,137 @@
+#include "sim/control/motions.h"
+
+#include <algorithm>
+
+#include "sim/control/grasp_control.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// From 0 to 1 with no speed at either end.
+double Smooth(double t) { return t * t * (3 - 2 * t); }
+
+double Mix(double from, double to, double share) { return (1 - share) * from + share * to; }
+
+/// How far a finger stands off: not into what lies opposite, in a hole. The ball of twice the
+/// fingertip's radius at the contact is empty (DeriveSettings).
+double StandOff(const ReplayWorld& world) {
+  return std::min(kStandOff * world.settings().diameter_m, 2 * world.settings().fingertip_radius_m);
+}
+
+void Touch(ReplayWorld& world, int finger) {
+  WorldFinger& state = world.fingers()[finger];
+  const Vector3d tip = world.engine().tip(finger);
+  // Same control as before: what pressed through the spring now presses through the feed-forward.
+  state.force_S += world.settings().finger_stiffness_N_m * (state.anchor_S - tip);
+  state.anchor_S = tip;
+  state.holding = true;
+  state.touch_B = world.ContactPoint_B(finger);
+}
+
+void Appear(ReplayWorld& world, const FingerContact& placed_B, double gap) {
+  WorldFinger& state = world.fingers()[placed_B.finger];
+  state.contact = placed_B.contact;
+  state.force_S.setZero();
+  state.anchor_S = world.TipAt_S(placed_B.contact, gap);
+  world.engine().PlaceTip(placed_B.finger, state.anchor_S);
+  world.engine().SetSite(placed_B.finger, FindSite(world.scene(), placed_B.contact));
+}
+
+void Descend(ReplayWorld& world, const FingerGrasp& placed_B, double from, double to,
+             double duration) {
+  world.Run(duration, [&](double share) {
+    for (const FingerContact& placed : placed_B) {
+      world.fingers()[placed.finger].anchor_S =
+          world.TipAt_S(placed.contact, Mix(from, to, Smooth(share)));
+    }
+  });
+}
+
+void CreepUntilTouch(ReplayWorld& world, const FingerGrasp& placed_B) {
+  const ReplaySettings& s = world.settings();
+  const int most = world.StepsIn(kMostCreepTime);
+  const double way = kCreepSpeed * kMostCreepTime;
+  FingerGrasp open = placed_B;
+  for (int i = 1; i <= most && !open.empty(); ++i) {
+    const double gap = kCreepGap - way * i / most;
+    for (const FingerContact& placed : open) {
+      world.fingers()[placed.finger].anchor_S = world.TipAt_S(placed.contact, gap * s.diameter_m);
+    }
+    world.Step();
+    std::erase_if(open, [&](const FingerContact& placed) {
+      const bool touches =
+          world.engine().contact_force(placed.finger).norm() >= kTouchForce * s.squeeze_N;
+      if (touches) Touch(world, placed.finger);
+      return touches;
+    });
+  }
+  for (const FingerContact& placed : open) Touch(world, placed.finger);
+}
+
+}  // namespace
+
+void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B) {
+  for (const FingerContact& held : grasp_B) {
+    Appear(world, held, -kFirstDepth * world.settings().diameter_m);
+    world.fingers()[held.finger].role = FingerRole::kHolding;
+    Touch(world, held.finger);
+  }
+  world.SetGravity(world.settings().gravity_m_s2);
+  const HandForces forces = PlanHandForces(world, world.HoldingFingers(), {}, world.half_angle());
+  const HandForces none(forces.size(), Vector3d::Zero());
+  world.Run(kHoldTime, [&](double share) {
+    world.SetGravity(share * world.settings().gravity_m_s2);
+    MixForces(world, none, forces, share);
+  });
+}
+
+void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B) {
+  if (placed_B.empty()) return;
+  const double D = world.settings().diameter_m;
+  const double away = StandOff(world);
+  for (const FingerContact& placed : placed_B) {
+    Appear(world, placed, away);
+    world.fingers()[placed.finger].role = FingerRole::kPlaced;
+  }
+  Descend(world, placed_B, away, std::min(away, kApproachGap * D), kApproachTime);
+  Descend(world, placed_B, std::min(away, kApproachGap * D), kCreepGap * D, kCloseTime);
+  CreepUntilTouch(world, placed_B);
+}
+
+void TransferForces(ReplayWorld& world, const std::vector<int>& fingers) {
+  const HandForces from = CurrentForces(world);
+  const HandForces to = PlanHandForces(world, fingers, {}, world.half_angle());
+  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
+}
+
+void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
+  if (fingers.empty()) return;
+  std::vector<Vector3d> start, way;
+  for (const int f : fingers) {
+    WorldFinger& finger = world.fingers()[f];
+    finger.holding = false;
+    finger.role = FingerRole::kReleased;
+    start.push_back(finger.anchor_S);
+    way.push_back(-StandOff(world) * (world.X_SB().linear() * finger.contact.n));
+  }
+  world.Run(kRetractTime, [&](double share) {
+    for (std::size_t i = 0; i < fingers.size(); ++i) {
+      world.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * way[i];
+    }
+  });
+  for (const int f : fingers) world.engine().SetSite(f, -1);
+}
+
+void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,
+                   const std::vector<int>& released) {
+  PlaceFingers(world, placed_B);
+  std::vector<int> after = world.HoldingFingers();
+  std::erase_if(after, [&](int f) { return std::ranges::find(released, f) != released.end(); });
+  TransferForces(world, after);
+  RetractFingers(world, released);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,116 @@
+#include "sim/control/roll.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/angle_between.h"
+#include "sim/control/align.h"
+#include "sim/control/grasp_control.h"
+#include "sim/control/motions.h"
+#include "sim/scene/align_path.h"
+#include "sim/scene/align_script.h"
+#include "sim/world/stillness.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Forces are planned anew after this share of D on the way of the tip that goes farthest, and
+/// after this turn of a normal, radians: in between they are mixed, and have to fit the cones.
+constexpr double kStretch = 0.01;
+constexpr double kTurnStretch = Radians(2);
+/// The engine misses a touch at an edge now and then, so that turns are short.
+constexpr double kLeastStretchTime = 0.08;  ///< natural times
+
+Vector3d Tip(const Contact& contact, double radius) { return contact.p - radius * contact.n; }
+
+/// What the fingers have to do at most.
+struct Extent {
+  double way = 0;   ///< of a contact, metres
+  double turn = 0;  ///< of a normal, radians
+};
+
+Extent FindExtent(const FingerGrasp& from, const FingerGrasp& to) {
+  Extent most;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Contact& a = from[i].contact;
+    const Contact& b = to[i].contact;
+    most.way = std::max(most.way, (b.p - a.p).norm());
+    most.turn = std::max(most.turn, AngleBetween(a.n, b.n));
+  }
+  return most;
+}
+
+/// Forces that hold the object in a grasp: inside narrower cones where there are such.
+HandForces PlanForces(const ReplayWorld& world, const FingerGrasp& grasp_B) {
+  const Eigen::Matrix3d R_SB = world.X_SB().linear();
+  const Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
+  HandForces hand(world.fingers().size(), Vector3d::Zero());
+  for (const double friction_share : {kSlideFriction, 1.0}) {
+    const GraspForces planned = ComputeGraspForces(ContactsOf(grasp_B), world.frame_B(),
+                                                   std::atan(friction_share * world.settings().mu),
+                                                   load, world.settings().squeeze_N);
+    for (std::size_t i = 0; i < grasp_B.size(); ++i) {
+      hand[grasp_B[i].finger] = R_SB * planned.forces[i];
+    }
+    if (planned.balanced && planned.margin > 0) break;
+  }
+  return hand;
+}
+
+void BlendTo(ReplayWorld& world, const HandForces& to) {
+  const HandForces from = CurrentForces(world);
+  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
+}
+
+/// Takes a tip along with its contact; whatever it is off the plan stays.
+void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
+  WorldFinger& state = world.fingers()[finger];
+  const double radius = world.settings().fingertip_radius_m;
+  const Vector3d offset_S =
+      world.X_SB().linear() * (Tip(contact_B, radius) - Tip(state.contact, radius));
+  world.engine().ShiftTip(finger, offset_S);
+  state.anchor_S += offset_S;
+  state.touch_B += contact_B.p - state.contact.p;
+  state.contact = contact_B;
+}
+
+}  // namespace
+
+void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B) {
+  const Extent extent = FindExtent(from_B, to_B);
+  const double way = extent.way / world.settings().diameter_m;
+  const int stretches =
+      static_cast<int>(std::ceil(std::max(way / kStretch, extent.turn / kTurnStretch)));
+  if (stretches == 0) return;
+  const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
+  std::vector<int> sites;
+  for (std::size_t i = 0; i < to_B.size(); ++i) {
+    sites.push_back(FindSite(world.scene(), from_B[i].contact, to_B[i].contact));
+    world.engine().AddSite(to_B[i].finger, sites.back());
+  }
+  BlendTo(world, PlanForces(world, from_B));
+  FingerGrasp at = from_B;
+  for (int i = 1; i <= stretches; ++i) {
+    const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / stretches);
+    const HandForces before = CurrentForces(world);
+    const HandForces after = PlanForces(world, next);
+    world.Run(duration, [&](double share) {
+      for (const FingerContact& held : Interpolate(at, next, share)) {
+        MoveAlong(world, held.finger, held.contact);
+      }
+      MixForces(world, before, after, share);
+    });
+    at = next;
+  }
+  (void)WaitUntilStill(world);
+  for (std::size_t i = 0; i < to_B.size(); ++i) {
+    world.engine().SetSite(to_B[i].finger, sites[i]);
+  }
+  TransferForces(world, world.HoldingFingers());
+}
+
+}  // namespace regrasp

@@ -1,0 +1,33 @@
+#include "sim/measure/push.h"
+
+namespace regrasp {
+namespace {
+
+/// In the plane there are two forces and one torque.
+bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
+
+}  // namespace
+
+std::vector<Push> PushDirections(int dimension) {
+  std::vector<Push> pushes;
+  for (const bool turn : {false, true}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!IsAxis(dimension, turn, axis)) continue;
+      for (const double sign : {1.0, -1.0}) pushes.push_back({turn, axis, sign});
+    }
+  }
+  return pushes;
+}
+
+std::string PushName(const Push& push) {
+  return std::string(push.turn ? "torque " : "force ") + (push.sign > 0 ? "+" : "-") +
+         "xyz"[push.axis];
+}
+
+Wrench PushWrench(const Push& push, double size) {
+  const Eigen::Vector3d along = push.sign * size * Eigen::Vector3d::Unit(push.axis);
+  return push.turn ? Wrench{Eigen::Vector3d::Zero(), along}
+                   : Wrench{along, Eigen::Vector3d::Zero()};
+}
+
+}  // namespace regrasp

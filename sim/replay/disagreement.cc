@@ -1,0 +1,284 @@
+#include "sim/replay/disagreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/criteria/clearance.h"
+#include "planner/grasp/grasp_forces.h"
+#include "planner/grasp/largest_load.h"
+#include "planner/grasp/quality.h"
+#include "sim/measure/push.h"
+#include "sim/measure/weakest_finger.h"
+#include "sim/scene/scaling.h"
+
+namespace regrasp {
+namespace {
+
+using Answer = std::optional<Disagreement>;
+
+/// A fingertip counts as too thick only where it exceeds the room by more than rounding.
+constexpr double kThicker = 1 + 1e-6;
+
+std::string Finger(int finger) { return "finger " + std::to_string(finger); }
+
+/// A finger that slid off its face pushes on another one; what it lacks to the planned cone then is
+/// no number to tell.
+Disagreement ConeReached(const std::string& what, int finger, double margin) {
+  const double degrees = Degrees(std::max(margin, 0.0));
+  return {.cause = Cause::kConeReached,
+          .text = what + ": margin " + FormatShort(degrees, 2) + " deg",
+          .values = {{"finger", finger}, {"cone_margin_deg", degrees}}};
+}
+
+/// Looks for causes where the replay fails, one after the other.
+class ReplayFault {
+ public:
+  explicit ReplayFault(const ExaminedStep& step)
+      : step_(step),
+        half_angle_(std::atan(step.settings.mu)),
+        frame_(step.object.wrench_frame()),
+        grasps_(GraspsOfEntry(step.located, step.check.index)) {}
+
+  [[nodiscard]] Disagreement Explain() const {
+    for (const auto look : {&ReplayFault::LookForRoom, &ReplayFault::LookAtWeight,
+                            &ReplayFault::LookAtQuality, &ReplayFault::LookAtWeightInShake,
+                            &ReplayFault::LookForEdge, &ReplayFault::LookAtCones}) {
+      if (Answer found = (this->*look)()) return *found;
+    }
+    return {.cause = Cause::kUnknown,
+            .text = "no cause found: quality " + FormatShort(quality()) + ", shake " +
+                    FormatShort(step_.settings.shake),
+            .values = {{"quality", quality()}, {"shake", step_.settings.shake}}};
+  }
+
+  [[nodiscard]] Answer LookForEdge() const {
+    const double slip = step_.settings.tolerance * step_.object.diameter();
+    for (const FingerGrasp& grasp : grasps_) {
+      for (const FingerContact& held : grasp) {
+        const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
+        if (away >= slip) continue;
+        return Disagreement{.cause = Cause::kEdge,
+                            .text = Finger(held.finger) + " stands " + FormatShort(Metres(away)) +
+                                    " m from the border of its face, and may slip " +
+                                    FormatShort(Metres(slip)) + " m",
+                            .values = {{"finger", held.finger},
+                                       {"border_m", Metres(away)},
+                                       {"allowed_slip_m", Metres(slip)}}};
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] double Metres(double length) const { return length * step_.located.scale; }
+
+  [[nodiscard]] Wrench Weight() const {
+    const double share =
+        step_.settings.mass_kg * step_.settings.gravity_m_s2 / step_.settings.squeeze_N;
+    return {-share * Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+  }
+
+  [[nodiscard]] double quality() const {
+    double least = 1;
+    for (const FingerGrasp& grasp : grasps_) {
+      if (grasp.empty()) return 0;
+      const Grasp contacts = ContactsOf(grasp);
+      // To say that a grasp is no worse takes a part of the work of measuring it.
+      if (QualityAtLeast(contacts, frame_, half_angle_, least)) continue;
+      least = std::min(least, ComputeQuality(contacts, frame_, half_angle_).lower);
+    }
+    return least;
+  }
+
+  [[nodiscard]] Answer LookForRoom() const {
+    const double tip = step_.settings.fingertip_radius_m / step_.located.scale;
+    for (const FingerGrasp& grasp : grasps_) {
+      for (const FingerContact& held : grasp) {
+        const double room = ComputeClearance(step_.object, held.contact, 2 * tip);
+        const bool corner = room < kLeastClearance * step_.object.diameter();
+        if (!corner && tip <= kThicker * room) continue;
+        const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
+        Disagreement found{.cause = corner ? Cause::kConcaveCorner : Cause::kNoRoom,
+                           .values = {{"finger", held.finger},
+                                      {"clearance_m", Metres(room)},
+                                      {"fingertip_radius_m", Metres(tip)},
+                                      {"border_m", Metres(away)}}};
+        found.text = corner ? Finger(held.finger) + " stands in a concave corner, " +
+                                  FormatShort(Metres(away)) + " m from the border of its face"
+                            : "a fingertip of radius " + FormatShort(Metres(tip)) +
+                                  " m has no room at " + Finger(held.finger) + ", where " +
+                                  FormatShort(Metres(room)) + " m fit";
+        return found;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Answer LookAtWeight() const {
+    const double weight = Weight().force.norm();
+    if (weight == 0) return std::nullopt;
+    const Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+    for (const FingerGrasp& grasp : grasps_) {
+      if (grasp.empty()) continue;
+      const auto carried = ComputeLargestLoad(ContactsOf(grasp), frame_, half_angle_, {}, down, 1);
+      if (!carried || carried->upper >= weight) continue;
+      return Disagreement{.cause = Cause::kWeight,
+                          .text = "the squeeze does not carry the weight: the weight is " +
+                                  FormatShort(weight) + " of the squeeze, the grasp carries " +
+                                  FormatShort(carried->lower),
+                          .values = {{"weight", weight}, {"carried", carried->lower}}};
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Answer LookAtQuality() const {
+    const double shake = step_.settings.shake;
+    if (quality() >= shake) return std::nullopt;
+    return Disagreement{.cause = Cause::kQuality,
+                        .text = "the quality is below the shake: ε = " + FormatShort(quality()) +
+                                ", shake " + FormatShort(shake),
+                        .values = {{"quality", quality()}, {"shake", shake}}};
+  }
+
+  /// A grasp above the shake that is below it once it carries the weight.
+  [[nodiscard]] Answer LookAtWeightInShake() const {
+    if (grasps_.back().empty()) return std::nullopt;
+    const Grasp rest = ContactsOf(grasps_.back());
+    for (const Push& push : PushDirections(frame_.dimension)) {
+      const auto left =
+          ComputeLargestLoad(rest, frame_, half_angle_, Weight(), PushWrench(push, 1), 1);
+      if (left && left->upper >= step_.settings.shake) continue;
+      const double least = left ? left->lower : 0;
+      return Disagreement{.cause = Cause::kWeight,
+                          .text = "beside the weight, " + FormatShort(Weight().force.norm()) +
+                                  " of the squeeze, the grasp resists " + FormatShort(least) +
+                                  " in " + PushName(push) + ", less than the shake of " +
+                                  FormatShort(step_.settings.shake),
+                          .values = {{"weight", Weight().force.norm()},
+                                     {"resisted", least},
+                                     {"shake", step_.settings.shake}}};
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Answer LookAtCones() const {
+    for (const auto& [margins, when] : {std::pair{&step_.replay.motion_margins, "in the motion"},
+                                        {&step_.replay.rest_margins, "at rest"},
+                                        {&step_.replay.shake_margins, "during the shake"}}) {
+      const auto least = SmallestMargin(*margins);
+      if (!least || *least >= kConeReached) continue;
+      const int finger = FingerOfSmallestMargin(*margins);
+      return ConeReached("the force of " + Finger(finger) + " reached its friction cone " + when,
+                         finger, *least);
+    }
+    return std::nullopt;
+  }
+
+  const ExaminedStep& step_;
+  double half_angle_;
+  WrenchFrame frame_;
+  std::vector<FingerGrasp> grasps_;
+};
+
+Disagreement ExplainFixed(const ExaminedStep& step) {
+  const StepMotion& fixed = *step.replay.fixed;
+  const auto least = SmallestMargin(fixed.shake_margins);
+  if (least && *least < kConeReached) {
+    const int finger = FingerOfSmallestMargin(fixed.shake_margins);
+    return ConeReached("with the squeeze of the rest the force of " + Finger(finger) +
+                           " reached its friction cone",
+                       finger, *least);
+  }
+  if (Answer edge = ReplayFault(step).LookForEdge()) return *edge;
+  return {.cause = Cause::kUnknown,
+          .text = "no cause found: the object gave way by " + FormatShort(fixed.give_m) +
+                  " m on the servos, and no force reached its cone",
+          .values = {{"give_m", fixed.give_m}}};
+}
+
+Disagreement ExplainAnalysis(const ExaminedStep& step) {
+  if (step.check.reason != Reason::kNotForceClosure && step.check.reason != Reason::kNotProved) {
+    return {.cause = Cause::kNotSimulated,
+            .text = "the replay does not look at " + std::string(ReasonName(step.check.reason))};
+  }
+  if (step.settings.shake == 0) {
+    return {.cause = Cause::kNoShake,
+            .text = "without a shake the weight alone does not test the grasp",
+            .values = {{"shake", 0}}};
+  }
+  const double half_angle = std::atan(step.settings.mu);
+  if (!step.check.required) {
+    return {.cause = Cause::kUnknown, .text = "no cause found: no friction below 90 deg serves"};
+  }
+  const double required = step.check.required->upper;
+  const bool near = step.settings.mu >= kNearCritical * std::tan(required);
+  return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
+          .text = std::string(near ? "the friction is hardly below the critical one"
+                                   : "no cause found") +
+                  ": half-angle " + FormatShort(Degrees(half_angle)) + " deg, required " +
+                  FormatShort(Degrees(required)) + " deg",
+          .values = {{"half_angle_deg", Degrees(half_angle)},
+                     {"required_half_angle_deg", Degrees(required)}}};
+}
+
+Disagreement Named(Between between, Disagreement found) {
+  found.between = between;
+  return found;
+}
+
+}  // namespace
+
+std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step) {
+  if (step.check.skipped) return std::nullopt;
+  const bool analysis = step.check.reason == Reason::kNone;
+  const bool replay = step.replay.reason == Reason::kNone;
+  if (analysis && !replay) return Named(Between::kReplayFails, ReplayFault(step).Explain());
+  if (!analysis && replay) return Named(Between::kAnalysisFails, ExplainAnalysis(step));
+  const bool fixed_differs = step.replay.adapted && step.replay.fixed &&
+                             step.replay.adapted->reason == Reason::kNone &&
+                             step.replay.fixed->reason != Reason::kNone;
+  if (fixed_differs) return Named(Between::kFixedFails, ExplainFixed(step));
+  return std::nullopt;
+}
+
+std::string_view BetweenName(Between between) {
+  switch (between) {
+    case Between::kReplayFails:
+      return "replay-fails";
+    case Between::kAnalysisFails:
+      return "analysis-fails";
+    case Between::kFixedFails:
+      return "fixed-fails";
+  }
+  return "";
+}
+
+std::string_view CauseName(Cause cause) {
+  switch (cause) {
+    case Cause::kConcaveCorner:
+      return "concave-corner";
+    case Cause::kNoRoom:
+      return "no-room";
+    case Cause::kWeight:
+      return "weight";
+    case Cause::kQuality:
+      return "quality-below-shake";
+    case Cause::kEdge:
+      return "edge";
+    case Cause::kConeReached:
+      return "cone-reached";
+    case Cause::kNotSimulated:
+      return "not-simulated";
+    case Cause::kNoShake:
+      return "no-shake";
+    case Cause::kCriticalFriction:
+      return "critical-friction";
+    case Cause::kUnknown:
+      return "unknown";
+  }
+  return "";
+}
+
+}  // namespace regrasp

@@ -1,0 +1,181 @@
+#include "sim/replay/replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/grasp/grasp_forces.h"
+#include "sim/control/align.h"
+#include "sim/control/motions.h"
+#include "sim/measure/shake.h"
+#include "sim/scene/scene.h"
+#include "sim/world/replay_world.h"
+#include "sim/world/stillness.h"
+
+namespace regrasp {
+namespace {
+
+void RestoreRoles(ReplayWorld& world) {
+  for (WorldFinger& finger : world.fingers()) {
+    finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
+  }
+}
+
+/// What entry `index` of the report does between two rests.
+void Perform(ReplayWorld& world, const Object& object, const Plan& plan, int index,
+             StepReplay& result) {
+  if (index == 0) {
+    TakeHold(world, ToScene(object, plan.scale, plan.initial));
+    return;
+  }
+  const Step& step = plan.steps[index - 1];
+  if (const auto* change = std::get_if<Switch>(&step)) {
+    SwitchFingers(world, ToScene(object, plan.scale, change->place), change->release);
+    return;
+  }
+  const auto& waypoints = std::get<Align>(step).waypoints;
+  if (waypoints.empty()) return;
+  const AlignScript& script = *world.scene().scripts[index - 1];
+  result.align_mode = PerformAlign(world, script);
+  result.align_shares = script.shares;
+  std::vector<FingerGrasp> waypoints_B;
+  for (const FingerGrasp& grasp : waypoints) {
+    waypoints_B.push_back(ToScene(object, plan.scale, grasp));
+  }
+  TellMoved(world, waypoints_B);
+}
+
+/// The step as the judge saw it.
+StepMotion Describe(const MotionMonitor& monitor) {
+  StepMotion result;
+  result.reason = monitor.reason();
+  result.detail = monitor.detail();
+  result.displacement_m = monitor.displacement_m();
+  result.rotation_deg = Degrees(monitor.rotation_rad());
+  result.moved_m = monitor.moved_m();
+  result.give_m = monitor.give_m();
+  result.slip_m = monitor.slip_m();
+  result.contact_lost = monitor.contact_lost();
+  return result;
+}
+
+StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
+  StepMotion result = Describe(monitor);
+  // An object that is lost may well end in a state that the engine cannot bear.
+  if (result.reason != Reason::kNone) return result;
+  result.reason = Reason::kSimulationUnstable;
+  result.detail = error.what();
+  return result;
+}
+
+/// The step with its shakes; the judge is as before.
+StepMotion ShakeAtRest(ReplayWorld& world, Answer answer) {
+  const MotionMonitor before = world.monitor();
+  StepMotion result;
+  world.monitor().ForgetForces();
+  try {
+    Shake(world, answer);
+    result = Describe(world.monitor());
+  } catch (const UnstableError& error) {
+    result = Unstable(world.monitor(), error);
+  }
+  result.shake_margins = world.monitor().margins();
+  world.monitor() = before;
+  return result;
+}
+
+FingerMargins MarginsNow(const ReplayWorld& world) {
+  FingerMargins margins;
+  for (const int f : world.HoldingFingers()) {
+    const Eigen::Vector3d force = world.engine().contact_force(f);
+    const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
+    if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;
+    AddMargin(f, ConeMargin(force, normal, world.half_angle()), margins);
+  }
+  return margins;
+}
+
+/// What is asked of a step once it is at rest.
+void ExamineRest(ReplayWorld& world, StepReplay& result) {
+  const ReplaySettings& settings = world.settings();
+  result.rest_margins = MarginsNow(world);
+  result.snapshot = world.TakeSnapshot();
+  if (settings.protocol != Protocol::kFixed) {
+    result.adapted = ShakeAtRest(world, Answer::kAdapted);
+  }
+  if (settings.protocol != Protocol::kAdapted) result.fixed = ShakeAtRest(world, Answer::kFixed);
+  static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
+  // A grasp that lost the object before any push has no limit to look for.
+  if (settings.stress && world.monitor().reason() == Reason::kNone)
+    result.stress = MeasureStress(world);
+}
+
+StepReplay ReplayStep(ReplayWorld& world, const Object& object, const Plan& plan, int index) {
+  StepReplay result;
+  result.index = index;
+  if (const std::string& why = world.scene().unreachable[index]; !why.empty()) {
+    result.reason = Reason::kUnreachable;
+    result.detail = why;
+    result.snapshot = world.TakeSnapshot();
+    return result;
+  }
+  RestoreRoles(world);
+  world.StartJudging();
+  try {
+    world.monitor().SetPhase("motion");
+    Perform(world, object, plan, index, result);
+    world.monitor().SetPhase("rest");
+    ComeToRest(world);
+    result.motion_margins = world.monitor().margins();
+    ExamineRest(world, result);
+  } catch (const UnstableError& error) {
+    static_cast<StepMotion&>(result) = Unstable(world.monitor(), error);
+  }
+  result.drift_m =
+      MeasureMotion(Eigen::Isometry3d::Identity(), world.X_SB(), world.settings().diameter_m / 2);
+  return result;
+}
+
+/// The controls with which the fingers hold the initial grasp at rest, for the keyframe.
+std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Object& body,
+                                          const Plan& plan) {
+  const ReplaySettings& s = scene.settings;
+  const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
+  std::vector<Eigen::Vector3d> push(scene.finger_start_S.size(), s.finger_mass_kg * up);
+  const Grasp contacts = ContactsOf(ToScene(body, plan.scale, plan.initial));
+  const GraspForces forces =
+      ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension},
+                         std::atan(s.mu), {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    push[plan.initial[i].finger] += forces.forces[i];
+  }
+  for (Eigen::Vector3d& control : push) control /= s.finger_stiffness_N_m;
+  return push;
+}
+
+}  // namespace
+
+ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOptions& options,
+                        const ReplayObserver& observer, int steps) {
+  const int all = static_cast<int>(plan.steps.size()) + 1;
+  const int total = steps < 0 ? all : std::min(steps, all);
+  ReplayResult result;
+  if (total == 0) return result;
+  ReplayWorld world(object, plan, MakeScene(object, plan, total - 1, options), observer);
+  result.settings = world.settings();
+  CheckShake(result.settings);
+  for (int index = 0; index < total; ++index) {
+    result.steps.push_back(ReplayStep(world, object, plan, index));
+    if (observer.on_progress) observer.on_progress(index + 1, total);
+    if (result.steps.back().reason != Reason::kNone) break;
+  }
+  return result;
+}
+
+std::string SceneMjcf(const Object& object, const Plan& plan, const ReplayOptions& options) {
+  const Scene scene = MakeScene(object, plan, static_cast<int>(plan.steps.size()), options);
+  return FormatScene(scene, object, HoldControls(scene, object, plan), /*surface=*/true);
+}
+
+}  // namespace regrasp

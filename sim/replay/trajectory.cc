@@ -1,0 +1,44 @@
+#include "sim/replay/trajectory.h"
+
+#include "planner/base/number.h"
+
+namespace regrasp {
+namespace {
+
+const char* RoleName(FingerRole role) {
+  switch (role) {
+    case FingerRole::kFree:
+      return "free";
+    case FingerRole::kHolding:
+      return "holding";
+    case FingerRole::kPlaced:
+      return "placed";
+    case FingerRole::kReleased:
+      return "released";
+    case FingerRole::kMoved:
+      return "moved";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string FormatTrajectory(const std::vector<Snapshot>& samples) {
+  std::string csv =
+      "time_s,finger,role,tip_x_m,tip_y_m,tip_z_m,contact_x_m,contact_y_m,contact_z_m,"
+      "normal_x,normal_y,normal_z,force_x_N,force_y_N,force_z_N\r\n";
+  for (const Snapshot& sample : samples) {
+    for (const FingerState& state : sample.fingers) {
+      csv += FormatDouble(sample.time_s) + "," + std::to_string(state.finger) + "," +
+             RoleName(state.role);
+      for (const Eigen::Vector3d* v :
+           {&state.tip_W, &state.contact_W, &state.normal_W, &state.force_W}) {
+        for (const double x : *v) csv += "," + FormatDouble(x);
+      }
+      csv += "\r\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace regrasp

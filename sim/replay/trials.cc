@@ -1,0 +1,64 @@
+#include "sim/replay/trials.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/base/random.h"
+#include "sim/replay/contact_noise.h"
+#include "sim/replay/replay.h"
+
+namespace regrasp {
+
+namespace {
+
+void CheckOptions(const TrialOptions& trials) {
+  if (trials.count < 1) throw std::invalid_argument("RunTrials: no trials");
+  for (const double size : {trials.position_noise, trials.friction_error, trials.mass_error}) {
+    if (!(size >= 0 && size <= kMostError)) {
+      throw std::invalid_argument("RunTrials: an error is not in [0, 1]");
+    }
+  }
+}
+
+double DrawFactor(double error, RandomStream& random) {
+  double factor = 1 + error * random.Normal();
+  while (factor < kLeastFactor) factor = 1 + error * random.Normal();
+  return factor;
+}
+
+}  // namespace
+
+double TrialSummary::share() const { return static_cast<double>(passed) / options.count; }
+
+ShareInterval TrialSummary::interval() const {
+  return ComputeShareInterval(passed, options.count, kTrialConfidence);
+}
+
+TrialSummary RunTrials(const Object& object, const Plan& plan, const ReplayOptions& options,
+                       const TrialOptions& trials, double fingertip,
+                       const std::function<void(int done)>& progress) {
+  CheckOptions(trials);
+  const ContactNoise noise{trials.position_noise * object.diameter(), fingertip / plan.scale};
+  TrialSummary summary;
+  summary.options = trials;
+  for (int trial = 0; trial < trials.count; ++trial) {
+    RandomStream world(trials.seed, RandomUse::kTrialWorld, trial);
+    RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
+    ReplayOptions drawn = options;
+    drawn.stress = false;  // of the nominal replay alone
+    drawn.friction_factor = DrawFactor(trials.friction_error, world);
+    drawn.mass_factor = DrawFactor(trials.mass_error, world);
+    const Plan noisy = AddContactNoise(object, plan, noise, contacts);
+    const StepReplay last = ReplayPlan(object, noisy, drawn).steps.back();
+    if (last.reason == Reason::kNone) {
+      ++summary.passed;
+    } else {
+      ++summary.reasons[last.reason];
+      ++summary.steps[last.index];
+    }
+    if (progress) progress(trial + 1);
+  }
+  return summary;
+}
+
+}  // namespace regrasp

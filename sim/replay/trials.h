@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+
+#include "planner/base/binomial.h"
+#include "planner/object/object.h"
+#include "planner/plan/plan.h"
+#include "planner/plan/reason.h"
+#include "sim/scene/settings.h"
+
+namespace regrasp {
+
+/// Replays of a plan in worlds that differ a little from what the hand believes.
+struct TrialOptions {
+  int count = 0;
+  std::uint64_t seed = 0;
+  /// Standard deviation of every contact along the surface, over D: 1 mm on a body of 10 cm. The
+  /// fingertips of a calibrated hand are a few millimetres off at most (3.7 mm for the DLR-Hand II:
+  /// Tenhumberg, Sievers and Bäuml 2023).
+  double position_noise = 0.01;
+  double friction_error = 0.1;  ///< relative standard deviation of the friction coefficient
+  double mass_error = 0.1;      ///< relative standard deviation of the mass
+};
+
+/// What the trials say.
+struct TrialSummary {
+  TrialOptions options;
+  int passed = 0;
+  std::map<Reason, int> reasons;  ///< how many trials failed for each reason
+  std::map<int, int> steps;       ///< how many failed in each entry, the first that fails
+
+  [[nodiscard]] double share() const;
+  /// Of the share, at kTrialConfidence.
+  [[nodiscard]] ShareInterval interval() const;
+};
+
+/// Replays the plan `trials.count` times. In each trial contacts are off where the fingers were put
+/// (sim/replay/contact_noise.h), and friction and mass of the world differ from those that the hand
+/// plans its forces with; it knows where its fingers touch, as in any replay. A trial passes where
+/// every entry of the replay does.
+///
+/// Friction and mass are those believed times 1 + error · (a normal deviate), drawn again where
+/// that is below kLeastFactor.
+///
+/// Laws: trial k depends on the seed and k alone; the same arguments give the same summary; without
+/// any error every trial is the nominal replay.
+/// @param plan       located on the object; its nominal replay passes.
+/// @param fingertip  radius of the fingertips in the nominal replay, metres.
+/// @param progress   told after every trial; may be empty.
+/// @throws std::invalid_argument  a count below 1, an error or noise outside [0, kMostError].
+/// @throws InputError             as ReplayPlan.
+[[nodiscard]] TrialSummary RunTrials(const Object& object, const Plan& plan,
+                                     const ReplayOptions& options, const TrialOptions& trials,
+                                     double fingertip,
+                                     const std::function<void(int done)>& progress = {});
+
+inline constexpr double kTrialConfidence = 0.95;
+inline constexpr double kMostError = 1;
+/// Friction and mass are positive; a tenth of what is believed is far out at any error that is one.
+inline constexpr double kLeastFactor = 0.1;
+
+}  // namespace regrasp

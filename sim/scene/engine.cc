@@ -1,0 +1,260 @@
+#include "sim/scene/engine.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Called by the engine where it would otherwise end the process.
+[[noreturn]] void ThrowError(const char* message) {
+  throw UnstableError(std::string("engine error: ") + message);
+}
+
+/// The engine counts warnings of a simulation in mjData, where Step looks; printing and the log
+/// file are what this replaces.
+void IgnoreWarning(const char* /*message*/) {}
+
+/// Takes the engine's two global hooks while a simulation lives.
+class EngineHooks {
+ public:
+  EngineHooks() : error_(mju_user_error), warning_(mju_user_warning) {
+    mju_user_error = ThrowError;
+    mju_user_warning = IgnoreWarning;
+  }
+  ~EngineHooks() {
+    mju_user_error = error_;
+    mju_user_warning = warning_;
+  }
+  EngineHooks(const EngineHooks&) = delete;
+  EngineHooks& operator=(const EngineHooks&) = delete;
+
+ private:
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
+using DataPtr = std::unique_ptr<mjData, DeleteData>;
+
+constexpr const char* kFileName = "scene.xml";
+
+ModelPtr LoadModel(const std::string& mjcf) {
+  struct DeleteVfs {
+    void operator()(mjVFS* vfs) const {
+      mj_deleteVFS(vfs);
+      delete vfs;
+    }
+  };
+  const std::unique_ptr<mjVFS, DeleteVfs> vfs([] {
+    auto* fresh = new mjVFS;
+    mj_defaultVFS(fresh);
+    return fresh;
+  }());
+  mj_makeEmptyFileVFS(vfs.get(), kFileName, static_cast<int>(mjcf.size()));
+  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), kFileName)], mjcf.data(), mjcf.size());
+  std::array<char, 1000> error{};
+  ModelPtr model(mj_loadXML(kFileName, vfs.get(), error.data(), static_cast<int>(error.size())));
+  if (!model) throw EnvironmentError(std::string("MuJoCo refuses the scene: ") + error.data());
+  return model;
+}
+
+/// The warnings that mean that a step is not to be trusted; the others are of the renderer.
+constexpr std::array kFatalWarnings = {mjWARN_INERTIA, mjWARN_CONTACTFULL, mjWARN_CNSTRFULL,
+                                       mjWARN_BADQPOS, mjWARN_BADQVEL,     mjWARN_BADQACC,
+                                       mjWARN_BADCTRL};
+
+}  // namespace
+
+std::string EngineVersion() { return mj_versionString(); }
+
+struct Engine::Impl {
+  EngineHooks hooks;
+  EngineUnits units;
+  ModelPtr model;
+  DataPtr data;
+  int object = 0;
+  int slides = 0;  ///< of a finger: 3 in space, 2 in the plane
+  std::vector<int> body_of_finger;
+  std::vector<int> geom_of_finger;
+  std::vector<int> finger_of_geom;  ///< −1 for the object's
+  std::vector<std::vector<int>> geoms_of_site;
+
+  Impl(const std::string& mjcf, int fingers, const EngineUnits& given);
+  [[nodiscard]] int First(int finger) const;  ///< index of a finger's first coordinate
+  [[nodiscard]] int BitOf(int finger) const { return model->geom_contype[geom_of_finger[finger]]; }
+};
+
+Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
+    : units(given), model(LoadModel(mjcf)) {
+  data.reset(mj_makeData(model.get()));
+  if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
+  object = mj_name2id(model.get(), mjOBJ_BODY, "object");
+  finger_of_geom.assign(model->ngeom, -1);
+  for (int f = 0; f < fingers; ++f) {
+    const std::string name = "finger" + std::to_string(f);
+    body_of_finger.push_back(mj_name2id(model.get(), mjOBJ_BODY, name.c_str()));
+    geom_of_finger.push_back(mj_name2id(model.get(), mjOBJ_GEOM, name.c_str()));
+    finger_of_geom[geom_of_finger.back()] = f;
+  }
+  for (int site = 0;; ++site) {
+    std::vector<int> geoms;
+    for (int piece = 0;; ++piece) {
+      const std::string name = "site" + std::to_string(site) + "_" + std::to_string(piece);
+      const int geom = mj_name2id(model.get(), mjOBJ_GEOM, name.c_str());
+      if (geom < 0) break;
+      geoms.push_back(geom);
+    }
+    if (geoms.empty()) break;
+    geoms_of_site.push_back(std::move(geoms));
+  }
+  slides = fingers > 0 ? model->body_jntnum[body_of_finger.front()] : 0;
+  mj_forward(model.get(), data.get());
+}
+
+int Engine::Impl::First(int finger) const { return model->body_jntadr[body_of_finger[finger]]; }
+
+Engine::Engine(const std::string& mjcf, int fingers, const EngineUnits& units)
+    : impl_(std::make_unique<Impl>(mjcf, fingers, units)) {}
+Engine::~Engine() = default;
+
+double Engine::time() const { return impl_->data->time * impl_->units.time_s; }
+
+Eigen::Isometry3d Engine::object_pose() const {
+  const mjtNum* q = impl_->data->qpos;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (impl_->model->jnt_type[0] != mjJNT_FREE) {
+    pose.translation() = impl_->units.length_m * Vector3d(q[0], q[1], 0);
+    pose.linear() = Eigen::AngleAxisd(q[2], Vector3d::UnitZ()).toRotationMatrix();
+    return pose;
+  }
+  pose.translation() = impl_->units.length_m * Vector3d(q[0], q[1], q[2]);
+  pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
+  return pose;
+}
+
+Vector3d Engine::tip(int finger) const {
+  const mjModel& m = *impl_->model;
+  const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
+  const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
+  Vector3d tip(start[0], start[1], start[2]);
+  for (int k = 0; k < impl_->slides; ++k) tip[k] += q[k];
+  return impl_->units.length_m * tip;
+}
+
+Vector3d Engine::contact_force(int finger) const {
+  const mjData& d = *impl_->data;
+  Vector3d total = Vector3d::Zero();
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& contact = d.contact[i];
+    const bool first = impl_->finger_of_geom[contact.geom1] == finger;
+    if (!first && impl_->finger_of_geom[contact.geom2] != finger) continue;
+    std::array<mjtNum, 6> local;
+    mj_contactForce(impl_->model.get(), &d, i, local.data());
+    std::array<mjtNum, 3> world;
+    mju_rotVecMatT(world.data(), local.data(), contact.frame);
+    // The engine gives the force on the second geom.
+    total += (first ? 1 : -1) * Vector3d(world[0], world[1], world[2]);
+  }
+  return impl_->units.force_N() * total;
+}
+
+void Engine::PlaceTip(int finger, const Vector3d& tip) {
+  const mjModel& m = *impl_->model;
+  const int joint = impl_->First(finger);
+  const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
+  for (int k = 0; k < impl_->slides; ++k) {
+    impl_->data->qpos[m.jnt_qposadr[joint] + k] = tip[k] / impl_->units.length_m - start[k];
+    impl_->data->qvel[m.jnt_dofadr[joint] + k] = 0;
+  }
+}
+
+void Engine::ShiftTip(int finger, const Vector3d& offset) {
+  const int joint = impl_->First(finger);
+  for (int k = 0; k < impl_->slides; ++k) {
+    impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k] / impl_->units.length_m;
+  }
+}
+
+void Engine::SetTarget(int finger, const Vector3d& target) {
+  const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
+  const int slides = impl_->slides;
+  for (int k = 0; k < slides; ++k) {
+    impl_->data->ctrl[slides * finger + k] = target[k] / impl_->units.length_m - start[k];
+  }
+}
+
+void Engine::SetSite(int finger, int site) {
+  mjModel& m = *impl_->model;
+  for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~impl_->BitOf(finger);
+  if (site >= 0) AddSite(finger, site);
+}
+
+void Engine::AddSite(int finger, int site) {
+  for (const int g : impl_->geoms_of_site[site]) {
+    impl_->model->geom_conaffinity[g] |= impl_->BitOf(finger);
+  }
+}
+
+void Engine::SetGravity(double gravity) {
+  const EngineUnits& units = impl_->units;
+  impl_->model->opt.gravity[2] = -gravity * units.time_s * units.time_s / units.length_m;
+}
+
+void Engine::SetLoad(const Vector3d& force, const Vector3d& torque) {
+  mjtNum* load = impl_->data->xfrc_applied + 6 * impl_->object;
+  const double newton = 1 / impl_->units.force_N();
+  for (int k = 0; k < 3; ++k) {
+    load[k] = force[k] * newton;
+    load[3 + k] = torque[k] * newton / impl_->units.length_m;
+  }
+}
+
+void Engine::Step() {
+  mjData& d = *impl_->data;
+  mj_step(impl_->model.get(), &d);
+  for (const mjtWarning warning : kFatalWarnings) {
+    if (d.warning[warning].number == 0) continue;
+    throw UnstableError(mju_warningText(warning, d.warning[warning].lastinfo));
+  }
+  const bool finite =
+      std::all_of(d.qpos, d.qpos + impl_->model->nq, [](mjtNum x) { return std::isfinite(x); }) &&
+      std::all_of(d.qvel, d.qvel + impl_->model->nv, [](mjtNum x) { return std::isfinite(x); });
+  if (!finite) throw UnstableError("the state is not finite");
+}
+
+Engine::State Engine::Save() const {
+  const mjModel& m = *impl_->model;
+  const mjData& d = *impl_->data;
+  return {d.time,
+          {d.qpos, d.qpos + m.nq},
+          {d.qvel, d.qvel + m.nv},
+          {d.qacc_warmstart, d.qacc_warmstart + m.nv}};
+}
+
+void Engine::Restore(const State& state) {
+  mjData& d = *impl_->data;
+  d.time = state.time;
+  std::ranges::copy(state.qpos, d.qpos);
+  std::ranges::copy(state.qvel, d.qvel);
+  std::ranges::copy(state.qacc_warmstart, d.qacc_warmstart);
+  // A warning of what happened since the state was saved is not one of the state.
+  for (const mjtWarning warning : kFatalWarnings) d.warning[warning].number = 0;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace regrasp {
+
+/// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
+class UnstableError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The version of MuJoCo that is linked, "2.2.2".
+[[nodiscard]] std::string EngineVersion();
+
+/// What the engine's units are. It has absolute limits and tolerances, so that every body should
+/// look alike to it.
+struct EngineUnits {
+  double length_m = 1;
+  double mass_kg = 1;
+  double time_s = 1;
+
+  [[nodiscard]] double force_N() const { return mass_kg * length_m / (time_s * time_s); }
+};
+
+/// MuJoCo's model and data of one scene (sim/scene/scene.h): a body "object" whose centre of mass
+/// is its origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide
+/// along each axis of space or of the plane.
+///
+/// Warnings and errors of the engine neither reach the terminal nor leave a log file: they become
+/// exceptions. Lengths in metres, forces in newtons, seconds, all in the world frame of the scene,
+/// whatever the units of the scene are.
+class Engine {
+ public:
+  /// Everything that the next steps depend on: replaying from a saved state gives the same bits.
+  struct State {
+    double time = 0;  ///< this and the others in units of the engine
+    std::vector<double> qpos, qvel, qacc_warmstart;
+  };
+
+  /// @param units  of the numbers in `mjcf`.
+  /// @throws EnvironmentError  the engine does not take the scene.
+  Engine(const std::string& mjcf, int fingers, const EngineUnits& units = {});
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  [[nodiscard]] double time() const;
+  [[nodiscard]] Eigen::Isometry3d object_pose() const;
+  [[nodiscard]] Eigen::Vector3d tip(int finger) const;
+  /// Force of a finger on the object in the last step; zero where they do not touch.
+  [[nodiscard]] Eigen::Vector3d contact_force(int finger) const;
+
+  /// Moves a finger there at once, at rest.
+  void PlaceTip(int finger, const Eigen::Vector3d& tip);
+  /// Moves a finger by an offset at once; its velocity stays.
+  void ShiftTip(int finger, const Eigen::Vector3d& offset);
+  /// What the finger's servo steers for: its tip position at rest under no force.
+  void SetTarget(int finger, const Eigen::Vector3d& target);
+  /// The patches of this site, and no others, stop the finger; none where −1.
+  void SetSite(int finger, int site);
+  void AddSite(int finger, int site);
+  /// Acceleration along −z, m/s².
+  void SetGravity(double gravity);
+  /// Force and torque on the object about its centre of mass, besides gravity and fingers.
+  void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+  /// One time step.
+  /// @throws UnstableError
+  void Step();
+
+  [[nodiscard]] State Save() const;
+  /// Also after UnstableError.
+  void Restore(const State& state);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,114 @@
+#include "sim/scene/scaling.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+
+namespace regrasp {
+namespace {
+
+/// Bodies that can be simulated. Every body looks alike to the engine (UnitsOf): these are sizes
+/// beyond which something was mistyped, between molecules and planets.
+constexpr double kLeastDiameter = 1e-9, kLargestDiameter = 1e7;    // metres
+constexpr double kLeastThickness = 1e-3, kLargestThickness = 1e3;  // over the diameter
+constexpr double kLeastMass = 1e-30, kLargestMass = 1e30;          // kilograms
+constexpr double kLeastSqueeze = 1e-30, kLargestSqueeze = 1e36;    // newtons
+
+/// Limits that the constants of the header must keep; see DeriveSettings.
+static_assert(kStiffness >= 5);
+static_assert(kDampingStep <= 0.6);
+
+void CheckRange(const char* what, double value, double least, double largest, const char* unit,
+                const char* look_at = "--scale and --mass") {
+  if (value >= least && value <= largest) return;
+  throw InputError("replay: the object's " + std::string(what) + " of " + FormatShort(value) + " " +
+                   unit + " is outside " + FormatShort(least) + " to " + FormatShort(largest) +
+                   " " + unit + " (check " + look_at + ")");
+}
+
+double ThicknessInMetres(const Object& object, double scale, const ReplayOptions& options) {
+  if (object.dimension() == 3) {
+    if (options.thickness) throw InputError("replay: a solid has no thickness to choose");
+    return 0;
+  }
+  const double relative =
+      options.thickness ? *options.thickness / object.diameter() : kPrismThickness;
+  CheckRange("thickness", relative, kLeastThickness, kLargestThickness, "diameters", "--thickness");
+  return relative * object.diameter() * scale;
+}
+
+double Volume(const Object& object, double scale, double thickness_m) {
+  const double measure = object.mass_properties().volume * scale * scale;
+  return measure * (object.dimension() == 3 ? scale : thickness_m);
+}
+
+/// The radius of gyration about the axis where it is smallest, object's unit; in the plane there is
+/// one axis only.
+double LeastGyration(const Object& object) {
+  const MassProperties& mass = object.mass_properties();
+  const double least = object.dimension() == 2 ? mass.inertia(2, 2)
+                                               : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                                                     mass.inertia, Eigen::EigenvaluesOnly)
+                                                     .eigenvalues()[0];
+  return std::sqrt(std::max(least, 0.0) / mass.volume);
+}
+
+/// √(I / (F · arm)), seconds: how fast the body turns about its long axis where the squeeze is off
+/// it by an arm, as it is once fingertips roll.
+double RollingTime(const ReplaySettings& s, double gyration) {
+  const double arm = std::max(s.fingertip_radius_m, gyration);
+  return gyration * std::sqrt(s.mass_kg / (s.squeeze_N * arm));
+}
+
+}  // namespace
+
+ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
+                              double clearance, const ReplayOptions& options) {
+  ReplaySettings s;
+  s.diameter_m = object.diameter() * scale;
+  CheckRange("diameter", s.diameter_m, kLeastDiameter, kLargestDiameter, "m");
+  s.mu = std::tan(options.half_angle.value_or(half_angle));
+  s.thickness_m = ThicknessInMetres(object, scale, options);
+  s.mass_kg =
+      options.mass_kg.value_or(options.density_kg_m3 * Volume(object, scale, s.thickness_m));
+  CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
+  s.shake = options.shake;
+  s.protocol = options.protocol;
+  s.stress = options.stress;
+  s.tolerance = options.tolerance;
+  s.align = options.align;
+  s.friction_factor = options.friction_factor;
+  s.mass_factor = options.mass_factor;
+  s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
+  s.squeeze_N = options.squeeze_N.value_or(
+      s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
+  CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
+  s.natural_time_s = std::sqrt(s.mass_kg * s.diameter_m / s.squeeze_N);
+  const double steps = 2 / kDampingStep;
+  const double gyration = LeastGyration(object) * scale;
+  s.finger_mass_kg = kFingerMass * s.mass_kg;
+  s.finger_stiffness_N_m = options.stiffness_factor * kStiffness * s.squeeze_N / s.diameter_m;
+  s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
+  const double wanted = options.finger_radius
+                            ? *options.finger_radius * scale
+                            : std::min(kTipRadius * s.diameter_m, kTipOfGyration * gyration);
+  const double fits = options.finger_radius ? clearance : clearance / 2;
+  s.fingertip_radius_m = std::max(std::min(wanted, fits), kLeastTipRadius * s.diameter_m);
+  s.timestep_s = options.timestep_factor *
+                 std::min(std::sqrt(s.finger_mass_kg / s.finger_stiffness_N_m) / steps,
+                          kRollingStep * RollingTime(s, gyration));
+  s.patch_size_m = kPatchSize * s.diameter_m;
+  s.patch_thickness_m = kPatchThickness * s.diameter_m;
+  return s;
+}
+
+EngineUnits UnitsOf(const ReplaySettings& settings) {
+  return {settings.diameter_m / kEngineDiameter, settings.mass_kg,
+          settings.natural_time_s / kEngineTime};
+}
+
+}  // namespace regrasp

@@ -1,0 +1,412 @@
+#include "sim/scene/scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/criteria/clearance.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+#include "sim/scene/scaling.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Each finger that touches has a collision bit of its own, of the 31 that an int has.
+constexpr int kMostTouching = 31;
+
+/// A path is looked at this often for the room that a fingertip has along it.
+constexpr int kClearanceSamples = 8;
+
+/// Fingers that the plan never uses wait this far from the centroid, in diameters.
+constexpr double kParkingDistance = 1.5;
+
+/// Gathers where fingers touch.
+struct SiteCollector {
+  const Object& object;
+  double scale;
+  Scene& scene;
+  double point_tolerance;  ///< metres
+
+  /// Returns the site's index.
+  int Add(int finger, const Contact& from, const Contact& to) {
+    const ContactSite site{to.face, ToScene(object, scale, from.face == to.face ? from : to).p,
+                           ToScene(object, scale, to).p};
+    int index = FindEqual(site);
+    if (index < 0) {
+      index = static_cast<int>(scene.sites.size());
+      scene.sites.push_back(site);
+      scene.fingers_of_site.emplace_back();
+    }
+    std::vector<int>& fingers = scene.fingers_of_site[index];
+    if (std::ranges::find(fingers, finger) == fingers.end()) fingers.push_back(finger);
+    return index;
+  }
+
+  void AddPlanned(const FingerGrasp& grasp) {
+    for (const FingerContact& held : grasp) {
+      const int index = Add(held.finger, held.contact, held.contact);
+      if (scene.first_site[held.finger] < 0) scene.first_site[held.finger] = index;
+    }
+  }
+
+  void Add(const AlignScript& script) {
+    for (const AlignMove& move : script.moves) {
+      if (const auto* over = std::get_if<FingerHandover>(&move)) {
+        for (const FingerGrasp* grasp : {&over->stand_ins, &over->targets}) {
+          for (const FingerContact& held : *grasp) Add(held.finger, held.contact, held.contact);
+        }
+        continue;
+      }
+      if (const auto* roll = std::get_if<FingersRoll>(&move)) {
+        for (std::size_t k = 0; k < roll->from.size(); ++k) {
+          Add(roll->from[k].finger, roll->from[k].contact, roll->to[k].contact);
+        }
+        continue;
+      }
+      const auto& grasps = std::get<FingersSlide>(move).grasps;
+      for (std::size_t k = 0; k < grasps.front().size(); ++k) {
+        Add(grasps.front()[k].finger, grasps.front()[k].contact, grasps.back()[k].contact);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int FindEqual(const ContactSite& site) const {
+    for (std::size_t i = 0; i < scene.sites.size(); ++i) {
+      const ContactSite& other = scene.sites[i];
+      if (other.face == site.face && (other.from - site.from).norm() <= point_tolerance &&
+          (other.to - site.to).norm() <= point_tolerance) {
+        return static_cast<int>(i);
+      }
+    }
+    return -1;
+  }
+};
+
+/// The initial grasp and the first steps of a plan, and how many fingers they need.
+struct Sequence {
+  const Object& object;
+  const Plan& plan;
+  int steps;
+
+  /// The contacts that entry `index` of the report names and where fingers come to rest.
+  [[nodiscard]] FingerGrasp PlannedRests(int index) const {
+    if (index == 0) return plan.initial;
+    const Step& step = plan.steps[index - 1];
+    if (const auto* change = std::get_if<Switch>(&step)) return change->place;
+    const auto& waypoints = std::get<Align>(step).waypoints;
+    return waypoints.empty() ? FingerGrasp() : waypoints.back();
+  }
+
+  [[nodiscard]] int CountFingers() const {
+    int fingers = plan.fingers;
+    for (int index = 0; index <= steps; ++index) {
+      for (const FingerContact& held : PlannedRests(index)) {
+        fingers = std::max(fingers, held.finger + 1);
+      }
+    }
+    return fingers;
+  }
+
+  void CheckFaces() const {
+    const auto check = [&](const FingerGrasp& grasp) {
+      for (const FingerContact& held : grasp) {
+        if (held.contact.face >= 0 && held.contact.face < object.face_count()) continue;
+        throw InputError("replay: a contact of finger " + std::to_string(held.finger) +
+                         " is on no face of the object");
+      }
+    };
+    check(plan.initial);
+    for (int i = 0; i < steps; ++i) {
+      if (const auto* align = std::get_if<Align>(&plan.steps[i])) {
+        std::ranges::for_each(align->waypoints, check);
+      } else {
+        check(PlannedRests(i + 1));
+      }
+    }
+  }
+};
+
+/// The clearance that the fingertip which is wanted needs: twice its radius where it is derived.
+double WantedClearance(const Object& object, const ReplayOptions& options) {
+  return options.finger_radius.value_or(2 * kTipRadius * object.diameter());
+}
+
+/// The smallest clearance of contacts where fingers stand, at most `limit`.
+double SmallestClearance(const Object& object, const FingerGrasp& grasp, double limit) {
+  double least = limit;
+  for (const FingerContact& held : grasp) {
+    least = std::min(least, ComputeClearance(object, held.contact, least));
+  }
+  return least;
+}
+
+/// Scripts of all aligns, in the object's own frame and unit.
+std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, int fingers,
+                                                     double half_angle, double wanted,
+                                                     AlignChoice choice) {
+  const double D = sequence.object.diameter();
+  double clearance = wanted;
+  for (int index = 0; index <= sequence.steps; ++index) {
+    clearance = SmallestClearance(sequence.object, sequence.PlannedRests(index), clearance);
+  }
+  AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
+  limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
+  std::vector<std::optional<AlignScript>> scripts(sequence.steps);
+  FingerGrasp holding = sequence.plan.initial;
+  for (int i = 0; i < sequence.steps; ++i) {
+    const Step& step = sequence.plan.steps[i];
+    if (const auto* align = std::get_if<Align>(&step)) {
+      limits.spare.clear();
+      for (int f = 0; f < fingers; ++f) {
+        if (std::ranges::find(holding, f, &FingerContact::finger) == holding.end()) {
+          limits.spare.push_back(f);
+        }
+      }
+      scripts[i] = WriteAlignScript(sequence.object, *align, limits);
+    }
+    holding = GraspAfter(holding, step);
+  }
+  return scripts;
+}
+
+AlignScript ToScene(const Object& object, double scale, AlignScript script) {
+  const auto convert = [&](FingerGrasp& grasp) {
+    grasp = ToScene(object, scale, std::move(grasp));
+  };
+  for (AlignMove& move : script.moves) {
+    if (auto* over = std::get_if<FingerHandover>(&move)) {
+      convert(over->stand_ins);
+      convert(over->targets);
+    } else if (auto* roll = std::get_if<FingersRoll>(&move)) {
+      convert(roll->from);
+      convert(roll->to);
+    } else {
+      std::ranges::for_each(std::get<FingersSlide>(move).grasps, convert);
+    }
+  }
+  return script;
+}
+
+double DistanceTo(const ContactSite& site, const Vector3d& point) {
+  const Vector3d path = site.to - site.from;
+  const double length = path.squaredNorm();
+  const double t = length > 0 ? std::clamp((point - site.from).dot(path) / length, 0.0, 1.0) : 0;
+  return (site.from + t * path - point).norm();
+}
+
+/// Names the first finger that has to come to rest where no ball fits.
+std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
+  const double least = kLeastClearance * object.diameter();
+  for (const FingerContact& held : rests) {
+    const double room = ComputeClearance(object, held.contact, least);
+    if (room >= least) continue;
+    return "finger " + std::to_string(held.finger) +
+           " cannot stand at its contact: no fingertip thicker than a radius of " +
+           FormatShort(room) + " fits in the corner there";
+  }
+  return "";
+}
+
+/// Everywhere that fingers come to rest in entry `index`.
+FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
+  FingerGrasp rests = sequence.PlannedRests(index);
+  if (index == 0 || !scene_O.scripts[index - 1]) return rests;
+  for (const AlignMove& move : scene_O.scripts[index - 1]->moves) {
+    if (const auto* over = std::get_if<FingerHandover>(&move)) {
+      rests.insert(rests.end(), over->stand_ins.begin(), over->stand_ins.end());
+      rests.insert(rests.end(), over->targets.begin(), over->targets.end());
+    }
+  }
+  return rests;
+}
+
+Vector3d FromScene(const Object& object, double scale, const Vector3d& p_S) {
+  return p_S / scale + object.mass_properties().centroid;
+}
+
+double SmallestClearance(const Object& object, double scale, const Scene& scene, double limit) {
+  double least = limit;
+  for (const ContactSite& site : scene.sites) {
+    const int samples = site.from == site.to ? 0 : kClearanceSamples;
+    for (int i = 0; i <= samples; ++i) {
+      const double t = samples == 0 ? 0 : static_cast<double>(i) / samples;
+      const Vector3d p = FromScene(object, scale, site.from + t * (site.to - site.from));
+      const Contact contact{p, object.inward_normal(site.face), site.face};
+      least = std::min(least, ComputeClearance(object, contact, limit));
+    }
+  }
+  return least * scale;
+}
+
+std::vector<ContactPatch> MakePatches(const Object& body, const ContactSite& site, double size,
+                                      double thickness) {
+  if (const auto* polygon = dynamic_cast<const Polygon*>(&body)) {
+    return {MakeEdgePatch(*polygon, site, size, thickness)};
+  }
+  return MakeContactPatches(dynamic_cast<const Polyhedron&>(body), site, size);
+}
+
+std::vector<ContactPatch> MakeScenePatches(const Object& body, double scale,
+                                           const ContactSite& site, const ReplaySettings& s) {
+  std::vector<ContactPatch> patches = MakePatches(
+      body, {site.face, FromScene(body, scale, site.from), FromScene(body, scale, site.to)},
+      s.patch_size_m / scale, s.thickness_m / scale);
+  for (ContactPatch& patch : patches) {
+    for (Vector3d& corner : patch.outline) {
+      corner = (corner - body.mass_properties().centroid) * scale;
+    }
+  }
+  return patches;
+}
+
+/// Of the homogeneous body about its centroid, kg m². A polygon's moments are those of its area:
+/// its prism adds M t²/12 about the axes in the plane.
+Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& s) {
+  const double mass = s.mass_factor * s.mass_kg;
+  Eigen::Matrix3d inertia =
+      mass / body.mass_properties().volume * scale * scale * body.mass_properties().inertia;
+  inertia.diagonal().head<2>().array() += mass * s.thickness_m * s.thickness_m / 12;
+  return inertia;
+}
+
+void PlaceFingersAtStart(const Object& object, Scene& scene) {
+  for (const int site : scene.first_site) {
+    if (site < 0) {
+      scene.finger_start_S.push_back(Vector3d::UnitX() * kParkingDistance *
+                                     scene.settings.diameter_m);
+      continue;
+    }
+    const ContactSite& where = scene.sites[site];
+    scene.finger_start_S.push_back(where.from - object.inward_normal(where.face) *
+                                                    scene.settings.fingertip_radius_m);
+  }
+}
+
+/// A hand may have many more fingers than ever touch.
+void AssignCollisionBits(int fingers, Scene& scene) {
+  std::set<int> touching;
+  for (const std::vector<int>& there : scene.fingers_of_site) {
+    touching.insert(there.begin(), there.end());
+  }
+  if (touching.size() > kMostTouching) {
+    throw InputError("replay: " + std::to_string(touching.size()) +
+                     " fingers touch the object, one after the other or at once; " +
+                     std::to_string(kMostTouching) + " can be simulated");
+  }
+  scene.collision_bit.assign(fingers, 0);
+  int place = 0;
+  for (const int finger : touching) scene.collision_bit[finger] = 1 << place++;
+}
+
+/// Scripts, what is unreachable, and sites.
+void LayOut(const Sequence& sequence, int fingers, const ReplayOptions& options, Scene& scene) {
+  const Object& object = sequence.object;
+  const double scale = sequence.plan.scale;
+  const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
+  scene.scripts =
+      WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
+  scene.first_site.assign(fingers, -1);
+  SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
+  for (int index = 0; index <= sequence.steps; ++index) {
+    scene.unreachable.push_back(FindUnreachable(object, AllRests(sequence, scene, index)));
+    if (index == 0 || !scene.scripts[index - 1]) {
+      collector.AddPlanned(sequence.PlannedRests(index));
+      continue;
+    }
+    collector.Add(*scene.scripts[index - 1]);
+    scene.scripts[index - 1] = ToScene(object, scale, *std::move(scene.scripts[index - 1]));
+  }
+}
+
+}  // namespace
+
+Contact ToScene(const Object& object, double scale, const Contact& contact) {
+  return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face};
+}
+
+FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
+  for (FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
+  return grasp;
+}
+
+Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& given) {
+  ReplayOptions options = given;
+  if (!options.finger_radius) options.finger_radius = plan.finger_radius;
+  const Sequence sequence{body, plan, steps};
+  sequence.CheckFaces();
+  const int fingers = sequence.CountFingers();
+  Scene scene;
+  scene.dimension = body.dimension();
+  LayOut(sequence, fingers, options, scene);
+  AssignCollisionBits(fingers, scene);
+  scene.settings = DeriveSettings(
+      body, plan.scale, plan.half_angle,
+      SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);
+  for (const ContactSite& site : scene.sites) {
+    scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings));
+  }
+  PlaceFingersAtStart(body, scene);
+  scene.inertia = Inertia(body, plan.scale, scene.settings);
+  return scene;
+}
+
+Scene InUnits(Scene scene, const EngineUnits& units) {
+  const double metre = 1 / units.length_m;
+  const double kilogram = 1 / units.mass_kg;
+  const double second = 1 / units.time_s;
+  ReplaySettings& s = scene.settings;
+  for (double* length : {&s.diameter_m, &s.thickness_m, &s.fingertip_radius_m, &s.patch_size_m,
+                         &s.patch_thickness_m}) {
+    *length *= metre;
+  }
+  s.mass_kg *= kilogram;
+  s.finger_mass_kg *= kilogram;
+  s.timestep_s *= second;
+  s.natural_time_s *= second;
+  s.squeeze_N /= units.force_N();
+  s.gravity_m_s2 *= metre / (second * second);
+  s.finger_stiffness_N_m *= kilogram / (second * second);
+  s.finger_damping_Ns_m *= kilogram / second;
+  for (ContactSite& site : scene.sites) {
+    site.from *= metre;
+    site.to *= metre;
+  }
+  for (std::vector<ContactPatch>& patches : scene.patches) {
+    for (ContactPatch& patch : patches) {
+      for (Vector3d& corner : patch.outline) corner *= metre;
+    }
+  }
+  for (Vector3d& start : scene.finger_start_S) start *= metre;
+  scene.inertia *= kilogram * metre * metre;
+  return scene;
+}
+
+int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
+  // A finger that turns at an edge is at its new face's site already.
+  const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.sites.size(); ++i) {
+    const ContactSite& site = scene.sites[i];
+    if (site.face != to_S.face) continue;
+    const double distance = std::max(DistanceTo(site, begin), DistanceTo(site, to_S.p));
+    if (distance < least) {
+      least = distance;
+      best = static_cast<int>(i);
+    }
+  }
+  return best;
+}
+
+int FindSite(const Scene& scene, const Contact& contact_S) {
+  return FindSite(scene, contact_S, contact_S);
+}
+
+}  // namespace regrasp

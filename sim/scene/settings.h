@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+
+namespace regrasp {
+
+/// How the fingers answer the shake at a rest, and which answer decides.
+enum class Protocol {
+  kAdapted,  ///< with forces planned for each direction: can the grasp resist?
+  kFixed,    ///< with the forces of the rest and the servos' stiffness: does this squeeze?
+  kBoth,     ///< both, from the same rest; the adapted one decides
+};
+
+/// How the replay moves fingers along the surface where it can choose (sim/scene/align_script.h).
+enum class AlignChoice {
+  kImitate,  ///< spare fingers take over
+  kSlide,    ///< fingers slide while the others alone hold the object
+};
+
+/// How the replay is set up. What is left out is derived from the body (sim/scene/scaling.h).
+struct ReplayOptions {
+  std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
+  std::optional<double> mass_kg;     ///< instead of density
+  double density_kg_m3 = 1000;       ///< ρ of the homogeneous solid
+  std::optional<double> thickness;   ///< of a polygon's prism, in the object's own units
+  /// Fingertips are balls of this radius, in the object's own units; derived where neither this nor
+  /// the plan says.
+  std::optional<double> finger_radius;
+  std::optional<double> squeeze_N;  ///< total normal force of a grasp at rest
+  double shake = 0.01;              ///< ρ: shake force over squeeze, and torque over squeeze·R
+  Protocol protocol = Protocol::kAdapted;
+  bool stress = false;  ///< also look for the largest push in each direction (sim/measure/stress.h)
+  double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
+  AlignChoice align = AlignChoice::kImitate;
+  double stiffness_factor = 1;  ///< of the fingers, times what is derived
+  double timestep_factor = 1;   ///< times what is derived
+  double friction_factor = 1;   ///< the world's friction over the one that the hand believes
+  double mass_factor = 1;       ///< the object's true mass over the one that the hand believes
+  bool gravity = true;          ///< 9.81 m/s² along −z of the object's own frame; none of
+                                ///< it in the plane, which carries a planar object's weight
+};
+
+/// The values that the replay ran with.
+struct ReplaySettings {
+  double mu = 0;
+  double mass_kg = 0;
+  double squeeze_N = 0;
+  double shake = 0;
+  Protocol protocol = Protocol::kAdapted;
+  bool stress = false;
+  double tolerance = 0;
+  AlignChoice align = AlignChoice::kImitate;
+  double gravity_m_s2 = 0;  ///< 0 for a planar object: the plane carries it
+  double thickness_m = 0;   ///< of the prism of a planar object, 0 for a solid
+  double diameter_m = 0;    ///< D, the object's; R is half of it
+  double fingertip_radius_m = 0;
+  double finger_mass_kg = 0;
+  double finger_stiffness_N_m = 0;
+  double finger_damping_Ns_m = 0;
+  double timestep_s = 0;
+  double natural_time_s = 0;     ///< √(M D / F): what durations of the replay are counted in
+  double friction_factor = 1;    ///< the world's friction over `mu`
+  double mass_factor = 1;        ///< the object's true mass over `mass_kg`
+  double patch_size_m = 0;       ///< half the side of a contact patch
+  double patch_thickness_m = 0;  ///< of the prism under a contact patch
+};
+
+}  // namespace regrasp

@@ -1,0 +1,29 @@
+#include "sim/world/cone_margin.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace regrasp {
+
+double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle) {
+  return half_angle - std::atan2(normal.cross(force).norm(), normal.dot(force));
+}
+
+void AddMargin(int finger, double margin, FingerMargins& margins) {
+  const auto [place, is_new] = margins.emplace(finger, margin);
+  if (!is_new) place->second = std::min(place->second, margin);
+}
+
+std::optional<double> SmallestMargin(const FingerMargins& margins) {
+  const int finger = FingerOfSmallestMargin(margins);
+  return finger < 0 ? std::nullopt : std::optional(margins.at(finger));
+}
+
+int FingerOfSmallestMargin(const FingerMargins& margins) {
+  const auto least =
+      std::ranges::min_element(margins, {}, [](const auto& entry) { return entry.second; });
+  return least == margins.end() ? -1 : least->first;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "planner/plan/reason.h"
+#include "sim/scene/settings.h"
+#include "sim/world/cone_margin.h"
+
+namespace regrasp {
+
+/// What a replay measures of one step, and its verdict.
+///
+/// The object moved where (|Δx| + R |Δrotation|) / D exceeds the tolerance, R = D/2, Δx of the
+/// centroid; a finger slipped where it slid by more than the tolerance · D along the surface; a
+/// contact is lost where a finger at rest is off the surface by more than kLostGap · D.
+class MotionMonitor {
+ public:
+  explicit MotionMonitor(const ReplaySettings& settings) : settings_(settings) {}
+
+  /// Forgets everything and measures from this pose.
+  void Start(const Eigen::Isometry3d& X_SB);
+  /// What is measured next belongs to this part of the step, for people: "shake +x".
+  void SetPhase(std::string phase) { phase_ = std::move(phase); }
+
+  void AddPose(const Eigen::Isometry3d& X_SB);
+  /// While on, how far the object moves is the give of the servos under a push, which counts apart
+  /// and has no limit: the object has moved where it does not come back.
+  void SetGiving(bool on) { giving_ = on; }
+  /// The object did not come to rest: it has moved, however far it came.
+  void AddUnrest();
+  void AddSlip(int finger, double slip_m);
+  /// @param gap_m  from the surface to the fingertip of a finger at rest.
+  void AddGap(int finger, double gap_m);
+  /// @param force   of a finger on the object; left out where it hardly presses (kPressing).
+  /// @param normal  inward, unit.
+  void AddForce(int finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal);
+  /// Cone margins are smallest from here on.
+  void ForgetForces() { margins_.clear(); }
+
+  /// kNone, or the first of contact-lost, slipped and object-moved that applies.
+  [[nodiscard]] Reason reason() const;
+  /// One phrase on what the reason is, empty where there is none.
+  [[nodiscard]] std::string detail() const;
+  [[nodiscard]] double displacement_m() const { return displacement_; }
+  [[nodiscard]] double rotation_rad() const { return rotation_; }
+  /// Largest |Δx| + R |Δrotation|, what the tolerance is about.
+  [[nodiscard]] double moved_m() const { return moved_; }
+  /// |Δx| + R |Δrotation| now.
+  [[nodiscard]] double moved_now_m() const { return moved_now_; }
+  /// Whether the object is so far from its place, kLostMotion times the tolerance, that to go on
+  /// takes long and tells nothing.
+  [[nodiscard]] bool lost() const;
+  /// Largest |Δx| + R |Δrotation| while giving.
+  [[nodiscard]] double give_m() const { return give_; }
+  [[nodiscard]] double slip_m() const { return slip_; }
+  [[nodiscard]] bool contact_lost() const { return !lost_.empty(); }
+  [[nodiscard]] const FingerMargins& margins() const { return margins_; }
+
+ private:
+  ReplaySettings settings_;
+  Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
+  std::string phase_;
+  double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
+  bool giving_ = false;
+  FingerMargins margins_;
+  std::string lost_, slipped_, object_moved_;  ///< where each was seen first
+};
+
+/// (|Δx| + R |Δrotation|), metres, between two poses of a body of diameter 2R.
+[[nodiscard]] double MeasureMotion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                                   double radius);
+
+/// A finger at rest this far off the surface, over D, touches it no more; contacts that hold are
+/// 1e-7 D deep.
+inline constexpr double kLostGap = 1e-5;
+
+inline constexpr double kLostMotion = 10;  ///< over the tolerance
+
+}  // namespace regrasp

@@ -1,0 +1,156 @@
+#include "sim/world/replay_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/scene/scaling.h"
+
+namespace regrasp {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Where the plan first puts a finger; on no face where it never does.
+Contact FirstContact(const Object& body, const Scene& scene, int finger) {
+  if (scene.first_site[finger] < 0) return {};
+  const ContactSite& site = scene.sites[scene.first_site[finger]];
+  return {site.from, body.inward_normal(site.face), site.face};
+}
+
+}  // namespace
+
+ReplayWorld::ReplayWorld(const Object& body, const Plan& plan, Scene scene,
+                         const ReplayObserver& observer)
+    : p_WS_(body.mass_properties().centroid * plan.scale),
+      scene_(std::move(scene)),
+      observer_(observer),
+      engine_(FormatScene(InUnits(scene_, UnitsOf(scene_.settings)), body, {}, /*surface=*/false),
+              static_cast<int>(scene_.finger_start_S.size()), UnitsOf(scene_.settings)),
+      fingers_(scene_.finger_start_S.size()),
+      monitor_(scene_.settings) {
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    engine_.SetSite(static_cast<int>(f), -1);
+    fingers_[f].anchor_S = scene_.finger_start_S[f];
+    fingers_[f].contact = FirstContact(body, scene_, static_cast<int>(f));
+  }
+  SetGravity(0);
+  StartJudging();
+}
+
+WrenchFrame ReplayWorld::frame_B() const {
+  return {Vector3d::Zero(), settings().diameter_m / 2, scene_.dimension};
+}
+
+double ReplayWorld::half_angle() const { return std::atan(settings().mu); }
+
+std::vector<int> ReplayWorld::HoldingFingers() const {
+  std::vector<int> holding;
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    if (fingers_[f].holding) holding.push_back(static_cast<int>(f));
+  }
+  return holding;
+}
+
+Vector3d ReplayWorld::ContactPoint_B(int finger) const {
+  return ContactPoint_B(finger, X_SB().inverse());
+}
+
+Vector3d ReplayWorld::ContactPoint_B(int finger, const Isometry3d& X_BS) const {
+  return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
+}
+
+Vector3d ReplayWorld::TipAt_S(const Contact& contact_B, double gap) const {
+  return X_SB() * (contact_B.p - (settings().fingertip_radius_m + gap) * contact_B.n);
+}
+
+Vector3d ReplayWorld::weight_S() const { return {0, 0, -settings().mass_kg * gravity_}; }
+
+void ReplayWorld::SetGravity(double gravity) {
+  gravity_ = gravity;
+  engine_.SetGravity(gravity);
+}
+
+void ReplayWorld::Step() {
+  const Vector3d own_weight(0, 0, settings().finger_mass_kg * gravity_);
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    const WorldFinger& finger = fingers_[f];
+    engine_.SetTarget(static_cast<int>(f), finger.anchor_S + (finger.force_S + own_weight) /
+                                                                 settings().finger_stiffness_N_m);
+  }
+  engine_.Step();
+  MonitorMotion();
+  if (sampling_) Sample();
+}
+
+int ReplayWorld::StepsIn(double duration) const {
+  const double steps = duration * settings().natural_time_s / settings().timestep_s;
+  return std::max(1, static_cast<int>(std::lround(steps)));
+}
+
+void ReplayWorld::Run(double duration, const std::function<void(double)>& drive) {
+  const int steps = StepsIn(duration);
+  for (int i = 1; i <= steps; ++i) {
+    drive(static_cast<double>(i) / steps);
+    Step();
+  }
+}
+
+void ReplayWorld::StartJudging() {
+  monitor_.Start(X_SB());
+  for (const int f : HoldingFingers()) fingers_[f].touch_B = ContactPoint_B(f);
+}
+
+void ReplayWorld::MonitorMotion() {
+  const Isometry3d X_SB = this->X_SB();
+  const Isometry3d X_BS = X_SB.inverse();
+  monitor_.AddPose(X_SB);
+  for (int f = 0; f < static_cast<int>(fingers_.size()); ++f) {
+    const WorldFinger& finger = fingers_[f];
+    if (!finger.holding || finger.sliding) continue;
+    monitor_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n);
+    const Vector3d slide = ContactPoint_B(f, X_BS) - finger.touch_B;
+    monitor_.AddSlip(f, (slide - slide.dot(finger.contact.n) * finger.contact.n).norm());
+  }
+}
+
+void ReplayWorld::MonitorRest() {
+  for (const int f : HoldingFingers()) {
+    const Contact& contact = fingers_[f].contact;
+    monitor_.AddGap(f, contact.n.dot(contact.p - ContactPoint_B(f)));
+  }
+}
+
+void ReplayWorld::Sample() {
+  if (!observer_.on_sample || engine_.time() < next_sample_) return;
+  observer_.on_sample(TakeSnapshot());
+  next_sample_ = engine_.time() + observer_.sample_interval_s;
+}
+
+Snapshot ReplayWorld::TakeSnapshot() const {
+  Snapshot snapshot;
+  snapshot.time_s = engine_.time();
+  const Isometry3d X_SB = this->X_SB();
+  snapshot.X_WO = Eigen::Translation3d(p_WS_) * X_SB * Eigen::Translation3d(-p_WS_);
+  snapshot.fingertip_radius_m = settings().fingertip_radius_m;
+  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+    const WorldFinger& finger = fingers_[f];
+    if (finger.contact.face < 0) continue;
+    FingerState state;
+    state.finger = static_cast<int>(f);
+    state.role = finger.role;
+    state.tip_W = p_WS_ + engine_.tip(state.finger);
+    state.normal_W = X_SB.linear() * finger.contact.n;
+    state.contact_W =
+        p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
+    state.force_W = engine_.contact_force(state.finger);
+    if (finger.role == FingerRole::kMoved) {
+      for (const Vector3d& point_B : finger.path_B) state.path_W.push_back(p_WS_ + X_SB * point_B);
+    }
+    snapshot.fingers.push_back(state);
+  }
+  return snapshot;
+}
+
+}  // namespace regrasp

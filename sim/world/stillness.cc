@@ -1,0 +1,74 @@
+#include "sim/world/stillness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Where the object and the fingers that hold it are.
+struct Posture {
+  Eigen::Isometry3d X_SB;
+  std::vector<int> fingers;
+  std::vector<Vector3d> tips_S;
+};
+
+Posture TakePosture(const ReplayWorld& world) {
+  Posture posture{world.X_SB(), world.HoldingFingers(), {}};
+  for (const int f : posture.fingers) posture.tips_S.push_back(world.engine().tip(f));
+  return posture;
+}
+
+/// How far the body's points move in a turn, over the angle: metres, at most its radius.
+double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
+  const ReplaySettings& s = world.settings();
+  const Vector3d& axis = turn_B.axis();
+  const double gyration =
+      std::sqrt(axis.dot(world.scene().inertia * axis) / (s.mass_factor * s.mass_kg));
+  return std::min(s.diameter_m / 2, kArmOfGyration * gyration);
+}
+
+/// The largest way of any of them, metres.
+double PathFrom(const Posture& from, const ReplayWorld& world) {
+  const Eigen::Isometry3d X_SB = world.X_SB();
+  const Eigen::AngleAxisd turn_B(
+      Eigen::Quaterniond(from.X_SB.linear().transpose() * X_SB.linear()));
+  double way = (X_SB.translation() - from.X_SB.translation()).norm() +
+               ArmOf(turn_B, world) * std::abs(turn_B.angle());
+  for (std::size_t i = 0; i < from.fingers.size(); ++i) {
+    way = std::max(way, (world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm());
+  }
+  return way;
+}
+
+}  // namespace
+
+bool WaitUntilStill(ReplayWorld& world) {
+  const double still = kStill * world.settings().diameter_m;
+  const int enough = world.StepsIn(kStillTime);
+  Posture since = TakePosture(world);
+  int quiet = 0;
+  for (int i = world.StepsIn(kLongestWait); i > 0 && quiet < enough; --i) {
+    world.Step();
+    if (world.monitor().lost()) return false;
+    ++quiet;
+    if (PathFrom(since, world) <= still) continue;
+    since = TakePosture(world);
+    quiet = 0;
+  }
+  return quiet >= enough;
+}
+
+void ComeToRest(ReplayWorld& world) {
+  if (!WaitUntilStill(world)) world.monitor().AddUnrest();
+  world.MonitorRest();
+}
+
+double FreeMotion(double ramp) {
+  return ramp * ramp / 6 + ramp / 2 * kLongestWait + kLongestWait * kLongestWait / 2;
+}
+
+}  // namespace regrasp

@@ -1,0 +1,105 @@
+#include "render/figures/contact_space_axis.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/render/figures/contact_space_scenes.h"
+#include "tests/render/figures/planar_scenes.h"
+
+namespace regrasp {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+std::vector<std::string> LabelsOf(const std::vector<AxisTick>& ticks) {
+  std::vector<std::string> labels;
+  for (const AxisTick& tick : ticks) {
+    if (!tick.label.empty()) labels.push_back(tick.label);
+  }
+  return labels;
+}
+
+TEST(ContactSpaceAxisTest, FewVerticesHaveTheirLengths) {
+  const Polygon square = MakeSquare();
+  const std::vector<AxisTick> ticks = MakeTicks(Boundary(square), 0, {0, 8}, 25, 28);
+  EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "2", "4", "6", "8"));
+  EXPECT_THAT(ticks, SizeIs(5));
+}
+
+TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
+  const Polygon disc = MakeDisc(60);
+  const Boundary boundary(disc);
+  const double perimeter = boundary.perimeter(0);  // 6.28
+  const auto ticks = MakeTicks(boundary, 0, {0, perimeter}, 200 / perimeter, 28);
+  EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "1", "2", "3", "4", "5", "6.28"));
+  EXPECT_THAT(ticks, SizeIs(61 + 5));
+}
+
+TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
+  const Polygon disc = MakeDisc(300);
+  const Boundary boundary(disc);
+  const double perimeter = boundary.perimeter(0);
+  const double points_per_unit = 200 / perimeter;
+  double last = -1;
+  int checked = 0;
+  for (const AxisTick& tick :
+       MakeTicks(boundary, 0, {0, perimeter}, points_per_unit, 1000)) {  // no round labels
+    EXPECT_GE((tick.place - last) * points_per_unit, kTickGap * (1 - 1e-9));
+    last = tick.place;
+    ++checked;
+  }
+  EXPECT_GT(checked, 60);
+  EXPECT_LT(checked, 200 / kTickGap + 1);
+  EXPECT_NEAR(last, perimeter, 1e-9);
+}
+
+TEST(ContactSpaceAxisTest, BeyondTheEndTheRingBeginsAgain) {
+  const Polygon square = MakeSquare();
+  const auto ticks = MakeTicks(Boundary(square), 0, {-3, 3}, 25, 28);
+  EXPECT_THAT(LabelsOf(ticks), ElementsAre("6", "0", "2"));
+  EXPECT_EQ(ticks.front().place, -2);
+}
+
+TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
+  const Polygon disc = MakeDisc(60);
+  const Boundary boundary(disc);
+  const double perimeter = boundary.perimeter(0);
+  int checked = 0;
+  for (const double width : {0.002, 0.03, 0.5, 1.0}) {
+    for (const double from : {-0.3, 0.2, 0.9}) {
+      const PlaceRange shown = {from * perimeter, (from + width) * perimeter};
+      const double points_per_unit = 300 / (width * perimeter);
+      double last = -std::numeric_limits<double>::infinity();
+      std::string last_label;
+      for (const AxisTick& tick : MakeTicks(boundary, 0, shown, points_per_unit, 28)) {
+        EXPECT_GE(tick.place, shown.low - 1e-8);
+        EXPECT_LE(tick.place, shown.high + 1e-8);
+        if (tick.label.empty()) continue;
+        EXPECT_GE((tick.place - last) * points_per_unit, 28 * (1 - 1e-9)) << tick.label;
+        EXPECT_NE(tick.label, last_label);
+        last = tick.place;
+        last_label = tick.label;
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GT(checked, 30);
+}
+
+TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
+  const Polygon square = MakeSquare();
+  EXPECT_EQ(AxisTitle(Boundary(square), "u", 0), "u");
+  const Polygon ring = MakeRing(8);
+  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 0), "u, outer ring");
+  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 1), "u, hole 1");
+}
+
+TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {
+  const PlotWindow window = {{1, 2}, {3, 6}, {10, 20}, {5, 4}};
+  EXPECT_EQ(window.ToPage({1, 2}), Eigen::Vector2d(10, 36));
+  EXPECT_EQ(window.ToPage({3, 6}), Eigen::Vector2d(20, 20));
+  EXPECT_EQ(window.size(), Eigen::Vector2d(10, 16));
+}
+
+}  // namespace
+}  // namespace regrasp

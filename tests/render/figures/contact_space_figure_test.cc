@@ -1,0 +1,106 @@
+#include "render/figures/contact_space_figure.h"
+
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include "render/figures/contact_space_paint.h"
+#include "tests/render/figures/contact_space_scenes.h"
+#include "tests/render/figures/planar_scenes.h"
+
+namespace regrasp {
+namespace {
+
+constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
+
+/// How often an SVG paints with a colour: "fill" or "stroke".
+int Count(const std::string& svg, const std::string& how, Color color) {
+  const auto percent = [](int channel) { return std::to_string(channel * 100 / 255); };
+  const std::string rgb = "rgb\\(" + percent(color.r) + "(\\.\\d+)?%,\\s*" + percent(color.g) +
+                          "(\\.\\d+)?%,\\s*" + percent(color.b) + "(\\.\\d+)?%\\)";
+  const std::regex pattern("[\" ;]" + how + ":\\s*" + rgb);
+  return static_cast<int>(std::distance(std::sregex_iterator(svg.begin(), svg.end(), pattern), {}));
+}
+
+int PngWidth(const std::string& bytes) {
+  png_image header = {};
+  header.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) return 0;
+  const int width = static_cast<int>(header.width);
+  png_image_free(&header);
+  return width;
+}
+
+struct Fork {
+  Polygon polygon = MakeFork();
+  Plan plan = MakeForkPlan();
+  ContactSpaceFigures figures{polygon, plan};
+};
+
+TEST(ContactSpaceFigureTest, TheSetsOfThePlanHaveTheirTints) {
+  Fork fork;
+  const std::string overview = fork.figures.DrawOverview(FigureFormat::kSvg);
+  for (const int name : {0, 1, 2}) EXPECT_EQ(Count(overview, "fill", PlanSetTint(name)), 1) << name;
+  EXPECT_EQ(Count(overview, "fill", PlanSetTint(3)), 0);
+  EXPECT_GT(Count(overview, "fill", OtherSetTint(0)) + Count(overview, "fill", OtherSetTint(1)), 0);
+}
+
+TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBars) {
+  Fork fork;
+  for (const int entry : {1, 2}) {
+    const auto svg = fork.figures.DrawSwitch(entry, FigureFormat::kSvg);
+    ASSERT_TRUE(svg.has_value());
+    for (const int name : {0, 1, 2}) {
+      const bool shown = name == entry - 1 || name == entry;
+      EXPECT_EQ(Count(*svg, "fill", PlanSetTint(name)), shown ? 2 : 0) << entry << " " << name;
+    }
+  }
+}
+
+TEST(ContactSpaceFigureTest, OnlyAStretchingSetIsHatched) {
+  constexpr Color kPale = {252, 252, 252};
+  Fork fork;
+  EXPECT_EQ(Count(*fork.figures.DrawSwitch(1, FigureFormat::kSvg), "stroke", kPale), 0);
+  EXPECT_EQ(Count(*fork.figures.DrawSwitch(2, FigureFormat::kSvg), "stroke", kPale), 1);
+}
+
+TEST(ContactSpaceFigureTest, OnlySwitchesThatKeepAContactHaveAFigure) {
+  Fork fork;
+  EXPECT_EQ(fork.figures.DrawSwitch(0, FigureFormat::kSvg), std::nullopt);
+  const Polygon square = MakeSquare();
+  const Plan exchange = MakeExchangePlan();
+  ContactSpaceFigures exchanged(square, exchange);
+  EXPECT_EQ(exchanged.DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
+  EXPECT_FALSE(exchanged.DrawOverview(FigureFormat::kSvg).empty());
+  const Polygon disc = MakeDisc(12);
+  const Plan align = MakeDiscPlan(disc);
+  EXPECT_EQ(ContactSpaceFigures(disc, align).DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
+}
+
+TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
+  // Compared as a whole, not with EXPECT_EQ: a failure would print megabytes.
+  for (const FigureFormat format : kFormats) {
+    Fork first, second;
+    EXPECT_TRUE(first.figures.DrawOverview(format) == second.figures.DrawOverview(format));
+    EXPECT_TRUE(first.figures.DrawSwitch(1, format) == second.figures.DrawSwitch(1, format));
+    EXPECT_FALSE(first.figures.DrawSwitch(1, format) == first.figures.DrawSwitch(2, format));
+  }
+}
+
+TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow) {
+  Fork fork;
+  EXPECT_EQ(PngWidth(fork.figures.DrawOverview(FigureFormat::kPng)), 1004);
+  EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(1, FigureFormat::kPng)), 2055);
+  for (const int edges : {30, 100}) {
+    const Polygon disc = MakeDisc(edges);
+    const Plan plan = MakeDiscPlan(disc);
+    EXPECT_EQ(PngWidth(ContactSpaceFigures(disc, plan).DrawOverview(FigureFormat::kPng)),
+              edges < 60 ? 1004 : 2055);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

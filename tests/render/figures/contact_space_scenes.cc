@@ -1,0 +1,101 @@
+#include "tests/render/figures/contact_space_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/angle.h"
+#include "tests/render/figures/planar_scenes.h"
+
+namespace regrasp {
+
+using Eigen::Vector2d;
+
+namespace {
+
+std::vector<Vector2d> Circle(int edges, double radius) {
+  std::vector<Vector2d> circle;
+  for (int k = 0; k < edges; ++k) {
+    const double angle = 2 * std::numbers::pi * k / edges;
+    circle.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return circle;
+}
+
+Plan MakePlan(const FingerGrasp& initial, std::vector<Step> steps) {
+  Plan plan;
+  plan.dimension = 2;
+  plan.half_angle = Radians(20);
+  plan.fingers = 4;
+  plan.initial = initial;
+  plan.steps = std::move(steps);
+  FingerGrasp last = initial;
+  for (const Step& step : plan.steps) last = GraspAfter(last, step);
+  plan.goal = ContactsOf(last);
+  return plan;
+}
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+Polygon MakeDisc(int edges) { return Polygon::FromRings({Circle(edges, 1)}, "disc"); }
+
+Polygon MakeRing(int edges) {
+  return Polygon::FromRings({Circle(edges, 1), Circle(edges, 0.5)}, "ring");
+}
+
+Polygon MakeFork() {
+  return Polygon::FromRings(
+      {{{0, 0}, {10, 0}, {10, 10}, {7, 10}, {7, 3}, {3, 3}, {3, 10}, {0, 10}}}, "fork");
+}
+
+Plan MakeForkPlan() {
+  const Polygon fork = MakeFork();
+  const FingerContact right = FingerAt(fork, 0, 1, 0.8);
+  const FingerContact left = FingerAt(fork, 1, 7, 0.2);
+  const FingerContact inner_right = FingerAt(fork, 2, 3, 2.0 / 7);
+  const FingerContact inner_left = FingerAt(fork, 1, 5, 5.0 / 7);
+  return MakePlan({right, left}, {Switch{{inner_right}, {1}}, Switch{{inner_left}, {0}}});
+}
+
+Plan MakeDiscPlan(const Polygon& disc) {
+  const int edges = disc.face_count();
+  const auto at = [&](int edge, double u) {
+    return FingerGrasp{FingerAt(disc, 0, edge % edges, u),
+                       FingerAt(disc, 1, (edge + edges / 2) % edges, u)};
+  };
+  return MakePlan(at(edges - 1, 0.5),
+                  {Align{{at(edges - 1, 0.5), at(edges - 1, 1), at(0, 0), at(0, 0.5)}}});
+}
+
+Plan MakeExchangePlan() {
+  const Polygon square = MakeSquare();
+  const auto at = [&](int finger, int edge) { return FingerAt(square, finger, edge, 0.5); };
+  return MakePlan({at(0, 0), at(1, 2)}, {Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
+}
+
+bool Contains(const Outline& outline, const Vector2d& p, double margin) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d side = outline[(i + 1) % outline.size()] - outline[i];
+    if (Cross(side, p - outline[i]) <= -margin * side.norm()) return false;
+  }
+  return true;
+}
+
+int CountContaining(const std::vector<Outline>& outlines, const Vector2d& p) {
+  return static_cast<int>(std::ranges::count_if(
+      outlines, [&](const Outline& outline) { return Contains(outline, p); }));
+}
+
+double AreaOf(const std::vector<Outline>& outlines) {
+  double area = 0;
+  for (const Outline& outline : outlines) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      area += Cross(outline[i], outline[(i + 1) % outline.size()]) / 2;
+    }
+  }
+  return area;
+}
+
+}  // namespace regrasp

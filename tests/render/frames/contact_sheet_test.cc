@@ -1,0 +1,64 @@
+#include "render/frames/contact_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace regrasp {
+namespace {
+
+/// How many pixels have this colour.
+int Count(const Image& image, unsigned char r, unsigned char g, unsigned char b) {
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    count += image.rgb[i] == r && image.rgb[i + 1] == g && image.rgb[i + 2] == b;
+  }
+  return count;
+}
+
+Image MakeFlat(int width, int height, unsigned char r) {
+  Image image = MakeImage(width, height, 10);
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) image.rgb[i] = r;
+  return image;
+}
+
+TEST(ContactSheetTest, EveryPictureHasItsPlaceInTheGrid) {
+  ContactSheet sheet(5, 640, 480);
+  const Image empty = sheet.ToImage();
+  EXPECT_EQ(Count(empty, 255, 255, 255), empty.width * empty.height);
+  for (int i = 0; i < 5; ++i) sheet.Add(MakeFlat(640, 480, 50 + 10 * i), {"", "", kInk});
+  const Image image = sheet.ToImage();
+  EXPECT_GT(image.width, image.height);  // three columns, two rows
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_GE(Count(image, 50 + 10 * i, 10, 10), 478 * 358) << i;  // 480 x 360 without its border
+  }
+}
+
+TEST(ContactSheetTest, LabelsAreWrittenInTheirColour) {
+  ContactSheet plain(1, 320, 240), labelled(1, 320, 240);
+  const Color red = {179, 38, 30};
+  plain.Add(MakeImage(320, 240, 255), {});
+  labelled.Add(MakeImage(320, 240, 255), {"3  switch", "slipped", red});
+  EXPECT_EQ(Count(plain.ToImage(), red.r, red.g, red.b), 0);
+  EXPECT_GT(Count(labelled.ToImage(), red.r, red.g, red.b), 20);
+  EXPECT_GT(Count(labelled.ToImage(), kInk.r, kInk.g, kInk.b), 20);
+}
+
+TEST(ContactSheetTest, ManyPicturesAreSmallSoThatTheSheetCanBeOpened) {
+  const Image image = ContactSheet(1000, 1280, 960).ToImage();
+  EXPECT_LT(image.width, 6000);
+  EXPECT_LT(image.height, 6000);
+}
+
+TEST(ContactSheetTest, PicturesThatWereNotAnnouncedAreRefused) {
+  EXPECT_THROW(ContactSheet(0, 10, 10), std::invalid_argument);
+  EXPECT_THROW(ContactSheet(1, 0, 10), std::invalid_argument);
+  ContactSheet sheet(1, 64, 48);
+  EXPECT_THROW(sheet.Add(MakeImage(48, 64), {}), std::invalid_argument);
+  sheet.Add(MakeImage(64, 48), {});
+  EXPECT_THROW(sheet.Add(MakeImage(64, 48), {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,227 @@
+#include "render/frames/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/base/angle.h"
+#include "planner/object/polygon.h"
+#include "render/picture/palette.h"
+#include "tests/render/frames/scenes.h"
+
+namespace regrasp {
+namespace {
+
+const double kHalfAngle = Radians(20);
+
+FrameOptions Small(int supersampling = 1) { return {320, 240, supersampling}; }
+/// Large enough for text.
+FrameOptions Medium() { return {640, 480, 1}; }
+
+Image Draw(const Object& object, const std::vector<Snapshot>& snapshots, std::size_t index,
+           const FrameOptions& options, const std::string& caption = "") {
+  FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
+  return renderer.Render(snapshots[index], caption);
+}
+
+Color PixelAt(const Image& image, int x, int y) {
+  const unsigned char* p = image.rgb.data() + 3 * (std::size_t(y) * image.width + x);
+  return {p[0], p[1], p[2]};
+}
+
+bool IsWhite(Color c) { return c.r == 255 && c.g == 255 && c.b == 255; }
+
+/// Pixels of the hue and roughly the saturation of `color`, lit or in shade.
+int CountHue(const Image& image, Color color) {
+  const auto normalised = [](Color c) {
+    const double sum = c.r + c.g + c.b + 1e-9;
+    return Eigen::Vector3d(c.r / sum, c.g / sum, c.b / sum);
+  };
+  constexpr double kClose = 0.05;
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Color c = PixelAt(image, x, y);
+      count += (normalised(c) - normalised(color)).norm() < kClose ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+int CountDifferent(const Image& a, const Image& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) count += a.rgb[i] != b.rgb[i] ? 1 : 0;
+  return count;
+}
+
+TEST(FrameTest, HasTheSizeThatWasAskedFor) {
+  const Polyhedron cube = MakeCube();
+  int checked = 0;
+  for (const auto& [width, height] : {std::pair(64, 48), std::pair(48, 200), std::pair(801, 333)}) {
+    const Image image = Draw(cube, MakeCubeSequence(), 0, {width, height, 2});
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    EXPECT_EQ(image.rgb.size(), std::size_t{3} * width * height);
+    EXPECT_TRUE(IsWhite(PixelAt(image, 0, 0)));
+    ++checked;
+  }
+  EXPECT_EQ(checked, 3);
+}
+
+TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
+  const Polyhedron cube = MakeCube();
+  const Image image = Draw(cube, MakeCubeSequence(), 0, {4096, 4096, 2});
+  EXPECT_EQ(image.width, 4096);
+  EXPECT_TRUE(IsWhite(PixelAt(image, 4095, 4095)));
+  // Bands that did not fit together would leave the centre or a corner without the body.
+  const Image small = Draw(cube, MakeCubeSequence(), 0, {512, 512, 2});
+  const Image shrunk = Shrink(image, 8);
+  long difference = 0;
+  for (std::size_t i = 0; i < small.rgb.size(); ++i) {
+    difference += std::abs(int{small.rgb[i]} - int{shrunk.rgb[i]});
+  }
+  constexpr double kMeanDifference = 1.5;  // of 255: antialiasing differs along edges
+  EXPECT_LT(static_cast<double>(difference) / small.rgb.size(), kMeanDifference);
+}
+
+TEST(FrameTest, RejectsSizesOutOfRange) {
+  const Polyhedron cube = MakeCube();
+  EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {47, 480, 1}), std::invalid_argument);
+  EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 4097, 1}), std::invalid_argument);
+  EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 480, 0}), std::invalid_argument);
+}
+
+TEST(FrameTest, HasAWhiteBackgroundAtTheCorners) {
+  const Image image = Draw(MakeCube(), MakeCubeSequence(), 1, Small());
+  for (const int x : {0, 319}) {
+    for (const int y : {0, 239}) EXPECT_TRUE(IsWhite(PixelAt(image, x, y))) << x << " " << y;
+  }
+}
+
+TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
+  const Polyhedron cube = MakeCube();
+  std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const Image all = Draw(cube, snapshots, 0, Medium());
+  for (int free = 0; free < 4; ++free) {
+    Snapshot without = snapshots[0];
+    without.fingers[free].role = FingerRole::kFree;
+    FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
+    const Color color = FingerColor(snapshots[0].fingers[free].finger);
+    // Behind the body fingers are paler; their numbers never are.
+    constexpr int kClearlyThere = 20;  // pixels
+    EXPECT_GT(CountHue(all, color), CountHue(renderer.Render(without), color) + kClearlyThere)
+        << "finger " << free;
+  }
+}
+
+TEST(FrameTest, GivesTheSameBytesTwice) {
+  const Polyhedron block = MakeHoledBlock();
+  const Image first = Draw(block, MakeHoledBlockSequence(), 0, Small(2), "caption");
+  const Image second = Draw(block, MakeHoledBlockSequence(), 0, Small(2), "caption");
+  EXPECT_EQ(first.rgb, second.rgb);
+}
+
+TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
+  const Polyhedron cube = MakeCube();
+  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small());
+  const Image still = renderer.Render(snapshots[1]);
+  EXPECT_EQ(CountDifferent(still, renderer.Render(snapshots[1])), 0);
+  Snapshot turned = snapshots[1];
+  turned.X_WO.rotate(Eigen::AngleAxisd(Radians(5), Eigen::Vector3d::UnitZ()));
+  EXPECT_GT(CountDifferent(still, renderer.Render(turned)), 500);
+  Snapshot held = snapshots[1];
+  for (FingerState& finger : held.fingers) finger.role = FingerRole::kHolding;
+  EXPECT_GT(CountDifferent(still, renderer.Render(held)), 100);
+}
+
+TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
+  const Polyhedron cube = MakeCube();
+  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
+  const Image without = renderer.Render(snapshots[0]);
+  const Image with = renderer.Render(snapshots[0], "step 1/2");
+  int left = 0;
+  int elsewhere = 0;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      const bool same = IsWhite(PixelAt(with, x, y)) == IsWhite(PixelAt(without, x, y));
+      const bool in_corner = x < with.width / 2 && y > with.height * 3 / 4;
+      (in_corner ? left : elsewhere) += same ? 0 : 1;
+    }
+  }
+  EXPECT_GT(left, 50);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(FrameTest, IsIndependentOfTheObjectsSize) {
+  // The same scene in metres and, scaled, in millimetres: the same picture, scale bar included.
+  const Polyhedron cube = MakeCube();
+  PolygonSoup soup;
+  for (const Eigen::Vector3d& p : cube.vertices()) soup.vertices.push_back(1024 * p);
+  for (const auto& t : cube.triangles()) soup.facets.push_back({t[0], t[1], t[2]});
+  const Polyhedron large = Polyhedron::FromSoup(soup, "large cube");
+  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  FrameRenderer a(cube, 1, kHalfAngle, snapshots, Small());
+  FrameRenderer b(large, 1.0 / 1024, kHalfAngle, snapshots, Small());
+  const int bytes = 3 * 320 * 240;
+  EXPECT_LT(CountDifferent(a.Render(snapshots[0]), b.Render(snapshots[0])), bytes / 100);
+}
+
+TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
+  // After a failed step the object may have fallen out of the picture; that must not matter.
+  const Polyhedron cube = MakeCube();
+  std::vector<Snapshot> snapshots = MakeCubeSequence();
+  snapshots.back().X_WO.translation() = Eigen::Vector3d(0, 0, -50);
+  const Image image = Draw(cube, snapshots, 2, Small());
+  EXPECT_GT(CountHue(image, FingerColor(3)), 20);
+}
+
+Polygon MakePolygon() {
+  return Polygon::FromWkt(
+      "POLYGON((0 0, 0.06 0, 0.06 0.04, 0 0.04, 0 0), "
+      "(0.02 0.015, 0.03 0.015, 0.03 0.025, 0.02 0.015))",
+      "polygon");
+}
+
+/// One finger from the left, one from below.
+Snapshot MakePlanarSnapshot() {
+  Snapshot snapshot;
+  snapshot.fingertip_radius_m = 0.002;
+  snapshot.fingers = {
+      MakeFinger(0, FingerRole::kHolding, {0.0, 0.02, 0}, Eigen::Vector3d::UnitX()),
+      MakeFinger(1, FingerRole::kHolding, {0.04, 0.0, 0}, Eigen::Vector3d::UnitY())};
+  return snapshot;
+}
+
+TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
+  const Polygon polygon = MakePolygon();
+  FrameOptions thin = Small(), thick = Small();
+  thin.thickness = 0.02;
+  thick.thickness = 0.25;
+  const Image a = Draw(polygon, {MakePlanarSnapshot()}, 0, thin);
+  const Image b = Draw(polygon, {MakePlanarSnapshot()}, 0, thick);
+  for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(finger)), 40);
+  EXPECT_GT(CountDifferent(a, b), 1000);
+  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, Small())), 0);
+}
+
+TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
+  // A flat cone seen from its edge would not show its angle: whichever way it points.
+  const Polygon polygon = MakePolygon();
+  for (const int finger : {0, 1}) {
+    Snapshot alone = MakePlanarSnapshot();
+    alone.fingers = {alone.fingers[finger]};
+    const auto draw = [&](double degrees) {
+      FrameRenderer renderer(polygon, 1, Radians(degrees), {alone}, Medium());
+      return renderer.Render(alone);
+    };
+    constexpr int kClearlyWider = 6000;  // bytes: 9400; seen from its edge 3000
+    EXPECT_GT(CountDifferent(draw(10), draw(40)), kClearlyWider) << "finger " << finger;
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

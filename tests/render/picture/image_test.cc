@@ -1,0 +1,65 @@
+#include "render/picture/image.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <filesystem>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "planner/base/error.h"
+
+namespace regrasp {
+namespace {
+
+Image MakeNoise(int width, int height) {
+  std::mt19937 random(7);
+  Image image = MakeImage(width, height);
+  for (unsigned char& byte : image.rgb) byte = static_cast<unsigned char>(random() % 256);
+  return image;
+}
+
+std::filesystem::path TestFile(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+TEST(ImageTest, ComesBackFromPngUnchanged) {
+  const Image image = MakeNoise(37, 21);
+  const std::filesystem::path path = TestFile("regrasp_image_test.png");
+  WritePng(path, image);
+  png_image header = {};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&header, path.c_str()), 0) << header.message;
+  header.format = PNG_FORMAT_RGB;
+  ASSERT_EQ(header.width, 37U);
+  ASSERT_EQ(header.height, 21U);
+  std::vector<unsigned char> rgb(PNG_IMAGE_SIZE(header));
+  ASSERT_NE(png_image_finish_read(&header, nullptr, rgb.data(), 0, nullptr), 0) << header.message;
+  EXPECT_EQ(rgb, image.rgb);
+  std::filesystem::remove(path);
+}
+
+TEST(ImageTest, CannotBeWrittenIntoAFolderThatIsNotThere) {
+  EXPECT_THROW(WritePng(TestFile("regrasp_no_such_folder/image.png"), MakeImage(8, 8)),
+               EnvironmentError);
+}
+
+TEST(ImageTest, ShrinksByAveragingBlocks) {
+  Image image = MakeImage(4, 2, 0);
+  image.rgb[0] = 255;   // red of the first block's first pixel
+  image.rgb[22] = 100;  // green of the second block's last pixel
+  const Image small = Shrink(image, 2);
+  EXPECT_EQ(small.width, 2);
+  EXPECT_EQ(small.height, 1);
+  EXPECT_EQ(small.rgb, (std::vector<unsigned char>{64, 0, 0, 0, 25, 0}));
+}
+
+TEST(ImageTest, ShrinkingByOneChangesNothingAndAnUnevenFactorIsRefused) {
+  const Image image = MakeNoise(6, 4);
+  EXPECT_EQ(Shrink(image, 1).rgb, image.rgb);
+  EXPECT_THROW((void)Shrink(image, 4), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,64 @@
+#include "render/picture/label_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+namespace regrasp {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kRadius = 12;
+constexpr int kWidth = 640;
+constexpr int kHeight = 480;
+
+TEST(LabelLayoutTest, PutsALoneLabelNextToItsAnchorOnTheWantedSide) {
+  const LabelAnchor anchor = {{300, 200}, {0, -1}};
+  const auto centres = PlaceLabels({&anchor, 1}, {}, kRadius, kWidth, kHeight);
+  ASSERT_EQ(centres.size(), 1U);
+  EXPECT_NEAR(centres[0].x(), 300, 1e-9);
+  EXPECT_LT(centres[0].y(), 200);
+  EXPECT_LT((centres[0] - anchor.anchor).norm(), 2 * kRadius);
+}
+
+TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(80, kWidth - 80);
+  std::uniform_real_distribution<double> y(80, kHeight - 80);
+  int checked = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<LabelAnchor> anchors;
+    std::vector<Obstacle> obstacles;
+    for (int finger = 0; finger < 5; ++finger) {
+      const Vector2d ball(x(random), y(random));
+      const Vector2d end = ball + 40 * Vector2d::Random().normalized();
+      anchors.push_back({end, end - ball});
+      obstacles.push_back({ball, end, 8});
+    }
+    const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      for (const Obstacle& o : obstacles) {
+        const Vector2d way = o.b - o.a;
+        const double t = std::clamp((centres[i] - o.a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+        EXPECT_GE((centres[i] - o.a - t * way).norm(), 8 + 0.8 * kRadius);
+        ++checked;
+      }
+      for (std::size_t j = i + 1; j < centres.size(); ++j) {
+        EXPECT_GE((centres[i] - centres[j]).norm(), 1.8 * kRadius);
+      }
+    }
+  }
+  EXPECT_EQ(checked, 2500);
+}
+
+TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {
+  const LabelAnchor corner = {{2, 3}, {-1, -1}};
+  const auto centres = PlaceLabels({&corner, 1}, {}, kRadius, kWidth, kHeight);
+  ASSERT_EQ(centres.size(), 1U);
+  EXPECT_GE(centres[0].minCoeff(), kRadius);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,89 @@
+#include "render/picture/webp.h"
+
+#include <gtest/gtest.h>
+#include <webp/decode.h>
+#include <webp/demux.h>
+
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace regrasp {
+namespace {
+
+const std::uint8_t* Bytes(const std::string& text) {
+  return reinterpret_cast<const std::uint8_t*>(text.data());
+}
+
+Image MakeFlat(int width, int height, unsigned char brightness) {
+  return MakeImage(width, height, brightness);
+}
+
+TEST(WebpTest, AnImageComesBackAsItWentIn) {
+  Image image = MakeFlat(64, 48, 255);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 32; ++x) image.rgb[3 * (64 * y + x)] = 40;  // the left half is cyan
+  }
+  const std::string webp = EncodeWebp(image, 64);
+  int width = 0, height = 0;
+  const std::unique_ptr<std::uint8_t, void (*)(void*)> decoded(
+      WebPDecodeRGB(Bytes(webp), webp.size(), &width, &height), &WebPFree);
+  ASSERT_NE(decoded, nullptr);
+  ASSERT_EQ(width, 64);
+  ASSERT_EQ(height, 48);
+  int near = 0;
+  for (int i = 0; i < 3 * 64 * 48; ++i) near += std::abs(decoded.get()[i] - image.rgb[i]) < 24;
+  EXPECT_GT(near, 3 * 64 * 48 * 9 / 10);
+  EXPECT_EQ(webp, EncodeWebp(image, 64));
+}
+
+TEST(WebpTest, WideImagesAreScaledDownAndNarrowOnesAreNot) {
+  const auto size_of = [](const std::string& webp) {
+    int width = 0, height = 0;
+    EXPECT_NE(WebPGetInfo(Bytes(webp), webp.size(), &width, &height), 0);
+    return std::pair(width, height);
+  };
+  EXPECT_EQ(size_of(EncodeWebp(MakeFlat(1280, 960, 90), 320)), std::pair(320, 240));
+  EXPECT_EQ(size_of(EncodeWebp(MakeFlat(100, 60, 90), 320)), std::pair(100, 60));
+  EXPECT_EQ(size_of(EncodeWebp(MakeFlat(4000, 1, 90), 10)), std::pair(10, 1));
+}
+
+TEST(WebpTest, SizesThatWebpCannotHoldAreRefused) {
+  EXPECT_THROW(static_cast<void>(EncodeWebp({}, 10)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(16384, 1, 0), 10)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(4, 4, 0), 0)), std::invalid_argument);
+  EXPECT_THROW(WebpAnimation(0, 4), std::invalid_argument);
+}
+
+TEST(WebpAnimationTest, EveryImageIsShownForItsTime) {
+  WebpAnimation animation(32, 24);
+  animation.Add(MakeFlat(32, 24, 20), 50);
+  animation.Add(MakeFlat(32, 24, 220), 900);
+  const std::string webp = animation.Finish();
+  const WebPData data = {Bytes(webp), webp.size()};
+  const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
+      WebPAnimDecoderNew(&data, nullptr), &WebPAnimDecoderDelete);
+  ASSERT_NE(decoder, nullptr);
+  std::vector<int> ends, brightness;
+  while (WebPAnimDecoderHasMoreFrames(decoder.get()) != 0) {
+    std::uint8_t* rgba = nullptr;
+    int end = 0;
+    ASSERT_NE(WebPAnimDecoderGetNext(decoder.get(), &rgba, &end), 0);
+    ends.push_back(end);
+    brightness.push_back(rgba[0]);
+  }
+  EXPECT_EQ(ends, (std::vector<int>{50, 950}));
+  ASSERT_EQ(brightness.size(), 2u);
+  EXPECT_NEAR(brightness[0], 20, 4);
+  EXPECT_NEAR(brightness[1], 220, 4);
+}
+
+TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {
+  WebpAnimation animation(32, 24);
+  EXPECT_THROW(animation.Add(MakeFlat(24, 32, 0), 50), std::invalid_argument);
+  EXPECT_THROW(animation.Add(MakeFlat(32, 24, 0), 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

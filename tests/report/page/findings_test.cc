@@ -1,0 +1,76 @@
+#include "report/page/findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/base/angle.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Report MakeReport() {
+  Report report;
+  report.half_angle = Radians(20);
+  report.settings.emplace();
+  report.settings->shake = 0.01;
+  for (int index : {0, 1}) {
+    ReportStep& step = report.steps.emplace_back();
+    step.check.index = index;
+    step.needs = {{3, {Radians(12), true, std::nullopt}}};
+    step.replay.emplace();
+    step.replay->adapted = StepMotion();
+    step.replay->rest_margins = {{2, Radians(4.5)}};
+    step.replay->shake_margins = {{0, Radians(1.25)}};
+  }
+  return report;
+}
+
+TEST(FindingsTest, EveryReplayedStepHasItsWeakestFingerAndItsMargins) {
+  const std::string text = FormatFindings(MakeReport());
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">3</td><td class=\"number\">12.00°</td>"));
+  EXPECT_THAT(text, HasSubstr("4.50° (finger 2)"));
+  EXPECT_THAT(text, HasSubstr("1.25° (finger 0)"));
+  EXPECT_THAT(text, Not(HasSubstr("Disagreements")));
+  EXPECT_THAT(text, Not(HasSubstr("largest push")));
+  EXPECT_THAT(text, Not(HasSubstr("Fixed squeeze")));
+}
+
+TEST(FindingsTest, WhatWasNotReplayedHasNone) {
+  Report report = MakeReport();
+  report.steps[0].replay.reset();
+  report.steps[1].skipped = true;
+  EXPECT_EQ(FormatFindings(report), "");
+}
+
+TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
+  Report report = MakeReport();
+  report.steps[1].replay->fixed = StepMotion();
+  report.steps[1].replay->fixed->reason = Reason::kSlipped;
+  report.steps[1].disagreement =
+      Disagreement{Between::kFixedFails, Cause::kConeReached, "finger <2> & its cone", {}};
+  const std::string text = FormatFindings(report);
+  EXPECT_THAT(text, HasSubstr("Step 1: adapted forces resist the shake, a fixed squeeze does not. "
+                              "Likely cause: finger &lt;2&gt; &amp; its cone."));
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">fail: slipped</td>"));
+}
+
+TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
+  Report report = MakeReport();
+  for (ReportStep& step : report.steps) {
+    for (const Push& push : PushDirections(3)) {
+      step.replay->stress.push_back({push, 0.25, 0.27});
+    }
+  }
+  const std::string text = FormatFindings(report);
+  EXPECT_THAT(text, HasSubstr("25 | 27"));
+  EXPECT_THAT(text, HasSubstr("torque -z"));
+  EXPECT_THAT(text, HasSubstr("<svg"));
+  report.steps.resize(1);
+  EXPECT_THAT(FormatFindings(report), Not(HasSubstr("<svg"))) << "one entry is no plot";
+}
+
+}  // namespace
+}  // namespace regrasp

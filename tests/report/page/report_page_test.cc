@@ -1,0 +1,182 @@
+#include "report/page/report_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "planner/base/angle.h"
+#include "report/page/step_measures.h"
+
+namespace regrasp {
+namespace {
+
+using testing::DoubleNear;
+using testing::HasSubstr;
+using testing::Not;
+using testing::Optional;
+
+FingerContact MakeContact(int finger) { return {finger, {{0.01 * finger, 0, 0}, {0, 0, 1}}}; }
+
+/// A hold and two steps, the last of which fails in the replay when asked.
+struct Scene {
+  Plan plan;
+  Report report;
+
+  explicit Scene(bool fails) {
+    plan.half_angle = Radians(20);
+    for (int finger = 0; finger < 4; ++finger) plan.initial.push_back(MakeContact(finger));
+    plan.steps = {Switch{{MakeContact(4)}, {0}}, Switch{{MakeContact(0)}, {1}}};
+    report.object_file = "cube.obj";
+    report.plan_file = "plan.json";
+    report.planner = "roadmap";
+    report.half_angle = plan.half_angle;
+    report.settings.emplace();
+    report.settings->diameter_m = 0.06;
+    report.settings->tolerance = 1e-3;
+    report.settings->shake = 0.01;
+    for (int index = 0; index < 3; ++index) AddStep(index);
+    if (fails) {
+      report.steps[1].replay->reason = Reason::kSlipped;
+      report.steps[1].replay->detail = "shake +x: finger 2 slipped";
+      report.steps[2].replay.reset();
+      report.steps[2].skipped = true;
+    }
+  }
+
+  void AddStep(int index) {
+    ReportStep& step = report.steps.emplace_back();
+    step.check.index = index;
+    step.check.kind = index == 0 ? "hold" : "switch";
+    step.check.force_closure = true;
+    step.check.required = RequiredHalfAngle{Radians(12.4), Radians(12.5)};
+    step.replay.emplace();
+    step.replay->index = index;
+    step.replay->displacement_m = 4.14e-6;
+    step.replay->rotation_deg = Degrees(1e-4);
+    step.replay->moved_m = 6e-6;
+    step.replay->slip_m = 2e-9;
+  }
+};
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ReportPageTest, APlanThatPassesSaysSoAndHasALineForEachStep) {
+  const Scene scene(/*fails=*/false);
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("<strong>Pass</strong>"));
+  EXPECT_EQ(Count(page, "<tr class=\"pass\">"), 3);
+  EXPECT_THAT(page, HasSubstr("Switch: place 4, release 0"));
+  EXPECT_THAT(page, HasSubstr("12.50°"));
+  EXPECT_THAT(page, HasSubstr("7.50°"));
+  EXPECT_THAT(page, HasSubstr("4.14\u00a0µm"));
+  EXPECT_THAT(page, HasSubstr("2\u00a0nm"));
+  EXPECT_EQ(Count(page, "<svg"), 2);
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_EQ(page, FormatReportHtml(scene.report, scene.plan, {}));
+}
+
+TEST(ReportPageTest, APlanThatFailsSaysWhereAndWhy) {
+  const Scene scene(/*fails=*/true);
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("<strong>Fail</strong>"));
+  EXPECT_THAT(page, Not(HasSubstr("<strong>Pass</strong>")));
+  EXPECT_THAT(page, HasSubstr("Shake +x: finger 2 slipped."));
+  EXPECT_EQ(Count(page, "<tr class=\"fail\">"), 1);
+  EXPECT_EQ(Count(page, "<tr class=\"skipped\">"), 1);
+  EXPECT_THAT(page, HasSubstr("fail: slipped"));
+}
+
+TEST(ReportPageTest, APlanThatFailsTheAnalysisHasNoPlotOfWhatWasNotReplayed) {
+  Scene scene(/*fails=*/true);
+  for (ReportStep& step : scene.report.steps) step.replay.reset();
+  scene.report.settings.reset();
+  scene.report.steps[0].check.reason = Reason::kNotForceClosure;
+  scene.report.steps[0].check.required.reset();
+  scene.report.steps[1].skipped = true;
+  for (int index : {1, 2}) scene.report.steps[index].check.skipped = true;
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_EQ(Count(page, "<svg"), 0);
+  EXPECT_THAT(page, HasSubstr("At the hold: not-force-closure"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"number minor\">none</td>"));
+}
+
+TEST(ReportPageTest, NothingFromOutsideCanBecomeMarkup) {
+  Scene scene(/*fails=*/true);
+  const std::string evil = "</title><script>alert('&\"')</script>.json\xFF";
+  scene.report.plan_file = scene.report.object_file = scene.report.planner = evil;
+  scene.report.object_sha256 = scene.report.plan_sha256 = evil;
+  scene.report.steps[1].replay->detail = evil;
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_EQ(Count(page, "<script"), 0);
+  EXPECT_EQ(Count(page, "</title>"), 3);  // of the page and of two plots
+  EXPECT_GE(Count(page, "&lt;script&gt;"), 6);
+}
+
+TEST(ReportPageTest, ASingleGraspHasALineForEachFingerAndNoPlots) {
+  Scene scene(/*fails=*/false);
+  scene.plan.steps.clear();
+  scene.report.steps.resize(1);
+  scene.report.grasp = GraspReport{
+      {0.1234, 0.1235}, {{Radians(3), true, std::nullopt}, {Radians(11), true, Radians(30)}}};
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("Validation of a grasp"));
+  EXPECT_THAT(page, HasSubstr("<dd>finger 1</dd>"));
+  EXPECT_THAT(page, HasSubstr("<dd>0.123</dd>"));
+  EXPECT_THAT(page, HasSubstr("9.00°"));
+  EXPECT_EQ(Count(page, "<svg"), 0);
+  EXPECT_EQ(Count(page, "<table"), 3);
+}
+
+TEST(ReportPageTest, PicturesStandInThePage) {
+  const Scene scene(/*fails=*/true);
+  const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
+  const std::string page = FormatReportHtml(scene.report, scene.plan, pictures);
+  EXPECT_EQ(Count(page, "<img"), 2);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/webp;base64,YWJj\""));
+  EXPECT_THAT(page, HasSubstr("href=\"#frame1\""));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"#frame2\"")));
+  EXPECT_THAT(page, HasSubstr("id=\"frame1\" class=\"fail\""));
+}
+
+TEST(ReportPageTest, ValuesThatAreNotFiniteBreakNothing) {
+  Scene scene(/*fails=*/true);
+  scene.report.steps[1].replay->reason = Reason::kSimulationUnstable;
+  scene.report.steps[1].replay->displacement_m = std::numeric_limits<double>::infinity();
+  scene.report.steps[1].replay->moved_m = std::numeric_limits<double>::infinity();
+  scene.report.steps[1].replay->slip_m = std::nan("");
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("simulation-unstable"));
+  EXPECT_EQ(Count(page, "<svg"), 2);
+}
+
+TEST(ReportPageTest, ManyPicturesAreSmaller) {
+  EXPECT_GT(PagePictureWidth(20), PagePictureWidth(50));
+  EXPECT_GT(PagePictureWidth(50), PagePictureWidth(500));
+  EXPECT_GE(PagePictureWidth(100000), 200);
+}
+
+TEST(StepMeasuresTest, MotionIsWhatTheToleranceIsAbout) {
+  const Scene scene(/*fails=*/true);
+  const std::vector<StepMeasures> measures = MeasureSteps(scene.report);
+  ASSERT_EQ(measures.size(), 3u);
+  EXPECT_THAT(measures[0].moved_m, Optional(DoubleNear(6e-6, 1e-12)));
+  EXPECT_THAT(measures[0].margin_deg, Optional(DoubleNear(7.5, 1e-9)));
+  EXPECT_THAT(measures[0].slip_m, Optional(2e-9));
+  EXPECT_FALSE(measures[2].moved_m || measures[2].margin_deg || measures[2].slip_m);
+}
+
+TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
+  Scene scene(/*fails=*/false);
+  EXPECT_FALSE(MeasureSteps(scene.report)[1].rest_margin_deg);
+  scene.report.steps[1].replay->rest_margins = {{0, Radians(11)}, {3, Radians(8)}};
+  EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,201 @@
+#include "report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "planner/base/angle.h"
+#include "planner/base/json.h"
+#include "report/junit.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+ReportStep MakeStep(int index, const std::string& kind, double required_deg) {
+  ReportStep step;
+  step.check.index = index;
+  step.check.kind = kind;
+  step.check.force_closure = true;
+  step.check.required = RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+  step.replay = StepReplay();
+  step.replay->index = index;
+  step.replay->displacement_m = 1e-6 * (index + 1);
+  step.frame = "frame" + std::to_string(index) + ".png";
+  return step;
+}
+
+Report MakeReport() {
+  Report report;
+  report.object_file = "cube.obj";
+  report.plan_file = "plan.json";
+  report.half_angle = Radians(20);
+  report.settings = ReplaySettings();
+  report.steps = {MakeStep(0, "hold", 12), MakeStep(1, "switch", 17.5), MakeStep(2, "align", 15)};
+  report.steps[2].replay->align_mode = AlignMode::kImitated;
+  report.steps[2].check.undecided = 3;
+  return report;
+}
+
+/// Step 1 fails in the replay, step 2 is skipped.
+Report MakeFailedReport() {
+  Report report = MakeReport();
+  report.steps[1].replay->reason = Reason::kSlipped;
+  report.steps[1].replay->detail = "finger 2 slid by 1 mm <under> \"shake\" & push";
+  report.steps[2].replay.reset();
+  report.steps[2].frame.clear();
+  report.steps[2].skipped = true;
+  return report;
+}
+
+TEST(ReportTest, PassesOnlyWhenEveryStepPasses) {
+  EXPECT_TRUE(MakeReport().passed());
+  EXPECT_FALSE(MakeFailedReport().passed());
+  Report analytic = MakeReport();
+  analytic.steps[0].check.reason = Reason::kOffSurface;
+  EXPECT_FALSE(analytic.passed());
+}
+
+TEST(ReportTest, TheAnalyticReasonComesBeforeThatOfTheReplay) {
+  ReportStep step = MakeStep(0, "hold", 12);
+  EXPECT_EQ(step.reason(), Reason::kNone);
+  step.replay->reason = Reason::kContactLost;
+  EXPECT_EQ(step.reason(), Reason::kContactLost);
+  step.check.reason = Reason::kWrongNormal;
+  EXPECT_EQ(step.reason(), Reason::kWrongNormal);
+  step.skipped = true;
+  EXPECT_EQ(step.reason(), Reason::kNone);
+  EXPECT_EQ(step.verdict(), Verdict::kSkipped);
+}
+
+TEST(ReportTest, TheWeakestStepNeedsTheLargestHalfAngle) {
+  Report report = MakeReport();
+  EXPECT_EQ(report.weakest_step(), 1);
+  report.steps[1].check.required.reset();
+  EXPECT_EQ(report.weakest_step(), 2);
+  for (ReportStep& step : report.steps) step.check.required.reset();
+  EXPECT_EQ(report.weakest_step(), -1);
+}
+
+TEST(ReportTest, JsonHasTheFieldsOfTheFormat) {
+  const Json json = ParseJson(FormatReportJson(MakeReport()), "report");
+  EXPECT_EQ(json["format"], "regrasp-report");
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["verdict"], "pass");
+  EXPECT_EQ(json["object"]["file"], "cube.obj");
+  EXPECT_EQ(json["weakest_step"], 1);
+  ASSERT_EQ(json["steps"].size(), 3U);
+  const Json& step = json["steps"][2];
+  EXPECT_EQ(step["index"], 2);
+  EXPECT_EQ(step["kind"], "align");
+  EXPECT_EQ(step["verdict"], "pass");
+  EXPECT_TRUE(step["reason"].is_null());
+  EXPECT_EQ(step["force_closure"]["holds"], true);
+  EXPECT_NEAR(step["force_closure"]["required_half_angle_deg"].get<double>(), 15, 1e-12);
+  EXPECT_EQ(step["simulation"]["displacement_m"], 3e-6);
+  EXPECT_EQ(step["simulation"]["contact_lost"], false);
+  EXPECT_EQ(step["align_mode"], "imitated");
+  EXPECT_EQ(step["undecided"], 3);
+  EXPECT_EQ(step["frame"], "frame2.png");
+  EXPECT_TRUE(json["steps"][1]["align_mode"].is_null());
+}
+
+TEST(ReportTest, JsonOfAFailureNamesTheReasonAndSkipsTheRest) {
+  const Json json = ParseJson(FormatReportJson(MakeFailedReport()), "report");
+  EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_EQ(json["steps"][0]["verdict"], "pass");
+  EXPECT_EQ(json["steps"][1]["verdict"], "fail");
+  EXPECT_EQ(json["steps"][1]["reason"], "slipped");
+  EXPECT_EQ(json["steps"][2]["verdict"], "skipped");
+  EXPECT_TRUE(json["steps"][2]["reason"].is_null());
+  EXPECT_TRUE(json["steps"][2]["simulation"].is_null());
+  EXPECT_TRUE(json["steps"][2]["frame"].is_null());
+}
+
+TEST(ReportTest, ContactRegionsAreInTheJsonTheTableAndTheWarningsWhereThereAreAny) {
+  Report report = MakeReport();
+  EXPECT_THAT(FormatReportJson(report), Not(HasSubstr("region")));
+  EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("region")));
+  report.steps[1].region = SwitchRegion{0.125, std::nullopt, true};
+  Json json = ParseJson(FormatReportJson(report), "report");
+  EXPECT_EQ(json["steps"][1]["region"]["half_width"], 0.125);
+  EXPECT_TRUE(json["steps"][1]["region"]["claimed"].is_null());
+  EXPECT_EQ(json["steps"][1]["region"]["holds"], true);
+  EXPECT_FALSE(json["steps"][2].contains("region"));
+  EXPECT_THAT(FormatReportTable(report), HasSubstr("0.12"));
+  EXPECT_TRUE(report.warnings().empty());
+  report.steps[1].region = SwitchRegion{0.125, 0.25, false};
+  json = ParseJson(FormatReportJson(report), "report");
+  EXPECT_EQ(json["steps"][1]["region"]["claimed"], 0.25);
+  EXPECT_EQ(json["steps"][1]["region"]["holds"], false);
+  EXPECT_EQ(json["verdict"], "pass");
+  ASSERT_EQ(report.warnings().size(), 1u);
+  EXPECT_EQ(report.warnings()[0],
+            "step 1: the plan claims a contact region of 0.25, but it is 0.125");
+}
+
+TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {
+  Report report = MakeReport();
+  report.plan_file = "caf\xe9.json";
+  const Json json = ParseJson(FormatReportJson(report), "report");
+  EXPECT_THAT(json["plan"]["file"].get<std::string>(), HasSubstr("caf"));
+}
+
+TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
+  const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport())});
+  EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger 2 slid by 1 mm &lt;under&gt; "
+                             "&quot;shake&quot; &amp; push</failure>"));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\"><skipped/>"));
+  EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport())}), Not(HasSubstr("<failure")));
+}
+
+TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {
+  const std::string table = FormatReportTable(MakeReport());
+  EXPECT_THAT(table, HasSubstr("hold"));
+  EXPECT_THAT(table, HasSubstr("17.5"));
+  EXPECT_THAT(table, HasSubstr("weakest: step 1 (switch)"));
+  EXPECT_THAT(table, HasSubstr("undecided: 3"));
+  EXPECT_THAT(table, HasSubstr("verdict: pass"));
+  const std::string failed = FormatReportTable(MakeFailedReport());
+  EXPECT_THAT(failed, HasSubstr("fail: slipped"));
+  EXPECT_THAT(failed, HasSubstr("step 1: finger 2 slid"));
+  EXPECT_THAT(failed, HasSubstr("skipped"));
+  EXPECT_THAT(failed, HasSubstr("verdict: fail"));
+}
+
+TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.goal = ContactsOf(plan.initial);
+  ReplayOptions options;
+  options.protocol = Protocol::kBoth;
+  const Report agreed = Validate(cube.object, plan, {}, options);
+  EXPECT_TRUE(agreed.passed());
+  EXPECT_FALSE(agreed.steps.at(0).disagreement);
+
+  options.shake = 0.1;
+  const Report fixed = Validate(cube.object, plan, {}, options);
+  EXPECT_TRUE(fixed.passed()) << "the adapted answer decides";
+  ASSERT_TRUE(fixed.steps.at(0).disagreement);
+  EXPECT_EQ(fixed.steps[0].disagreement->between, Between::kFixedFails);
+  EXPECT_EQ(fixed.steps[0].disagreement->cause, Cause::kConeReached);
+  EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed squeeze fails, likely cause: "));
+
+  options.shake = 0.01;
+  CheckOptions check;
+  check.half_angle = Radians(5.6);
+  const Report weak = Validate(cube.object, plan, check, options);
+  EXPECT_FALSE(weak.passed());
+  ASSERT_TRUE(weak.steps.at(0).disagreement);
+  EXPECT_EQ(weak.steps[0].disagreement->between, Between::kReplayFails);
+  EXPECT_EQ(weak.steps[0].disagreement->cause, Cause::kQuality);
+  EXPECT_THAT(FormatReportJson(weak), HasSubstr("\"quality-below-shake\""));
+}
+
+}  // namespace
+}  // namespace regrasp

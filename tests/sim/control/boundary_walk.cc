@@ -1,0 +1,152 @@
+#include "tests/sim/control/boundary_walk.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace regrasp {
+
+namespace {
+
+/// A finger's place on the way.
+struct Walker {
+  const Polygon& polygon;
+  int finger, edge;
+  double at;                 ///< length from the edge's beginning
+  double rate;               ///< length in all
+  int first = 0, count = 0;  ///< edges of its ring
+
+  Walker(const Polygon& body, const Walk& walk)
+      : polygon(body),
+        finger(walk.finger),
+        edge(walk.edge),
+        at(walk.share * body.face_measure(walk.edge)),
+        rate(walk.length) {
+    for (const auto& ring : body.rings()) {
+      first += count;
+      count = static_cast<int>(ring.size());
+      if (edge < first + count) break;
+    }
+  }
+
+  /// The share of the way after which it gets to a vertex.
+  [[nodiscard]] double Rest() const {
+    if (rate == 0) return std::numeric_limits<double>::infinity();
+    return (rate > 0 ? polygon.face_measure(edge) - at : at) / std::abs(rate);
+  }
+  void Go(double share, bool to_vertex) {
+    at += rate * share;
+    if (to_vertex) at = rate > 0 ? polygon.face_measure(edge) : 0;
+  }
+  void Turn() {
+    edge = first + (edge - first + (rate > 0 ? 1 : count - 1)) % count;
+    at = rate > 0 ? 0 : polygon.face_measure(edge);
+  }
+  [[nodiscard]] FingerContact Contact() const {
+    return OnEdge(polygon, finger, edge, std::clamp(at / polygon.face_measure(edge), 0.0, 1.0));
+  }
+};
+
+/// Fingers that get to a vertex within this share of the way do so at once.
+constexpr double kAtOnce = 1e-9;
+
+}  // namespace
+
+Align WalkBoundary(const Polygon& polygon, const std::vector<Walk>& walks) {
+  std::vector<Walker> walkers;
+  for (const Walk& walk : walks) walkers.emplace_back(polygon, walk);
+  Align align;
+  const auto add = [&] {
+    FingerGrasp grasp;
+    for (const Walker& walker : walkers) grasp.push_back(walker.Contact());
+    align.waypoints.push_back(std::move(grasp));
+  };
+  add();
+  double left = 1;
+  while (left > 0) {
+    double next = left;
+    for (const Walker& walker : walkers) next = std::min(next, walker.Rest());
+    std::vector<Walker*> turning;
+    for (Walker& walker : walkers) {
+      const bool turns = walker.Rest() <= next + kAtOnce && next < left;
+      walker.Go(next, turns);
+      if (turns) turning.push_back(&walker);
+    }
+    left -= next;
+    add();
+    if (turning.empty()) break;
+    for (Walker* walker : turning) walker->Turn();
+    add();
+  }
+  return align;
+}
+
+Plan MakeWalkPlan(const Polygon& polygon, const std::vector<Walk>& walks, double half_angle_deg) {
+  Align align = WalkBoundary(polygon, walks);
+  Plan plan = MakePlanarPlan(align.waypoints.front(), half_angle_deg, 3);
+  plan.goal = ContactsOf(align.waypoints.back());
+  plan.steps = {std::move(align)};
+  return plan;
+}
+
+int CountTurns(const Align& align) {
+  int turns = 0;
+  for (std::size_t j = 1; j < align.waypoints.size(); ++j) {
+    for (std::size_t k = 0; k < align.waypoints[j].size(); ++k) {
+      turns += align.waypoints[j][k].contact.face != align.waypoints[j - 1][k].contact.face;
+    }
+  }
+  return turns;
+}
+
+namespace {
+
+constexpr double kRadius = 0.05;
+
+Eigen::Vector2d At(double turn, double radius) {
+  const double angle = 2 * std::numbers::pi * turn;
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+std::vector<Eigen::Vector2d> Circle(int edges, double radius) {
+  std::vector<Eigen::Vector2d> ring;
+  for (int i = 0; i < edges; ++i) ring.push_back(At(static_cast<double>(i) / edges, radius));
+  return ring;
+}
+
+}  // namespace
+
+Polygon MakeDisc(int edges) { return Polygon::FromRings({Circle(edges, kRadius)}, "disc"); }
+
+Polygon MakeGear(int teeth, double depth) {
+  std::vector<Eigen::Vector2d> ring;
+  for (int i = 0; i < 2 * teeth; ++i) {
+    ring.push_back(At(0.5 * i / teeth, kRadius * (i % 2 == 0 ? 1 : 1 - depth)));
+  }
+  return Polygon::FromRings({ring}, "gear");
+}
+
+Polygon MakeRing(int edges) {
+  std::vector<Eigen::Vector2d> hole = Circle(edges, 0.6 * kRadius);
+  std::ranges::reverse(hole);
+  return Polygon::FromRings({Circle(edges, kRadius), hole}, "ring");
+}
+
+Polygon DrawOutline(int edges, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<std::pair<double, double>> waves;  // of the radius: size and phase
+  for (int k = 2; k < 8; ++k) waves.emplace_back(0.15 * unit(random) / k, unit(random));
+  std::vector<double> turns;
+  for (int i = 0; i < edges; ++i) turns.push_back((i + 0.95 * unit(random)) / edges);
+  std::vector<Eigen::Vector2d> ring;
+  for (const double turn : turns) {
+    double radius = 1;
+    for (std::size_t k = 0; k < waves.size(); ++k) {
+      const auto& [size, phase] = waves[k];
+      radius += size * std::sin(2 * std::numbers::pi * ((k + 2.0) * turn + phase));
+    }
+    ring.push_back(At(turn, kRadius * radius));
+  }
+  return Polygon::FromRings({ring}, "outline");
+}
+
+}  // namespace regrasp

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/plan/check.h"
+#include "tests/sim/control/boundary_walk.h"
+
+namespace regrasp {
+namespace {
+
+constexpr unsigned kSeed = 4;
+/// A little more than the shake: these must pass.
+constexpr double kLeastQuality = 0.011;
+/// Draws of a grasp, and halvings of a walk; what finds nothing is left out, and the tests count
+/// what is left.
+constexpr int kMostDraws = 20000, kHalvings = 6;
+/// Of the critical friction: here everything must fail.
+constexpr double kTooLittle = 0.9;
+
+/// Draws plans of 2-finger grasps of an outline, for a hand of three fingers.
+class Dice {
+ public:
+  Dice(const Polygon& polygon, double half_angle_deg, std::mt19937& random)
+      : polygon_(polygon), half_angle_deg_(half_angle_deg), random_(random) {}
+
+  [[nodiscard]] double Between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  [[nodiscard]] Contact DrawContact() {
+    const int edge = std::uniform_int_distribution<int>(0, polygon_.face_count() - 1)(random_);
+    return OnEdge(polygon_, edge, Between(0, 1));
+  }
+
+  [[nodiscard]] bool IsGood(const Grasp& grasp) const {
+    const double half_angle = Radians(half_angle_deg_);
+    return IsForceClosure(grasp, polygon_.wrench_frame(), half_angle) &&
+           QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
+  }
+
+  /// A walk of both fingers, halved until it is force closure all the way and ends in a good grasp.
+  [[nodiscard]] std::optional<Plan> DrawWalk() {
+    const std::optional<Grasp> start = DrawGrasp();
+    if (!start) return std::nullopt;
+    double length = Between(-0.5, 0.5) * polygon_.diameter();
+    const double other = Between(0.7, 1.4);
+    for (int i = 0; i < kHalvings; ++i, length /= 2) {
+      const Plan plan = MakeWalkPlan(
+          polygon_, {WalkOf(0, (*start)[0], length), WalkOf(1, (*start)[1], other * length)},
+          half_angle_deg_);
+      if (IsGood(plan.goal) && CheckPlan(polygon_, plan).passed()) return plan;
+    }
+    return std::nullopt;
+  }
+
+  /// Switches of one finger for another between good grasps.
+  [[nodiscard]] std::optional<Plan> DrawSwitches(int switches) {
+    const std::optional<Grasp> start = DrawGrasp();
+    if (!start) return std::nullopt;
+    Plan plan = MakePlanarPlan({{0, (*start)[0]}, {1, (*start)[1]}}, half_angle_deg_, 3);
+    FingerGrasp held = plan.initial;
+    for (int i = 0; i < switches; ++i) {
+      const int free = 3 - held[0].finger - held[1].finger;
+      const std::optional<Switch> found = DrawSwitch(held, free);
+      if (!found) return std::nullopt;
+      plan.steps.emplace_back(*found);
+      held = GraspAfter(held, plan.steps.back());
+    }
+    plan.goal = ContactsOf(held);
+    return plan;
+  }
+
+ private:
+  [[nodiscard]] std::optional<Grasp> DrawGrasp() {
+    for (int i = 0; i < kMostDraws; ++i) {
+      const Grasp grasp = {DrawContact(), DrawContact()};
+      if (IsGood(grasp)) return grasp;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Switch> DrawSwitch(const FingerGrasp& held, int free) {
+    for (int i = 0; i < kMostDraws; ++i) {
+      const Switch change{{{free, DrawContact()}}, {held[i % 2].finger}};
+      if (IsGood(ContactsOf(GraspAfter(held, change)))) return change;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Walk WalkOf(int finger, const Contact& contact, double length) const {
+    const double at = (contact.p - polygon_.edge(contact.face).first).norm();
+    return {finger, contact.face, at / polygon_.face_measure(contact.face), length};
+  }
+
+  const Polygon& polygon_;
+  double half_angle_deg_;
+  std::mt19937& random_;
+};
+
+/// What a sweep of plans came to.
+struct Tally {
+  int plans = 0, steps = 0, turns = 0, refuted = 0;
+  double drift = 0;
+};
+
+/// The plan passes the replay, and fails where the friction is less than its critical one.
+void MotionMonitor(const Polygon& polygon, const Plan& plan, Tally& tally) {
+  const PlanCheck check = CheckPlan(polygon, plan);
+  ASSERT_TRUE(check.passed());
+  const ReplayResult result = ReplayPlan(polygon, check.located, {});
+  for (const StepReplay& step : result.steps) {
+    ASSERT_EQ(step.reason, Reason::kNone) << "step " << step.index << ": " << step.detail;
+    EXPECT_NE(step.align_mode, AlignMode::kSlid);
+  }
+  tally.drift = std::max(tally.drift, result.steps.back().drift_m / polygon.diameter());
+  double critical = 0;
+  for (const StepCheck& step : check.steps) critical = std::max(critical, step.required->lower);
+  ReplayOptions options;
+  options.half_angle = std::atan(kTooLittle * std::tan(critical));
+  tally.refuted += ReplayPlan(polygon, check.located, options).steps.back().reason != Reason::kNone;
+  for (const Step& step : plan.steps) {
+    if (const auto* align = std::get_if<Align>(&step)) tally.turns += CountTurns(*align);
+  }
+  tally.steps += static_cast<int>(plan.steps.size());
+  ++tally.plans;
+}
+
+constexpr int kEdges[] = {60, 128, 300};
+constexpr double kHalfAngles[] = {10, 15, 20};
+
+TEST(PlanarCornerSweep, RandomWalksPassAndFailBelowTheirCriticalFriction) {
+  std::mt19937 random(kSeed);
+  Tally tally;
+  for (const int edges : kEdges) {
+    for (const double half_angle_deg : kHalfAngles) {
+      const Polygon outline = DrawOutline(edges, random);
+      Dice dice(outline, half_angle_deg, random);
+      for (int i = 0; i < 5; ++i) {
+        SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
+        const std::optional<Plan> plan = dice.DrawWalk();
+        if (plan) MotionMonitor(outline, *plan, tally);
+      }
+    }
+  }
+  std::cout << tally.plans << " walks past " << tally.turns << " corners pass, " << tally.refuted
+            << " fail at 0.9 of their critical friction; largest drift over D: " << tally.drift
+            << "\n";
+  EXPECT_GE(tally.plans, 30);
+  EXPECT_GE(tally.turns, 500);
+  EXPECT_EQ(tally.refuted, tally.plans);
+}
+
+TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
+  constexpr int kSwitches = 6;
+  std::mt19937 random(kSeed);
+  Tally tally;
+  for (const int edges : kEdges) {
+    for (const double half_angle_deg : kHalfAngles) {
+      const Polygon outline = DrawOutline(edges, random);
+      Dice dice(outline, half_angle_deg, random);
+      for (int i = 0; i < 3; ++i) {
+        SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
+        const std::optional<Plan> plan = dice.DrawSwitches(kSwitches);
+        if (plan) MotionMonitor(outline, *plan, tally);
+      }
+    }
+  }
+  std::cout << tally.steps << " switches pass, " << tally.refuted << " of " << tally.plans
+            << " plans fail at 0.9 of their critical friction; largest drift over D: "
+            << tally.drift << "\n";
+  EXPECT_GE(tally.plans, 20);
+  EXPECT_EQ(tally.refuted, tally.plans);
+}
+
+}  // namespace
+}  // namespace regrasp

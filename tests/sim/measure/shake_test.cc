@@ -1,0 +1,113 @@
+#include "sim/measure/shake.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <set>
+
+#include "sim/measure/push.h"
+#include "tests/sim/planar_cases.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+StepReplay HoldUnder(Protocol protocol, const Object& object, const Plan& plan,
+                     ReplayOptions options = {}) {
+  options.protocol = protocol;
+  return ReplayPlan(object, plan, options).steps.at(0);
+}
+
+TEST(PushTest, ThereAreTwelveDirectionsInSpaceAndSixInThePlane) {
+  std::set<std::string> space, plane;
+  for (const Push& push : PushDirections(3)) space.insert(PushName(push));
+  for (const Push& push : PushDirections(2)) plane.insert(PushName(push));
+  EXPECT_EQ(space.size(), 12u);
+  EXPECT_EQ(plane, (std::set<std::string>{"force +x", "force -x", "force +y", "force -y",
+                                          "torque +z", "torque -z"}));
+  const Wrench turn = PushWrench({true, 1, -1}, 3);
+  EXPECT_TRUE(turn.force.isZero(0));
+  EXPECT_EQ(turn.torque_over_radius, Eigen::Vector3d(0, -3, 0));
+}
+
+TEST(ProtocolTest, AGoodGraspPassesBothAndTheAdaptedOneDecides) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  const StepReplay both = HoldUnder(Protocol::kBoth, cube.object, plan);
+  ASSERT_TRUE(both.adapted && both.fixed);
+  EXPECT_EQ(both.adapted->reason, Reason::kNone);
+  EXPECT_EQ(both.fixed->reason, Reason::kNone);
+  EXPECT_EQ(both.moved_m, both.adapted->moved_m);
+  const StepReplay adapted = HoldUnder(Protocol::kAdapted, cube.object, plan);
+  const StepReplay fixed = HoldUnder(Protocol::kFixed, cube.object, plan);
+  EXPECT_FALSE(adapted.fixed);
+  EXPECT_FALSE(fixed.adapted);
+  // Each shake starts from the same saved rest: which others run makes no difference.
+  EXPECT_EQ(adapted.moved_m, both.adapted->moved_m);
+  EXPECT_EQ(fixed.moved_m, both.fixed->moved_m);
+  EXPECT_EQ(fixed.slip_m, both.fixed->slip_m);
+  // Fixed forces give way on the servos, adapted ones need not.
+  EXPECT_GT(fixed.give_m, 1e-5 * cube.object.diameter());
+  EXPECT_EQ(adapted.give_m, 0);
+}
+
+TEST(ProtocolTest, BothFailBelowTheRequiredFriction) {
+  const CubeCase cube;
+  // The grasp requires 5.3°.
+  const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 4.5));
+  EXPECT_NE(hold.adapted->reason, Reason::kNone);
+  EXPECT_NE(hold.fixed->reason, Reason::kNone);
+  const Polygon square = MakeSquare();
+  // Each contact sees the other 18.4° off its normal.
+  const Plan pair = MakePlanarPlan({OnEdge(square, 0, 1, 0.333), OnEdge(square, 1, 3, 0.333)}, 17);
+  const StepReplay planar = HoldUnder(Protocol::kBoth, square, pair);
+  EXPECT_NE(planar.adapted->reason, Reason::kNone);
+  EXPECT_NE(planar.fixed->reason, Reason::kNone);
+}
+
+TEST(ProtocolTest, AFixedSqueezeFailsUnderAPushThatAdaptedForcesResist) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  ReplayOptions options;
+  options.shake = 0.1;
+  const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, plan, options);
+  EXPECT_EQ(hold.adapted->reason, Reason::kNone) << hold.adapted->detail;
+  EXPECT_NE(hold.fixed->reason, Reason::kNone);
+  EXPECT_EQ(hold.reason, Reason::kNone);
+  EXPECT_NE(HoldUnder(Protocol::kFixed, cube.object, plan, options).reason, Reason::kNone);
+}
+
+TEST(ProtocolTest, TheMarginsAreSmallerUnderTheShakeThanAtRestAndZeroWhereAFingerSlips) {
+  const CubeCase cube;
+  const StepReplay good = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 25));
+  ASSERT_EQ(good.rest_margins.size(), 4u);
+  for (const auto& [finger, rest] : good.rest_margins) {
+    EXPECT_GT(rest, kConeReached);
+    EXPECT_LT(rest, Radians(25));
+    EXPECT_LE(good.adapted->shake_margins.at(finger), rest + 1e-6);
+    EXPECT_LE(good.fixed->shake_margins.at(finger), rest + 1e-6);
+  }
+  EXPECT_GT(*SmallestMargin(good.adapted->shake_margins), kConeReached);
+  const StepReplay bad = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 4.5));
+  EXPECT_LT(*SmallestMargin(bad.fixed->shake_margins), kConeReached);
+}
+
+TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  ReplayOptions options;
+  options.shake = 0.1;
+  options.protocol = Protocol::kBoth;
+  const ReplayResult both = ReplayPlan(cube.object, plan, options);
+  options.protocol = Protocol::kAdapted;
+  const ReplayResult adapted = ReplayPlan(cube.object, plan, options);
+  ASSERT_EQ(both.steps.size(), 2u);
+  ASSERT_EQ(adapted.steps.size(), 2u);
+  EXPECT_NE(both.steps[0].fixed->reason, Reason::kNone);
+  EXPECT_EQ(both.steps[1].drift_m, adapted.steps[1].drift_m);
+  EXPECT_EQ(both.steps[1].moved_m, adapted.steps[1].moved_m);
+}
+
+}  // namespace
+}  // namespace regrasp

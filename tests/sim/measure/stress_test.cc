@@ -1,0 +1,159 @@
+#include "sim/measure/stress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "planner/grasp/quality.h"
+#include "tests/sim/planar_cases.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+/// How far the two routes may differ, over the limit: the bisection's 1 %, and as much for a replay
+/// that ends before the object has moved far.
+constexpr double kAgree = 0.03;
+
+constexpr double kHalfAngleDeg = 25;
+
+std::vector<DirectionStress> StressOf(const Object& object, const Plan& plan) {
+  ReplayOptions options;
+  options.stress = true;
+  return ReplayPlan(object, plan, options).steps.at(0).stress;
+}
+
+const DirectionStress& Of(const std::vector<DirectionStress>& stress, const std::string& name) {
+  return *std::ranges::find(stress, name,
+                            [](const DirectionStress& s) { return PushName(s.push); });
+}
+
+/// The cube of side 6 cm held in the middle of four faces.
+FingerGrasp MiddleOfFourFaces(const CubeCase& cube) {
+  return {cube.At(0, 0.03, 0, 0), cube.At(1, -0.03, 0, 0), cube.At(2, 0, 0.03, 0),
+          cube.At(3, 0, -0.03, 0)};
+}
+
+TEST(StressTest, BothRoutesGiveWhatTheFrictionOfFourFingersOnACubeBears) {
+  const CubeCase cube;
+  const auto stress = StressOf(cube.object, MakePlan(MiddleOfFourFaces(cube), kHalfAngleDeg));
+  ASSERT_EQ(stress.size(), 12u);
+  const double mu = std::tan(Radians(kHalfAngleDeg));
+  // The weight is a tenth of the shake, which is a hundredth of the squeeze.
+  const double weight = 1e-3;
+  const double lever = 0.03 / (cube.object.diameter() / 2);
+  for (const auto& [name, limit] : {std::pair{"force -z", mu - weight},
+                                    {"force +z", mu + weight},
+                                    {"torque +z", mu * lever},
+                                    {"torque -z", mu * lever}}) {
+    EXPECT_NEAR(Of(stress, name).analysis, limit, 2e-3 * limit) << name;
+    EXPECT_NEAR(Of(stress, name).replay, limit, kAgree * limit) << name;
+  }
+}
+
+TEST(StressTest, BothRoutesGiveWhatAPairInThePlaneBears) {
+  const Polygon square = MakeSquare();
+  const FingerGrasp pair = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
+  const auto stress = StressOf(square, MakePlanarPlan(pair, kHalfAngleDeg));
+  ASSERT_EQ(stress.size(), 6u);
+  const double mu = std::tan(Radians(kHalfAngleDeg));
+  for (const auto& [name, limit] :
+       {std::pair{"force +y", mu}, {"force -y", mu}, {"torque +z", mu / std::sqrt(2)}}) {
+    EXPECT_NEAR(Of(stress, name).analysis, limit, 1e-6) << name;
+    EXPECT_NEAR(Of(stress, name).replay, limit, kAgree * limit) << name;
+  }
+}
+
+/// How many directions of random grasps of a body agree, and how many there are.
+std::pair<int, int> CountAgreeing(const std::string& model, int grasps) {
+  const ObjectFile file = ReadModel(model);
+  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  std::mt19937 random(20241121);
+  int agreeing = 0, all = 0;
+  for (int found = 0; found < grasps;) {
+    FingerGrasp grasp;
+    for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+    if (!QualityAtLeast(ContactsOf(grasp), body.wrench_frame(), Radians(kHalfAngleDeg), 0.02)) {
+      continue;
+    }
+    ++found;
+    for (const DirectionStress& s : StressOf(body, MakePlan(grasp, kHalfAngleDeg))) {
+      ++all;
+      const bool agrees = std::abs(s.replay - s.analysis) <= kAgree * s.analysis;
+      agreeing += agrees;
+      EXPECT_TRUE(agrees) << model << ", grasp " << found << ", " << PushName(s.push) << ": replay "
+                          << s.replay << ", analysis " << s.analysis;
+    }
+  }
+  return {agreeing, all};
+}
+
+TEST(StressTest, BothRoutesAgreeOnRandomGraspsInEveryDirection) {
+  int agreeing = 0, all = 0;
+  for (const char* model : {"cube.obj", "l_block.obj", "stone.obj"}) {
+    const auto [good, checked] = CountAgreeing(model, 8);
+    agreeing += good;
+    all += checked;
+  }
+  std::cout << agreeing << " of " << all << " directions agree within " << kAgree << "\n";
+  EXPECT_EQ(all, 3 * 8 * 12);
+}
+
+TEST(StressTest, AStepPassesTheShakeWhereEveryDirectionResistsIt) {
+  const CubeCase cube;
+  int passed = 0, failed = 0;
+  // The grasp requires 5.3 degrees.
+  for (const double half_angle : {5.0, 5.5, 5.8, 6.2, 8.0, 12.0}) {
+    ReplayOptions options;
+    options.stress = true;
+    const StepReplay hold =
+        ReplayPlan(cube.object, MakePlan(cube.Start(), half_angle), options).steps.at(0);
+    if (hold.stress.empty()) {
+      EXPECT_NE(hold.reason, Reason::kNone);
+      continue;
+    }
+    const double least = std::ranges::min(hold.stress, {}, &DirectionStress::replay).replay;
+    const bool passes = hold.reason == Reason::kNone;
+    EXPECT_EQ(passes, least >= options.shake) << half_angle << " degrees, least " << least;
+    ++(passes ? passed : failed);
+  }
+  EXPECT_GT(passed, 0);
+  EXPECT_GT(failed, 0);
+}
+
+TEST(StressTest, LessFrictionBearsLess) {
+  const CubeCase cube;
+  const auto more = StressOf(cube.object, MakePlan(cube.Start(), 25));
+  const auto less = StressOf(cube.object, MakePlan(cube.Start(), 12));
+  ASSERT_EQ(more.size(), less.size());
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    EXPECT_LT(less[i].replay, more[i].replay) << PushName(more[i].push);
+    EXPECT_LT(less[i].analysis, more[i].analysis) << PushName(more[i].push);
+  }
+}
+
+TEST(StressTest, TheSearchLeavesNoTraceInTheReplay) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  ReplayOptions options;
+  const ReplayResult plain = ReplayPlan(cube.object, plan, options);
+  options.stress = true;
+  options.protocol = Protocol::kBoth;
+  const ReplayResult searched = ReplayPlan(cube.object, plan, options);
+  ASSERT_EQ(plain.steps.size(), 2u);
+  ASSERT_EQ(searched.steps.size(), 2u);
+  for (int i : {0, 1}) {
+    EXPECT_TRUE(plain.steps[i].stress.empty());
+    EXPECT_EQ(searched.steps[i].stress.size(), 12u);
+    EXPECT_EQ(plain.steps[i].moved_m, searched.steps[i].moved_m);
+    EXPECT_EQ(plain.steps[i].slip_m, searched.steps[i].slip_m);
+    EXPECT_EQ(plain.steps[i].drift_m, searched.steps[i].drift_m);
+    EXPECT_EQ(plain.steps[i].rest_margins, searched.steps[i].rest_margins);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,192 @@
+#include "sim/replay/disagreement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/grasp/largest_load.h"
+#include "planner/plan/check.h"
+#include "sim/scene/scaling.h"
+#include "tests/sim/planar_cases.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+
+/// A hold whose findings a test chooses: at first analysis and replay both pass.
+struct Hold {
+  const Object& object;
+  Plan plan;
+  StepCheck check = {};
+  StepReplay replay = {};
+  ReplaySettings settings = {};
+
+  Hold(const Object& body, Plan held, const ReplayOptions& options = {})
+      : object(body), plan(std::move(held)) {
+    settings = DeriveSettings(object, plan.scale, plan.half_angle, object.diameter(), options);
+    replay.adapted = replay.fixed = StepMotion();
+  }
+  [[nodiscard]] std::optional<Disagreement> Explain() const {
+    return ExplainDisagreement({object, plan, check, replay, settings});
+  }
+  /// What is said where the replay fails.
+  [[nodiscard]] Disagreement ExplainFailure(Reason reason = Reason::kSlipped) {
+    replay.reason = replay.adapted->reason = reason;
+    return Explain().value();
+  }
+};
+
+double ValueOf(const Disagreement& found, const std::string& name) {
+  const auto value =
+      std::ranges::find(found.values, name, [](const auto& entry) { return entry.first; });
+  EXPECT_NE(value, found.values.end()) << name;
+  return value == found.values.end() ? -1 : value->second;
+}
+
+TEST(DisagreementTest, WhereTheExaminationsAgreeThereIsNothingToExplain) {
+  const CubeCase cube;
+  Hold hold(cube.object, MakePlan(cube.Start(), 25));
+  EXPECT_FALSE(hold.Explain());
+  hold.check.reason = Reason::kNotForceClosure;
+  hold.replay.reason = hold.replay.adapted->reason = Reason::kSlipped;
+  hold.replay.fixed->reason = Reason::kContactLost;
+  EXPECT_FALSE(hold.Explain()) << "both fail";
+  hold.check = {};
+  hold.check.skipped = true;
+  EXPECT_FALSE(hold.Explain());
+}
+
+TEST(DisagreementTest, AQualityBelowTheShakeIsNamedWithBothNumbers) {
+  const CubeCase cube;
+  // The grasp requires 5.3°.
+  Hold hold(cube.object, MakePlan(cube.Start(), 5.6));
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.between, Between::kReplayFails);
+  EXPECT_EQ(found.cause, Cause::kQuality);
+  EXPECT_GT(ValueOf(found, "quality"), 0);
+  EXPECT_LT(ValueOf(found, "quality"), 0.01);
+  EXPECT_EQ(ValueOf(found, "shake"), 0.01);
+  EXPECT_THAT(found.text, HasSubstr("ε = "));
+}
+
+TEST(DisagreementTest, AContactInAConcaveCornerIsNamed) {
+  const Polygon shape = MakeL();
+  const FingerGrasp grasp = {OnEdge(shape, 0, 2, 1 - 1e-7), OnEdge(shape, 1, 0, 0.5),
+                             OnEdge(shape, 2, 5, 0.5)};
+  Hold hold(shape, MakePlanarPlan(grasp, 25));
+  const Disagreement found = hold.ExplainFailure(Reason::kUnreachable);
+  EXPECT_EQ(found.cause, Cause::kConcaveCorner);
+  EXPECT_EQ(ValueOf(found, "finger"), 0);
+  EXPECT_NEAR(ValueOf(found, "border_m"), 0.04 * 1e-7, 1e-12);
+}
+
+TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoRoom) {
+  const Polygon frame = MakeFrame();
+  // From inside the hole, of side 4 cm, outwards.
+  const FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.5), OnEdge(frame, 1, 6, 0.5)};
+  Hold hold(frame, MakePlanarPlan(grasp, 25));
+  EXPECT_NE(hold.ExplainFailure().cause, Cause::kNoRoom);
+  hold.settings.fingertip_radius_m = 0.03;
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.cause, Cause::kNoRoom);
+  EXPECT_NEAR(ValueOf(found, "clearance_m"), 0.02, 1e-9);
+  EXPECT_NEAR(ValueOf(found, "fingertip_radius_m"), 0.03, 1e-12);
+}
+
+TEST(DisagreementTest, AWeightThatTheSqueezeDoesNotCarryIsNamed) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.squeeze_N = 3;  // of a weight of 2.1 N, at friction 0.47
+  Hold hold(cube.object, MakePlan(cube.Start(), 25), options);
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.cause, Cause::kWeight);
+  EXPECT_GT(ValueOf(found, "weight"), ValueOf(found, "carried"));
+}
+
+TEST(DisagreementTest, AWeightThatLeavesTooLittleForTheShakeIsNamed) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  const double carried =
+      ComputeLargestLoad(ContactsOf(plan.initial), cube.object.wrench_frame(), plan.half_angle, {},
+                         {-Eigen::Vector3d::UnitZ(), {0, 0, 0}}, 1)
+          ->lower;
+  ReplayOptions options;
+  options.mass_kg = 0.2;
+  options.squeeze_N = 0.2 * kGravity / (carried - 0.005);
+  Hold hold(cube.object, plan, options);
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.cause, Cause::kWeight);
+  EXPECT_LT(ValueOf(found, "resisted"), 0.01);
+  EXPECT_GE(ValueOf(found, "resisted"), 0);
+}
+
+TEST(DisagreementTest, AContactThatMaySlipOverAnEdgeIsNamed) {
+  const CubeCase cube;
+  FingerGrasp grasp = cube.Start();
+  grasp[1] = cube.At(1, -0.03, 0.02995, 0.004);
+  Hold hold(cube.object, MakePlan(grasp, 40));
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.cause, Cause::kEdge);
+  EXPECT_EQ(ValueOf(found, "finger"), 1);
+  EXPECT_NEAR(ValueOf(found, "border_m"), 5e-5, 1e-12);
+  EXPECT_GT(ValueOf(found, "allowed_slip_m"), 5e-5);
+}
+
+TEST(DisagreementTest, AForceThatReachedItsConeIsNamedWithItsFingerAndItsTime) {
+  const CubeCase cube;
+  Hold hold(cube.object, MakePlan(cube.Start(), 25));
+  hold.replay.motion_margins = {{0, 0.1}, {2, 0.2}};
+  hold.replay.rest_margins = {{0, 0.1}, {2, 1e-5}};
+  const Disagreement found = hold.ExplainFailure();
+  EXPECT_EQ(found.cause, Cause::kConeReached);
+  EXPECT_EQ(ValueOf(found, "finger"), 2);
+  EXPECT_THAT(found.text, HasSubstr("at rest"));
+}
+
+TEST(DisagreementTest, WhereNothingSpeaksForACauseNoneIsClaimed) {
+  const CubeCase cube;
+  Hold hold(cube.object, MakePlan(cube.Start(), 25));
+  EXPECT_EQ(hold.ExplainFailure().cause, Cause::kUnknown);
+}
+
+TEST(DisagreementTest, APassOfWhatTheAnalysisFailsHasItsOwnCauses) {
+  const CubeCase cube;
+  Hold hold(cube.object, MakePlan(cube.Start(), 20));
+  hold.check.reason = Reason::kWrongNormal;
+  Disagreement found = hold.Explain().value();
+  EXPECT_EQ(found.between, Between::kAnalysisFails);
+  EXPECT_EQ(found.cause, Cause::kNotSimulated);
+  hold.check.reason = Reason::kNotForceClosure;
+  hold.check.required = RequiredHalfAngle{Radians(20.1), Radians(20.1)};
+  EXPECT_EQ(hold.Explain()->cause, Cause::kCriticalFriction);
+  hold.check.required = RequiredHalfAngle{Radians(25), Radians(25)};
+  EXPECT_EQ(hold.Explain()->cause, Cause::kUnknown);
+  hold.settings.shake = 0;
+  EXPECT_EQ(hold.Explain()->cause, Cause::kNoShake);
+}
+
+TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
+  const CubeCase cube;
+  // So near to its critical friction what is missing does not move the object without a shake.
+  const double required =
+      ComputeRequiredHalfAngle(ContactsOf(cube.Start()), cube.object.wrench_frame())->lower;
+  const Plan plan = MakePlan(cube.Start(), Degrees(0.9999 * required));
+  ReplayOptions options;
+  options.shake = 0;
+  options.gravity = false;
+  const PlanCheck check = CheckPlan(cube.object, plan, {});
+  EXPECT_EQ(check.steps.at(0).reason, Reason::kNotForceClosure);
+  const ReplayResult replay = ReplayPlan(cube.object, check.located, options);
+  EXPECT_EQ(replay.steps.at(0).reason, Reason::kNone);
+  const auto found = ExplainDisagreement(
+      {cube.object, check.located, check.steps[0], replay.steps[0], replay.settings});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->between, Between::kAnalysisFails);
+  EXPECT_EQ(found->cause, Cause::kNoShake);
+}
+
+}  // namespace
+}  // namespace regrasp

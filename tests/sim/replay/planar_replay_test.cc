@@ -1,0 +1,310 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "planner/base/error.h"
+#include "planner/grasp/required_half_angle.h"
+#include "sim/replay/replay.h"
+#include "tests/sim/planar_cases.h"
+
+namespace regrasp {
+namespace {
+
+/// What a good grasp may move or slide in a step, over the diameter: a tenth of the tolerance.
+constexpr double kGood = 1e-4;
+
+void ExpectGood(const ReplayResult& result, std::size_t entries) {
+  ASSERT_EQ(result.steps.size(), entries);
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << "entry " << step.index << ": " << step.detail;
+    EXPECT_LT(step.displacement_m, kGood * result.settings.diameter_m);
+    EXPECT_LT(step.slip_m, kGood * result.settings.diameter_m);
+    EXPECT_LT(step.drift_m, kGood * result.settings.diameter_m);
+    EXPECT_FALSE(step.contact_lost);
+  }
+}
+
+bool LosesObject(Reason reason) {
+  return reason == Reason::kContactLost || reason == Reason::kSlipped ||
+         reason == Reason::kObjectMoved;
+}
+
+TEST(PlanarHold, TwoAntipodalFingersHoldASquare) {
+  const Polygon square = MakeSquare();
+  const FingerGrasp grasp = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
+  ExpectGood(ReplayPlan(square, MakePlanarPlan(grasp, 20), {}), 1);
+}
+
+TEST(PlanarHold, ThreeFingersHoldATriangleAtTheMiddlesOfItsEdges) {
+  const Polygon triangle = MakeTriangle();
+  const FingerGrasp grasp = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
+                             OnEdge(triangle, 2, 2, 0.5)};
+  ExpectGood(ReplayPlan(triangle, MakePlanarPlan(grasp, 20), {}), 1);
+}
+
+TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
+  const Polygon square = MakeSquare(), triangle = MakeTriangle();
+  // Antipodal contacts 3 mm off the normal: atan(1/20) = 2.86 degrees.
+  const FingerGrasp pair = {OnEdge(square, 0, 1, 0.525), OnEdge(square, 1, 3, 0.525)};
+  EXPECT_TRUE(LosesObject(ReplayPlan(square, MakePlanarPlan(pair, 2.6), {}).steps.at(0).reason));
+  EXPECT_EQ(ReplayPlan(square, MakePlanarPlan(pair, 4.3), {}).steps.at(0).reason, Reason::kNone);
+  // Three normals that turn the triangle the same way.
+  const FingerGrasp twisted = {OnEdge(triangle, 0, 0, 0.6), OnEdge(triangle, 1, 1, 0.6),
+                               OnEdge(triangle, 2, 2, 0.6)};
+  const double critical =
+      ComputeRequiredHalfAngle(ContactsOf(twisted), triangle.wrench_frame()).value().upper;
+  EXPECT_GT(critical, Radians(5));
+  EXPECT_TRUE(LosesObject(ReplayPlan(triangle, MakePlanarPlan(twisted, 0.9 * Degrees(critical)), {})
+                              .steps.at(0)
+                              .reason));
+  EXPECT_EQ(
+      ReplayPlan(triangle, MakePlanarPlan(twisted, 1.5 * Degrees(critical)), {}).steps.at(0).reason,
+      Reason::kNone);
+}
+
+/// Two fingers for two, one more, one away, and one for another.
+Plan SquareSwitches(const Polygon& square) {
+  Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5)}, 20);
+  plan.steps = {
+      Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 1}},
+      Switch{{OnEdge(square, 0, 0, 0.7)}, {}},
+      Switch{{OnEdge(square, 1, 2, 0.2)}, {3}},
+      Switch{{OnEdge(square, 3, 2, 0.8)}, {1}},
+  };
+  return plan;
+}
+
+TEST(PlanarSwitch, PlacesAndReleasesOneTwoOrNoFingersAtOnce) {
+  const Polygon square = MakeSquare();
+  ExpectGood(ReplayPlan(square, SquareSwitches(square), {}), 5);
+}
+
+TEST(PlanarSwitch, FailsWhereACarryingFingerLeaves) {
+  const Polygon square = MakeSquare();
+  Plan plan = SquareSwitches(square);
+  // Below and above hold; beside each other they do not.
+  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 2}}};
+  const ReplayResult result = ReplayPlan(square, plan, {});
+  ASSERT_EQ(result.steps.size(), 2u);
+  EXPECT_EQ(result.steps[0].reason, Reason::kNone);
+  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << ReasonName(result.steps[1].reason);
+}
+
+TEST(PlanarSwitch, FailsWhereTheNewGraspNeedsMoreFriction) {
+  const Polygon square = MakeSquare();
+  Plan plan = SquareSwitches(square);
+  // 24 mm off the normal of 60: 21.8 degrees.
+  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)}, {0, 1}}};
+  EXPECT_EQ(ReplayPlan(square, plan, {}).steps.at(1).reason, Reason::kNone);
+  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.3)}, {0, 1}}};
+  EXPECT_TRUE(LosesObject(ReplayPlan(square, plan, {}).steps.at(1).reason));
+}
+
+/// Every finger of the grasp at rest touches where it was planned, within kGood of the size.
+void ExpectTouchesAsPlanned(const Polygon& polygon, const FingerGrasp& grasp,
+                            const Snapshot& shown) {
+  std::size_t touching = 0;
+  for (const FingerContact& held : grasp) {
+    for (const FingerState& state : shown.fingers) {
+      if (state.finger != held.finger) continue;
+      EXPECT_LT((shown.X_WO.inverse() * state.contact_W - held.contact.p).norm(),
+                kGood * polygon.diameter());
+      EXPECT_GT(state.force_W.dot(held.contact.n), 0) << "finger " << held.finger;
+      EXPECT_EQ(state.contact_W.z(), 0);
+      ++touching;
+    }
+  }
+  EXPECT_EQ(touching, grasp.size());
+}
+
+TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
+  const Polygon l = MakeL();
+  Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
+  // 0.4 and 0.04 mm from the corner, closer than a fingertip is usually thick.
+  plan.steps = {Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {0, 1}},
+                Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
+  const ReplayResult result = ReplayPlan(l, plan, {});
+  ExpectGood(result, 3);
+  EXPECT_LT(result.settings.fingertip_radius_m, 0.00003);
+  FingerGrasp grasp = plan.initial;
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
+    ExpectTouchesAsPlanned(l, grasp, result.steps[i].snapshot);
+  }
+}
+
+TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
+  const Polygon l = MakeL();
+  const FingerGrasp good = {OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)};
+  for (const double share : {0.9999999, 1.0}) {
+    const FingerContact corner = OnEdge(l, 2, 2, share);
+    const ReplayResult hold = ReplayPlan(l, MakePlanarPlan({corner, OnEdge(l, 1, 0, 0.5)}, 20), {});
+    EXPECT_EQ(hold.steps.at(0).reason, Reason::kUnreachable);
+    EXPECT_NE(hold.steps.at(0).detail.find("finger 2 cannot stand"), std::string::npos);
+    Plan plan = MakePlanarPlan(good, 20);
+    plan.steps = {Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {0, 1}}};
+    const ReplayResult result = ReplayPlan(l, plan, {});
+    ASSERT_EQ(result.steps.size(), 2u);
+    EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
+    EXPECT_EQ(result.steps[1].reason, Reason::kUnreachable);
+  }
+}
+
+TEST(PlanarHole, IsHeldFromInsideAndThroughItsWall) {
+  const Polygon frame = MakeFrame();
+  // Pressed apart from inside: edges 4 and 6 are the hole's left and right.
+  Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
+  // Then the wall below is pinched between hole and outside.
+  plan.steps = {Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)}, {0, 1}}};
+  const ReplayResult result = ReplayPlan(frame, plan, {});
+  ExpectGood(result, 2);
+  ExpectTouchesAsPlanned(frame, plan.initial, result.steps[0].snapshot);
+  ExpectTouchesAsPlanned(frame, GraspAfter(plan.initial, plan.steps[0]), result.steps[1].snapshot);
+}
+
+TEST(PlanarHole, IsLostWhereItsFingersPressBesideEachOther) {
+  const Polygon frame = MakeFrame();
+  const FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.2), OnEdge(frame, 1, 6, 0.2)};
+  EXPECT_TRUE(LosesObject(ReplayPlan(frame, MakePlanarPlan(grasp, 15), {}).steps.at(0).reason));
+}
+
+/// Everything measured in a replay, in diameters and turns.
+std::vector<double> Measure(const Polygon& polygon, const Plan& plan,
+                            const ReplayOptions& options) {
+  const ReplayResult result = ReplayPlan(polygon, plan, options);
+  const double D = result.settings.diameter_m;
+  std::vector<double> measured;
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+    measured.insert(measured.end(), {step.displacement_m / D, Radians(step.rotation_deg),
+                                     step.slip_m / D, step.drift_m / D});
+  }
+  return measured;
+}
+
+void ExpectEqualUpToRounding(const std::vector<double>& a, const std::vector<double>& b) {
+  // Contacts at rest are 1e-7 D deep and found to 1e-9 D.
+  constexpr double kRounding = 1e-10;
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 0u);
+  EXPECT_GT(*std::max_element(a.begin(), a.end()), 100 * kRounding);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], kRounding) << i;
+}
+
+TEST(PlanarScale, MotionDoesNotDependOnTheThickness) {
+  const Polygon square = MakeSquare();
+  const Plan plan = SquareSwitches(square);
+  const auto measure = [&](double thickness, std::optional<double> mass) {
+    ReplayOptions options;
+    options.thickness = thickness;
+    options.mass_kg = mass;
+    return Measure(square, plan, options);
+  };
+  const std::vector<double> usual = measure(0.02, std::nullopt);
+  ExpectEqualUpToRounding(usual, measure(0.002, std::nullopt));
+  ExpectEqualUpToRounding(usual, measure(0.3, std::nullopt));
+  ExpectEqualUpToRounding(usual, measure(0.002, 0.1));
+}
+
+TEST(PlanarScale, TheMassIsThatOfThePrism) {
+  const Polygon frame = MakeFrame();
+  Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
+  ReplayOptions options;
+  options.density_kg_m3 = 500;
+  const double area = 0.08 * 0.08 - 0.04 * 0.04;
+  const ReplaySettings usual = ReplayPlan(frame, plan, options, {}, 1).settings;
+  EXPECT_NEAR(usual.thickness_m, 0.25 * frame.diameter(), 1e-15);
+  EXPECT_NEAR(usual.mass_kg, 500 * area * usual.thickness_m, 1e-12);
+  EXPECT_EQ(usual.gravity_m_s2, 0);
+  options.thickness = 0.01;
+  EXPECT_NEAR(ReplayPlan(frame, plan, options, {}, 1).settings.mass_kg, 500 * area * 0.01, 1e-12);
+}
+
+TEST(PlanarScale, MillimetresWithAScaleAreMetres) {
+  const Polygon square = MakeSquare();
+  const Polygon big =
+      Polygon::FromWkt("POLYGON((-30 -30, 30 -30, 30 30, -30 30, -30 -30))", "in millimetres");
+  Plan millimetres = SquareSwitches(big);
+  millimetres.scale = 1e-3;
+  ReplayOptions thick, thick_in_millimetres;
+  thick.thickness = 0.013;
+  thick_in_millimetres.thickness = 13;
+  ExpectEqualUpToRounding(Measure(square, SquareSwitches(square), thick),
+                          Measure(big, millimetres, thick_in_millimetres));
+  const auto settings = [](const Polygon& polygon, const Plan& plan, const ReplayOptions& options) {
+    return ReplayPlan(polygon, plan, options, {}, 1).settings;
+  };
+  EXPECT_NEAR(settings(square, SquareSwitches(square), thick).squeeze_N,
+              settings(big, millimetres, thick_in_millimetres).squeeze_N, 1e-9);
+}
+
+TEST(PlanarScale, ReplaysBodiesFromMilligramsToTonnes) {
+  const Polygon square = MakeSquare();
+  Plan plan = SquareSwitches(square);
+  for (const auto& [scale, density] :
+       {std::pair{0.1, 1000.0}, {1.0, 100.0}, {1.0, 8000.0}, {10.0, 8000.0}}) {
+    SCOPED_TRACE(scale);
+    plan.scale = scale;
+    ReplayOptions options;
+    options.density_kg_m3 = density;
+    ExpectGood(ReplayPlan(square, plan, options), 5);
+  }
+}
+
+TEST(PlanarScale, RefusesThicknessesThatCannotBeSimulatedAndThatOfASolid) {
+  const Polygon square = MakeSquare();
+  const Plan plan = SquareSwitches(square);
+  ReplayOptions options;
+  for (const double thickness : {0.0, -0.01, 1e-6, 1e3}) {
+    options.thickness = thickness;
+    EXPECT_THROW((void)ReplayPlan(square, plan, options), InputError);
+  }
+  const CubeCase cube;
+  options.thickness = 0.01;
+  EXPECT_THROW((void)ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options), InputError);
+}
+
+TEST(PlanarReplay, TheSamePlanGivesTheSameBits) {
+  const Polygon square = MakeSquare();
+  const auto record = [&] {
+    std::vector<double> bits;
+    ReplayObserver observer;
+    observer.sample_interval_s = 1e-4;
+    observer.on_sample = [&](const Snapshot& sample) {
+      bits.push_back(sample.time_s);
+      for (int k = 0; k < 3; ++k) bits.push_back(sample.X_WO.translation()[k]);
+      for (const FingerState& state : sample.fingers) {
+        for (int k = 0; k < 3; ++k) bits.insert(bits.end(), {state.tip_W[k], state.force_W[k]});
+      }
+    };
+    const ReplayResult result = ReplayPlan(square, SquareSwitches(square), {}, observer);
+    for (const StepReplay& step : result.steps) {
+      bits.insert(bits.end(), {step.displacement_m, step.rotation_deg, step.slip_m, step.drift_m});
+    }
+    return bits;
+  };
+  const std::vector<double> first = record(), second = record();
+  ASSERT_GT(first.size(), 1000u);
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
+}
+
+TEST(PlanarReplay, NothingLeavesThePlane) {
+  const Polygon square = MakeSquare();
+  const ReplayResult result = ReplayPlan(square, SquareSwitches(square), {});
+  int checked = 0;
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.snapshot.X_WO.translation().z(), 0);
+    EXPECT_EQ(step.snapshot.X_WO.linear()(2, 2), 1);
+    for (const FingerState& state : step.snapshot.fingers) {
+      EXPECT_EQ(state.tip_W.z(), 0);
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 20);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,310 @@
+#include "sim/replay/replay.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include "planner/base/error.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+/// What a good grasp may move or slide in a step, over the diameter: a tenth of the tolerance.
+constexpr double kGood = 1e-4;
+
+void ExpectGood(const ReplayResult& result, std::size_t entries) {
+  ASSERT_EQ(result.steps.size(), entries);
+  for (const StepReplay& step : result.steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << "entry " << step.index << ": " << step.detail;
+    EXPECT_LT(step.displacement_m, kGood * result.settings.diameter_m);
+    EXPECT_LT(step.slip_m, kGood * result.settings.diameter_m);
+    EXPECT_LT(step.drift_m, kGood * result.settings.diameter_m);
+    EXPECT_FALSE(step.contact_lost);
+  }
+}
+
+bool LosesObject(Reason reason) {
+  return reason == Reason::kContactLost || reason == Reason::kSlipped ||
+         reason == Reason::kObjectMoved;
+}
+
+Plan FourSwitches(const CubeCase& cube) {
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {3}},
+                Switch{{cube.At(3, 0.03, -0.006, 0.008)}, {0}},
+                Switch{{cube.At(0, -0.03, -0.008, 0.006)}, {1}}};
+  return plan;
+}
+
+TEST(ReplayHold, HoldsAGoodGrasp) {
+  const CubeCase cube;
+  ExpectGood(ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}), 1);
+}
+
+TEST(ReplayHold, LosesTheSameGraspBelowItsRequiredFriction) {
+  const CubeCase cube;
+  // The grasp requires 5.3°.
+  const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 4), {});
+  ASSERT_EQ(result.steps.size(), 1u);
+  EXPECT_TRUE(LosesObject(result.steps[0].reason)) << ReasonName(result.steps[0].reason);
+  EXPECT_FALSE(result.steps[0].detail.empty());
+}
+
+TEST(ReplayHold, FrictionOptionOverridesThePlan) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.half_angle = Radians(4);
+  const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options);
+  EXPECT_TRUE(LosesObject(result.steps.at(0).reason));
+  EXPECT_NEAR(result.settings.mu, std::tan(Radians(4)), 1e-12);
+}
+
+TEST(ReplayHold, DropsTheObjectWhereGravityIsMoreThanTheSqueezeBears) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.squeeze_N = 0.5;  // of a weight of 2.1 N, at friction 0.47
+  const Plan plan = MakePlan(cube.Start(), 25);
+  EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, options).steps.at(0).reason));
+  options.gravity = false;
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+}
+
+TEST(ReplayHold, FailsUnderAShakeLargerThanTheQuality) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.shake = 0.6;
+  EXPECT_TRUE(
+      LosesObject(ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0).reason));
+}
+
+TEST(ReplayHold, AGraspWithoutFingersFails) {
+  const CubeCase cube;
+  EXPECT_NE(ReplayPlan(cube.object, MakePlan({}, 25), {}).steps.at(0).reason, Reason::kNone);
+}
+
+TEST(ReplaySwitch, ReplaysFourSwitchesOnTheCube) {
+  const CubeCase cube;
+  const ReplayResult result = ReplayPlan(cube.object, FourSwitches(cube), {});
+  ExpectGood(result, 5);
+  std::cout << "largest drift over D: " << result.steps.back().drift_m / result.settings.diameter_m
+            << "\n";
+}
+
+TEST(ReplaySwitch, PlacesAndReleasesSeveralFingersInOneStep) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25, 6);
+  plan.steps = {Switch{{cube.At(4, 0.001, 0.002, 0.03), cube.At(5, -0.002, 0.001, -0.03)}, {2, 3}},
+                Switch{{cube.At(2, 0.003, 0.03, 0.004)}, {}}, Switch{{}, {2}}};
+  ExpectGood(ReplayPlan(cube.object, plan, {}), 4);
+}
+
+TEST(ReplaySwitch, AFingerThatIsReleasedIsOffTheSurface) {
+  const CubeCase cube;
+  const Plan plan = FourSwitches(cube);
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  int released = 0;
+  for (std::size_t i = 1; i < result.steps.size(); ++i) {
+    const Snapshot& shown = result.steps[i].snapshot;
+    for (const FingerState& state : shown.fingers) {
+      if (state.role != FingerRole::kReleased) continue;
+      ++released;
+      EXPECT_EQ(state.finger, std::get<Switch>(plan.steps[i - 1]).release[0]);
+      const Eigen::Vector3d tip = shown.X_WO.inverse() * state.tip_W;
+      EXPECT_GT(tip.cwiseAbs().maxCoeff(), 0.03 + 1.5 * shown.fingertip_radius_m);
+      EXPECT_TRUE(state.force_W.isZero());
+    }
+  }
+  EXPECT_EQ(released, 4);
+}
+
+TEST(ReplaySwitch, FailsWhereACarryingFingerLeaves) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  // Fingers 0 and 2 remain, on two neighbouring faces.
+  plan.steps = {Switch{{}, {1, 3}}, Switch{{cube.At(1, -0.03, 0.002, -0.004)}, {}}};
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  ASSERT_EQ(result.steps.size(), 2u);
+  EXPECT_EQ(result.steps[0].reason, Reason::kNone);
+  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << ReasonName(result.steps[1].reason);
+}
+
+TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
+  const CubeCase cube;
+  int calls = 0;
+  ReplayObserver observer;
+  observer.on_progress = [&](int done, int total) {
+    EXPECT_EQ(done, ++calls);
+    EXPECT_EQ(total, 2);
+  };
+  EXPECT_EQ(ReplayPlan(cube.object, FourSwitches(cube), {}, observer, 2).steps.size(), 2u);
+  EXPECT_EQ(calls, 2);
+  EXPECT_TRUE(ReplayPlan(cube.object, FourSwitches(cube), {}, {}, 0).steps.empty());
+}
+
+TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25, 6);
+  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {3}}};
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  ASSERT_EQ(result.steps.size(), 3u);
+  FingerGrasp before = plan.initial;
+  for (std::size_t i = 1; i < result.steps.size(); ++i) {
+    const auto& [place, release] = std::get<Switch>(plan.steps[i - 1]);
+    // What held before the step, and what it places; no finger that an earlier step released.
+    std::set<int> held, measured;
+    for (const FingerContact& contact : before) held.insert(contact.finger);
+    for (const FingerContact& contact : place) held.insert(contact.finger);
+    for (const auto& [finger, margin] : result.steps[i].motion_margins) measured.insert(finger);
+    EXPECT_EQ(measured, held) << i;
+    before = GraspAfter(before, plan.steps[i - 1]);
+  }
+}
+
+TEST(ReplayPlanTest, TheSamePlanGivesTheSameBits) {
+  const CubeCase cube;
+  const auto record = [&] {
+    std::vector<double> bits;
+    ReplayObserver observer;
+    observer.sample_interval_s = 1e-4;
+    observer.on_sample = [&](const Snapshot& sample) {
+      bits.push_back(sample.time_s);
+      for (int k = 0; k < 3; ++k) bits.push_back(sample.X_WO.translation()[k]);
+      for (const FingerState& state : sample.fingers) {
+        for (int k = 0; k < 3; ++k) bits.insert(bits.end(), {state.tip_W[k], state.force_W[k]});
+      }
+    };
+    const ReplayResult result = ReplayPlan(cube.object, FourSwitches(cube), {}, observer);
+    for (const StepReplay& step : result.steps) {
+      bits.insert(bits.end(), {step.displacement_m, step.rotation_deg, step.slip_m, step.drift_m});
+    }
+    return bits;
+  };
+  const std::vector<double> first = record(), second = record();
+  ASSERT_GT(first.size(), 1000u);
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
+}
+
+TEST(ReplayPlanTest, SnapshotsShowTheContactsInTheObjectsFrame) {
+  const CubeCase cube;
+  const Plan plan = FourSwitches(cube);
+  const ReplayResult result = ReplayPlan(cube.object, plan, {});
+  int checked = 0;
+  FingerGrasp grasp = plan.initial;
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
+    const Snapshot& shown = result.steps[i].snapshot;
+    for (const FingerContact& held : grasp) {
+      for (const FingerState& state : shown.fingers) {
+        if (state.finger != held.finger) continue;
+        EXPECT_LT((shown.X_WO.inverse() * state.contact_W - held.contact.p).norm(),
+                  kGood * cube.object.diameter());
+        EXPECT_GT(state.force_W.dot(held.contact.n), 0);
+        ++checked;
+      }
+    }
+  }
+  EXPECT_EQ(checked, 20);
+}
+
+TEST(ReplayPlanTest, RefusesAContactOnNoFace) {
+  const CubeCase cube;
+  FingerGrasp grasp = cube.Start();
+  grasp[0].contact.face = -1;
+  EXPECT_THROW((void)ReplayPlan(cube.object, MakePlan(grasp, 25), {}), InputError);
+}
+
+TEST(ReplayPlanTest, LeavesNoLogFileBehindAndGivesTheEnginesHooksBack) {
+  const CubeCase cube;
+  (void)ReplayPlan(cube.object, MakePlan(cube.Start(), 4), {});
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+  EXPECT_EQ(mju_user_error, nullptr);
+  EXPECT_EQ(mju_user_warning, nullptr);
+}
+
+/// The cube's four switches at another size and mass.
+ReplayResult ReplayScaled(double scale, double density) {
+  const CubeCase cube;
+  Plan plan = FourSwitches(cube);
+  plan.scale = scale;
+  ReplayOptions options;
+  options.density_kg_m3 = density;
+  return ReplayPlan(cube.object, plan, options);
+}
+
+TEST(ReplayScale, ReplaysBodiesFromGramsToTonnes) {
+  // Edges of 6 mm, 6 cm and 60 cm; 0.2 g, 22 g, 216 g and 1.7 t.
+  for (const auto& [scale, density] :
+       {std::pair{0.1, 1000.0}, {1.0, 100.0}, {1.0, 1000.0}, {10.0, 8000.0}}) {
+    SCOPED_TRACE(scale);
+    ExpectGood(ReplayScaled(scale, density), 5);
+  }
+}
+
+TEST(ReplayScale, MovesTheSameAtEverySizeAndMass) {
+  const ReplayResult one = ReplayScaled(1, 1000);
+  // From 60 nm to 60 km.
+  for (const double scale : {1e-6, 1e-3, 1e6}) {
+    for (const double density : {1.0, 1e4}) {
+      SCOPED_TRACE(scale);
+      const ReplayResult other = ReplayScaled(scale, density);
+      ExpectGood(other, 5);
+      const double ratio = other.settings.diameter_m / one.settings.diameter_m;
+      EXPECT_NEAR(ratio, scale, 1e-9 * scale);
+      for (std::size_t i = 0; i < one.steps.size() && i < other.steps.size(); ++i) {
+        EXPECT_NEAR(other.steps[i].moved_m / ratio, one.steps[i].moved_m,
+                    1e-2 * one.steps[i].moved_m);
+      }
+    }
+  }
+  // The control: with too little friction it fails at every size as well.
+  const CubeCase cube;
+  for (const double scale : {1e-6, 1e6}) {
+    Plan plan = MakePlan(cube.Start(), 4);
+    plan.scale = scale;
+    EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, {}).steps.at(0).reason));
+  }
+}
+
+TEST(ReplayScale, MillimetresWithAScaleAreMetres) {
+  const CubeCase cube;
+  Plan metres = FourSwitches(cube);
+  const auto& body = dynamic_cast<const Polyhedron&>(cube.object);
+  PolygonSoup soup{body.vertices(), {}};
+  for (Eigen::Vector3d& v : soup.vertices) v *= 1000;
+  for (const auto& [a, b, c] : body.triangles()) soup.facets.push_back({a, b, c});
+  const Polyhedron big = Polyhedron::FromSoup(soup, "cube in millimetres");
+  const auto enlarge = [&](FingerGrasp& grasp) {
+    for (FingerContact& held : grasp) {
+      held.contact = ContactAt(big, 1000 * held.contact.p, held.contact.n);
+    }
+  };
+  Plan millimetres = metres;
+  millimetres.scale = 1e-3;
+  enlarge(millimetres.initial);
+  for (Step& step : millimetres.steps) enlarge(std::get<Switch>(step).place);
+  const ReplayResult a = ReplayPlan(cube.object, metres, {});
+  const ReplayResult b = ReplayPlan(big, millimetres, {});
+  ExpectGood(b, 5);
+  EXPECT_NEAR(a.settings.squeeze_N, b.settings.squeeze_N, 1e-9 * a.settings.squeeze_N);
+  EXPECT_NEAR(a.settings.timestep_s, b.settings.timestep_s, 1e-9 * a.settings.timestep_s);
+}
+
+TEST(ReplayScale, RefusesSizesThatCannotBeSimulated) {
+  const CubeCase cube;
+  Plan plan = FourSwitches(cube);
+  for (const double scale : {1e-9, 1e9}) {
+    plan.scale = scale;
+    EXPECT_THROW((void)ReplayPlan(cube.object, plan, {}), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace regrasp

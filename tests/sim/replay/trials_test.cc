@@ -1,0 +1,209 @@
+#include "sim/replay/trials.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "planner/base/number.h"
+#include "sim/replay/contact_noise.h"
+#include "tests/sim/planar_cases.h"
+
+namespace regrasp {
+namespace {
+
+constexpr double kTip = 1e-3;  ///< metres
+
+TrialOptions Trials(int count, double position, double friction, double mass = 0) {
+  TrialOptions trials;
+  trials.count = count;
+  trials.seed = 11;
+  trials.position_noise = position;
+  trials.friction_error = friction;
+  trials.mass_error = mass;
+  return trials;
+}
+
+/// The cube's grasp needs 5.3°.
+int Passes(double half_angle_deg, const TrialOptions& trials) {
+  const CubeCase cube;
+  return RunTrials(cube.object, MakePlan(cube.Start(), half_angle_deg), {}, trials, kTip).passed;
+}
+
+Plan SwitchAndAlign(const CubeCase& cube) {
+  Plan plan = MakePlan(cube.Start(), 25);
+  FingerGrasp before = {cube.Start()[0], cube.Start()[1], cube.Start()[3],
+                        cube.At(4, 0, 0.001, 0.03)};
+  FingerGrasp after = before;
+  after[1] = cube.At(1, -0.03, 0.004, -0.001);
+  plan.steps = {Switch{{before[3]}, {2}}, Align{{before, after}}};
+  return plan;
+}
+
+TEST(ContactNoise, MovesEveryContactOnItsFaceAndAFingerThatStaysKeepsItsPlace) {
+  const CubeCase cube;
+  const Plan plan = SwitchAndAlign(cube);
+  RandomStream random(1, RandomUse::kTrialContacts, 0);
+  const Plan noisy = AddContactNoise(cube.object, plan, {2e-3, kTip}, random);
+  int moved = 0;
+  for (std::size_t i = 0; i < plan.initial.size(); ++i) {
+    const Contact &meant = plan.initial[i].contact, &is = noisy.initial[i].contact;
+    EXPECT_EQ(is.face, meant.face);
+    EXPECT_NEAR((is.p - meant.p).dot(meant.n), 0, 1e-15);
+    moved += is.p != meant.p;
+  }
+  EXPECT_EQ(moved, 4);
+  const FingerGrasp& begin = std::get<Align>(noisy.steps[1]).waypoints[0];
+  const FingerGrasp& end = std::get<Align>(noisy.steps[1]).waypoints[1];
+  EXPECT_EQ(begin[0].contact.p, noisy.initial[0].contact.p);
+  EXPECT_EQ(begin[1].contact.p, noisy.initial[1].contact.p);
+  EXPECT_EQ(begin[3].contact.p, std::get<Switch>(noisy.steps[0]).place[0].contact.p);
+  for (const int stays : {0, 2, 3}) EXPECT_EQ(end[stays].contact.p, begin[stays].contact.p);
+  EXPECT_NE(end[1].contact.p, begin[1].contact.p);
+  EXPECT_NE(end[1].contact.p, std::get<Align>(plan.steps[1]).waypoints[1][1].contact.p);
+}
+
+TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
+  const CubeCase cube;
+  constexpr double kDeviation = 1e-3;
+  constexpr int kDraws = 2000;
+  const Plan plan = MakePlan({cube.At(0, 0.03, 0, 0)}, 25);
+  double squares = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    RandomStream random(3, RandomUse::kTrialContacts, i);
+    const Plan noisy = AddContactNoise(cube.object, plan, {kDeviation, kTip}, random);
+    squares += (noisy.initial[0].contact.p - plan.initial[0].contact.p).squaredNorm();
+  }
+  // Two directions; five standard deviations of the sum of their squares.
+  const double mean = squares / kDraws / (kDeviation * kDeviation);
+  EXPECT_NEAR(mean, 2, 5 * 2 / std::sqrt(kDraws));
+}
+
+TEST(ContactNoise, KeepsToBordersAndCornersAndWithoutDeviationChangesNothing) {
+  const CubeCase cube;
+  const FingerContact border{0, ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
+  const FingerContact corner{1, ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
+  const Plan plan = MakePlan({border, corner}, 25);
+  RandomStream random(1, RandomUse::kTrialContacts, 0);
+  const Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);
+  const Eigen::Vector3d off = noisy.initial[0].contact.p - border.contact.p;
+  EXPECT_NE(off.z(), 0);
+  EXPECT_NEAR(off.head<2>().norm(), 0, 1e-15);
+  EXPECT_EQ(noisy.initial[1].contact.p, corner.contact.p);
+  const Plan same = AddContactNoise(cube.object, plan, {0, kTip}, random);
+  EXPECT_EQ(same.initial[0].contact.p, border.contact.p);
+}
+
+TEST(ContactNoise, NeverCrossesABorder) {
+  const CubeCase cube;
+  // A millimetre from the edge, off by three in the mean.
+  const Plan plan = MakePlan({cube.At(0, 0.03, 0.029, 0)}, 25);
+  int inside = 0;
+  for (int i = 0; i < 100; ++i) {
+    RandomStream random(5, RandomUse::kTrialContacts, i);
+    const Plan noisy = AddContactNoise(cube.object, plan, {3e-3, kTip}, random);
+    EXPECT_LE(noisy.initial[0].contact.p.y(), 0.03 + 1e-6);
+    inside += noisy.initial[0].contact.p.y() < 0.029;
+  }
+  EXPECT_GT(inside, 50);
+}
+
+TEST(Trials, WithoutErrorsAllPassAsTheNominalReplayDoes) {
+  EXPECT_EQ(Passes(25, Trials(5, 0, 0)), 5);
+  // And all fail where it fails.
+  EXPECT_EQ(Passes(4, Trials(5, 0, 0)), 0);
+}
+
+TEST(Trials, LoseAPlanNearItsCriticalFrictionAndKeepOneWithFrictionToSpare) {
+  constexpr int kCount = 30;
+  const int spare = Passes(25, Trials(kCount, 0, 0.1));
+  // With 0.96 of its friction the grasp is weaker than the shake.
+  const int little = Passes(7, Trials(kCount, 0, 0.01));
+  const int more = Passes(7, Trials(kCount, 0, 0.1));
+  const int most = Passes(7, Trials(kCount, 0, 0.5));
+  EXPECT_EQ(spare, kCount);
+  EXPECT_EQ(little, kCount);
+  EXPECT_LT(more, little);
+  EXPECT_LT(most, more);
+}
+
+TEST(Trials, LoseMoreTheFartherContactsAreOff) {
+  constexpr int kCount = 30;
+  const int little = Passes(10, Trials(kCount, 0.005, 0));
+  const int more = Passes(10, Trials(kCount, 0.05, 0));
+  const int most = Passes(10, Trials(kCount, 0.2, 0));
+  EXPECT_GT(little, more);
+  EXPECT_GT(more, most);
+}
+
+TEST(Trials, EachDependsOnTheSeedAndItsNumberAlone) {
+  const TrialOptions trials = Trials(10, 0.03, 0.2, 0.1);
+  int before = 0;
+  int fewer = 0;
+  for (int count = 1; count <= trials.count; ++count) {
+    TrialOptions first = trials;
+    first.count = count;
+    const int passed = Passes(8, first);
+    EXPECT_GE(passed, before);
+    EXPECT_LE(passed, before + 1);
+    fewer += passed == before;
+    before = passed;
+  }
+  EXPECT_GT(before, 0);
+  EXPECT_GT(fewer, 0);
+}
+
+TEST(Trials, SayWhatFailedAndWhere) {
+  const CubeCase cube;
+  const TrialSummary summary =
+      RunTrials(cube.object, SwitchAndAlign(cube), {}, Trials(12, 0.1, 0.5), kTip);
+  int failed = 0;
+  for (const auto& [reason, count] : summary.reasons) failed += count;
+  int in_steps = 0;
+  for (const auto& [index, count] : summary.steps) {
+    EXPECT_GE(index, 0);
+    EXPECT_LE(index, 2);
+    in_steps += count;
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_EQ(failed, in_steps);
+  EXPECT_EQ(failed + summary.passed, 12);
+}
+
+TEST(Trials, ChangeTheWorldAndNotWhatTheHandBelieves) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  ReplayOptions options;
+  options.mass_kg = 0.25;
+  options.mass_factor = 1.5;
+  options.friction_factor = 0.5;
+  const std::string scene = SceneMjcf(cube.object, plan, options);
+  EXPECT_NE(scene.find("mass=\"0.375\""), std::string::npos);
+  EXPECT_NE(scene.find(FormatDouble(0.5 * std::tan(Radians(25)))), std::string::npos);
+  const ReplaySettings settings = ReplayPlan(cube.object, plan, options).settings;
+  EXPECT_EQ(settings.mass_kg, 0.25);
+  EXPECT_EQ(settings.mu, std::tan(Radians(25)));
+  ReplayOptions nominal;
+  nominal.mass_kg = 0.25;
+  EXPECT_EQ(settings.squeeze_N, ReplayPlan(cube.object, plan, nominal).settings.squeeze_N);
+}
+
+TEST(Trials, WorkInThePlane) {
+  const Polygon square = MakeSquare();
+  const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 20);
+  const auto passes = [&](double noise) {
+    return RunTrials(square, plan, {}, Trials(20, noise, 0), kTip).passed;
+  };
+  EXPECT_EQ(passes(0.005), 20);
+  EXPECT_LT(passes(0.2), 20);
+}
+
+TEST(Trials, RefuseErrorsOutOfRange) {
+  EXPECT_THROW((void)Passes(25, Trials(0, 0, 0)), std::invalid_argument);
+  EXPECT_THROW((void)Passes(25, Trials(1, -0.1, 0)), std::invalid_argument);
+  EXPECT_THROW((void)Passes(25, Trials(1, 0, 1.5)), std::invalid_argument);
+  EXPECT_THROW((void)Passes(25, Trials(1, 0, 0, std::nan(""))), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp

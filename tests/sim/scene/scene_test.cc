@@ -1,0 +1,162 @@
+#include "sim/scene/scene.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "planner/base/error.h"
+#include "sim/scene/engine.h"
+#include "sim/scene/scaling.h"
+#include "tests/sim/mujoco_file.h"
+#include "tests/sim/replay_cases.h"
+
+namespace regrasp {
+namespace {
+
+TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  const auto model = LoadFromFile(SceneMjcf(cube.object, plan, {}));
+  ASSERT_NE(model, nullptr);
+  ASSERT_EQ(model->nkey, 1);
+  const DataPtr data(mj_makeData(model.get()));
+  mj_resetDataKeyframe(model.get(), data.get(), 0);
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());
+  const double moved = mju_norm3(data->qpos);
+  EXPECT_LT(moved, 1e-3 * cube.object.diameter());
+  // Without the controls it falls.
+  mj_resetDataKeyframe(model.get(), data.get(), 0);
+  mju_zero(data->ctrl, model->nu);
+  for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());
+  EXPECT_GT(mju_norm3(data->qpos), 1e-2 * cube.object.diameter());
+}
+
+TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
+  const ObjectFile file = ReadModel("l_block.obj");
+  const Object& l = *file.object;
+  Plan plan = MakePlan({{0, ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
+                        {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                        {2, ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
+                        {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+                       30);
+  const auto model = LoadFromFile(SceneMjcf(l, plan, {}));
+  ASSERT_NE(model, nullptr);
+  const int body = mj_name2id(model.get(), mjOBJ_BODY, "object");
+  const MassProperties& mass = l.mass_properties();
+  EXPECT_EQ(model->body_mass[body], 1000 * mass.volume);
+  const double trace = model->body_inertia[3 * body] + model->body_inertia[3 * body + 1] +
+                       model->body_inertia[3 * body + 2];
+  EXPECT_NEAR(trace, 1000 * mass.inertia.trace(), 1e-9 * trace);
+  const ReplaySettings settings = ReplayPlan(l, plan, {}).settings;
+  EXPECT_EQ(model->opt.timestep, settings.timestep_s);
+  const int finger = mj_name2id(model.get(), mjOBJ_GEOM, "finger0");
+  EXPECT_EQ(model->geom_friction[3 * finger], settings.mu);
+  EXPECT_EQ(model->geom_size[3 * finger], settings.fingertip_radius_m);
+}
+
+TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
+  const CubeCase cube;
+  Plan plan = MakePlan(cube.Start(), 25);
+  plan.fingers = 64;
+  const auto fingers_that_touch = [&] {
+    const Scene scene = MakeScene(cube.object, plan, static_cast<int>(plan.steps.size()), {});
+    EXPECT_EQ(scene.collision_bit.size(), 64u);
+    std::set<int> bits(scene.collision_bit.begin(), scene.collision_bit.end());
+    bits.erase(0);
+    return bits.size();
+  };
+  EXPECT_EQ(fingers_that_touch(), plan.initial.size());
+  // Finger after finger takes over the same place.
+  const int first = plan.initial.front().finger;
+  int last = first;
+  for (int finger = 33; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
+    plan.steps.push_back(Switch{{{finger, plan.initial.front().contact}}, {last}});
+    last = finger;
+  }
+  EXPECT_EQ(fingers_that_touch(), 31u);
+  plan.steps.push_back(Switch{{{32, plan.initial.front().contact}}, {last}});
+  EXPECT_THROW((void)fingers_that_touch(), InputError);
+}
+
+TEST(SceneMjcfTest, SaysTheSameTwice) {
+  const CubeCase cube;
+  const Plan plan = MakePlan(cube.Start(), 25);
+  EXPECT_EQ(SceneMjcf(cube.object, plan, {}), SceneMjcf(cube.object, plan, {}));
+}
+
+Scene CubeScene(const CubeCase& cube) {
+  return MakeScene(dynamic_cast<const Polyhedron&>(cube.object), MakePlan(cube.Start(), 25), 0, {});
+}
+
+TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
+  const CubeCase cube;
+  const Engine engine(
+      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+  EXPECT_THROW(mju_error("made up"), UnstableError);
+  mju_warning("this reaches neither the terminal nor a file");
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+}
+
+TEST(EngineTest, AStateThatIsNotFiniteIsUnstable) {
+  const CubeCase cube;
+  Engine engine(
+      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+  engine.Step();
+  engine.SetLoad({std::numeric_limits<double>::quiet_NaN(), 0, 0}, Eigen::Vector3d::Zero());
+  EXPECT_THROW(engine.Step(), UnstableError);
+}
+
+TEST(EngineTest, AnAccelerationBeyondTheEnginesLimitIsUnstable) {
+  const CubeCase cube;
+  Engine engine(
+      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+  engine.SetLoad({1e30, 0, 0}, Eigen::Vector3d::Zero());
+  EXPECT_THROW(engine.Step(), UnstableError);
+}
+
+TEST(EngineTest, ASceneThatIsNoSceneIsRefused) {
+  EXPECT_THROW(Engine("<mujoco><worldbody><geom/></worldbody></mujoco>", 0), EnvironmentError);
+}
+
+TEST(EngineTest, StepsFromASavedStateRepeatTheSameBits) {
+  const CubeCase cube;
+  Engine engine(
+      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+  engine.SetGravity(kGravity);
+  for (int i = 0; i < 10; ++i) engine.Step();
+  const Engine::State state = engine.Save();
+  const auto run = [&] {
+    for (int i = 0; i < 50; ++i) engine.Step();
+    return engine.Save().qpos;
+  };
+  const std::vector<double> first = run();
+  engine.Restore(state);
+  EXPECT_EQ(first, run());
+  EXPECT_NE(first, state.qpos);
+}
+
+TEST(Scaling, KeepsTheRatiosThatMakeEveryBodyTheSameExperiment) {
+  const CubeCase cube;
+  int checked = 0;
+  for (const double scale : {0.1, 1.0, 10.0}) {
+    for (const double density : {10.0, 1000.0, 8000.0}) {
+      ReplayOptions options;
+      options.density_kg_m3 = density;
+      const ReplaySettings s = DeriveSettings(cube.object, scale, 0.4, 1e9, options);
+      EXPECT_GE(s.finger_stiffness_N_m * s.diameter_m / s.squeeze_N, 5);
+      EXPECT_LE(s.finger_damping_Ns_m * s.timestep_s / s.finger_mass_kg, 0.6);
+      EXPECT_NEAR(s.finger_damping_Ns_m, 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg),
+                  1e-9 * s.finger_damping_Ns_m);
+      EXPECT_NEAR(s.mass_kg * kGravity / (s.shake * s.squeeze_N), kWeightOfShake, 1e-12);
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 9);
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,101 @@
+#include "sim/world/motion_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace regrasp {
+namespace {
+
+ReplaySettings UnitSettings() {
+  ReplaySettings settings;
+  settings.diameter_m = 2;
+  settings.tolerance = 1e-3;
+  return settings;
+}
+
+Eigen::Isometry3d Pose(double shift, double turn) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation().x() = shift;
+  pose.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()));
+  return pose;
+}
+
+TEST(MotionMonitorTest, AddsTheShiftAndTheTurnAtTheRadius) {
+  EXPECT_NEAR(MeasureMotion(Pose(0, 0), Pose(0.25, 0.5), 3), 0.25 + 1.5, 1e-12);
+}
+
+TEST(MotionMonitorTest, TheObjectMovesBeyondTheToleranceOnly) {
+  MotionMonitor monitor(UnitSettings());
+  monitor.Start(Pose(5, 0.1));
+  monitor.AddPose(Pose(5.0009, 0.101));
+  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  monitor.AddPose(Pose(5.0011, 0.101));
+  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  monitor.AddPose(Pose(5, 0.1));
+  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved) << "coming back does not help";
+  EXPECT_NEAR(monitor.displacement_m(), 0.0011, 1e-12);
+}
+
+TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
+  MotionMonitor monitor(UnitSettings());
+  monitor.AddPose(Pose(1, 0));
+  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  monitor.AddSlip(2, 0.0019);
+  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  monitor.AddSlip(2, 0.0021);
+  EXPECT_EQ(monitor.reason(), Reason::kSlipped);
+  monitor.AddGap(3, 1e-6);
+  EXPECT_FALSE(monitor.contact_lost());
+  monitor.AddGap(3, 1e-4);
+  EXPECT_EQ(monitor.reason(), Reason::kContactLost);
+  EXPECT_NE(monitor.detail().find("finger 3"), std::string::npos);
+  monitor.Start(Pose(0, 0));
+  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_TRUE(monitor.detail().empty());
+}
+
+TEST(MotionMonitorTest, TheGiveOfTheServosIsNoMotion) {
+  MotionMonitor monitor(UnitSettings());
+  monitor.Start(Pose(0, 0));
+  monitor.SetGiving(true);
+  monitor.AddPose(Pose(0.1, 0));
+  monitor.SetGiving(false);
+  monitor.AddPose(Pose(0.0005, 0));
+  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_NEAR(monitor.give_m(), 0.1, 1e-12);
+  EXPECT_NEAR(monitor.moved_m(), 0.0005, 1e-12);
+  monitor.AddPose(Pose(0.1, 0));
+  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved)
+      << "an object that does not come back has moved";
+}
+
+TEST(MotionMonitorTest, MotionIsTheLargestSumOfShiftAndTurnNotTheSumOfTheLargest) {
+  MotionMonitor monitor(UnitSettings());
+  monitor.Start(Pose(0, 0));
+  monitor.AddPose(Pose(0.0006, 0));
+  monitor.AddPose(Pose(0, 0.0008));
+  EXPECT_NEAR(monitor.moved_m(), 0.0008, 1e-9);
+  EXPECT_NEAR(monitor.displacement_m() + monitor.rotation_rad(), 0.0014, 1e-9);
+  EXPECT_EQ(monitor.reason(), Reason::kNone);
+}
+
+TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
+  ReplaySettings settings = UnitSettings();
+  settings.mu = 1;
+  settings.squeeze_N = 10;
+  MotionMonitor monitor(settings);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  monitor.AddForce(0, {0, 0, 5}, up);
+  monitor.AddForce(1, {0, 2, 2}, up);
+  monitor.AddForce(1, {0, 0, 2}, up);
+  monitor.AddForce(2, {0, 0.004, 0.004}, up);  // hardly presses
+  ASSERT_EQ(monitor.margins().size(), 2u);
+  EXPECT_NEAR(monitor.margins().at(0), std::atan(1.0), 1e-12);
+  EXPECT_NEAR(monitor.margins().at(1), 0, 1e-12);
+  monitor.ForgetForces();
+  EXPECT_TRUE(monitor.margins().empty());
+}
+
+}  // namespace
+}  // namespace regrasp
