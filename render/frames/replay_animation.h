@@ -43,7 +43,7 @@ inline constexpr int kMostPicturesInAll = 900;
                                               double to, int count);
 
 /// The whole replay as an animated WebP file: its pictures are spread over what moves, so that a
-/// finger is seen to come down, forces to go over, and a finger to leave; every entry rests at its
+/// finger is seen to come down, forces to change, and a finger to leave; every entry rests at its
 /// end. Deterministic.
 /// @param samples  states during the replay, ascending in time.
 /// @param rests    the state after each entry that was replayed, in the order of the plan, ≥ 1.

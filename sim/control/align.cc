@@ -28,8 +28,8 @@ std::vector<int> FingersOf(const FingerGrasp& grasp) {
 bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != Reason::kNone; }
 
 void HandOver(ReplayWorld& world, const FingerHandover& move) {
-  SwitchFingers(world, move.stand_ins, FingersOf(move.targets));
-  SwitchFingers(world, move.targets, FingersOf(move.stand_ins));
+  SwitchFingers(world, move.support_fingers, FingersOf(move.targets));
+  SwitchFingers(world, move.targets, FingersOf(move.support_fingers));
 }
 
 /// The finger that the others balance best goes first.
@@ -50,12 +50,12 @@ void Slide(ReplayWorld& world, const FingerGrasp& from, const FingerGrasp& to) {
 }  // namespace
 
 AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
-  bool over = false;
+  bool handed_over = false;
   bool slid = false;
   for (const AlignMove& move : script_B.moves) {
     if (HasFailed(world)) break;
     if (const auto* fingers = std::get_if<FingerHandover>(&move)) {
-      over = true;
+      handed_over = true;
       HandOver(world, *fingers);
     } else if (const auto* roll = std::get_if<FingersRoll>(&move)) {
       slid = true;
@@ -69,7 +69,7 @@ AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
     }
   }
   if (!slid) return AlignMode::kImitated;
-  return over ? AlignMode::kMixed : AlignMode::kSlid;
+  return handed_over ? AlignMode::kMixed : AlignMode::kSlid;
 }
 
 void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B) {

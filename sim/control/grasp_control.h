@@ -7,7 +7,7 @@
 
 namespace regrasp {
 
-/// One force per finger of the stage, newtons in S on the object; zero for those that do not push.
+/// One force per finger of the world, newtons in S on the object; zero for those that do not push.
 using HandForces = std::vector<Eigen::Vector3d>;
 
 /// Forces with which `fingers` hold the object against its weight and `load_S` together, at the

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/control/grasp_control.h"
-
 namespace regrasp {
 
 using Eigen::Vector3d;
@@ -53,10 +51,10 @@ void Descend(ReplayWorld& world, const FingerGrasp& placed_B, double from, doubl
 void CreepUntilTouch(ReplayWorld& world, const FingerGrasp& placed_B) {
   const ReplaySettings& s = world.settings();
   const int most = world.StepsIn(kMostCreepTime);
-  const double way = kCreepSpeed * kMostCreepTime;
+  const double travel = kCreepSpeed * kMostCreepTime;
   FingerGrasp open = placed_B;
   for (int i = 1; i <= most && !open.empty(); ++i) {
-    const double gap = kCreepGap - way * i / most;
+    const double gap = kCreepGap - travel * i / most;
     for (const FingerContact& placed : open) {
       world.fingers()[placed.finger].anchor_S = world.TipAt_S(placed.contact, gap * s.diameter_m);
     }
@@ -102,27 +100,30 @@ void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B) {
 }
 
 void TransferForces(ReplayWorld& world, const std::vector<int>& fingers) {
+  BlendForces(world, PlanHandForces(world, fingers, {}, world.half_angle()));
+}
+
+void BlendForces(ReplayWorld& world, const HandForces& to) {
   const HandForces from = CurrentForces(world);
-  const HandForces to = PlanHandForces(world, fingers, {}, world.half_angle());
   world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
 }
 
 void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
   if (fingers.empty()) return;
-  std::vector<Vector3d> start, way;
+  std::vector<Vector3d> start, offset;
   for (const int f : fingers) {
     WorldFinger& finger = world.fingers()[f];
     finger.holding = false;
     finger.role = FingerRole::kReleased;
     start.push_back(finger.anchor_S);
-    way.push_back(-StandOff(world) * (world.X_SB().linear() * finger.contact.n));
+    offset.push_back(-StandOff(world) * (world.X_SB().linear() * finger.contact.n));
   }
   world.Run(kRetractTime, [&](double share) {
     for (std::size_t i = 0; i < fingers.size(); ++i) {
-      world.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * way[i];
+      world.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * offset[i];
     }
   });
-  for (const int f : fingers) world.engine().SetSite(f, -1);
+  for (const int f : fingers) world.engine().SetSite(f, SiteIndex::kNone);
 }
 
 void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/plan/plan.h"
+#include "sim/control/grasp_control.h"
 #include "sim/world/replay_world.h"
 
 namespace regrasp {
@@ -14,8 +15,11 @@ void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B);
 /// until each feels a force of kTouchForce; there it is anchored.
 void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B);
 
-/// Forces go over, on a straight line, into those with which `fingers` hold the object.
+/// Forces change, on a straight line, into those with which `fingers` hold the object.
 void TransferForces(ReplayWorld& world, const std::vector<int>& fingers);
+
+/// Forces change into these in kTransferTime.
+void BlendForces(ReplayWorld& world, const HandForces& to);
 
 /// Fingers that push with no force go back along the normals.
 void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers);

@@ -18,19 +18,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Forces are planned anew after this share of D on the way of the tip that goes farthest, and
+/// Forces are planned anew after this share of D of travel of the tip that goes farthest, and
 /// after this turn of a normal, radians: in between they are mixed, and have to fit the cones.
-constexpr double kStretch = 0.01;
-constexpr double kTurnStretch = Radians(2);
+constexpr double kSegment = 0.01;
+constexpr double kTurnSegment = Radians(2);
 /// The engine misses a touch at an edge now and then, so that turns are short.
-constexpr double kLeastStretchTime = 0.08;  ///< natural times
+constexpr double kLeastSegmentTime = 0.08;  ///< natural times
 
 Vector3d Tip(const Contact& contact, double radius) { return contact.p - radius * contact.n; }
 
 /// What the fingers have to do at most.
 struct Extent {
-  double way = 0;   ///< of a contact, metres
-  double turn = 0;  ///< of a normal, radians
+  double travel = 0;  ///< of a contact, metres
+  double turn = 0;    ///< of a normal, radians
 };
 
 Extent FindExtent(const FingerGrasp& from, const FingerGrasp& to) {
@@ -38,7 +38,7 @@ Extent FindExtent(const FingerGrasp& from, const FingerGrasp& to) {
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Contact& a = from[i].contact;
     const Contact& b = to[i].contact;
-    most.way = std::max(most.way, (b.p - a.p).norm());
+    most.travel = std::max(most.travel, (b.p - a.p).norm());
     most.turn = std::max(most.turn, AngleBetween(a.n, b.n));
   }
   return most;
@@ -61,11 +61,6 @@ HandForces PlanForces(const ReplayWorld& world, const FingerGrasp& grasp_B) {
   return hand;
 }
 
-void BlendTo(ReplayWorld& world, const HandForces& to) {
-  const HandForces from = CurrentForces(world);
-  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
-}
-
 /// Takes a tip along with its contact; whatever it is off the plan stays.
 void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
   WorldFinger& state = world.fingers()[finger];
@@ -82,20 +77,20 @@ void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
 
 void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B) {
   const Extent extent = FindExtent(from_B, to_B);
-  const double way = extent.way / world.settings().diameter_m;
-  const int stretches =
-      static_cast<int>(std::ceil(std::max(way / kStretch, extent.turn / kTurnStretch)));
-  if (stretches == 0) return;
-  const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
-  std::vector<int> sites;
+  const double travel = extent.travel / world.settings().diameter_m;
+  const int segments =
+      static_cast<int>(std::ceil(std::max(travel / kSegment, extent.turn / kTurnSegment)));
+  if (segments == 0) return;
+  const double duration = std::max(kLeastSegmentTime, travel / (segments * kSlideSpeed));
+  std::vector<SiteIndex> sites;
   for (std::size_t i = 0; i < to_B.size(); ++i) {
     sites.push_back(FindSite(world.scene(), from_B[i].contact, to_B[i].contact));
     world.engine().AddSite(to_B[i].finger, sites.back());
   }
-  BlendTo(world, PlanForces(world, from_B));
+  BlendForces(world, PlanForces(world, from_B));
   FingerGrasp at = from_B;
-  for (int i = 1; i <= stretches; ++i) {
-    const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / stretches);
+  for (int i = 1; i <= segments; ++i) {
+    const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / segments);
     const HandForces before = CurrentForces(world);
     const HandForces after = PlanForces(world, next);
     world.Run(duration, [&](double share) {

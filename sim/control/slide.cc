@@ -25,9 +25,9 @@ constexpr double kLargestSlideForce = 0.5;
 /// that a smaller force of the sliding finger is not given up for more.
 constexpr double kGoodMargin = 0.05;
 
-/// Forces are planned anew after this share of D on the way.
-constexpr double kStretch = 0.01;
-constexpr double kLeastStretchTime = 0.4;  ///< natural times
+/// Forces are planned anew after this share of D of travel.
+constexpr double kSegment = 0.01;
+constexpr double kLeastSegmentTime = 0.4;  ///< natural times
 
 struct SlideForces {
   HandForces hand;
@@ -78,18 +78,13 @@ SlideForces ChooseSlide(const ReplayWorld& world, int finger, const Contact& at_
   return *best;
 }
 
-void BlendTo(ReplayWorld& world, const HandForces& to) {
-  const HandForces from = CurrentForces(world);
-  world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
-}
-
 Vector3d Direction(const Contact& from, const Contact& to) {
-  const Vector3d way = to.p - from.p;
-  const Vector3d along = way - way.dot(to.n) * to.n;
+  const Vector3d path = to.p - from.p;
+  const Vector3d along = path - path.dot(to.n) * to.n;
   return along.norm() > 0 ? Vector3d(along.normalized()) : Vector3d::Zero();
 }
 
-/// One straight stretch of the way: tip and forces go over together, at constant rates.
+/// One straight segment of the path: tip and forces change together, at constant rates.
 void MoveTip(ReplayWorld& world, int finger, const Contact& from, const Contact& to,
              const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(world);
@@ -101,7 +96,7 @@ void MoveTip(ReplayWorld& world, int finger, const Contact& from, const Contact&
   });
 }
 
-double TipPath(const ReplayWorld& world, const Contact& from, const Contact& to) {
+double TipTravel(const ReplayWorld& world, const Contact& from, const Contact& to) {
   const double turn = std::acos(std::clamp(from.n.dot(to.n), -1.0, 1.0));
   return (to.p - from.p).norm() + turn * world.settings().fingertip_radius_m;
 }
@@ -116,18 +111,18 @@ double SlideMargin(const ReplayWorld& world, int finger, const Contact& from_B,
 }
 
 void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Contact& to_B) {
-  const double way = TipPath(world, from_B, to_B) / world.settings().diameter_m;
-  const int stretches = std::max(1, static_cast<int>(std::ceil(way / kStretch)));
-  const double duration = std::max(kLeastStretchTime, way / (stretches * kSlideSpeed));
+  const double travel = TipTravel(world, from_B, to_B) / world.settings().diameter_m;
+  const int segments = std::max(1, static_cast<int>(std::ceil(travel / kSegment)));
+  const double duration = std::max(kLeastSegmentTime, travel / (segments * kSlideSpeed));
   const Vector3d direction = Direction(from_B, to_B);
   WorldFinger& state = world.fingers()[finger];
-  const int site = FindSite(world.scene(), from_B, to_B);
+  const SiteIndex site = FindSite(world.scene(), from_B, to_B);
   world.engine().AddSite(finger, site);
-  BlendTo(world, ChooseSlide(world, finger, from_B, direction).hand);
+  BlendForces(world, ChooseSlide(world, finger, from_B, direction).hand);
   state.sliding = true;
   Contact at = from_B;
-  for (int i = 1; i <= stretches; ++i) {
-    const double share = static_cast<double>(i) / stretches;
+  for (int i = 1; i <= segments; ++i) {
+    const double share = static_cast<double>(i) / segments;
     const Contact next = Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
     MoveTip(world, finger, at, next, ChooseSlide(world, finger, next, direction).hand, duration);
     at = next;

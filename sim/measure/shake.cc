@@ -61,18 +61,19 @@ void PushFixed(ReplayWorld& world, const Wrench& push_S) {
 
 }  // namespace
 
-void PushOnce(ReplayWorld& world, const Wrench& push_S, Answer answer) {
-  answer == Answer::kAdapted ? PushAdapted(world, push_S) : PushFixed(world, push_S);
+void PushOnce(ReplayWorld& world, const Wrench& push_S, DisturbanceResponse response) {
+  response == DisturbanceResponse::kAdapted ? PushAdapted(world, push_S) : PushFixed(world, push_S);
 }
 
-void Shake(ReplayWorld& world, Answer answer) {
+void Shake(ReplayWorld& world, DisturbanceResponse response) {
   const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
-  const char* name = answer == Answer::kAdapted ? "shake, " : "shake at fixed squeeze, ";
+  const char* name =
+      response == DisturbanceResponse::kAdapted ? "shake, " : "shake at fixed squeeze, ";
   KeepRest rest(world);
   for (const Push& push : PushDirections(world.scene().dimension)) {
     world.monitor().SetPhase(name + PushName(push));
-    PushOnce(world, PushWrench(push, size), answer);
+    PushOnce(world, PushWrench(push, size), response);
     if (world.monitor().reason() != Reason::kNone) return;
     rest.Restore();
   }

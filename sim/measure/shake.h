@@ -5,8 +5,8 @@
 
 namespace regrasp {
 
-/// How the fingers answer a push.
-enum class Answer {
+/// How the fingers respond to a push.
+enum class DisturbanceResponse {
   kAdapted,  ///< with forces planned for the push
   /// With the forces of the rest; only the servos' stiffness gives more. The object gives way on
   /// the servos, by what a push does to springs, and has moved where it does not come back.
@@ -15,17 +15,18 @@ enum class Answer {
 
 /// Pushes and turns the object at rest in every direction (sim/measure/push.h), one after the
 /// other, on top of the weight: a force of shake · squeeze, then a torque of that over R. Each push
-/// lasts until everything is still (sim/world/stillness.h). The stage's judge measures; a push that
-/// the grasp does not stand is the last. Afterwards everything is as before, whatever is thrown.
+/// lasts until everything is still (sim/world/stillness.h). The world's monitor measures; a push
+/// that the grasp does not stand is the last. Afterwards everything is as before, whatever is
+/// thrown.
 /// @throws UnstableError
-void Shake(ReplayWorld& world, Answer answer);
+void Shake(ReplayWorld& world, DisturbanceResponse response);
 
 /// One push on the object at rest, and a look at its contacts. Adapted forces and their push stay;
-/// a push that fixed forces answer is taken away again.
+/// a push that fixed forces meet is taken away again.
 /// @throws UnstableError
-void PushOnce(ReplayWorld& world, const Wrench& push_S, Answer answer);
+void PushOnce(ReplayWorld& world, const Wrench& push_S, DisturbanceResponse response);
 
-/// Keeps the stage as it is, at rest: puts it back at its end.
+/// Keeps the world as it is, at rest: puts it back at its end.
 class KeepRest {
  public:
   explicit KeepRest(ReplayWorld& world);

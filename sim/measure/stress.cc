@@ -18,11 +18,12 @@ constexpr double kMostStress = 10;
 
 /// Whether the object stands a push of `share` of the squeeze.
 bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
-  world.StartJudging();
+  world.StartMonitoring();
   world.monitor().SetPhase("stress, " + PushName(push));
   bool stands = false;
   try {
-    PushOnce(world, PushWrench(push, share * world.settings().squeeze_N), Answer::kAdapted);
+    PushOnce(world, PushWrench(push, share * world.settings().squeeze_N),
+             DisturbanceResponse::kAdapted);
     stands = world.monitor().reason() == Reason::kNone;
   } catch (const UnstableError&) {
     // A push under which the simulation falls apart is not resisted.

@@ -20,8 +20,8 @@ struct DirectionStress {
   double analysis = 0;
 };
 
-/// Looks for the largest push in every direction, each from the state of rest that the stage is in;
-/// afterwards everything but the judge is as before.
+/// Looks for the largest push in every direction, each from the state of rest that the world is in;
+/// afterwards everything but the monitor is as before.
 ///
 /// What the object stands is judged as in a step: it does not move, slip or lose a contact by more
 /// than the tolerance. A grasp that resists two pushes resists all in between, so that a bisection

@@ -18,7 +18,7 @@ struct ContactNoise {
 /// A finger is off by one draw as long as it stays at a point, through rests and aligns and when
 /// its normal turns there; whenever it comes to another point it is drawn anew. On the border of
 /// two faces a contact moves along the border only; where more meet, and at a vertex in the plane,
-/// it stays. A draw whose way from the planned point leaves the face, or where no ball of the
+/// it stays. A draw whose path from the planned point leaves the face, or where no ball of the
 /// fingertip's radius fits, is drawn again, kMostNoiseDraws times at most; then the contact stays.
 ///
 /// Deterministic; without deviation the plan as it is.

@@ -16,9 +16,9 @@
 namespace regrasp {
 namespace {
 
-using Answer = std::optional<Disagreement>;
+using Finding = std::optional<Disagreement>;
 
-/// A fingertip counts as too thick only where it exceeds the room by more than rounding.
+/// A fingertip counts as too thick only where it exceeds the clearance by more than rounding.
 constexpr double kThicker = 1 + 1e-6;
 
 std::string Finger(int finger) { return "finger " + std::to_string(finger); }
@@ -42,10 +42,10 @@ class ReplayFault {
         grasps_(GraspsOfEntry(step.located, step.check.index)) {}
 
   [[nodiscard]] Disagreement Explain() const {
-    for (const auto look : {&ReplayFault::LookForRoom, &ReplayFault::LookAtWeight,
+    for (const auto look : {&ReplayFault::LookForClearance, &ReplayFault::LookAtWeight,
                             &ReplayFault::LookAtQuality, &ReplayFault::LookAtWeightInShake,
                             &ReplayFault::LookForEdge, &ReplayFault::LookAtCones}) {
-      if (Answer found = (this->*look)()) return *found;
+      if (Finding found = (this->*look)()) return *found;
     }
     return {.cause = Cause::kUnknown,
             .text = "no cause found: quality " + FormatShort(quality()) + ", shake " +
@@ -53,7 +53,7 @@ class ReplayFault {
             .values = {{"quality", quality()}, {"shake", step_.settings.shake}}};
   }
 
-  [[nodiscard]] Answer LookForEdge() const {
+  [[nodiscard]] Finding LookForEdge() const {
     const double slip = step_.settings.tolerance * step_.object.diameter();
     for (const FingerGrasp& grasp : grasps_) {
       for (const FingerContact& held : grasp) {
@@ -92,31 +92,31 @@ class ReplayFault {
     return least;
   }
 
-  [[nodiscard]] Answer LookForRoom() const {
+  [[nodiscard]] Finding LookForClearance() const {
     const double tip = step_.settings.fingertip_radius_m / step_.located.scale;
     for (const FingerGrasp& grasp : grasps_) {
       for (const FingerContact& held : grasp) {
-        const double room = ComputeClearance(step_.object, held.contact, 2 * tip);
-        const bool corner = room < kLeastClearance * step_.object.diameter();
-        if (!corner && tip <= kThicker * room) continue;
+        const double clearance = ComputeClearance(step_.object, held.contact, 2 * tip);
+        const bool corner = clearance < kLeastClearance * step_.object.diameter();
+        if (!corner && tip <= kThicker * clearance) continue;
         const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
-        Disagreement found{.cause = corner ? Cause::kConcaveCorner : Cause::kNoRoom,
+        Disagreement found{.cause = corner ? Cause::kConcaveCorner : Cause::kNoClearance,
                            .values = {{"finger", held.finger},
-                                      {"clearance_m", Metres(room)},
+                                      {"clearance_m", Metres(clearance)},
                                       {"fingertip_radius_m", Metres(tip)},
                                       {"border_m", Metres(away)}}};
         found.text = corner ? Finger(held.finger) + " stands in a concave corner, " +
                                   FormatShort(Metres(away)) + " m from the border of its face"
                             : "a fingertip of radius " + FormatShort(Metres(tip)) +
                                   " m has no room at " + Finger(held.finger) + ", where " +
-                                  FormatShort(Metres(room)) + " m fit";
+                                  FormatShort(Metres(clearance)) + " m fit";
         return found;
       }
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] Answer LookAtWeight() const {
+  [[nodiscard]] Finding LookAtWeight() const {
     const double weight = Weight().force.norm();
     if (weight == 0) return std::nullopt;
     const Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
@@ -133,7 +133,7 @@ class ReplayFault {
     return std::nullopt;
   }
 
-  [[nodiscard]] Answer LookAtQuality() const {
+  [[nodiscard]] Finding LookAtQuality() const {
     const double shake = step_.settings.shake;
     if (quality() >= shake) return std::nullopt;
     return Disagreement{.cause = Cause::kQuality,
@@ -143,7 +143,7 @@ class ReplayFault {
   }
 
   /// A grasp above the shake that is below it once it carries the weight.
-  [[nodiscard]] Answer LookAtWeightInShake() const {
+  [[nodiscard]] Finding LookAtWeightInShake() const {
     if (grasps_.back().empty()) return std::nullopt;
     const Grasp rest = ContactsOf(grasps_.back());
     for (const Push& push : PushDirections(frame_.dimension)) {
@@ -163,7 +163,7 @@ class ReplayFault {
     return std::nullopt;
   }
 
-  [[nodiscard]] Answer LookAtCones() const {
+  [[nodiscard]] Finding LookAtCones() const {
     for (const auto& [margins, when] : {std::pair{&step_.replay.motion_margins, "in the motion"},
                                         {&step_.replay.rest_margins, "at rest"},
                                         {&step_.replay.shake_margins, "during the shake"}}) {
@@ -191,7 +191,7 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
                            " reached its friction cone",
                        finger, *least);
   }
-  if (Answer edge = ReplayFault(step).LookForEdge()) return *edge;
+  if (Finding edge = ReplayFault(step).LookForEdge()) return *edge;
   return {.cause = Cause::kUnknown,
           .text = "no cause found: the object gave way by " + FormatShort(fixed.give_m) +
                   " m on the servos, and no force reached its cone",
@@ -259,7 +259,7 @@ std::string_view CauseName(Cause cause) {
   switch (cause) {
     case Cause::kConcaveCorner:
       return "concave-corner";
-    case Cause::kNoRoom:
+    case Cause::kNoClearance:
       return "no-room";
     case Cause::kWeight:
       return "weight";

@@ -22,7 +22,7 @@ enum class Between {
 /// What is likely behind it, in the order in which it is looked for.
 enum class Cause {
   kConcaveCorner,     ///< a contact where no fingertip fits
-  kNoRoom,            ///< a fingertip thicker than the room at its contact
+  kNoClearance,       ///< a fingertip thicker than the clearance of its contact
   kWeight,            ///< the squeeze does not carry the weight, or not besides the shake
   kQuality,           ///< quality ε below the shake
   kEdge,              ///< a contact nearer to its face's border than a finger may slip
@@ -53,7 +53,7 @@ struct ExaminedStep {
 
 /// Compares what the analysis, the replay and its two protocols say of a step; nullopt where they
 /// agree. Geometry comes before loads, and loads before what was measured: a finger that has no
-/// room slips too, and a grasp that is too weak reaches its cones.
+/// clearance slips too, and a grasp that is too weak reaches its cones.
 [[nodiscard]] std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step);
 
 /// "replay-fails" and so on, as the report spells it.

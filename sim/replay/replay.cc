@@ -36,7 +36,7 @@ void Perform(ReplayWorld& world, const Object& object, const Plan& plan, int ind
   }
   const auto& waypoints = std::get<Align>(step).waypoints;
   if (waypoints.empty()) return;
-  const AlignScript& script = *world.scene().scripts[index - 1];
+  const AlignScript& script = *world.scene().entries[index].script;
   result.align_mode = PerformAlign(world, script);
   result.align_shares = script.shares;
   std::vector<FingerGrasp> waypoints_B;
@@ -46,7 +46,7 @@ void Perform(ReplayWorld& world, const Object& object, const Plan& plan, int ind
   TellMoved(world, waypoints_B);
 }
 
-/// The step as the judge saw it.
+/// The step as the monitor measured it.
 StepMotion Describe(const MotionMonitor& monitor) {
   StepMotion result;
   result.reason = monitor.reason();
@@ -69,13 +69,13 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   return result;
 }
 
-/// The step with its shakes; the judge is as before.
-StepMotion ShakeAtRest(ReplayWorld& world, Answer answer) {
+/// The step with its shakes; the monitor is as before.
+StepMotion ShakeAtRest(ReplayWorld& world, DisturbanceResponse response) {
   const MotionMonitor before = world.monitor();
   StepMotion result;
   world.monitor().ForgetForces();
   try {
-    Shake(world, answer);
+    Shake(world, response);
     result = Describe(world.monitor());
   } catch (const UnstableError& error) {
     result = Unstable(world.monitor(), error);
@@ -102,9 +102,10 @@ void ExamineRest(ReplayWorld& world, StepReplay& result) {
   result.rest_margins = MarginsNow(world);
   result.snapshot = world.TakeSnapshot();
   if (settings.protocol != Protocol::kFixed) {
-    result.adapted = ShakeAtRest(world, Answer::kAdapted);
+    result.adapted = ShakeAtRest(world, DisturbanceResponse::kAdapted);
   }
-  if (settings.protocol != Protocol::kAdapted) result.fixed = ShakeAtRest(world, Answer::kFixed);
+  if (settings.protocol != Protocol::kAdapted)
+    result.fixed = ShakeAtRest(world, DisturbanceResponse::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
   // A grasp that lost the object before any push has no limit to look for.
   if (settings.stress && world.monitor().reason() == Reason::kNone)
@@ -114,14 +115,14 @@ void ExamineRest(ReplayWorld& world, StepReplay& result) {
 StepReplay ReplayStep(ReplayWorld& world, const Object& object, const Plan& plan, int index) {
   StepReplay result;
   result.index = index;
-  if (const std::string& why = world.scene().unreachable[index]; !why.empty()) {
+  if (const std::string& why = world.scene().entries[index].unreachable; !why.empty()) {
     result.reason = Reason::kUnreachable;
     result.detail = why;
     result.snapshot = world.TakeSnapshot();
     return result;
   }
   RestoreRoles(world);
-  world.StartJudging();
+  world.StartMonitoring();
   try {
     world.monitor().SetPhase("motion");
     Perform(world, object, plan, index, result);
@@ -142,7 +143,7 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Object& body
                                           const Plan& plan) {
   const ReplaySettings& s = scene.settings;
   const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
-  std::vector<Eigen::Vector3d> push(scene.finger_start_S.size(), s.finger_mass_kg * up);
+  std::vector<Eigen::Vector3d> push(scene.fingers.size(), s.finger_mass_kg * up);
   const Grasp contacts = ContactsOf(ToScene(body, plan.scale, plan.initial));
   const GraspForces forces =
       ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension},

@@ -50,7 +50,7 @@ struct ReplayResult {
 };
 
 /// Replays a plan with frictional point fingers in MuJoCo: holds, switches and aligns as the plan
-/// says, shakes the object at every rest state along all axes, and judges.
+/// says, shakes the object at every rest state along all axes, and gives a verdict.
 ///
 /// What a pass means: with this friction, squeeze and finger model the object resisted ± shake ·
 /// squeeze along every axis in every rest state of the sequence. It believes nothing of the

@@ -6,10 +6,10 @@
 
 namespace regrasp {
 
-/// The contacts `share` of the way between two waypoints; normals turn on the great circle.
+/// The contacts `share` of the path between two waypoints; normals turn on the great circle.
 [[nodiscard]] FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double share);
 
-/// The way of an align as one motion: t from 0 to end(), a whole number at each waypoint.
+/// The path of an align as one motion: t from 0 to end(), a whole number at each waypoint.
 class AlignPath {
  public:
   /// @param align  at least one waypoint; each has the fingers of the first, in any order.

@@ -18,28 +18,28 @@ namespace {
 /// Contacts this close, over D, are one: the finger stays.
 constexpr double kSamePoint = 1e-9;
 
-/// Where on its finger's way a stand-in touches, as far as it can: in the middle, so that it is far
+/// Where on its finger's path a support finger touches, if it can: in the middle, so that it is far
 /// from both ends; at last at the target itself.
 constexpr std::array kSupportShares = {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 1.0};
 
-/// Where a piece holds only at the full friction, this much of it is gone: what a mixture has to
+/// Where a segment holds only at the full friction, this much of it is gone: what a mixture has to
 /// spare falls about evenly with the length.
 constexpr std::array kShorter = {0.5, 0.4, 0.6, 0.3, 0.7};
 
-/// A piece is lengthened by halving the last share of the way so often.
+/// A segment is lengthened by halving the last share of the path so often.
 constexpr int kRefinements = 4;
 
-/// A sliding finger needs room all along its way; looked for at so many places of a piece.
-constexpr int kRoomSamples = 4;
+/// A sliding finger needs clearance all along its path; looked for at so many places of a segment.
+constexpr int kClearanceSamples = 4;
 
-/// What is asked of a piece.
+/// What is asked of a segment.
 struct Demand {
   double half_angle;
   double clearance;  ///< 0: none
   bool may_turn;     ///< fingers may rest between the normals of two faces
 };
 
-struct Piece {
+struct Segment {
   double end = 0;
   std::vector<AlignMove> moves;
   bool slides = false;
@@ -54,10 +54,10 @@ class ScriptWriter {
     AlignScript script;
     double at = 0;
     while (at < path_.end()) {
-      if (std::optional<Piece> piece = ChoosePiece(at)) {
-        std::ranges::move(piece->moves, std::back_inserter(script.moves));
-        (piece->slides ? script.shares.slid : script.shares.imitated) += Share(at, piece->end);
-        at = piece->end;
+      if (std::optional<Segment> segment = ChooseSegment(at)) {
+        std::ranges::move(segment->moves, std::back_inserter(script.moves));
+        (segment->slides ? script.shares.slid : script.shares.imitated) += Share(at, segment->end);
+        at = segment->end;
         continue;
       }
       const double next = std::floor(at) + 1;
@@ -87,7 +87,7 @@ class ScriptWriter {
     return Holds(ContactsOf(path_.At(t)), limits_.half_angle);
   }
 
-  /// The contacts that differ between two grasps of the way.
+  /// The contacts that differ between two grasps of the path.
   [[nodiscard]] Places FindMoving(const FingerGrasp& from, const FingerGrasp& to) const {
     Places moving;
     for (std::size_t k = 0; k < from.size(); ++k) {
@@ -107,7 +107,7 @@ class ScriptWriter {
     });
   }
 
-  /// Lets the contacts of `group` in `grasp` go over to where they are at `end`.
+  /// Hands the contacts of `group` in `grasp` over to where they are at `end`.
   [[nodiscard]] std::optional<FingerHandover> HandOver(double begin, double end,
                                                        const Places& group, const Demand& demand,
                                                        Grasp& grasp) const {
@@ -123,7 +123,7 @@ class ScriptWriter {
       if (!Holds(meanwhile, demand.half_angle) || !CanRest(group, t, demand)) continue;
       FingerHandover move;
       for (std::size_t i = 0; i < group.size(); ++i) {
-        move.stand_ins.push_back({limits_.spare[i], between[group[i]].contact});
+        move.support_fingers.push_back({limits_.spare[i], between[group[i]].contact});
         move.targets.push_back(to[group[i]]);
       }
       grasp = std::move(after);
@@ -132,7 +132,8 @@ class ScriptWriter {
     return std::nullopt;
   }
 
-  /// All moving contacts go over, in this order, as many at once as there are spare fingers.
+  /// All moving contacts are handed over, in this order, as many at once as there are spare
+  /// fingers.
   [[nodiscard]] std::optional<std::vector<AlignMove>> HandOverInOrder(double begin, double end,
                                                                       const Places& order,
                                                                       const Demand& demand) const {
@@ -148,8 +149,8 @@ class ScriptWriter {
     return moves;
   }
 
-  [[nodiscard]] std::optional<Piece> TryPiece(double begin, double end,
-                                              const Demand& demand) const {
+  [[nodiscard]] std::optional<Segment> TrySegment(double begin, double end,
+                                                  const Demand& demand) const {
     Places order = FindMoving(path_.At(begin), path_.At(end));
     std::optional<std::vector<AlignMove>> moves;
     for (std::size_t turn = 0; turn < std::max<std::size_t>(order.size(), 1) && !moves; ++turn) {
@@ -157,10 +158,10 @@ class ScriptWriter {
       if (!order.empty()) std::ranges::rotate(order, order.begin() + 1);
     }
     if (!moves || !CanRest(order, end, demand)) return std::nullopt;
-    return Piece{end, *std::move(moves)};
+    return Segment{end, *std::move(moves)};
   }
 
-  /// How far the way from `begin` on is force closure, in steps of a share of the way.
+  /// How far the path from `begin` on is force closure, in steps of a share of the path.
   [[nodiscard]] int FindReach(double begin) const {
     int reach = static_cast<int>(std::floor(begin * kSharesOfPath));
     while (reach < path_.end() * kSharesOfPath && HoldsAt(Place(reach + 1))) ++reach;
@@ -171,28 +172,28 @@ class ScriptWriter {
     return static_cast<double>(steps) / kSharesOfPath;
   }
 
-  /// The longest piece that is found from `begin` up to a number of steps.
-  [[nodiscard]] std::optional<Piece> FindLongest(double begin, int reach,
-                                                 const Demand& demand) const {
+  /// The longest segment that is found from `begin` up to a number of steps.
+  [[nodiscard]] std::optional<Segment> FindLongest(double begin, int reach,
+                                                   const Demand& demand) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     for (int steps = reach; steps >= first; --steps) {
-      std::optional<Piece> piece = TryPiece(begin, Place(steps), demand);
-      if (!piece) continue;
-      if (steps < reach) Lengthen(begin, Place(steps + 1), demand, *piece);
-      return piece;
+      std::optional<Segment> segment = TrySegment(begin, Place(steps), demand);
+      if (!segment) continue;
+      if (steps < reach) Lengthen(begin, Place(steps + 1), demand, *segment);
+      return segment;
     }
-    for (double end = (begin + Place(first)) / 2; end - begin >= kShortestAlignPiece;
+    for (double end = (begin + Place(first)) / 2; end - begin >= kShortestAlignSegment;
          end = (begin + end) / 2) {
-      if (std::optional<Piece> piece = TryPiece(begin, end, demand)) return piece;
+      if (std::optional<Segment> segment = TrySegment(begin, end, demand)) return segment;
     }
     return std::nullopt;
   }
 
-  void Lengthen(double begin, double limit, const Demand& demand, Piece& piece) const {
+  void Lengthen(double begin, double limit, const Demand& demand, Segment& segment) const {
     for (int i = 0; i < kRefinements; ++i) {
-      const double end = (piece.end + limit) / 2;
-      if (std::optional<Piece> longer = TryPiece(begin, end, demand)) {
-        piece = *std::move(longer);
+      const double end = (segment.end + limit) / 2;
+      if (std::optional<Segment> longer = TrySegment(begin, end, demand)) {
+        segment = *std::move(longer);
       } else {
         limit = end;
       }
@@ -209,7 +210,7 @@ class ScriptWriter {
   }
 
   /// An order in which the contacts `left` of `grasps.back()` can slide to where they are in `to`;
-  /// the grasps on the way are added.
+  /// the grasps in between are added.
   [[nodiscard]] bool OrderSlides(const FingerGrasp& to, const Places& left,
                                  std::vector<FingerGrasp>& grasps) const {
     if (left.empty()) return true;
@@ -225,10 +226,10 @@ class ScriptWriter {
     return false;
   }
 
-  [[nodiscard]] bool HasRoom(const Places& moving, double begin, double end) const {
-    for (int i = 1; i <= kRoomSamples; ++i) {
-      const double t = i < kRoomSamples ? begin + (end - begin) * i / kRoomSamples : end;
-      const bool rests = i == kRoomSamples;
+  [[nodiscard]] bool HasClearance(const Places& moving, double begin, double end) const {
+    for (int i = 1; i <= kClearanceSamples; ++i) {
+      const double t = i < kClearanceSamples ? begin + (end - begin) * i / kClearanceSamples : end;
+      const bool rests = i == kClearanceSamples;
       if (!CanRest(moving, t, {limits_.half_angle, limits_.clearance, !rests})) return false;
     }
     return true;
@@ -241,24 +242,24 @@ class ScriptWriter {
     return false;
   }
 
-  [[nodiscard]] std::optional<Piece> TrySlide(double begin, double end) const {
+  [[nodiscard]] std::optional<Segment> TrySlide(double begin, double end) const {
     if (IsTurning(begin) || IsTurning(end)) return std::nullopt;
     const FingerGrasp to = path_.At(end);
     const Places moving = FindMoving(path_.At(begin), to);
-    if (moving.empty() || !HasRoom(moving, begin, end)) return std::nullopt;
+    if (moving.empty() || !HasClearance(moving, begin, end)) return std::nullopt;
     FingersSlide slide{{path_.At(begin)}};
     if (!OrderSlides(to, moving, slide.grasps)) return std::nullopt;
-    Piece piece{end, {}, true};
-    piece.moves.emplace_back(std::move(slide));
-    return piece;
+    Segment segment{end, {}, true};
+    segment.moves.emplace_back(std::move(slide));
+    return segment;
   }
 
   /// The longest slide from `begin` on that is found.
-  [[nodiscard]] std::optional<Piece> FindSlide(double begin, int reach) const {
+  [[nodiscard]] std::optional<Segment> FindSlide(double begin, int reach) const {
     const int first = static_cast<int>(std::floor(begin * kSharesOfPath)) + 1;
     const int waypoint = (static_cast<int>(std::floor(begin)) + 1) * kSharesOfPath;
     for (int steps = std::min(reach, waypoint); steps >= first; --steps) {
-      if (std::optional<Piece> piece = TrySlide(begin, Place(steps))) return piece;
+      if (std::optional<Segment> segment = TrySlide(begin, Place(steps))) return segment;
     }
     return std::nullopt;
   }
@@ -272,19 +273,19 @@ class ScriptWriter {
     return reach;
   }
 
-  [[nodiscard]] std::optional<Piece> ChoosePiece(double begin) const {
+  [[nodiscard]] std::optional<Segment> ChooseSegment(double begin) const {
     int reach = FindReach(begin);
     if (limits_.slide || limits_.spare.empty()) {
-      if (std::optional<Piece> slide = FindSlide(begin, reach)) return slide;
+      if (std::optional<Segment> slide = FindSlide(begin, reach)) return slide;
     }
     if (limits_.spare.empty()) return std::nullopt;
     if (limits_.slide) reach = FindNextSlide(begin, reach);
-    return ChooseGoingOver(begin, reach);
+    return ChooseHandover(begin, reach);
   }
 
-  [[nodiscard]] std::optional<Piece> ChooseGoingOver(double begin, int reach) const {
+  [[nodiscard]] std::optional<Segment> ChooseHandover(double begin, int reach) const {
     const double full = limits_.half_angle;
-    std::optional<Piece> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
+    std::optional<Segment> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
     if (longest) return MakeEasier(begin, reach, *std::move(longest));
     for (const Demand& demand : {Demand{full, limits_.least_clearance, false},
                                  {full, limits_.least_clearance, true},
@@ -295,18 +296,18 @@ class ScriptWriter {
     return longest;
   }
 
-  /// A shorter piece in place of the longest one, whose mixtures may be at the very limit.
-  [[nodiscard]] Piece MakeEasier(double begin, int reach, Piece longest) const {
+  /// A shorter segment in place of the longest one, whose mixtures may be at the very limit.
+  [[nodiscard]] Segment MakeEasier(double begin, int reach, Segment longest) const {
     const double length = longest.end - begin;
     for (const double share : kEasyFriction) {
       const double easy = std::atan(share * std::tan(limits_.half_angle));
-      std::optional<Piece> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
+      std::optional<Segment> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
       if (easier && 2 * (easier->end - begin) >= length) return *std::move(easier);
     }
     for (const double share : kShorter) {
-      if (share * length < kShortestAlignPiece) break;
+      if (share * length < kShortestAlignSegment) break;
       const Demand demand{limits_.half_angle, limits_.clearance, false};
-      std::optional<Piece> shorter = TryPiece(begin, begin + share * length, demand);
+      std::optional<Segment> shorter = TrySegment(begin, begin + share * length, demand);
       if (shorter) return *std::move(shorter);
     }
     return longest;
@@ -321,7 +322,7 @@ class ScriptWriter {
     });
   }
 
-  /// By bisection: a piece is as long as the way done before it allows.
+  /// By bisection: a segment is as long as the path done before it allows.
   [[nodiscard]] std::optional<std::vector<double>> CutSlides(double begin, double end) const {
     std::vector<double> cuts;
     double done = 0, length = 1;
@@ -335,7 +336,7 @@ class ScriptWriter {
         }
       } else {
         length /= 2;
-        if (length < kShortestAlignPiece) return std::nullopt;
+        if (length < kShortestAlignSegment) return std::nullopt;
       }
     }
     return cuts;
@@ -345,8 +346,8 @@ class ScriptWriter {
     std::optional<std::vector<double>> cuts = CutSlides(begin, end);
     if (!cuts) {
       cuts.emplace();
-      for (int i = 1; i < kHopelessPieces; ++i) {
-        cuts->push_back(begin + (end - begin) * i / kHopelessPieces);
+      for (int i = 1; i < kHopelessSegments; ++i) {
+        cuts->push_back(begin + (end - begin) * i / kHopelessSegments);
       }
       cuts->push_back(end);
     }

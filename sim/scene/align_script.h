@@ -9,10 +9,11 @@
 
 namespace regrasp {
 
-/// Fingers go over to other contacts: spare ones touch at the stand-ins, the fingers lift and come
-/// down at their targets, the spare ones leave. The k-th stand-in is for the k-th target.
+/// Fingers move to other contacts by switches: spare ones, the support fingers, touch, the fingers
+/// lift and come down at their targets, the support fingers leave. The k-th of them is for the k-th
+/// target.
 struct FingerHandover {
-  FingerGrasp stand_ins;
+  FingerGrasp support_fingers;
   FingerGrasp targets;
 };
 
@@ -31,12 +32,12 @@ struct FingersRoll {
 
 using AlignMove = std::variant<FingerHandover, FingersSlide, FingersRoll>;
 
-/// Shares of the way of an align, all contacts' ways added up, by how it is carried out. They sum
-/// to 1; for an align that only turns normals they are shares of the stretches between waypoints.
+/// Shares of the travel of an align, summed over its contacts, by how it is carried out. They sum
+/// to 1; for an align that only turns normals they are shares of the subpaths between waypoints.
 struct AlignShares {
   double imitated = 0;
   double slid = 0;         ///< while the other fingers alone hold the object
-  double best_effort = 0;  ///< slid although they do not, or rolled: nothing else serves
+  double best_effort = 0;  ///< slid although they do not, or rolled: nothing else is valid
 };
 
 /// How an align was carried out; kNone for other steps.
@@ -55,33 +56,33 @@ struct AlignLimits {
   /// Wherever a finger comes to rest a ball of this radius should fit
   /// (planner/criteria/clearance.h), the unit that of the object.
   double clearance = 0;
-  /// Where there is no way with that, a ball of this one.
+  /// Where there is no script with that, a ball of this one.
   double least_clearance = 0;
-  /// Slides are preferred to going over. Without spare fingers they are all there is.
+  /// Slides are preferred to handovers. Without spare fingers they are all there is.
   bool slide = false;
 };
 
-/// Cuts the whole way of an align, across its waypoints, into as few pieces as serve; in each the
-/// moving fingers go over, as many at once as there are spare ones.
+/// Cuts the whole path of an align, across its waypoints, into as few segments as are valid; in
+/// each the moving fingers are handed over, as many at once as there are spare ones.
 ///
-/// A piece is as long as it can be: every grasp on the way between its ends is force closure (at
-/// kSharesOfPath places between two waypoints), and so are the mixtures that come up while the
-/// fingers go over, stand-ins included. Fingers come to rest only where they can stand, with
-/// `clearance`: not in a concave corner, nor on a normal that turns there. A piece that holds at
-/// kEasyFriction of the friction too is preferred, unless it is less than half as long; then about
-/// half of the piece serves. Only where no piece serves fingers rest with `least_clearance`, then
-/// between two normals too, and at last where nothing fits.
+/// A segment is as long as it can be: every grasp of the path between its ends is force closure (at
+/// kSharesOfPath places between two waypoints), and so are the mixtures that come up during the
+/// handovers, support fingers included. Fingers come to rest only where they can stand, with
+/// `clearance`: not in a concave corner, nor on a normal that turns there. A segment that holds
+/// at kEasyFriction of the friction too is preferred, unless it is less than half as long; then
+/// about half of the segment is taken. Only where no segment is valid fingers rest with
+/// `least_clearance`, then between two normals too, and at last where nothing fits.
 ///
 /// With `slide`, or where no finger is spare, fingers slide as far as they can: one after the
 /// other, each only while the others alone, as they stand then, have the quality kSlideQuality at
-/// kSlideFriction of the friction; where the fingertip has room all the way; and no piece leaves a
-/// stretch between two waypoints or leaps over a place where the planned grasp is not force
-/// closure. A piece is at least a kSharesOfPath-th of the stretch; where there is none, fingers go
-/// over up to the next place where there is one.
+/// kSlideFriction of the friction; where the fingertip has its clearance all along; and no segment
+/// leaves a subpath between two waypoints or leaps over a place where the planned grasp is not
+/// force closure. A segment is at least a kSharesOfPath-th of the subpath; where there is none,
+/// fingers are handed over up to the next place where there is one.
 ///
-/// Where no piece serves at all the fingers go to the next waypoint all the same: without a spare
-/// finger all of them roll at once, otherwise they slide, the way cut so that grasps between two
-/// slides are force closure where that is possible.
+/// Where no segment is valid at all the fingers go to the next waypoint all the same: without a
+/// spare finger all of them roll at once, otherwise they slide, the path cut so that grasps between
+/// two slides are force closure where that is possible.
 [[nodiscard]] AlignScript WriteAlignScript(const Object& object, const Align& align,
                                            const AlignLimits& limits);
 
@@ -91,8 +92,8 @@ inline constexpr double kSlideFriction = 0.85;  ///< of μ, left to the fingers 
 /// pulls along: force and torque on the object are at most √2 √(1 + μ²) of that. Twice it is what
 /// the others can balance in every direction.
 inline constexpr double kSlideQuality = 0.02;
-inline constexpr double kShortestAlignPiece = 1.0 / 256;  ///< of the way between two waypoints
-inline constexpr int kHopelessPieces = 8;                 ///< where no number of them serves
-inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that serves
+inline constexpr double kShortestAlignSegment = 1.0 / 256;  ///< of the path between two waypoints
+inline constexpr int kHopelessSegments = 8;                 ///< where no number of them is valid
+inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that holds
 
 }  // namespace regrasp

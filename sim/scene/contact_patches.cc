@@ -41,7 +41,7 @@ constexpr double kLeastOfLargest = 1e-3;
 constexpr double kPointPatch = kPointTolerance;
 
 /// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter for
-/// a path and 8e-5 for a point, as long as another shape serves: fingers that hold slip by a
+/// a path and 8e-5 for a point, as long as another shape is valid: fingers that hold slip by a
 /// thousandth of that, and a tip of 0.04 D rolls that far in a turn of what the object may move.
 constexpr int kPathHalvings = 6, kPointHalvings = 8;
 

@@ -19,7 +19,7 @@ struct ContactSite {
 /// A convex piece of the true surface near a site; its prism is what a finger collides with.
 struct ContactPatch {
   std::vector<Eigen::Vector3d> outline;  ///< counter-clockwise from outside
-  bool rectangle = false;                ///< of four right angles: a box serves, found exactly
+  bool rectangle = false;                ///< of four right angles: a box will do, found exactly
 };
 
 /// The surface of the site's face within `size` of its path, as few convex pieces.

@@ -27,6 +27,10 @@ struct EngineUnits {
   [[nodiscard]] double force_N() const { return mass_kg * length_m / (time_s * time_s); }
 };
 
+/// One of the places where fingers touch, Scene::sites (sim/scene/scene.h): not to be mixed up with
+/// a finger's number, nor with an index of the engine.
+enum class SiteIndex : int { kNone = -1 };
+
 /// MuJoCo's model and data of one scene (sim/scene/scene.h): a body "object" whose centre of mass
 /// is its origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide
 /// along each axis of space or of the plane.
@@ -61,9 +65,9 @@ class Engine {
   void ShiftTip(int finger, const Eigen::Vector3d& offset);
   /// What the finger's servo steers for: its tip position at rest under no force.
   void SetTarget(int finger, const Eigen::Vector3d& target);
-  /// The patches of this site, and no others, stop the finger; none where −1.
-  void SetSite(int finger, int site);
-  void AddSite(int finger, int site);
+  /// The patches of this site, and no others, stop the finger; none where kNone.
+  void SetSite(int finger, SiteIndex site);
+  void AddSite(int finger, SiteIndex site);
   /// Acceleration along −z, m/s².
   void SetGravity(double gravity);
   /// Force and torque on the object about its centre of mass, besides gravity and fingers.

@@ -20,7 +20,7 @@ namespace {
 /// Each finger that touches has a collision bit of its own, of the 31 that an int has.
 constexpr int kMostTouching = 31;
 
-/// A path is looked at this often for the room that a fingertip has along it.
+/// A path is looked at this often for the clearance that a fingertip has along it.
 constexpr int kClearanceSamples = 8;
 
 /// Fingers that the plan never uses wait this far from the centroid, in diameters.
@@ -33,32 +33,28 @@ struct SiteCollector {
   Scene& scene;
   double point_tolerance;  ///< metres
 
-  /// Returns the site's index.
-  int Add(int finger, const Contact& from, const Contact& to) {
+  SiteIndex Add(int finger, const Contact& from, const Contact& to) {
     const ContactSite site{to.face, ToScene(object, scale, from.face == to.face ? from : to).p,
                            ToScene(object, scale, to).p};
-    int index = FindEqual(site);
-    if (index < 0) {
-      index = static_cast<int>(scene.sites.size());
-      scene.sites.push_back(site);
-      scene.fingers_of_site.emplace_back();
-    }
-    std::vector<int>& fingers = scene.fingers_of_site[index];
+    const int index = FindEqual(site);
+    if (index == static_cast<int>(scene.sites.size())) scene.sites.push_back({site, {}, {}});
+    std::vector<int>& fingers = scene.sites[index].fingers;
     if (std::ranges::find(fingers, finger) == fingers.end()) fingers.push_back(finger);
-    return index;
+    return SiteIndex(index);
   }
 
   void AddPlanned(const FingerGrasp& grasp) {
     for (const FingerContact& held : grasp) {
-      const int index = Add(held.finger, held.contact, held.contact);
-      if (scene.first_site[held.finger] < 0) scene.first_site[held.finger] = index;
+      const SiteIndex index = Add(held.finger, held.contact, held.contact);
+      SiteIndex& first = scene.fingers[held.finger].first_site;
+      if (first == SiteIndex::kNone) first = index;
     }
   }
 
   void Add(const AlignScript& script) {
     for (const AlignMove& move : script.moves) {
-      if (const auto* over = std::get_if<FingerHandover>(&move)) {
-        for (const FingerGrasp* grasp : {&over->stand_ins, &over->targets}) {
+      if (const auto* handover = std::get_if<FingerHandover>(&move)) {
+        for (const FingerGrasp* grasp : {&handover->support_fingers, &handover->targets}) {
           for (const FingerContact& held : *grasp) Add(held.finger, held.contact, held.contact);
         }
         continue;
@@ -77,15 +73,14 @@ struct SiteCollector {
   }
 
  private:
+  /// The number of sites if there is none.
   [[nodiscard]] int FindEqual(const ContactSite& site) const {
-    for (std::size_t i = 0; i < scene.sites.size(); ++i) {
-      const ContactSite& other = scene.sites[i];
-      if (other.face == site.face && (other.from - site.from).norm() <= point_tolerance &&
-          (other.to - site.to).norm() <= point_tolerance) {
-        return static_cast<int>(i);
-      }
-    }
-    return -1;
+    const auto equal = std::ranges::find_if(scene.sites, [&](const SceneSite& other) {
+      return other.place.face == site.face &&
+             (other.place.from - site.from).norm() <= point_tolerance &&
+             (other.place.to - site.to).norm() <= point_tolerance;
+    });
+    return static_cast<int>(equal - scene.sites.begin());
   }
 };
 
@@ -147,10 +142,9 @@ double SmallestClearance(const Object& object, const FingerGrasp& grasp, double 
   return least;
 }
 
-/// Scripts of all aligns, in the object's own frame and unit.
-std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, int fingers,
-                                                     double half_angle, double wanted,
-                                                     AlignChoice choice) {
+/// The entries with the scripts of all aligns, in the object's own frame and unit.
+std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, double half_angle,
+                                     double wanted, AlignChoice choice) {
   const double D = sequence.object.diameter();
   double clearance = wanted;
   for (int index = 0; index <= sequence.steps; ++index) {
@@ -158,10 +152,10 @@ std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, i
   }
   AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
-  std::vector<std::optional<AlignScript>> scripts(sequence.steps);
+  std::vector<SceneEntry> entries(sequence.steps + 1);
   FingerGrasp holding = sequence.plan.initial;
-  for (int i = 0; i < sequence.steps; ++i) {
-    const Step& step = sequence.plan.steps[i];
+  for (int index = 1; index <= sequence.steps; ++index) {
+    const Step& step = sequence.plan.steps[index - 1];
     if (const auto* align = std::get_if<Align>(&step)) {
       limits.spare.clear();
       for (int f = 0; f < fingers; ++f) {
@@ -169,11 +163,11 @@ std::vector<std::optional<AlignScript>> WriteScripts(const Sequence& sequence, i
           limits.spare.push_back(f);
         }
       }
-      scripts[i] = WriteAlignScript(sequence.object, *align, limits);
+      entries[index].script = WriteAlignScript(sequence.object, *align, limits);
     }
     holding = GraspAfter(holding, step);
   }
-  return scripts;
+  return entries;
 }
 
 AlignScript ToScene(const Object& object, double scale, AlignScript script) {
@@ -181,9 +175,9 @@ AlignScript ToScene(const Object& object, double scale, AlignScript script) {
     grasp = ToScene(object, scale, std::move(grasp));
   };
   for (AlignMove& move : script.moves) {
-    if (auto* over = std::get_if<FingerHandover>(&move)) {
-      convert(over->stand_ins);
-      convert(over->targets);
+    if (auto* handover = std::get_if<FingerHandover>(&move)) {
+      convert(handover->support_fingers);
+      convert(handover->targets);
     } else if (auto* roll = std::get_if<FingersRoll>(&move)) {
       convert(roll->from);
       convert(roll->to);
@@ -205,11 +199,11 @@ double DistanceTo(const ContactSite& site, const Vector3d& point) {
 std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
   const double least = kLeastClearance * object.diameter();
   for (const FingerContact& held : rests) {
-    const double room = ComputeClearance(object, held.contact, least);
-    if (room >= least) continue;
+    const double clearance = ComputeClearance(object, held.contact, least);
+    if (clearance >= least) continue;
     return "finger " + std::to_string(held.finger) +
            " cannot stand at its contact: no fingertip thicker than a radius of " +
-           FormatShort(room) + " fits in the corner there";
+           FormatShort(clearance) + " fits in the corner there";
   }
   return "";
 }
@@ -217,11 +211,12 @@ std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
 /// Everywhere that fingers come to rest in entry `index`.
 FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
   FingerGrasp rests = sequence.PlannedRests(index);
-  if (index == 0 || !scene_O.scripts[index - 1]) return rests;
-  for (const AlignMove& move : scene_O.scripts[index - 1]->moves) {
-    if (const auto* over = std::get_if<FingerHandover>(&move)) {
-      rests.insert(rests.end(), over->stand_ins.begin(), over->stand_ins.end());
-      rests.insert(rests.end(), over->targets.begin(), over->targets.end());
+  const std::optional<AlignScript>& script = scene_O.entries[index].script;
+  if (!script) return rests;
+  for (const AlignMove& move : script->moves) {
+    if (const auto* handover = std::get_if<FingerHandover>(&move)) {
+      rests.insert(rests.end(), handover->support_fingers.begin(), handover->support_fingers.end());
+      rests.insert(rests.end(), handover->targets.begin(), handover->targets.end());
     }
   }
   return rests;
@@ -233,7 +228,7 @@ Vector3d FromScene(const Object& object, double scale, const Vector3d& p_S) {
 
 double SmallestClearance(const Object& object, double scale, const Scene& scene, double limit) {
   double least = limit;
-  for (const ContactSite& site : scene.sites) {
+  for (const auto& [site, patches, fingers] : scene.sites) {
     const int samples = site.from == site.to ? 0 : kClearanceSamples;
     for (int i = 0; i <= samples; ++i) {
       const double t = samples == 0 ? 0 : static_cast<double>(i) / samples;
@@ -277,51 +272,50 @@ Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& 
 }
 
 void PlaceFingersAtStart(const Object& object, Scene& scene) {
-  for (const int site : scene.first_site) {
-    if (site < 0) {
-      scene.finger_start_S.push_back(Vector3d::UnitX() * kParkingDistance *
-                                     scene.settings.diameter_m);
+  for (SceneFinger& finger : scene.fingers) {
+    if (finger.first_site == SiteIndex::kNone) {
+      finger.start_S = Vector3d::UnitX() * kParkingDistance * scene.settings.diameter_m;
       continue;
     }
-    const ContactSite& where = scene.sites[site];
-    scene.finger_start_S.push_back(where.from - object.inward_normal(where.face) *
-                                                    scene.settings.fingertip_radius_m);
+    const ContactSite& place = scene.site(finger.first_site).place;
+    finger.start_S =
+        place.from - object.inward_normal(place.face) * scene.settings.fingertip_radius_m;
   }
 }
 
 /// A hand may have many more fingers than ever touch.
-void AssignCollisionBits(int fingers, Scene& scene) {
+void AssignCollisionBits(Scene& scene) {
   std::set<int> touching;
-  for (const std::vector<int>& there : scene.fingers_of_site) {
-    touching.insert(there.begin(), there.end());
+  for (const SceneSite& site : scene.sites) {
+    touching.insert(site.fingers.begin(), site.fingers.end());
   }
   if (touching.size() > kMostTouching) {
     throw InputError("replay: " + std::to_string(touching.size()) +
                      " fingers touch the object, one after the other or at once; " +
                      std::to_string(kMostTouching) + " can be simulated");
   }
-  scene.collision_bit.assign(fingers, 0);
   int place = 0;
-  for (const int finger : touching) scene.collision_bit[finger] = 1 << place++;
+  for (const int finger : touching) scene.fingers[finger].collision_bit = 1 << place++;
 }
 
 /// Scripts, what is unreachable, and sites.
-void LayOut(const Sequence& sequence, int fingers, const ReplayOptions& options, Scene& scene) {
+void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene) {
   const Object& object = sequence.object;
   const double scale = sequence.plan.scale;
   const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
-  scene.scripts =
+  const int fingers = static_cast<int>(scene.fingers.size());
+  scene.entries =
       WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
-  scene.first_site.assign(fingers, -1);
   SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
   for (int index = 0; index <= sequence.steps; ++index) {
-    scene.unreachable.push_back(FindUnreachable(object, AllRests(sequence, scene, index)));
-    if (index == 0 || !scene.scripts[index - 1]) {
+    SceneEntry& entry = scene.entries[index];
+    entry.unreachable = FindUnreachable(object, AllRests(sequence, scene, index));
+    if (!entry.script) {
       collector.AddPlanned(sequence.PlannedRests(index));
       continue;
     }
-    collector.Add(*scene.scripts[index - 1]);
-    scene.scripts[index - 1] = ToScene(object, scale, *std::move(scene.scripts[index - 1]));
+    collector.Add(*entry.script);
+    entry.script = ToScene(object, scale, *std::move(entry.script));
   }
 }
 
@@ -341,16 +335,16 @@ Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOpt
   if (!options.finger_radius) options.finger_radius = plan.finger_radius;
   const Sequence sequence{body, plan, steps};
   sequence.CheckFaces();
-  const int fingers = sequence.CountFingers();
   Scene scene;
   scene.dimension = body.dimension();
-  LayOut(sequence, fingers, options, scene);
-  AssignCollisionBits(fingers, scene);
+  scene.fingers.resize(sequence.CountFingers());
+  LayOut(sequence, options, scene);
+  AssignCollisionBits(scene);
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,
       SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);
-  for (const ContactSite& site : scene.sites) {
-    scene.patches.push_back(MakeScenePatches(body, plan.scale, site, scene.settings));
+  for (SceneSite& site : scene.sites) {
+    site.patches = MakeScenePatches(body, plan.scale, site.place, scene.settings);
   }
   PlaceFingersAtStart(body, scene);
   scene.inertia = Inertia(body, plan.scale, scene.settings);
@@ -374,38 +368,36 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
   s.gravity_m_s2 *= metre / (second * second);
   s.finger_stiffness_N_m *= kilogram / (second * second);
   s.finger_damping_Ns_m *= kilogram / second;
-  for (ContactSite& site : scene.sites) {
-    site.from *= metre;
-    site.to *= metre;
-  }
-  for (std::vector<ContactPatch>& patches : scene.patches) {
-    for (ContactPatch& patch : patches) {
+  for (SceneSite& site : scene.sites) {
+    site.place.from *= metre;
+    site.place.to *= metre;
+    for (ContactPatch& patch : site.patches) {
       for (Vector3d& corner : patch.outline) corner *= metre;
     }
   }
-  for (Vector3d& start : scene.finger_start_S) start *= metre;
+  for (SceneFinger& finger : scene.fingers) finger.start_S *= metre;
   scene.inertia *= kilogram * metre * metre;
   return scene;
 }
 
-int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
+SiteIndex FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
   // A finger that turns at an edge is at its new face's site already.
   const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
-  int best = -1;
+  SiteIndex best = SiteIndex::kNone;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
-    const ContactSite& site = scene.sites[i];
+    const ContactSite& site = scene.sites[i].place;
     if (site.face != to_S.face) continue;
     const double distance = std::max(DistanceTo(site, begin), DistanceTo(site, to_S.p));
     if (distance < least) {
       least = distance;
-      best = static_cast<int>(i);
+      best = SiteIndex(i);
     }
   }
   return best;
 }
 
-int FindSite(const Scene& scene, const Contact& contact_S) {
+SiteIndex FindSite(const Scene& scene, const Contact& contact_S) {
   return FindSite(scene, contact_S, contact_S);
 }
 

@@ -14,6 +14,26 @@
 
 namespace regrasp {
 
+/// A place where fingers touch, and what stops them there; metres in S.
+struct SceneSite {
+  ContactSite place;
+  std::vector<ContactPatch> patches;
+  std::vector<int> fingers;  ///< which touch there
+};
+
+/// A finger of the hand, whether the plan uses it or not.
+struct SceneFinger {
+  int collision_bit = 0;                              ///< 0 where it never touches
+  SiteIndex first_site = SiteIndex::kNone;            ///< where the plan first puts it
+  Eigen::Vector3d start_S = Eigen::Vector3d::Zero();  ///< its tip at the beginning
+};
+
+/// What the scene knows of an entry of the replay.
+struct SceneEntry {
+  std::optional<AlignScript> script;  ///< of an align, in S
+  std::string unreachable;            ///< which finger cannot stand where it has to, or nothing
+};
+
 /// A body and a plan in the frame S of the simulation: metres about the object's centroid.
 ///
 /// A planar object is the prism of its polygon about the plane z = 0, free to move in the plane and
@@ -21,15 +41,14 @@ namespace regrasp {
 struct Scene {
   int dimension = 3;
   ReplaySettings settings;
-  std::vector<ContactSite> sites;                   ///< where fingers touch, metres in S
-  std::vector<std::vector<ContactPatch>> patches;   ///< per site, metres in S
-  std::vector<std::vector<int>> fingers_of_site;    ///< which fingers touch there
-  std::vector<int> collision_bit;                   ///< of each finger; 0 where it never touches
-  std::vector<int> first_site;                      ///< where the plan first puts each finger, −1
-  std::vector<std::optional<AlignScript>> scripts;  ///< of every step that is an align, in S
-  std::vector<std::string> unreachable;  ///< of every entry: which finger cannot stand, or nothing
-  std::vector<Eigen::Vector3d> finger_start_S;        ///< tip of every finger at the beginning
+  std::vector<SceneSite> sites;      ///< by SiteIndex
+  std::vector<SceneFinger> fingers;  ///< by the number of the finger
+  std::vector<SceneEntry> entries;   ///< as in the report: 0 is the hold, k the plan's k-th step
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m², about the centroid
+
+  [[nodiscard]] const SceneSite& site(SiteIndex index) const {
+    return sites[static_cast<int>(index)];
+  }
 };
 
 /// Metres about the centroid; normal and face stay.
@@ -43,10 +62,10 @@ struct Scene {
                               const ReplayOptions& options);
 
 /// The site on `contact.face` whose path passes nearest to the contact.
-[[nodiscard]] int FindSite(const Scene& scene, const Contact& contact_S);
-/// The same for a way from one contact to another, straight inside one face or a turn to the next:
+[[nodiscard]] SiteIndex FindSite(const Scene& scene, const Contact& contact_S);
+/// The same for a path from one contact to another, straight inside one face or a turn to the next:
 /// the site that both belong to.
-[[nodiscard]] int FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S);
+[[nodiscard]] SiteIndex FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S);
 
 /// The same scene in other units: what is in metres, kilograms and seconds is in `units`.
 [[nodiscard]] Scene InUnits(Scene scene, const EngineUnits& units);

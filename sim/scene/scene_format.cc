@@ -45,7 +45,7 @@ std::string Join(const Vector3d& v) { return Join({v.x(), v.y(), v.z()}); }
 
 std::string Collision(const Scene& scene, const std::vector<int>& fingers) {
   int bits = 0;
-  for (const int finger : fingers) bits |= scene.collision_bit[finger];
+  for (const int finger : fingers) bits |= scene.fingers[finger].collision_bit;
   return " conaffinity=\"" + std::to_string(bits) + "\"";
 }
 
@@ -92,9 +92,10 @@ void AddSurface(const Object& body, double scale, double thickness_m, Parts& par
 
 void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
-    const Vector3d inward = body.inward_normal(scene.sites[i].face);
-    for (std::size_t k = 0; k < scene.patches[i].size(); ++k) {
-      const ContactPatch& patch = scene.patches[i][k];
+    const SceneSite& site = scene.sites[i];
+    const Vector3d inward = body.inward_normal(site.place.face);
+    for (std::size_t k = 0; k < site.patches.size(); ++k) {
+      const ContactPatch& patch = site.patches[k];
       const std::string name = "site" + std::to_string(i) + "_" + std::to_string(k);
       const double thickness = scene.settings.patch_thickness_m;
       std::string shape;
@@ -105,7 +106,7 @@ void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
         shape = " type=\"mesh\" mesh=\"" + name + "\" pos=\"" + Join(patch.outline[0]) + "\"";
       }
       parts.object_geoms += "      <geom name=\"" + name + "\" class=\"patch\"" + shape +
-                            Collision(scene, scene.fingers_of_site[i]) + "/>\n";
+                            Collision(scene, site.fingers) + "/>\n";
     }
   }
 }
@@ -115,7 +116,7 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
   const double mass = scene.settings.finger_mass_kg;
   const double inertia =
       kBallInertia * mass * scene.settings.fingertip_radius_m * scene.settings.fingertip_radius_m;
-  parts.fingers += "    <body name=\"" + name + "\" pos=\"" + Join(scene.finger_start_S[finger]) +
+  parts.fingers += "    <body name=\"" + name + "\" pos=\"" + Join(scene.fingers[finger].start_S) +
                    "\" childclass=\"finger\">\n      <inertial pos=\"0 0 0\" mass=\"" +
                    Join({mass}) + "\" diaginertia=\"" + Join({inertia, inertia, inertia}) +
                    "\"/>\n";
@@ -127,7 +128,7 @@ void AddFinger(const Scene& scene, int finger, Parts& parts) {
         "    <general class=\"finger\" name=\"" + joint + "\" joint=\"" + joint + "\"/>\n";
   }
   parts.fingers += "      <geom name=\"" + name + "\" contype=\"" +
-                   std::to_string(scene.collision_bit[finger]) + "\"/>\n    </body>\n";
+                   std::to_string(scene.fingers[finger].collision_bit) + "\"/>\n    </body>\n";
 }
 
 std::string FormatObjectJoints(int dimension) {
@@ -173,7 +174,7 @@ std::string FormatScene(const Scene& scene, const Object& body, const std::vecto
   Parts parts;
   if (surface) AddSurface(body, s.diameter_m / body.diameter(), s.thickness_m, parts);
   AddPatches(scene, body, parts);
-  for (std::size_t f = 0; f < scene.finger_start_S.size(); ++f) {
+  for (std::size_t f = 0; f < scene.fingers.size(); ++f) {
     AddFinger(scene, static_cast<int>(f), parts);
   }
   const Eigen::Matrix3d& I = scene.inertia;

@@ -4,7 +4,7 @@
 
 namespace regrasp {
 
-/// How the fingers answer the shake at a rest, and which answer decides.
+/// How the fingers respond to the shake at a rest, and which response decides.
 enum class Protocol {
   kAdapted,  ///< with forces planned for each direction: can the grasp resist?
   kFixed,    ///< with the forces of the rest and the servos' stiffness: does this squeeze?

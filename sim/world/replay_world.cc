@@ -14,9 +14,10 @@ namespace {
 
 /// Where the plan first puts a finger; on no face where it never does.
 Contact FirstContact(const Object& body, const Scene& scene, int finger) {
-  if (scene.first_site[finger] < 0) return {};
-  const ContactSite& site = scene.sites[scene.first_site[finger]];
-  return {site.from, body.inward_normal(site.face), site.face};
+  const SiteIndex first = scene.fingers[finger].first_site;
+  if (first == SiteIndex::kNone) return {};
+  const ContactSite& place = scene.site(first).place;
+  return {place.from, body.inward_normal(place.face), place.face};
 }
 
 }  // namespace
@@ -27,16 +28,16 @@ ReplayWorld::ReplayWorld(const Object& body, const Plan& plan, Scene scene,
       scene_(std::move(scene)),
       observer_(observer),
       engine_(FormatScene(InUnits(scene_, UnitsOf(scene_.settings)), body, {}, /*surface=*/false),
-              static_cast<int>(scene_.finger_start_S.size()), UnitsOf(scene_.settings)),
-      fingers_(scene_.finger_start_S.size()),
+              static_cast<int>(scene_.fingers.size()), UnitsOf(scene_.settings)),
+      fingers_(scene_.fingers.size()),
       monitor_(scene_.settings) {
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
-    engine_.SetSite(static_cast<int>(f), -1);
-    fingers_[f].anchor_S = scene_.finger_start_S[f];
+    engine_.SetSite(static_cast<int>(f), SiteIndex::kNone);
+    fingers_[f].anchor_S = scene_.fingers[f].start_S;
     fingers_[f].contact = FirstContact(body, scene_, static_cast<int>(f));
   }
   SetGravity(0);
-  StartJudging();
+  StartMonitoring();
 }
 
 WrenchFrame ReplayWorld::frame_B() const {
@@ -97,7 +98,7 @@ void ReplayWorld::Run(double duration, const std::function<void(double)>& drive)
   }
 }
 
-void ReplayWorld::StartJudging() {
+void ReplayWorld::StartMonitoring() {
   monitor_.Start(X_SB());
   for (const int f : HoldingFingers()) fingers_[f].touch_B = ContactPoint_B(f);
 }

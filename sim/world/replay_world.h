@@ -12,7 +12,7 @@
 
 namespace regrasp {
 
-/// A finger on the stage. B is the body's frame: metres about the centroid, fixed to the object.
+/// A finger in the world. B is the body's frame: metres about the centroid, fixed to the object.
 struct WorldFinger {
   FingerRole role = FingerRole::kFree;
   bool holding = false;
@@ -61,7 +61,7 @@ class ReplayWorld {
   void Run(double duration, const std::function<void(double)>& drive);
 
   /// What happens from now on is measured against the object's pose as it is now.
-  void StartJudging();
+  void StartMonitoring();
   /// Looks whether every holding finger still touches.
   void MonitorRest();
   MotionMonitor& monitor() { return monitor_; }

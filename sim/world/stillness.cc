@@ -31,17 +31,17 @@ double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
   return std::min(s.diameter_m / 2, kArmOfGyration * gyration);
 }
 
-/// The largest way of any of them, metres.
-double PathFrom(const Posture& from, const ReplayWorld& world) {
+/// The largest travel of any of them, metres.
+double TravelFrom(const Posture& from, const ReplayWorld& world) {
   const Eigen::Isometry3d X_SB = world.X_SB();
   const Eigen::AngleAxisd turn_B(
       Eigen::Quaterniond(from.X_SB.linear().transpose() * X_SB.linear()));
-  double way = (X_SB.translation() - from.X_SB.translation()).norm() +
-               ArmOf(turn_B, world) * std::abs(turn_B.angle());
+  double travel = (X_SB.translation() - from.X_SB.translation()).norm() +
+                  ArmOf(turn_B, world) * std::abs(turn_B.angle());
   for (std::size_t i = 0; i < from.fingers.size(); ++i) {
-    way = std::max(way, (world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm());
+    travel = std::max(travel, (world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm());
   }
-  return way;
+  return travel;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ bool WaitUntilStill(ReplayWorld& world) {
     world.Step();
     if (world.monitor().lost()) return false;
     ++quiet;
-    if (PathFrom(since, world) <= still) continue;
+    if (TravelFrom(since, world) <= still) continue;
     since = TakePosture(world);
     quiet = 0;
   }

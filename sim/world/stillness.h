@@ -11,8 +11,8 @@ namespace regrasp {
 /// @throws UnstableError
 bool WaitUntilStill(ReplayWorld& world);
 
-/// The same at a place where the object has to come to rest: the judge hears where it does not, and
-/// looks at the contacts.
+/// The same at a place where the object has to come to rest: the monitor is told where it does not,
+/// and looks at the contacts.
 /// @throws UnstableError
 void ComeToRest(ReplayWorld& world);
 

@@ -180,7 +180,7 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
 
   options.shake = 0.1;
   const Report fixed = Validate(cube.object, plan, {}, options);
-  EXPECT_TRUE(fixed.passed()) << "the adapted answer decides";
+  EXPECT_TRUE(fixed.passed()) << "the adapted response decides";
   ASSERT_TRUE(fixed.steps.at(0).disagreement);
   EXPECT_EQ(fixed.steps[0].disagreement->between, Between::kFixedFails);
   EXPECT_EQ(fixed.steps[0].disagreement->cause, Cause::kConeReached);

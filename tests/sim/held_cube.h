@@ -7,7 +7,7 @@
 
 namespace regrasp {
 
-/// The cube of CubeCase, held, at rest, and judged from there.
+/// The cube of CubeCase, held, at rest, and monitored from there.
 struct HeldCube {
   CubeCase cube;
   Plan plan = MakePlan(cube.Start(), 25);
@@ -18,7 +18,7 @@ struct HeldCube {
       : world(cube.object, plan, MakeScene(cube.object, plan, 0, options), observer) {
     TakeHold(world, ToScene(cube.object, plan.scale, plan.initial));
     (void)WaitUntilStill(world);
-    world.StartJudging();
+    world.StartMonitoring();
   }
 };
 

@@ -83,15 +83,15 @@ TEST(DisagreementTest, AContactInAConcaveCornerIsNamed) {
   EXPECT_NEAR(ValueOf(found, "border_m"), 0.04 * 1e-7, 1e-12);
 }
 
-TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoRoom) {
+TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoClearance) {
   const Polygon frame = MakeFrame();
   // From inside the hole, of side 4 cm, outwards.
   const FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.5), OnEdge(frame, 1, 6, 0.5)};
   Hold hold(frame, MakePlanarPlan(grasp, 25));
-  EXPECT_NE(hold.ExplainFailure().cause, Cause::kNoRoom);
+  EXPECT_NE(hold.ExplainFailure().cause, Cause::kNoClearance);
   hold.settings.fingertip_radius_m = 0.03;
   const Disagreement found = hold.ExplainFailure();
-  EXPECT_EQ(found.cause, Cause::kNoRoom);
+  EXPECT_EQ(found.cause, Cause::kNoClearance);
   EXPECT_NEAR(ValueOf(found, "clearance_m"), 0.02, 1e-9);
   EXPECT_NEAR(ValueOf(found, "fingertip_radius_m"), 0.03, 1e-12);
 }

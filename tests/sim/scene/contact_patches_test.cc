@@ -138,8 +138,8 @@ TEST(FineFacets, HoldAFingertipInTheirSharpCorners) {
 double LargestMeshError(const Scene& scene, const mjModel& model, mjData& data) {
   mj_kinematics(&model, &data);
   double largest = -1;
-  for (std::size_t site = 0; site < scene.patches.size(); ++site) {
-    const ContactPatch& patch = scene.patches[site].at(0);
+  for (std::size_t site = 0; site < scene.sites.size(); ++site) {
+    const ContactPatch& patch = scene.sites[site].patches.at(0);
     if (patch.rectangle) continue;
     const int geom = mj_name2id(&model, mjOBJ_GEOM, ("site" + std::to_string(site) + "_0").c_str());
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(data.geom_xmat +

@@ -64,8 +64,9 @@ TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
   plan.fingers = 64;
   const auto fingers_that_touch = [&] {
     const Scene scene = MakeScene(cube.object, plan, static_cast<int>(plan.steps.size()), {});
-    EXPECT_EQ(scene.collision_bit.size(), 64u);
-    std::set<int> bits(scene.collision_bit.begin(), scene.collision_bit.end());
+    EXPECT_EQ(scene.fingers.size(), 64u);
+    std::set<int> bits;
+    for (const SceneFinger& finger : scene.fingers) bits.insert(finger.collision_bit);
     bits.erase(0);
     return bits.size();
   };

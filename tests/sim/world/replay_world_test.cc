@@ -44,7 +44,7 @@ TEST(MonitorOfAReplay, SeesAFingerSlipThatHasSlidOnPurposeBefore) {
   ReplayWorld world(square, plan, MakeScene(square, plan, 1, options), observer);
   TakeHold(world, ToScene(square, plan.scale, start));
   ComeToRest(world);
-  ASSERT_EQ(PerformAlign(world, *world.scene().scripts.at(0)), AlignMode::kSlid);
+  ASSERT_EQ(PerformAlign(world, *world.scene().entries.at(1).script), AlignMode::kSlid);
   ComeToRest(world);
   ASSERT_EQ(world.monitor().reason(), Reason::kNone) << world.monitor().detail();
   Drag(world, 2, 0.02, Eigen::Vector3d::UnitX());
@@ -71,7 +71,8 @@ TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
     ReplayWorld world(square, plan, MakeScene(square, plan, 0, {}), observer);
     TakeHold(world, ToScene(square, plan.scale, plan.initial));
     ComeToRest(world);
-    PushOnce(world, PushWrench({false, 0, 1}, share * world.settings().squeeze_N), Answer::kFixed);
+    PushOnce(world, PushWrench({false, 0, 1}, share * world.settings().squeeze_N),
+             DisturbanceResponse::kFixed);
     EXPECT_EQ(world.monitor().reason(), reason) << share << world.monitor().detail();
   }
 }
@@ -87,8 +88,9 @@ TEST(MonitorOfAReplay, SeesAfterAFixedPushThatAFingerIsOffTheSurface) {
   }
   world.fingers()[3].holding = false;
   (void)WaitUntilStill(world);
-  world.StartJudging();
-  PushOnce(world, PushWrench({false, 1, 1}, 0.02 * world.settings().squeeze_N), Answer::kFixed);
+  world.StartMonitoring();
+  PushOnce(world, PushWrench({false, 1, 1}, 0.02 * world.settings().squeeze_N),
+           DisturbanceResponse::kFixed);
   EXPECT_EQ(world.monitor().reason(), Reason::kContactLost) << world.monitor().detail();
 }
 
