@@ -42,7 +42,27 @@ function(regrasp_package name)
   set_property(GLOBAL APPEND PROPERTY REGRASP_LIBRARIES regrasp_${name})
 endfunction()
 
-# regrasp_tests(NAME [lib...]): one executable of the folder's *_test.cc, its tests found by ctest.
+# regrasp_label(TEST...): each is labelled fast, or slow where tests/slow_tests.cmake names it.
+function(regrasp_label)
+  foreach(test IN LISTS ARGN)
+    set(label fast)
+    if(test IN_LIST regrasp_slow_tests)
+      set(label slow)
+    endif()
+    set_property(TEST ${test} APPEND PROPERTY LABELS ${label})
+  endforeach()
+endfunction()
+
+# regrasp_find_tests(TARGET PACKAGE): the tests of an executable, found by ctest, each with its label.
+function(regrasp_find_tests target package)
+  list(JOIN regrasp_slow_tests ":" slow)
+  gtest_discover_tests(${target} TEST_PREFIX "${package}." DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+                       TEST_FILTER "${slow}" PROPERTIES TIMEOUT 900 LABELS slow)
+  gtest_discover_tests(${target} TEST_PREFIX "${package}." DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+                       TEST_FILTER "-${slow}" PROPERTIES TIMEOUT 900 LABELS fast)
+endfunction()
+
+# regrasp_tests(NAME [lib...]): one executable of the folder's *_test.cc.
 function(regrasp_tests name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   if(NOT sources)
@@ -53,6 +73,5 @@ function(regrasp_tests name)
   target_compile_definitions(${name}_test PRIVATE
     REGRASP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     REGRASP_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
-  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 900)
+  regrasp_find_tests(${name}_test ${name})
 endfunction()
