@@ -7,6 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
+#include "planner/certificate/plan_proof.h"
 #include "planner/object/polygon.h"
 
 namespace regrasp {

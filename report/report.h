@@ -5,9 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/certificate/plan_proof.h"
+#include "planner/certificate/force_proof.h"
 #include "planner/grasp/finger_friction.h"
 #include "planner/grasp/quality.h"
+#include "planner/motion/proof_verdict.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"

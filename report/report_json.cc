@@ -3,6 +3,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
+#include "planner/certificate/plan_proof.h"
 #include "report/report.h"
 #include "report/report_seal.h"
 #include "report/simulation_json.h"

@@ -1,5 +1,6 @@
 #include "report/trials_report.h"
 
+#include "planner/base/binomial.h"
 #include "planner/base/number.h"
 
 namespace regrasp {

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "planner/motion/motion_segment.h"
+
 namespace regrasp {
 
 /// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts
@@ -21,6 +23,13 @@ struct GraspProof {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts
+};
+
+/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's ways.
+struct EntryProof {
+  GraspProof rest;
+  /// By pair of waypoints that follow each other; empty where no proof was found.
+  std::vector<MotionSegments> ways;
 };
 
 }  // namespace regrasp

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "planner/certificate/align_certificate.h"
+#include "planner/certificate/check_proof.h"
 #include "planner/certificate/find_proof.h"
 #include "planner/motion/check_motion_proof.h"
 #include "planner/plan/motion_segment_json.h"

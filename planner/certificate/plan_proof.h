@@ -4,21 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "planner/certificate/check_proof.h"
 #include "planner/certificate/force_proof.h"
-#include "planner/motion/motion_segment.h"
 #include "planner/motion/proof_verdict.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp {
-
-/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's ways.
-struct EntryProof {
-  GraspProof rest;
-  /// By pair of waypoints that follow each other; empty where no proof was found.
-  std::vector<MotionSegments> ways;
-};
 
 /// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included. The
 /// plan's own certificates are taken where they hold.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/base/binomial.h"
 #include "planner/base/random.h"
 #include "sim/replay/contact_noise.h"
 #include "sim/replay/replay.h"

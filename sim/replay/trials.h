@@ -4,13 +4,14 @@
 #include <functional>
 #include <map>
 
-#include "planner/base/binomial.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp {
+
+struct ShareInterval;  // planner/base/binomial.h
 
 /// Replays of a plan in worlds that differ a little from what the hand believes.
 struct TrialOptions {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/base/binomial.h"
 #include "planner/base/number.h"
 #include "sim/replay/contact_noise.h"
 #include "tests/sim/planar_cases.h"

@@ -1,0 +1,52 @@
+# The public interface: these headers are installed and described in the reference, no other. At most
+# 40, each of which compiles alone, includes no header that is not public, and none of CGAL, GMP,
+# MuJoCo or OpenGL (tests/package).
+set(regrasp_public_headers
+  # Values and errors.
+  planner/base/angle.h
+  planner/base/deadline.h
+  planner/base/error.h
+  # Objects.
+  planner/object/mass_properties.h
+  planner/object/mesh_defect.h
+  planner/object/object.h
+  planner/object/polygon.h
+  planner/object/polygon_soup.h
+  planner/object/polyhedron.h
+  planner/object/reading.h
+  planner/object/wrench_frame.h
+  # Grasps.
+  planner/grasp/contact.h
+  planner/grasp/finger_friction.h
+  planner/grasp/force_closure.h
+  planner/grasp/grasp_forces.h
+  planner/grasp/quality.h
+  planner/grasp/required_half_angle.h
+  # Plans: reading, writing, the analytic check.
+  planner/motion/motion_segment.h
+  planner/motion/proof_verdict.h
+  planner/certificate/force_proof.h
+  planner/plan/check.h
+  planner/plan/grasp_io.h
+  planner/plan/locate.h
+  planner/plan/plan.h
+  planner/plan/plan_io.h
+  planner/plan/reason.h
+  planner/plan/snapshot.h
+  planner/plan/switch_region.h
+  # Replay and report.
+  sim/scene/align_script.h
+  sim/scene/settings.h
+  sim/world/cone_margin.h
+  sim/world/replay_observer.h
+  sim/measure/push.h
+  sim/measure/stress.h
+  sim/measure/weakest_finger.h
+  sim/replay/disagreement.h
+  sim/replay/replay.h
+  sim/replay/trials.h
+  report/report.h
+)
+
+# Libraries without a public header are not installed: what draws, writes pages and runs batches.
+set(regrasp_private_libraries picture frames figures render page batch)

@@ -1,0 +1,58 @@
+"""The public headers are few and include no others of the project.
+
+usage: public_headers_test.py --source DIR --headers "FILE;FILE;..." [unittest's own arguments]
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+ARGUMENTS = argparse.Namespace(source="", headers="")
+
+MOST_HEADERS = 40
+
+
+def included(header):
+    """What a header includes of its own project."""
+    return re.findall(r'^\s*#\s*include\s+"([^"]+)"', header.read_text(), re.MULTILINE)
+
+
+def not_public(source, headers):
+    """What public headers include that is not public: pairs of header and included."""
+    return [(header, other) for header in headers
+            for other in included(pathlib.Path(source) / header) if other not in headers]
+
+
+class PublicHeaders(unittest.TestCase):
+    def test_are_few_and_named_once(self):
+        headers = ARGUMENTS.headers.split(";")
+        self.assertLessEqual(len(headers), MOST_HEADERS)
+        self.assertEqual(len(headers), len(set(headers)))
+
+    def test_include_public_headers_only(self):
+        headers = ARGUMENTS.headers.split(";")
+        self.assertGreater(sum(len(included(pathlib.Path(ARGUMENTS.source) / header))
+                               for header in headers), len(headers))
+        self.assertEqual(not_public(ARGUMENTS.source, headers), [])
+
+    def test_one_that_includes_another_header_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder)
+            (source / "a.h").write_text('#include <vector>\n#include "b.h"\n#  include "c.h"  // why\n')
+            (source / "b.h").write_text("")
+            self.assertEqual(not_public(source, ["a.h", "b.h"]), [("a.h", "c.h")])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for name in vars(ARGUMENTS):
+        parser.add_argument(f"--{name}", required=True)
+    _, rest = parser.parse_known_args(namespace=ARGUMENTS)
+    unittest.main(argv=[sys.argv[0], *rest])
+
+
+if __name__ == "__main__":
+    main()
