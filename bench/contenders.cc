@@ -10,7 +10,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/planning/plan_search.h"
 #include "planner/roadmap/plan_roadmap.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/sets/contour/plan_contour.h"
 #include "planner/sets/polygon/plan_polygon.h"
 #include "planner/sets/polyhedron/plan_polyhedron.h"
@@ -68,7 +68,7 @@ Contender General(const Object& object, const ContestSetting& setting) {
 /// The stages of PlanGeneral up to the first sequence. What the plan is worth is found out after
 /// the clock has stopped.
 Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
-  const auto source = std::make_shared<const SurfaceSource>(object);
+  const auto source = std::make_shared<const SurfaceSampler>(object);
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);

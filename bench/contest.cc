@@ -5,11 +5,7 @@
 #include "bench/plan_figures.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/object/polygon.h"
-#include "planner/object/polyhedron.h"
-#include "planner/planning/plan_search.h"
-#include "planner/sampling/boundary_draw.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
 
@@ -19,13 +15,9 @@ constexpr std::uint64_t kDrawSeed = 1;
 
 std::optional<Grasp> Draw(const Object& object, const ContestSetting& setting,
                           const GraspEvaluator& evaluator, RandomStream& random) {
-  if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
-    return DrawAnyGrasp(*polygon, setting.fewest_contacts, setting.most_contacts, evaluator,
-                        random);
-  }
+  const ContactRange contacts = {setting.fewest_contacts, setting.most_contacts};
   try {
-    return DrawOnSurface(dynamic_cast<const Polyhedron&>(object), setting.most_contacts, evaluator,
-                         random, "");
+    return DrawOnSurface(object, contacts, evaluator, random, "");
   } catch (const NoGrasp&) {
     return std::nullopt;
   }

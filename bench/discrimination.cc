@@ -26,7 +26,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "sim/replay/replay.h"
 
 namespace {
@@ -53,7 +53,7 @@ class Body {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Object& object() const { return *file_.object; }
   /// Contacts drawn evenly over the surface where a fingertip has room.
-  [[nodiscard]] const SurfaceSource& source() const { return source_; }
+  [[nodiscard]] const SurfaceSampler& source() const { return source_; }
   [[nodiscard]] bool planar() const { return object().dimension() == 2; }
   [[nodiscard]] int hold() const { return planar() ? 3 : 4; }
 
@@ -66,7 +66,7 @@ class Body {
  private:
   std::string name_;
   ObjectFile file_;
-  SurfaceSource source_;
+  SurfaceSampler source_;
 };
 
 /// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.

@@ -4,7 +4,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {
 
@@ -81,7 +81,7 @@ class TightDraw {
   const Object& object_;
   double half_angle_;
   RandomStream random_;
-  SurfaceSource source_;
+  SurfaceSampler source_;
 };
 
 }  // namespace

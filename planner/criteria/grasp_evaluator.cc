@@ -47,16 +47,23 @@ GraspEvaluator::GraspEvaluator(const Object& object, const GraspCriteria& criter
       hand_(hand),
       same_point_(kSamePoint * object.diameter()) {}
 
+bool GraspEvaluator::AreApart(const Grasp& grasp) const {
+  return HaveDistinctPoints(grasp, same_point_) && KeepApart(grasp, finger_radius());
+}
+
+bool GraspEvaluator::AreReachable(const Grasp& grasp) const {
+  return std::ranges::all_of(grasp, [&](const Contact& contact) {
+    return HasClearance(object_, contact) && CanReach(object_, contact, finger_radius());
+  });
+}
+
 bool GraspEvaluator::CanStand(const Grasp& grasp) const {
-  return HaveDistinctPoints(grasp, same_point_) &&
-         std::all_of(grasp.begin(), grasp.end(),
-                     [&](const Contact& contact) { return HasClearance(object_, contact); }) &&
-         CanHold(object_, grasp, finger_radius());
+  return AreApart(grasp) && AreReachable(grasp);
 }
 
 bool GraspEvaluator::IsGood(const Grasp& grasp) const {
-  return CanStand(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
-         QualityAtLeast(grasp, frame_, half_angle(), min_quality());
+  return AreApart(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
+         QualityAtLeast(grasp, frame_, half_angle(), min_quality()) && AreReachable(grasp);
 }
 
 double GraspEvaluator::Score(const Grasp& grasp) const {

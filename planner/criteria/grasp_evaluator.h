@@ -41,6 +41,8 @@ class GraspEvaluator {
   [[nodiscard]] const Object& object() const { return object_; }
 
  private:
+  [[nodiscard]] bool AreApart(const Grasp& grasp) const;
+  [[nodiscard]] bool AreReachable(const Grasp& grasp) const;
   [[nodiscard]] double ComputeScore(const Grasp& grasp) const;
 
   const Object& object_;

@@ -5,9 +5,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/plan_reach.h"
 
@@ -62,20 +60,6 @@ void CheckFingersFit(const GraspChoice& choice, const Object& object, double fin
     throw InputError(choice.name +
                      ": /contacts: with a finger at each, by their numbers: " + *obstacle);
   }
-}
-
-std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw, const WrenchFrame& frame,
-                                   double half_angle, double min_quality, double same_point,
-                                   double finger_radius) {
-  for (int i = 0; i < kMaxSurfaceDraws; ++i) {
-    Grasp grasp = draw();
-    if (!ContactsAtSamePoint(grasp, same_point) && KeepApart(grasp, finger_radius) &&
-        IsForceClosure(grasp, frame, half_angle) &&
-        QualityAtLeast(grasp, frame, half_angle, min_quality)) {
-      return grasp;
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace regrasp

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 
-#include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
@@ -41,18 +38,5 @@ void CheckGivenGrasp(const GraspChoice& choice, const ContactCount& count, const
 /// Checks that fingers of a radius (reach.h) can hold a grasp that the user gives.
 /// @throws InputError  a contact cannot be reached, or two are too close; the message says why.
 void CheckFingersFit(const GraspChoice& choice, const Object& object, double finger_radius);
-
-/// Draws grasps until one is force closure and of quality `min_quality`, its contacts farther apart
-/// than `same_point`, and fingers of a radius keep apart in it (KeepApart).
-/// @param draw  gives a grasp.
-/// @returns nullopt where none of `kMaxSurfaceDraws` draws serves.
-[[nodiscard]] std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw,
-                                                 const WrenchFrame& frame, double half_angle,
-                                                 double min_quality, double same_point,
-                                                 double finger_radius = 0);
-
-/// Draws before a random grasp is given up: at a microsecond each below a second, and enough for
-/// bodies where one grasp in ten thousand serves.
-inline constexpr int kMaxSurfaceDraws = 200'000;
 
 }  // namespace regrasp

@@ -13,6 +13,7 @@
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/grasp_choice.h"
 #include "planner/planning/plan_result.h"
+#include "planner/sampling/no_grasp.h"
 #include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 #include "planner/search/widest_path.h"
@@ -21,10 +22,7 @@ namespace regrasp {
 
 /// What planners over graphs of grasp sets have in common.
 
-/// Thrown inside a planner for a negative answer: PlanResult::Status::kNoGrasp.
-struct NoGrasp {
-  std::string message;
-};
+/// The answer of a planner that has no grasp: PlanResult::Status::kNoGrasp.
 [[nodiscard]] PlanResult ResultOf(const NoGrasp& none);
 
 /// The answer of a planner whose time was up.

@@ -1,6 +1,6 @@
 #include "planner/registry/plan_planar.h"
 
-#include "planner/sampling/boundary_draw.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
 
@@ -20,10 +20,13 @@ GraspChoice Draw(const Polygon& polygon, GraspChoice choice, RandomUse use,
   const GraspEvaluator evaluator(polygon, {options.half_angle, options.min_quality},
                                  {.fingertip_radius = options.finger_radius});
   RandomStream random(options.seed, use);
-  auto grasp = DrawAnyGrasp(polygon, kLeastContacts, kMostDrawn, evaluator, random,
-                            [&] { options.deadline.Check(); });
-  if (!grasp) return choice;
-  return {GraspChoice::Kind::kGiven, std::move(*grasp), choice.name};
+  try {
+    Grasp grasp = DrawOnSurface(polygon, {kLeastContacts, kMostDrawn}, evaluator, random,
+                                choice.name, [&] { options.deadline.Check(); });
+    return {GraspChoice::Kind::kGiven, std::move(grasp), choice.name};
+  } catch (const NoGrasp&) {
+    return choice;
+  }
 }
 
 bool HasTwoFingers(const GraspChoice& choice) {

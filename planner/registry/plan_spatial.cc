@@ -1,7 +1,7 @@
 #include "planner/registry/plan_spatial.h"
 
 #include "planner/planning/plan_search.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
 
@@ -18,7 +18,7 @@ GraspChoice Draw(const Polyhedron& solid, GraspChoice choice, RandomUse use,
   const GraspEvaluator evaluator(solid, {options.half_angle, options.min_quality},
                                  {.fingertip_radius = options.finger_radius});
   RandomStream random(options.seed, use);
-  choice.grasp = DrawOnSurface(solid, kContacts, evaluator, random, choice.name,
+  choice.grasp = DrawOnSurface(solid, {kContacts, kContacts}, evaluator, random, choice.name,
                                [&] { options.deadline.Check(); });
   choice.kind = GraspChoice::Kind::kGiven;
   return choice;

@@ -10,7 +10,7 @@
 #include "planner/base/error.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/plan_roadmap.h"
-#include "planner/sampling/surface_sample.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {
 

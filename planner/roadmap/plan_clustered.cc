@@ -8,7 +8,7 @@
 #include "planner/planning/plan_search.h"
 #include "planner/roadmap/contact_chain.h"
 #include "planner/roadmap/find_contact.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
 
@@ -53,8 +53,8 @@ class ClusterPlanner {
     } else {
       choice.grasp = choice.kind == Kind::kRandom
                          ? DrawContacts(choice, random)
-                         : DrawOnSurface(solid_, kContacts, evaluator_, random, choice.name,
-                                         [&] { options_.deadline.Check(); });
+                         : DrawOnSurface(solid_, {kContacts, kContacts}, evaluator_, random,
+                                         choice.name, [&] { options_.deadline.Check(); });
       choice.kind = Kind::kGiven;
     }
     return choice;
@@ -69,8 +69,7 @@ class ClusterPlanner {
             drawn.push_back(contacts[random.Index(contacts.size())]);
           return drawn;
         },
-        roadmap_.frame, options_.half_angle, options_.min_quality, SamePoint(),
-        options_.finger_radius);
+        evaluator_);
     if (grasp) return *grasp;
     throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
                   " grasps drawn from " + std::to_string(contacts.size()) +

@@ -16,7 +16,7 @@
 #include "planner/roadmap/roadmap_memory.h"
 #include "planner/roadmap/vertex_quality.h"
 #include "planner/sampling/contact_points.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/search/fewest_switches.h"
 #include "planner/search/widest_path.h"
 
@@ -119,7 +119,7 @@ class RoadmapPlanner {
     RandomStream random(options_.seed, use);
     const GraspEvaluator evaluator(solid_, {options_.half_angle, options_.min_quality},
                                    {.fingertip_radius = options_.finger_radius});
-    choice.grasp = DrawOnSurface(solid_, kContacts, evaluator, random, choice.name,
+    choice.grasp = DrawOnSurface(solid_, {kContacts, kContacts}, evaluator, random, choice.name,
                                  [&] { options_.deadline.Check(); });
     choice.kind = GraspChoice::Kind::kGiven;
     return choice;

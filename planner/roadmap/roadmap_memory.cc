@@ -5,7 +5,7 @@
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/roadmap/combination_rank.h"
-#include "planner/sampling/surface_sample.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {
 
@@ -32,7 +32,7 @@ double ForceClosureShare(const Polyhedron& solid, double half_angle) {
   int count = 0;
   for (int i = 0; i < kTestedGrasps; ++i) {
     Grasp grasp;
-    for (int k = 0; k < kContacts; ++k) grasp.push_back(sampler.Draw(random));
+    for (int k = 0; k < kContacts; ++k) grasp.push_back(sampler.DrawAnywhere(random));
     if (IsForceClosure(grasp, solid.wrench_frame(), half_angle)) ++count;
   }
   return static_cast<double>(count) / kTestedGrasps;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "planner/planning/grasp_choice.h"
+#include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "planner/sampling/sample_elimination.h"
-#include "planner/sampling/surface_sample.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {
 
@@ -28,16 +28,16 @@ Contact TriangleCentroid(const Polyhedron& solid, int triangle) {
 
 std::vector<Contact> DrawCandidates(const Polyhedron& solid, int count, std::uint64_t seed) {
   const SurfaceSampler sampler(solid);
-  const bool fine = IsFine(solid, sampler.area() / count);
+  const bool fine = IsFine(solid, sampler.measure() / count);
   RandomStream random(seed, RandomUse::kContactPoints);
   std::vector<bool> taken(solid.triangles().size(), false);
   std::vector<Contact> candidates;
   for (int draw = 0; draw < count * kCandidatesPerPoint; ++draw) {
     if (!fine) {
-      candidates.push_back(sampler.Draw(random));
+      candidates.push_back(sampler.DrawAnywhere(random));
       continue;
     }
-    const int triangle = sampler.DrawTriangle(random);
+    const int triangle = sampler.DrawFacet(random);
     if (!taken[triangle]) candidates.push_back(TriangleCentroid(solid, triangle));
     taken[triangle] = true;
   }
@@ -54,9 +54,9 @@ std::vector<Contact> KeepFromBorders(const Polyhedron& solid, const std::vector<
   }
   std::vector<Contact> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double room =
+    const double clearance =
         std::min(kBorderMargin * solid.diameter(), kBorderFraction * deepest[all[i].face]);
-    if (distance[i] >= room) kept.push_back(all[i]);
+    if (distance[i] >= clearance) kept.push_back(all[i]);
   }
   return kept;
 }
@@ -67,7 +67,7 @@ std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count, std
   if (count < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
   const std::vector<Contact> candidates =
       KeepFromBorders(solid, DrawCandidates(solid, count, seed));
-  return EliminateSamples(candidates, count, SurfaceSampler(solid).area());
+  return EliminateSamples(candidates, count, SurfaceSampler(solid).measure());
 }
 
 std::vector<Contact> MeshContacts(const Polyhedron& solid, int most, std::uint64_t seed) {

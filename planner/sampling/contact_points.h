@@ -14,8 +14,8 @@ namespace regrasp {
 /// Candidates, `kCandidatesPerPoint` a point, are drawn evenly by area. Where the mesh is fine
 /// enough, no triangle larger than a quarter of the area that a point has for itself, they are
 /// the centroids of triangles drawn so. Candidates near the border of their face are left out, so
-/// that a finger has room: nearer than `kBorderMargin` diameters, or `kBorderFraction` of the
-/// largest distance from the border that any candidate of the face has, whichever is less. The
+/// that a fingertip has clearance: nearer than `kBorderMargin` diameters, or `kBorderFraction` of
+/// the largest distance from the border that any candidate of the face has, whichever is less. The
 /// rest is thinned by EliminateSamples.
 ///
 /// Fewer points come back where the surface is too small for that many different candidates.

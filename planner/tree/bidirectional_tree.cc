@@ -41,7 +41,7 @@ constexpr int kDrawCost = 2;
 }  // namespace
 
 BidirectionalTree::BidirectionalTree(const ContactSet& from, const ContactSet& to,
-                                     const SurfaceSource& source, RandomStream& random,
+                                     const SurfaceSampler& source, RandomStream& random,
                                      SearchSpace& space)
     : source_(source),
       random_(random),
@@ -213,7 +213,7 @@ bool BidirectionalTree::AlignAround(int side, int node, double reach) {
     straight += (drawn.back().p - contact.p).norm();
   }
   if (straight < least_travel) return false;
-  const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
+  const auto serves = [this](const Contact& contact) { return source_.IsValid(contact); };
   if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
   const ContactSet set = space_.Add(drawn);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
@@ -229,7 +229,7 @@ bool BidirectionalTree::SwitchAround(int side, int node, double reach) {
   const int leaving = set[static_cast<int>(random_.Index(set.size()))];
   Grasp drawn = space_.GraspOf(set.Without(leaving));
   drawn.push_back(source_.DrawAround(space_.contact(leaving), reach, random_));
-  if (!space_.IsAdmitted(drawn) || !source_.Serves(drawn.back())) return false;
+  if (!space_.IsAdmitted(drawn) || !source_.IsValid(drawn.back())) return false;
   const int placed = space_.Add(drawn.back());
   if (!space_.CanMeet(leaving, placed)) return false;
   const ContactSet after = set.Without(leaving).With(placed);

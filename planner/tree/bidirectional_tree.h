@@ -7,7 +7,7 @@
 #include <span>
 
 #include "planner/base/random.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/tree/reached_grasps.h"
 
 namespace regrasp {
@@ -24,7 +24,7 @@ namespace regrasp {
 class BidirectionalTree {
  public:
   /// @param from, to  grasps that the space admits, as do all that follow. All outlive this object.
-  BidirectionalTree(const ContactSet& from, const ContactSet& to, const SurfaceSource& source,
+  BidirectionalTree(const ContactSet& from, const ContactSet& to, const SurfaceSampler& source,
                     RandomStream& random, SearchSpace& space);
 
   /// Grows until the trees meet.
@@ -80,7 +80,7 @@ class BidirectionalTree {
   [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const ContactSet& set, int most) const;
   void AddCandidates();
 
-  const SurfaceSource& source_;
+  const SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
   std::array<Tree, 2> trees_;

@@ -6,11 +6,8 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
-#include "planner/object/polygon.h"
-#include "planner/object/polyhedron.h"
 #include "planner/planning/plan_search.h"
-#include "planner/sampling/boundary_draw.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/tree/bidirectional_tree.h"
 #include "planner/tree/face_align.h"
 #include "planner/tree/improve_path.h"
@@ -25,10 +22,9 @@ namespace {
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-/// Contacts of a random grasp in space; in the plane as many as the seed says of these.
-constexpr int kRandomContacts = 4;
-constexpr int kFewestPlanar = 2;
-constexpr int kMostPlanar = 3;
+/// Of a random grasp.
+constexpr ContactRange kSpatialContacts = {4, 4};
+constexpr ContactRange kPlanarContacts = {2, 3};
 
 /// Where the first sequence can't be mended to the quality that is asked for, others are looked for
 /// whose grasps have these shares of it from the beginning, each with this part of the effort.
@@ -209,7 +205,7 @@ class Planner {
   const Object& object_;
   const GeneralPlanOptions& options_;
   GraspEvaluator evaluator_;
-  SurfaceSource source_;
+  SurfaceSampler source_;
   RandomStream random_;
   int fingers_ = FingersOf(object_);
   Reach reach_;
@@ -234,20 +230,8 @@ GraspChoice ResolveGrasp(const Object& object, const GraspChoice& choice, Random
     if (!options.deadline.IsOver()) return;
     throw NoGrasp{choice.name + ": the time was up before a grasp was drawn"};
   };
-  if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
-    fixed.grasp =
-        DrawOnSurface(*solid, kRandomContacts, evaluator, random, choice.name, check_time);
-    return fixed;
-  }
-  const auto& polygon = dynamic_cast<const Polygon&>(object);
-  const auto grasp =
-      DrawAnyGrasp(polygon, kFewestPlanar, kMostPlanar, evaluator, random, check_time);
-  if (!grasp) {
-    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                  " grasps drawn on the boundary is force closure with a quality of at least " +
-                  FormatShort(options.min_quality)};
-  }
-  fixed.grasp = *grasp;
+  const ContactRange contacts = object.dimension() == 3 ? kSpatialContacts : kPlanarContacts;
+  fixed.grasp = DrawOnSurface(object, contacts, evaluator, random, choice.name, check_time);
   return fixed;
 }
 

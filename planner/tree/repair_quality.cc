@@ -23,7 +23,7 @@ constexpr int kMoreRepairSteps = 1;
 
 class QualityRepair {
  public:
-  QualityRepair(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+  QualityRepair(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                 GraspPath& path)
       : source_(source),
         random_(random),
@@ -84,7 +84,7 @@ class QualityRepair {
     return true;
   }
 
-  const SurfaceSource& source_;
+  const SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
   GraspPath& path_;
@@ -93,7 +93,7 @@ class QualityRepair {
 
 }  // namespace
 
-double RepairQuality(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                      GraspPath& path) {
   return QualityRepair(source, random, space, path).Run();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/base/random.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
@@ -15,7 +15,7 @@ namespace regrasp {
 ///
 /// @param path  of force-closure grasps, good or not.
 /// @returns the quality that all of these grasps have then, at most the one that is asked for.
-double RepairQuality(const SurfaceSource& source, RandomStream& random, SearchSpace& space,
+double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                      GraspPath& path);
 
 }  // namespace regrasp

@@ -54,14 +54,14 @@ GraspPath PartOf(const GraspPath& path, const Subpath& stretch) {
   return {GraspNumber(path, stretch.begin), {first + stretch.begin, first + stretch.end}};
 }
 
-void FillUp(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
             SearchSpace& space) {
   while (static_cast<int>(stretch.contacts.size()) < most && space.has_room()) {
     AddContact(space.Add(source.Draw(random)), stretch.contacts);
   }
 }
 
-void FillAround(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
                 SearchSpace& space) {
   const auto own = static_cast<int>(stretch.contacts.size());
   for (int draw = 0; draw < kDraws * (most - own); ++draw) {
@@ -70,7 +70,7 @@ void FillAround(Subpath& stretch, int most, const SurfaceSource& source, RandomS
     const int halvings = static_cast<int>(random.Index(kHalvings + 1));
     const double reach = space.object().diameter() * std::ldexp(0.5, -halvings);
     const Contact contact = source.DrawAround(near, reach, random);
-    if (source.Serves(contact)) AddContact(space.Add(contact), stretch.contacts);
+    if (source.IsValid(contact)) AddContact(space.Add(contact), stretch.contacts);
   }
 }
 

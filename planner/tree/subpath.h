@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
@@ -31,12 +31,12 @@ inline constexpr int kSubpathContacts = 14;
 [[nodiscard]] GraspPath PartOf(const GraspPath& path, const Subpath& stretch);
 
 /// Adds random contacts of the whole surface until there are `most`.
-void FillUp(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
             SearchSpace& space);
 
 /// Adds random contacts near those of the stretch, from half the diameter away to a sixty-fourth,
 /// until there are `most`; fewer where fingers have no room.
-void FillAround(Subpath& stretch, int most, const SurfaceSource& source, RandomStream& random,
+void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
                 SearchSpace& space);
 
 /// Replaces a stretch of a path by another way between its ends.

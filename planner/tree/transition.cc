@@ -25,7 +25,7 @@ constexpr double kHighest = 1.2;
 
 class Descent {
  public:
-  Descent(const Grasp& before, int leaving, const Contact& placed, const SurfaceSource& source,
+  Descent(const Grasp& before, int leaving, const Contact& placed, const SurfaceSampler& source,
           RandomStream& random, SearchSpace& space)
       : leaving_(leaving),
         source_(source),
@@ -64,7 +64,7 @@ class Descent {
     const Contact placed = source_.DrawNear(placed_, reach, random_);
     const double aim = lowest_ + kWorthwhile * (level_ - lowest_);
     if (!space_.HoldsAt(After(held, placed), aim) || !space_.IsAdmitted(held)) return false;
-    const auto serves = [this](const Contact& contact) { return source_.Serves(contact); };
+    const auto serves = [this](const Contact& contact) { return source_.IsValid(contact); };
     if (!serves(placed) || !std::ranges::all_of(held, serves)) return false;
     level_ = aim;
     Lower(held, placed);
@@ -98,7 +98,7 @@ class Descent {
   }
 
   int leaving_;
-  const SurfaceSource& source_;
+  const SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
   Grasp held_;
@@ -112,7 +112,7 @@ class Descent {
 }  // namespace
 
 std::optional<Transition> FindTransition(const Grasp& before, int leaving, const Contact& placed,
-                                         const SurfaceSource& source, RandomStream& random,
+                                         const SurfaceSampler& source, RandomStream& random,
                                          SearchSpace& space) {
   return Descent(before, leaving, placed, source, random, space).Find();
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/tree/search_space.h"
 
 namespace regrasp {
@@ -30,7 +30,7 @@ struct Transition {
 /// @returns nullopt where the moves came to nothing: no proof that there is no such switch.
 [[nodiscard]] std::optional<Transition> FindTransition(const Grasp& before, int leaving,
                                                        const Contact& placed,
-                                                       const SurfaceSource& source,
+                                                       const SurfaceSampler& source,
                                                        RandomStream& random, SearchSpace& space);
 
 }  // namespace regrasp

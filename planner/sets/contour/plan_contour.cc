@@ -5,7 +5,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/planning/plan_search.h"
-#include "planner/sampling/boundary_draw.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sets/contour/graph_memory.h"
 
 namespace regrasp {
@@ -97,15 +97,8 @@ class ContourPlanner {
                                   draw, evaluator_, random);
       return;
     }
-    auto grasp = DrawAnyGrasp(polygon_, kContacts, kContacts, evaluator_, random,
-                              [&] { options_.deadline.Check(); });
-    if (!grasp) {
-      throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                    " grasps of 2 contacts drawn on the boundary is force closure with a quality "
-                    "of at least " +
-                    FormatShort(options_.min_quality)};
-    }
-    choice.grasp = std::move(*grasp);
+    choice.grasp = DrawOnSurface(polygon_, {kContacts, kContacts}, evaluator_, random, choice.name,
+                                 [&] { options_.deadline.Check(); });
   }
 
   [[nodiscard]] ContourSequenceBuilder::End Locate(const GraspChoice& choice) const {

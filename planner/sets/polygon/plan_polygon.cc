@@ -11,7 +11,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/planning/plan_search.h"
-#include "planner/sampling/boundary_draw.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sets/polygon/attached_graph.h"
 #include "planner/sets/polygon/graph_cells.h"
 #include "planner/sets/polygon/graph_memory.h"
@@ -91,15 +91,8 @@ class PolygonPlanner {
       choice.grasp = DrawFromSets(choice, std::move(pools), draw, evaluator_, random);
       return;
     }
-    if (auto grasp = DrawAnyGrasp(polygon_, kLeastContacts, kMostDrawn, evaluator_, random,
-                                  [&] { options_.deadline.Check(); })) {
-      choice.grasp = std::move(*grasp);
-      return;
-    }
-    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                  " grasps of 2 contacts and as many of 3 drawn on the boundary is force closure "
-                  "with a quality of at least " +
-                  FormatShort(options_.min_quality)};
+    choice.grasp = DrawOnSurface(polygon_, {kLeastContacts, kMostDrawn}, evaluator_, random,
+                                 choice.name, [&] { options_.deadline.Check(); });
   }
 
   static std::set<int> SetsOf(const std::vector<Attachment>& attachments) {

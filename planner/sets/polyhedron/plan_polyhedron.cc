@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/planning/plan_search.h"
-#include "planner/sampling/surface_draw.h"
+#include "planner/sampling/draw_grasp.h"
 #include "planner/sets/polyhedron/graph_memory.h"
 #include "planner/sets/polyhedron/sequence_builder.h"
 
@@ -133,7 +133,7 @@ class PolyhedronPlanner {
                                   draw, evaluator_, random);
       return;
     }
-    choice.grasp = DrawOnSurface(solid_, kContacts, evaluator_, random, choice.name,
+    choice.grasp = DrawOnSurface(solid_, {kContacts, kContacts}, evaluator_, random, choice.name,
                                  [&] { options_.deadline.Check(); });
   }
 

@@ -3,13 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/grasp/force_closure.h"
-#include "planner/grasp/quality.h"
-#include "planner/sampling/surface_sample.h"
 #include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {
@@ -82,38 +77,6 @@ TEST(CheckGivenGrasp, RefusesTwoContactsAtOnePoint) {
   choice.grasp[3] = choice.grasp[2];
   EXPECT_THAT([&] { Check(choice, 20); },
               ThrowsMessage<InputError>(HasSubstr("contacts 2 and 3 are at the same point")));
-}
-
-std::optional<Grasp> DrawOnCube(const Polyhedron& cube, double degrees, double min_quality) {
-  static RandomStream random(1, RandomUse::kStart);
-  const SurfaceSampler sampler(cube);
-  const auto draw = [&] {
-    Grasp grasp;
-    while (grasp.size() < 4) grasp.push_back(sampler.Draw(random));
-    return grasp;
-  };
-  return DrawGoodGrasp(draw, cube.wrench_frame(), Radians(degrees), min_quality, kApart);
-}
-
-TEST(DrawGoodGrasp, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
-  const Polyhedron cube = MakeCube();
-  std::vector<int> on_face(cube.face_count(), 0);
-  constexpr int kGrasps = 48;
-  for (int i = 0; i < kGrasps; ++i) {
-    const auto grasp = DrawOnCube(cube, 20, 0.02);
-    ASSERT_TRUE(grasp.has_value());
-    ASSERT_EQ(grasp->size(), 4u);
-    EXPECT_TRUE(IsForceClosure(*grasp, cube.wrench_frame(), Radians(20)));
-    EXPECT_GE(ComputeQuality(*grasp, cube.wrench_frame(), Radians(20)).upper, 0.02);
-    for (const Contact& contact : *grasp) ++on_face[contact.face];
-  }
-  // By symmetry a sixth each; the contacts of one grasp are not independent, hence the wide bound.
-  for (const int count : on_face) EXPECT_NEAR(count, 4 * kGrasps / 6, 4 * kGrasps / 12);
-}
-
-TEST(DrawGoodGrasp, GivesUpWhereNoGraspIsThatGood) {
-  // No grasp resists more than its whole squeeze.
-  EXPECT_FALSE(DrawOnCube(MakeCube(), 5, 1.1).has_value());
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
   const ObjectFile file = ReadModel(GetParam().model);
   const Object& object = *file.object;
   const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
-  const SurfaceSource source(object);
+  const SurfaceSampler source(object);
   RandomStream draws(11, RandomUse::kStart);
   int joined = 0;
   for (std::uint64_t i = 0; i < 6; ++i) {
@@ -102,7 +102,7 @@ TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
   SearchSpace space(*file.object, {Radians(0.1), 0, 0});
   space.SetLimits({.most_tests = 2000});
   RandomStream random(0, RandomUse::kCandidates);
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   BidirectionalTree trees(Take(from, space), Take(to, space), source, random, space);
   EXPECT_FALSE(trees.Join());
   EXPECT_GE(space.tests(), 2000);
@@ -115,7 +115,7 @@ TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
   const Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
   SearchSpace space(*file.object, {Radians(25), 0, 0});
   RandomStream random(0, RandomUse::kCandidates);
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   const ContactSet set = Take(grasp, space);
   const auto path = BidirectionalTree(set, set, source, random, space).Join();
   ASSERT_TRUE(path);

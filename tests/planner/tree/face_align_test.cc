@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, FaceAlignCases,
 TEST_P(FaceAlignCases, AlignsAcrossEdgesAreProvedAndLegalBothWays) {
   const ObjectFile file = ReadModel(GetParam().model);
   const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   RandomStream random(11, RandomUse::kStart);
   int across = 0;
   for (int i = 0; i < 400 && across < 20; ++i) {
@@ -137,7 +137,7 @@ TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
   // align on one tuple of faces leads anywhere else.
   const ObjectFile file = ReadModel(GetParam().model);
   const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   RandomStream random(5, RandomUse::kStart);
   int joined = 0;
   for (int i = 0; i < 4000 && joined < 3; ++i) {
@@ -166,7 +166,7 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
   const ObjectFile file = ReadModel("cube.obj");
   const Object& cube = *file.object;
   SearchSpace space(cube, {Radians(25), 0, 0});
-  const SurfaceSource source(cube);
+  const SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
   const auto draw = [&](int face) { return space.Add(source.DrawOn(face, random)); };
   int opposite = 1;
@@ -215,7 +215,7 @@ TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
   // from it than at both ends.
   const ObjectFile file = ReadModel("cube.obj");
   const Object& cube = *file.object;
-  const SurfaceSource source(cube);
+  const SurfaceSampler source(cube);
   RandomStream random(2, RandomUse::kStart);
   const GraspDemands demands{Radians(25), 0, 0};
   int lost = 0;
@@ -248,7 +248,7 @@ TEST(FaceAlignTest, ThickFingersDoNotTurnWhereTheyWouldMeet) {
   const GraspDemands points{Radians(30), 0, 0};
   GraspDemands thick = points;
   thick.finger_radius = cube.diameter() / 10;
-  const SurfaceSource source(cube);
+  const SurfaceSampler source(cube);
   RandomStream random(3, RandomUse::kStart);
   int kept = 0;
   int blocked = 0;

@@ -58,7 +58,7 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
   }
 
   ObjectFile file_;
-  SurfaceSource source_;
+  SurfaceSampler source_;
   GraspDemands demands_;
 };
 INSTANTIATE_TEST_SUITE_P(Bodies, ImprovePathCases,
@@ -85,9 +85,11 @@ TEST_P(ImprovePathCases, LessTravelIsNeverMoreStepsAndIsWhatTravelOfSays) {
 
 TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
   constexpr double kQuality = 0.01;
+  // In the plane paths are found at once, and few of them pass weak grasps.
+  const int seeds = GetParam().contacts == 3 ? 24 : 6;
   int mended = 0;
   int weak = 0;
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (int seed = 0; seed < seeds; ++seed) {
     SearchSpace space(*file_.object, demands_);
     RandomStream random(seed, RandomUse::kCandidates);
     GraspPath path = ShortcutPath(Draw(kQuality, seed, space), source_, random, space);
@@ -105,7 +107,7 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
     mended += reached == kQuality ? 1 : 0;
   }
   EXPECT_GT(weak, 0);
-  EXPECT_GT(mended, 3);
+  EXPECT_GT(mended, seeds / 2);
 }
 
 TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {

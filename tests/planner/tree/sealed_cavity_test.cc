@@ -9,8 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/planning/grasp_choice.h"
 #include "planner/sampling/contact_points.h"
-#include "planner/sampling/surface_sample.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 #include "tests/planner/object/meshes.h"
 
@@ -57,7 +56,7 @@ class SealedCavity : public ::testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(CavityFirst, SealedCavity, ::testing::Bool());
 
 TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
-  const SurfaceSource source(hollow_);
+  const SurfaceSampler source(hollow_);
   Contact contact = source.Draw(random_);
   for (int i = 0; i < 300; ++i) {
     outside_.See(contact = source.Draw(random_));
@@ -70,8 +69,8 @@ TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
 
 TEST_P(SealedCavity, RoadmapsHaveNoContactPointsThere) {
   const SurfaceSampler sampler(hollow_);
-  for (int i = 0; i < 300; ++i) outside_.See(sampler.Draw(random_));
-  EXPECT_NEAR(sampler.area(), 24, 1e-12);
+  for (int i = 0; i < 300; ++i) outside_.See(sampler.DrawAnywhere(random_));
+  EXPECT_NEAR(sampler.measure(), 24, 1e-12);
   for (const Contact& contact : SpreadContactPoints(hollow_, 50, 1)) outside_.See(contact);
   EXPECT_EQ(outside_.seen(), 350);
 }

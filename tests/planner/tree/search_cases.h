@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planner/base/angle.h"
-#include "planner/sampling/surface_source.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/tree/search_space.h"
 
 namespace regrasp {
@@ -17,7 +17,7 @@ namespace regrasp {
 /// A random grasp of so many contacts that the demands admit.
 [[nodiscard]] inline Grasp DrawGrasp(const Object& object, int contacts,
                                      const GraspDemands& demands, RandomStream& random) {
-  const SurfaceSource source(object);
+  const SurfaceSampler source(object);
   SearchSpace space(object, demands);
   constexpr int kMostDraws = 1'000'000;
   for (int draw = 0; draw < kMostDraws; ++draw) {

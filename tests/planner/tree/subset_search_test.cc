@@ -176,7 +176,7 @@ TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
   const ObjectFile file = ReadModel("cube.obj");
   const GraspDemands demands{Radians(20), 0, 0};
   RandomStream random(3, RandomUse::kStart);
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   int aligns = 0;
   for (int i = 0; i < 20; ++i) {
     SearchSpace space(*file.object, demands);

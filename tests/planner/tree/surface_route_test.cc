@@ -38,7 +38,7 @@ double ShortestOver(const FaceBorder& edge, const Vector3d& p, const Vector3d& q
 TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
   const ObjectFile file = ReadModel("cube.obj");
   const Object& cube = *file.object;
-  const SurfaceSource source(cube);
+  const SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
   int over_edges = 0;
   for (int i = 0; i < 200; ++i) {
@@ -66,7 +66,7 @@ TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
 
 TEST(SurfaceRoute, OnOneFaceIsStraight) {
   const ObjectFile file = ReadModel("cube.obj");
-  const SurfaceSource source(*file.object);
+  const SurfaceSampler source(*file.object);
   RandomStream random(2, RandomUse::kStart);
   const Contact from = source.Draw(random);
   const Contact to = source.DrawOn(from.face, random);
@@ -79,7 +79,7 @@ TEST(SurfaceRoute, OnOneFaceIsStraight) {
 TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
   const ObjectFile file = ReadModel("ellipsoid1000.obj");
   const Object& body = *file.object;
-  const SurfaceSource source(body);
+  const SurfaceSampler source(body);
   RandomStream random(3, RandomUse::kStart);
   int longest = 0;
   for (int i = 0; i < 100; ++i) {

@@ -26,7 +26,7 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
   const ObjectFile file = ReadModel("pyramid.obj");
   const Object& object = *file.object;
   const GraspDemands demands{Radians(5), 0, 0};
-  const SurfaceSource source(object);
+  const SurfaceSampler source(object);
   RandomStream random(3, RandomUse::kCandidates);
   RandomStream draws(3, RandomUse::kStart);
   int found = 0, moved = 0;
@@ -63,7 +63,7 @@ TEST(FindTransition, FindsNoneWhereTheLaterFacesHoldNothing) {
   const ObjectFile file = ReadModel("cube.obj");
   const Object& object = *file.object;
   const GraspDemands demands{Radians(10), 0, 0};
-  const SurfaceSource source(object);
+  const SurfaceSampler source(object);
   RandomStream random(5, RandomUse::kCandidates);
   RandomStream draws(5, RandomUse::kStart);
   int tried = 0;
@@ -86,7 +86,7 @@ TEST(FindTransition, IsTheSameForTheSameSeed) {
   const ObjectFile file = ReadModel("pyramid.obj");
   const Object& object = *file.object;
   const GraspDemands demands{Radians(8), 0, 0};
-  const SurfaceSource source(object);
+  const SurfaceSampler source(object);
   int found = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto find = [&] {

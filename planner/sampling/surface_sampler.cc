@@ -1,0 +1,177 @@
+#include "planner/sampling/surface_sampler.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "planner/criteria/clearance.h"
+#include "planner/criteria/reach.h"
+#include "planner/grasp/edge_contact.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+
+namespace regrasp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Points this near a face, over the diameter, are on it: what rounding makes of them.
+constexpr double kOffFace = 1e-9;
+
+/// The nearest face is looked for within this share of the reach first.
+constexpr double kFirstLook = 1.0 / 64;
+
+}  // namespace
+
+double TriangleArea(const Polyhedron& solid, int triangle) {
+  const auto& [a, b, c] = solid.triangles()[triangle];
+  const Vector3d ab = solid.vertices()[b] - solid.vertices()[a];
+  const Vector3d ac = solid.vertices()[c] - solid.vertices()[a];
+  return ab.cross(ac).norm() / 2;
+}
+
+Contact ContactOnTriangle(const Polyhedron& solid, int triangle, const Vector3d& p) {
+  const int face = solid.face_of_triangle(triangle);
+  return {solid.ClosestPoint(face, p), solid.inward_normal(face), face};
+}
+
+SurfaceSampler::SurfaceSampler(const Object& object, double finger_radius, double from_border)
+    : object_(object),
+      finger_radius_(finger_radius),
+      from_border_(from_border),
+      solid_(dynamic_cast<const Polyhedron*>(&object)),
+      polygon_(dynamic_cast<const Polygon*>(&object)) {
+  for (int face = 0; face < object.face_count(); ++face) {
+    first_facet_.push_back(static_cast<int>(facets_.size()));
+    if (object.IsEnclosed(face)) continue;
+    if (solid_ == nullptr) {
+      facets_.push_back(face);
+    } else {
+      const std::vector<int>& triangles = solid_->faces()[face].triangles;
+      facets_.insert(facets_.end(), triangles.begin(), triangles.end());
+    }
+  }
+  first_facet_.push_back(static_cast<int>(facets_.size()));
+  double sum = 0;
+  for (const int facet : facets_) up_to_.push_back(sum += MeasureOf(facet));
+}
+
+double SurfaceSampler::MeasureOf(int facet) const {
+  return solid_ == nullptr ? polygon_->face_measure(facet) : TriangleArea(*solid_, facet);
+}
+
+bool SurfaceSampler::IsValid(const Contact& contact) const {
+  return object_.DistanceToBorder(contact.face, contact.p) >= from_border_ * object_.diameter() &&
+         HasClearance(object_, contact) && CanReach(object_, contact, finger_radius_);
+}
+
+SurfaceSampler::Range SurfaceSampler::RangeOf(int face) const {
+  const int first = first_facet_[face];
+  return {first == 0 ? 0 : up_to_[first - 1], up_to_[first_facet_[face + 1] - 1]};
+}
+
+double SurfaceSampler::DrawSum(const Range& range, RandomStream& random) const {
+  return range.from + random.Uniform() * (range.to - range.from);
+}
+
+std::size_t SurfaceSampler::PlaceAt(double sum) const {
+  const auto above = std::upper_bound(up_to_.begin(), up_to_.end(), sum);
+  return std::min<std::size_t>(above - up_to_.begin(), up_to_.size() - 1);
+}
+
+int SurfaceSampler::DrawFacet(RandomStream& random) const {
+  return facets_[PlaceAt(DrawSum(Everywhere(), random))];
+}
+
+Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) const {
+  const double sum = DrawSum(range, random);
+  const std::size_t place = PlaceAt(sum);
+  const int facet = facets_[place];
+  if (solid_ == nullptr) {
+    const double along = sum - (place == 0 ? 0 : up_to_[place - 1]);
+    return ContactAt(*polygon_, facet, std::min(along / MeasureOf(facet), 1.0));
+  }
+  const auto& [a, b, c] = solid_->triangles()[facet];
+  const auto& v = solid_->vertices();
+  const double root = std::sqrt(random.Uniform());
+  const double along = random.Uniform();
+  const Vector3d p = (1 - root) * v[a] + root * (1 - along) * v[b] + root * along * v[c];
+  return ContactOnTriangle(*solid_, facet, p);
+}
+
+Contact SurfaceSampler::DrawAnywhere(RandomStream& random) const {
+  return DrawIn(Everywhere(), random);
+}
+
+std::optional<Contact> SurfaceSampler::DrawValid(const Range& range, RandomStream& random) const {
+  for (int draw = 0; draw < kMostDraws; ++draw) {
+    const Contact contact = DrawIn(range, random);
+    if (IsValid(contact)) return contact;
+  }
+  return std::nullopt;
+}
+
+std::optional<Contact> SurfaceSampler::TryDraw(RandomStream& random) const {
+  return DrawValid(Everywhere(), random);
+}
+
+Contact SurfaceSampler::Draw(RandomStream& random) const {
+  const auto valid = DrawValid(Everywhere(), random);
+  return valid ? *valid : DrawAnywhere(random);
+}
+
+Contact SurfaceSampler::DrawOn(int face, RandomStream& random) const {
+  const auto valid = DrawValid(RangeOf(face), random);
+  return valid ? *valid : DrawIn(RangeOf(face), random);
+}
+
+Vector3d SurfaceSampler::DrawBeside(const Contact& contact, double reach,
+                                    RandomStream& random) const {
+  const bool space = object_.dimension() == 3;
+  const Vector3d across = space ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
+  const Vector3d along = contact.n.cross(across);
+  const double u = (2 * random.Uniform() - 1) * reach;
+  const double v = space ? (2 * random.Uniform() - 1) * reach : 0;
+  return contact.p + u * along + v * across;
+}
+
+Contact SurfaceSampler::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
+  const Vector3d beside = DrawBeside(contact, reach, random);
+  const Vector3d on_face = object_.ClosestPoint(contact.face, beside);
+  const bool is_inside = (on_face - beside).norm() <= kOffFace * object_.diameter();
+  return {is_inside ? beside : DrawInwards(contact.face, on_face, reach, random), contact.n,
+          contact.face};
+}
+
+Contact SurfaceSampler::DrawAround(const Contact& contact, double reach,
+                                   RandomStream& random) const {
+  const Vector3d p = DrawBeside(contact, reach, random);
+  // Looking for the nearest face far away is dear, and most are near.
+  for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
+    std::vector<int> faces = object_.FacesNear(p, radius);
+    std::erase_if(faces, [&](int face) { return object_.IsEnclosed(face); });
+    if (faces.empty()) continue;
+    // Where an edge is nearest, so are both of its faces.
+    const auto distance = [&](int face) { return (object_.ClosestPoint(face, p) - p).norm(); };
+    const double nearest = distance(faces.front()) + kOffFace * object_.diameter();
+    const auto farther = std::ranges::find_if(faces, [&](int f) { return distance(f) > nearest; });
+    const int face = faces[random.Index(static_cast<std::uint64_t>(farther - faces.begin()))];
+    const Vector3d n = object_.inward_normal(face);
+    const Vector3d on_face = object_.ClosestPoint(face, p);
+    const bool is_inside = (on_face - p).cross(n).norm() <= kOffFace * object_.diameter();
+    return {is_inside ? on_face : DrawInwards(face, on_face, reach, random), n, face};
+  }
+  return contact;
+}
+
+Vector3d SurfaceSampler::DrawInwards(int face, const Vector3d& border, double reach,
+                                     RandomStream& random) const {
+  const Vector3d way = DrawIn(RangeOf(face), random).p - border;
+  // The best grasps are the widest ones: most of the draws stay as near to the border as they may.
+  const double u = random.Uniform();
+  const double inwards = 5 * kFromBorder * object_.diameter() + u * u * u * u * reach;
+  return object_.ClosestPoint(face, border + std::min(1.0, inwards / way.norm()) * way);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/grasp/contact.h"
+#include "planner/object/object.h"
+
+namespace regrasp {
+
+class Polygon;
+class Polyhedron;
+
+/// Random contacts on an object's surface, in space and in the plane; never in a sealed cavity.
+///
+/// Its *facets* are the triangles of a solid (Turk 1990) and the edges of a polygon.
+class SurfaceSampler {
+ public:
+  /// Over the diameter: on the border of its face the least slip takes a finger to the next face.
+  /// Far more than a good grasp slips.
+  static constexpr double kFromBorder = 2e-4;
+  /// Contacts drawn for one that is valid.
+  static constexpr int kMostDraws = 1000;
+
+  /// @param object  outlives this object.
+  /// @param finger_radius  its unit of length; 0: points.
+  /// @param from_border  least distance of a valid contact from the border of its face, diameters.
+  explicit SurfaceSampler(const Object& object, double finger_radius = 0,
+                          double from_border = kFromBorder);
+
+  /// Whether a finger can be placed at a contact (HasClearance, CanReach), away from the border of
+  /// its face.
+  [[nodiscard]] bool IsValid(const Contact& contact) const;
+
+  /// A facet, by its measure: a triangle of the solid or an edge of the polygon.
+  [[nodiscard]] int DrawFacet(RandomStream& random) const;
+
+  /// Evenly over the whole surface, valid or not.
+  [[nodiscard]] Contact DrawAnywhere(RandomStream& random) const;
+  /// Evenly over the whole surface where it is valid; nullopt where none of kMostDraws draws is.
+  [[nodiscard]] std::optional<Contact> TryDraw(RandomStream& random) const;
+
+  /// Evenly over the whole surface or over one face (of no cavity), where it is valid. On nearly
+  /// all of a surface contacts are: where none of kMostDraws draws is, one that is not.
+  [[nodiscard]] Contact Draw(RandomStream& random) const;
+  [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
+
+  /// Near a contact, on its face: beside it by no more than `reach` along each axis of the face, or
+  /// where that is off the face about as far from the border there. May be invalid: that costs more
+  /// to find out than whether the contact makes a grasp.
+  [[nodiscard]] Contact DrawNear(const Contact& contact, double reach, RandomStream& random) const;
+  /// The same on whatever face is there; the contact itself where none is.
+  [[nodiscard]] Contact DrawAround(const Contact& contact, double reach,
+                                   RandomStream& random) const;
+
+  /// Area of the surface, length of the boundary.
+  [[nodiscard]] double measure() const { return up_to_.back(); }
+
+ private:
+  /// Of the running sums: some facets that follow each other.
+  struct Range {
+    double from, to;
+  };
+
+  [[nodiscard]] double MeasureOf(int facet) const;
+  [[nodiscard]] Range Everywhere() const { return {0, measure()}; }
+  [[nodiscard]] Range RangeOf(int face) const;
+  /// A place among the running sums, and the facet there by its place in facets_.
+  [[nodiscard]] double DrawSum(const Range& range, RandomStream& random) const;
+  [[nodiscard]] std::size_t PlaceAt(double sum) const;
+  [[nodiscard]] Contact DrawIn(const Range& range, RandomStream& random) const;
+  [[nodiscard]] std::optional<Contact> DrawValid(const Range& range, RandomStream& random) const;
+  /// A point of the plane that touches at the contact, in the plane of its line.
+  [[nodiscard]] Eigen::Vector3d DrawBeside(const Contact& contact, double reach,
+                                           RandomStream& random) const;
+  /// A point of the face no farther than `reach` from a point of its border.
+  [[nodiscard]] Eigen::Vector3d DrawInwards(int face, const Eigen::Vector3d& border, double reach,
+                                            RandomStream& random) const;
+
+  const Object& object_;
+  double finger_radius_;
+  double from_border_;
+  const Polyhedron* solid_;       ///< the object, in space
+  const Polygon* polygon_;        ///< the object, in the plane
+  std::vector<int> facets_;       ///< those of one face together
+  std::vector<double> up_to_;     ///< running sums of their measures
+  std::vector<int> first_facet_;  ///< by face: place in facets_, and their number at the end
+};
+
+[[nodiscard]] double TriangleArea(const Polyhedron& solid, int triangle);
+
+/// The contact at a point of a triangle of the solid: its face's normal, p on the face.
+[[nodiscard]] Contact ContactOnTriangle(const Polyhedron& solid, int triangle,
+                                        const Eigen::Vector3d& p);
+
+}  // namespace regrasp
