@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/base/markup.h"
+#include "report/markup.h"
 
 namespace regrasp {
 
@@ -20,39 +20,38 @@ JunitOutcome OutcomeOf(Verdict verdict) {
   return JunitOutcome::kError;
 }
 
-std::string FormatOutcome(const JunitCase& result) {
-  const std::string message = Attribute("message", result.message);
+Element MakeCase(const std::string& suite, const JunitCase& result) {
+  Element element("testcase", {{"classname", suite}, {"name", result.name}});
+  const Attributes message = {{"message", result.message}};
   switch (result.outcome) {
     case JunitOutcome::kPassed:
-      return "";
+      break;
     case JunitOutcome::kFailed:
-      return Element("failure", message, EscapeMarkup(result.text));
+      element.Add(Element("failure", message, result.text));
+      break;
     case JunitOutcome::kError:
-      return Element("error", message, EscapeMarkup(result.text));
+      element.Add(Element("error", message, result.text));
+      break;
     case JunitOutcome::kSkipped:
-      return "<skipped/>";
+      element.Add(Element("skipped"));
+      break;
   }
-  return "";
+  return element;
 }
 
-std::string FormatCase(const std::string& suite, const JunitCase& result) {
-  const std::string head =
-      "  <testcase " + Attribute("classname", suite) + " " + Attribute("name", result.name);
-  const std::string outcome = FormatOutcome(result);
-  return outcome.empty() ? head + "/>\n" : head + ">" + outcome + "</testcase>\n";
-}
-
-std::string FormatSuite(const JunitSuite& suite) {
+Element MakeSuite(const JunitSuite& suite) {
   const auto count = [&](JunitOutcome outcome) {
     return std::to_string(std::ranges::count(suite.cases, outcome, &JunitCase::outcome));
   };
-  std::string xml = " <testsuite " + Attribute("name", suite.name) + " " +
-                    Attribute("tests", std::to_string(suite.cases.size())) + " " +
-                    Attribute("failures", count(JunitOutcome::kFailed)) + " " +
-                    Attribute("errors", count(JunitOutcome::kError)) + " " +
-                    Attribute("skipped", count(JunitOutcome::kSkipped)) + ">\n";
-  for (const JunitCase& result : suite.cases) xml += FormatCase(suite.name, result);
-  return xml + " </testsuite>\n";
+  std::vector<Element> cases;
+  for (const JunitCase& result : suite.cases) cases.push_back(MakeCase(suite.name, result));
+  return Element("testsuite",
+                 {{"name", suite.name},
+                  {"tests", std::to_string(suite.cases.size())},
+                  {"failures", count(JunitOutcome::kFailed)},
+                  {"errors", count(JunitOutcome::kError)},
+                  {"skipped", count(JunitOutcome::kSkipped)}},
+                 cases);
 }
 
 }  // namespace
@@ -68,9 +67,10 @@ JunitSuite MakeJunitSuite(const Report& report) {
 }
 
 std::string FormatJunit(const std::vector<JunitSuite>& suites) {
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  for (const JunitSuite& suite : suites) xml += FormatSuite(suite);
-  return xml + "</testsuites>\n";
+  std::vector<Element> elements;
+  for (const JunitSuite& suite : suites) elements.push_back(MakeSuite(suite));
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
+         Element("testsuites", {}, elements).Format() + "\n";
 }
 
 }  // namespace regrasp

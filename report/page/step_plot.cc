@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "planner/base/markup.h"
 #include "planner/base/number.h"
 #include "report/page/data_uri.h"
 #include "report/page/plot_axis.h"
@@ -21,7 +20,7 @@ constexpr double kRight = 12;
 constexpr double kTop = 30;
 constexpr double kBottom = 46;
 constexpr double kMarkRadius = 3.6;
-constexpr double kTickRoom = 6;    ///< between an axis and its numbers
+constexpr double kTickGap = 6;     ///< between an axis and its numbers
 constexpr double kHalfFont = 4.5;  ///< from the middle of a line of text to its base line
 
 /// More labels than this crowd the horizontal axis.
@@ -33,31 +32,29 @@ constexpr int kDecimals = 2;
 
 std::string Number(double value) { return FormatFixed(value, kDecimals); }
 
-std::string Numbered(std::string_view name, double value) {
-  return Attribute(name, Number(value)) + " ";
+Element Line(std::string_view style, double x1, double y1, double x2, double y2) {
+  return Element("line", {{"class", std::string(style)},
+                          {"x1", Number(x1)},
+                          {"y1", Number(y1)},
+                          {"x2", Number(x2)},
+                          {"y2", Number(y2)}});
 }
 
-std::string Line(std::string_view style, double x1, double y1, double x2, double y2) {
-  return Element("line",
-                 Attribute("class", style) + " " + Numbered("x1", x1) + Numbered("y1", y1) +
-                     Numbered("x2", x2) + Numbered("y2", y2),
-                 "");
-}
-
-std::string Box(std::string_view style, double x, double y, double width, double height) {
-  return Element("rect",
-                 Attribute("class", style) + " " + Numbered("x", x) + Numbered("y", y) +
-                     Numbered("width", width) + Numbered("height", height),
-                 "");
+Element Box(std::string_view style, double x, double y, double width, double height) {
+  return Element("rect", {{"class", std::string(style)},
+                          {"x", Number(x)},
+                          {"y", Number(y)},
+                          {"width", Number(width)},
+                          {"height", Number(height)}});
 }
 
 /// @param anchor  "start", "middle" or "end".
-std::string Text(std::string_view anchor, double x, double y, std::string_view text,
-                 std::string_view more = "") {
-  return Element("text",
-                 Numbered("x", x) + Numbered("y", y) + Attribute("text-anchor", anchor) + " " +
-                     std::string(more),
-                 EscapeMarkup(text));
+Element Text(std::string_view anchor, double x, double y, std::string_view text,
+             const Attributes& more = {}) {
+  Attributes attributes = {
+      {"x", Number(x)}, {"y", Number(y)}, {"text-anchor", std::string(anchor)}};
+  attributes.insert(attributes.end(), more.begin(), more.end());
+  return Element("text", attributes, text);
 }
 
 class Drawing {
@@ -65,16 +62,19 @@ class Drawing {
   explicit Drawing(const StepPlot& plot)
       : plot_(plot), steps_(plot.series.front().values.size()), axis_(MakeAxis(plot)) {}
 
-  [[nodiscard]] std::string Format() const {
-    std::string svg = Element("title", "", EscapeMarkup(plot_.title));
-    svg += Skipped() + Beyond() + VerticalAxis() + StepAxis() + Limit();
-    for (std::size_t i = 0; i < plot_.series.size(); ++i) svg += Series(i);
-    svg += Legend();
-    return Element(
-        "svg",
-        "xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" " +
-            Attribute("viewBox", "0 0 " + FormatShort(kWidth) + " " + FormatShort(kHeight)),
-        svg);
+  [[nodiscard]] Element Draw() const {
+    Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                        {"role", "img"},
+                        {"viewBox", "0 0 " + FormatShort(kWidth) + " " + FormatShort(kHeight)}});
+    svg.Add(Element("title", {}, plot_.title));
+    AddSkipped(svg);
+    AddBeyond(svg);
+    AddVerticalAxis(svg);
+    AddStepAxis(svg);
+    AddLimit(svg);
+    for (std::size_t i = 0; i < plot_.series.size(); ++i) svg.Add(Series(i));
+    svg.Add(Legend());
+    return svg;
   }
 
  private:
@@ -97,60 +97,60 @@ class Drawing {
   }
 
   /// What follows the step that failed.
-  [[nodiscard]] std::string Skipped() const {
-    if (!plot_.failed || *plot_.failed + 1 >= static_cast<int>(steps_)) return "";
+  void AddSkipped(Element& svg) const {
+    if (!plot_.failed || *plot_.failed + 1 >= static_cast<int>(steps_)) return;
     const double from = X(*plot_.failed + 0.5);
-    return Box("skipped", from, kTop, kWidth - kRight - from, kHeight - kBottom - kTop);
+    svg.Add(Box("skipped", from, kTop, kWidth - kRight - from, kHeight - kBottom - kTop));
   }
 
   /// The bad side of the limit.
-  [[nodiscard]] std::string Beyond() const {
-    if (!plot_.limit) return "";
+  void AddBeyond(Element& svg) const {
+    if (!plot_.limit) return;
     const double y = Y(plot_.limit->value);
     const double from = plot_.limit->from_above ? kTop : y;
     const double to = plot_.limit->from_above ? y : kHeight - kBottom;
-    return Box("beyond", kLeft, from, kWidth - kLeft - kRight, to - from);
+    svg.Add(Box("beyond", kLeft, from, kWidth - kLeft - kRight, to - from));
   }
 
-  [[nodiscard]] std::string VerticalAxis() const {
-    std::string svg;
+  void AddVerticalAxis(Element& svg) const {
     for (const PlotTick& tick : axis_.ticks) {
       const double y = Y(tick.value);
-      svg += Line("grid", kLeft, y, kWidth - kRight, y);
-      svg += Text("end", kLeft - kTickRoom, y + kHalfFont, tick.label);
+      svg.Add(Line("grid", kLeft, y, kWidth - kRight, y));
+      svg.Add(Text("end", kLeft - kTickGap, y + kHalfFont, tick.label));
     }
     const double middle = (kTop + kHeight - kBottom) / 2;
-    return svg + Text("middle", 0, 0, plot_.y_axis,
-                      Attribute("transform", "translate(14 " + Number(middle) + ") rotate(-90)"));
+    svg.Add(Text("middle", 0, 0, plot_.y_axis,
+                 {{"transform", "translate(14 " + Number(middle) + ") rotate(-90)"}}));
   }
 
-  [[nodiscard]] std::string StepAxis() const {
+  void AddStepAxis(Element& svg) const {
     const double base = kHeight - kBottom;
-    std::string svg = Line("axis", kLeft, base, kWidth - kRight, base);
+    svg.Add(Line("axis", kLeft, base, kWidth - kRight, base));
     const double least = static_cast<double>(steps_) / kMostStepLabels;
     const int stride = std::max(1, static_cast<int>(std::lround(RoundStep(least))));
     for (std::size_t step = 0; step < steps_; step += stride) {
       const double x = X(static_cast<double>(step));
-      svg += Line("axis", x, base, x, base + kTickRoom / 2);
-      svg += Text("middle", x, base + kTickRoom + 2.5 * kHalfFont, std::to_string(step));
+      svg.Add(Line("axis", x, base, x, base + kTickGap / 2));
+      svg.Add(Text("middle", x, base + kTickGap + 2.5 * kHalfFont, std::to_string(step)));
     }
-    return svg + Text("middle", (kLeft + kWidth - kRight) / 2, kHeight - kTickRoom, "step");
+    svg.Add(Text("middle", (kLeft + kWidth - kRight) / 2, kHeight - kTickGap, "step"));
   }
 
-  [[nodiscard]] std::string Limit() const {
-    if (!plot_.limit) return "";
+  void AddLimit(Element& svg) const {
+    if (!plot_.limit) return;
     const double y = Y(plot_.limit->value);
-    // The label stands on the good side, where there is always room.
+    svg.Add(Line("limit", kLeft, y, kWidth - kRight, y));
+    if (plot_.limit->label.empty()) return;
+    // The label stands on the good side, where there is always space.
     const double text = plot_.limit->from_above ? y + 3 * kHalfFont : y - kHalfFont;
-    const std::string line = Line("limit", kLeft, y, kWidth - kRight, y);
-    if (plot_.limit->label.empty()) return line;
-    return line + Text("end", kWidth - kRight - kTickRoom, text, plot_.limit->label,
-                       Attribute("class", "limit"));
+    svg.Add(
+        Text("end", kWidth - kRight - kTickGap, text, plot_.limit->label, {{"class", "limit"}}));
   }
 
-  [[nodiscard]] std::string Series(std::size_t index) const {
+  [[nodiscard]] Element Series(std::size_t index) const {
     const PlotSeries& series = plot_.series[index];
-    std::string points, path;
+    std::string path;
+    std::vector<Element> marks;
     bool drawing = false;
     for (std::size_t step = 0; step < steps_; ++step) {
       if (!series.values[step]) {
@@ -160,10 +160,11 @@ class Drawing {
       const double x = X(static_cast<double>(step)), y = Y(*series.values[step]);
       path += (drawing ? "L" : "M") + Number(x) + " " + Number(y);
       drawing = true;
-      if (steps_ <= kMostMarks || IsFailed(step)) points += Mark(series.mark, x, y, IsFailed(step));
+      if (steps_ <= kMostMarks || IsFailed(step)) {
+        marks.push_back(Mark(series.mark, x, y, IsFailed(step)));
+      }
     }
-    return Element("g", Attribute("class", StyleOf(index)),
-                   Element("path", Attribute("d", path), "") + points);
+    return Element("g", {{"class", StyleOf(index)}}, Element("path", {{"d", path}}), marks);
   }
 
   [[nodiscard]] bool IsFailed(std::size_t step) const {
@@ -172,27 +173,29 @@ class Drawing {
 
   static std::string StyleOf(std::size_t index) { return "series" + std::to_string(index); }
 
-  static std::string Mark(PlotMark mark, double x, double y, bool failed) {
+  static Element Mark(PlotMark mark, double x, double y, bool failed) {
     std::string style = mark == PlotMark::kDisc ? "disc" : "ring";
     if (failed) style += " failed";
-    return Element("circle",
-                   Attribute("class", style) + " " + Numbered("cx", x) + Numbered("cy", y) +
-                       Numbered("r", kMarkRadius),
-                   "");
+    return Element(
+        "circle",
+        {{"class", style}, {"cx", Number(x)}, {"cy", Number(y)}, {"r", Number(kMarkRadius)}});
+  }
+
+  static Element KeyOf(PlotMark mark, const std::string& style) {
+    return Element("tspan", {{"class", style}}, mark == PlotMark::kDisc ? "●" : "○");
   }
 
   /// Names above the plot, each behind its mark; one text, so that names never overlap.
-  [[nodiscard]] std::string Legend() const {
+  [[nodiscard]] Element Legend() const {
     constexpr double kBase = 16;
-    std::string names;
+    Element names("text", {{"x", Number(kLeft)}, {"y", Number(kBase)}});
     for (std::size_t i = 0; i < plot_.series.size(); ++i) {
       const PlotSeries& series = plot_.series[i];
-      if (i > 0) names += "\u2003";
-      names += Element("tspan", Attribute("class", StyleOf(i)),
-                       series.mark == PlotMark::kDisc ? "●" : "○");
-      names += "\u2009" + EscapeMarkup(series.name);
+      if (i > 0) names.Add("\u2003");
+      names.Add(KeyOf(series.mark, StyleOf(i)));
+      names.Add("\u2009" + series.name);
     }
-    return Element("text", Numbered("x", kLeft) + Numbered("y", kBase), names);
+    return names;
   }
 
   const StepPlot& plot_;
@@ -202,16 +205,16 @@ class Drawing {
 
 }  // namespace
 
-std::string FormatStepPlot(const StepPlot& plot) {
+Element DrawStepPlot(const StepPlot& plot) {
   if (plot.series.empty() || plot.series.front().values.empty()) {
-    throw std::invalid_argument("FormatStepPlot: nothing to plot");
+    throw std::invalid_argument("DrawStepPlot: nothing to plot");
   }
   for (const PlotSeries& series : plot.series) {
     if (series.values.size() != plot.series.front().values.size()) {
-      throw std::invalid_argument("FormatStepPlot: series of different lengths");
+      throw std::invalid_argument("DrawStepPlot: series of different lengths");
     }
   }
-  return Drawing(plot).Format();
+  return Drawing(plot).Draw();
 }
 
 }  // namespace regrasp

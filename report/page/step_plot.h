@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "report/markup.h"
+
 namespace regrasp {
 
 /// How the points of a series look; the shapes tell them apart without colour.
@@ -38,6 +40,6 @@ struct StepPlot {
 /// axis, grid, limit, beyond, series0, series1, …). On a logarithmic axis values that are not
 /// positive lie on its lower end. Same plot, same bytes.
 /// @throws std::invalid_argument  no series, different lengths, no step, or a value is not finite.
-[[nodiscard]] std::string FormatStepPlot(const StepPlot& plot);
+[[nodiscard]] Element DrawStepPlot(const StepPlot& plot);
 
 }  // namespace regrasp

@@ -19,6 +19,8 @@ int Count(const std::string& text, const std::string& part) {
   return count;
 }
 
+std::string FormatStepPlot(const StepPlot& plot) { return DrawStepPlot(plot).Format(); }
+
 StepPlot MakePlot() {
   StepPlot plot;
   plot.title = "Motion <over> the steps";

@@ -1,0 +1,80 @@
+#include "report/page/facts.h"
+
+#include <cmath>
+#include <string>
+
+#include "planner/base/angle.h"
+#include "report/page/quantity.h"
+#include "report/page/step_text.h"
+#include "report/trials_report.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Significant, as NumberText has.
+constexpr int kQualityDigits = 3;
+
+class FactList {
+ public:
+  void Add(std::string_view name, std::string_view value) { Add(name, value, {}); }
+  void AddDigest(std::string_view name, std::string_view digest) {
+    Add(name, digest, {{"class", "digest"}});
+  }
+  [[nodiscard]] Element Make() const { return Element("dl", {{"class", "facts"}}, facts_); }
+
+ private:
+  void Add(std::string_view name, std::string_view value, const Attributes& attributes) {
+    facts_.emplace_back("div", attributes, Element("dt", {}, name), Element("dd", {}, value));
+  }
+
+  std::vector<Element> facts_;
+};
+
+void AddGrasp(const Report& report, FactList& facts) {
+  const GraspReport& grasp = *report.grasp;
+  const std::optional<RequiredHalfAngle>& required = report.steps.front().check.required;
+  facts.Add("Needs", required ? DegreesText(Degrees(required->upper)) : "none serves");
+  if (grasp.fingers.empty()) return;
+  facts.Add("Quality ε", QualityText(grasp.quality, kQualityDigits));
+  facts.Add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
+}
+
+void AddTrials(const TrialSummary& trials, FactList& facts) {
+  facts.Add("Trials", TrialsShareText(trials));
+  const std::string failures = TrialsFailureText(trials);
+  if (!failures.empty()) facts.Add("Trials that fail", failures);
+  facts.Add("Noise", TrialsNoiseText(trials));
+}
+
+void AddSettings(const ReplaySettings& settings, FactList& facts) {
+  facts.Add("Diameter", LengthText(settings.diameter_m));
+  facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
+  facts.Add("Squeeze", NumberText(settings.squeeze_N) + " N");
+  facts.Add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
+  if (settings.protocol == Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
+  facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));
+}
+
+}  // namespace
+
+Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measures) {
+  FactList facts;
+  facts.Add("Object", report.object_file + (report.dimension == 2 ? ", planar" : ", a solid"));
+  if (!report.planner.empty()) facts.Add("Planner", report.planner);
+  facts.Add("Friction", DegreesText(Degrees(report.half_angle)) +
+                            " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
+  if (report.grasp) AddGrasp(report, facts);
+  const int weakest = report.weakest_step();
+  if (weakest >= 0 && !report.grasp) {
+    facts.Add("Weakest", StepName(weakest) + ", " +
+                             DegreesText(measures[weakest].margin_deg.value_or(0)) + " to spare");
+  }
+  if (report.trials) AddTrials(*report.trials, facts);
+  if (report.settings) AddSettings(*report.settings, facts);
+  facts.AddDigest("Object, SHA-256", report.object_sha256);
+  facts.AddDigest(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256);
+  return facts.Make();
+}
+
+}  // namespace regrasp

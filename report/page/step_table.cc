@@ -1,0 +1,90 @@
+#include "report/page/step_table.h"
+
+#include <optional>
+
+#include "planner/base/angle.h"
+#include "report/page/quantity.h"
+#include "report/page/step_text.h"
+#include "report/page/table.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr char kNothing[] = "–";
+
+std::string DegreesOr(const std::optional<double>& radians, const char* otherwise) {
+  return radians ? DegreesText(Degrees(*radians)) : otherwise;
+}
+
+std::string Required(const StepCheck& check) {
+  if (check.skipped) return kNothing;
+  if (check.required) return DegreesText(Degrees(check.required->upper));
+  const bool judged =
+      check.reason == Reason::kNotForceClosure || check.reason == Reason::kNotProved;
+  return judged ? "none" : kNothing;
+}
+
+Element MinorCell(std::string_view text) {
+  return Element("td", {{"class", "number minor"}}, text);
+}
+
+Element TitleCell(const std::string& title, const std::string& anchor) {
+  if (anchor.empty()) return Element("td", {}, title);
+  return Element("td", {}, Element("a", {{"href", "#" + anchor}}, title));
+}
+
+Element StepRow(const ReportStep& step, const std::string& title, const StepMeasures& measures,
+                const std::string& anchor) {
+  const StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
+  return Element("tr", {{"class", std::string(VerdictName(step.verdict()))}},
+                 NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
+                 MinorCell(Required(step.check)),
+                 NumberCell(measures.margin_deg ? DegreesText(*measures.margin_deg) : kNothing),
+                 NumberCell(replay ? LengthText(replay->displacement_m) : kNothing),
+                 MinorCell(replay ? NumberText(replay->rotation_deg) + "°" : kNothing),
+                 NumberCell(replay ? LengthText(replay->slip_m) : kNothing),
+                 Element("td", {}, VerdictText(step)));
+}
+
+}  // namespace
+
+std::vector<Element> MakeStepTable(const Report& report, const Plan& plan,
+                                   const std::vector<StepMeasures>& measures,
+                                   const std::vector<std::string>& anchors) {
+  const std::vector<Element> head = {
+      HeadCell("Step"),   HeadCell("What happens", ""), HeadCell("Needs", "number minor"),
+      HeadCell("Margin"), HeadCell("Displacement"),     HeadCell("Rotation", "number minor"),
+      HeadCell("Slip"),   HeadCell("Verdict", "")};
+  std::vector<Element> rows;
+  for (const ReportStep& step : report.steps) {
+    const int index = step.check.index;
+    rows.push_back(StepRow(step, StepTitle(plan, index), measures[index], anchors[index]));
+  }
+  return {ScrolledTable(head, rows),
+          Note("Needs: the smallest friction half-angle at which every grasp of the step is "
+               "force closure. Margin: what is left of the plan’s friction. Displacement, "
+               "rotation and slip: the largest in the replay of the step and the shakes after "
+               "it.")};
+}
+
+std::vector<Element> MakeFingerTable(const Report& report) {
+  if (!report.grasp || report.grasp->fingers.empty()) return {};
+  std::vector<Element> head, rows;
+  for (const char* name : {"Finger", "Needs alone", "Margin", "Others need without it"}) {
+    head.push_back(HeadCell(name));
+  }
+  for (std::size_t i = 0; i < report.grasp->fingers.size(); ++i) {
+    const FingerFriction& finger = report.grasp->fingers[i];
+    rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
+                      NumberCell(DegreesText(Degrees(finger.required))),
+                      NumberCell(DegreesText(Degrees(report.half_angle - finger.required))),
+                      NumberCell(DegreesOr(finger.without, "none")));
+  }
+  return {Element("h2", {}, "Fingers"), ScrolledTable(head, rows),
+          Note("Needs alone: how far the friction half-angle of this finger may fall while all "
+               "others keep theirs; 0 where it is not needed. Others need without it: the "
+               "friction half-angle at which the grasp is force closure without this finger.")};
+}
+
+}  // namespace regrasp

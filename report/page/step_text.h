@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "planner/plan/plan.h"
+#include "report/report.h"
+
+namespace regrasp {
+
+/// The title of an entry with an upper-case first letter: "Switch: place 4, release 0".
+[[nodiscard]] std::string StepTitle(const Plan& plan, int index);
+
+/// "the hold", "step 3".
+[[nodiscard]] std::string StepName(int index);
+
+/// "pass", "skipped", "fail: slipped".
+[[nodiscard]] std::string VerdictText(const ReportStep& step);
+
+/// The text with an upper-case first letter, if that is an ASCII one.
+[[nodiscard]] std::string Capitalized(std::string text);
+
+}  // namespace regrasp

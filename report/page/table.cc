@@ -1,0 +1,19 @@
+#include "report/page/table.h"
+
+namespace regrasp {
+
+Element HeadCell(std::string_view name, std::string_view style) {
+  return Element("th", {{"scope", "col"}, {"class", std::string(style)}}, name);
+}
+
+Element NumberCell(std::string_view text) { return Element("td", {{"class", "number"}}, text); }
+
+Element ScrolledTable(const std::vector<Element>& head, const std::vector<Element>& rows) {
+  const Element table("table", {}, Element("thead", {}, Element("tr", {}, head)),
+                      Element("tbody", {}, rows));
+  return Element("div", {{"class", "scroll"}}, table);
+}
+
+Element Note(std::string_view text) { return Element("p", {{"class", "note"}}, text); }
+
+}  // namespace regrasp

@@ -1,0 +1,41 @@
+#include "report/page/facts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/base/angle.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string FormatFacts(const Report& report) {
+  return MakeFacts(report, MeasureSteps(report)).Format();
+}
+
+TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
+  Report report;
+  report.object_file = "<cube>.obj";
+  report.half_angle = Radians(20);
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>&lt;cube&gt;.obj, a solid</dd>"));
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>20.00° (μ = 0.364)</dd>"));
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Squeeze")));
+  report.settings.emplace().squeeze_N = 25;
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Squeeze</dt><dd>25 N</dd>"));
+}
+
+TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
+  Report report;
+  report.half_angle = Radians(20);
+  for (const double required_deg : {12.0, 17.0}) {
+    ReportStep& step = report.steps.emplace_back();
+    step.check.index = static_cast<int>(report.steps.size()) - 1;
+    step.check.required = RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+  }
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° to spare</dd>"));
+}
+
+}  // namespace
+}  // namespace regrasp

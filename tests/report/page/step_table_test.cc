@@ -1,0 +1,56 @@
+#include "report/page/step_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/base/angle.h"
+
+namespace regrasp {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string Format(const std::vector<Element>& elements) {
+  return Element("main", {}, elements).Format();
+}
+
+/// A hold that is not replayed.
+Report MakeReport() {
+  Report report;
+  report.half_angle = Radians(20);
+  report.steps.emplace_back().check.required = RequiredHalfAngle{Radians(12), Radians(12.5)};
+  return report;
+}
+
+TEST(StepTableTest, OnlyAStepWithAPictureLinksToIt) {
+  const Report report = MakeReport();
+  const std::vector<StepMeasures> measures = MeasureSteps(report);
+  EXPECT_THAT(Format(MakeStepTable(report, Plan(), measures, {""})), Not(HasSubstr("<a")));
+  EXPECT_THAT(Format(MakeStepTable(report, Plan(), measures, {"frame0"})),
+              HasSubstr("<a href=\"#frame0\">"));
+}
+
+TEST(StepTableTest, WhatWasNotReplayedHasNoMotion) {
+  Report report = MakeReport();
+  const auto table = [&] {
+    return Format(MakeStepTable(report, Plan(), MeasureSteps(report), {""}));
+  };
+  EXPECT_THAT(table(), HasSubstr("<td class=\"number\">–</td>"));
+  EXPECT_THAT(table(), HasSubstr("12.50°"));
+  report.steps[0].replay.emplace();
+  EXPECT_THAT(table(), Not(HasSubstr("<td class=\"number\">–</td>")));
+}
+
+TEST(FingerTableTest, AFingerThatTheOthersCannotDoWithoutSaysNone) {
+  Report report = MakeReport();
+  EXPECT_TRUE(MakeFingerTable(report).empty());
+  report.grasp =
+      GraspReport{{0.1, 0.1}, {{Radians(3), true, std::nullopt}, {Radians(11), true, Radians(30)}}};
+  const std::string table = Format(MakeFingerTable(report));
+  EXPECT_THAT(table, HasSubstr("<td class=\"number\">17.00°</td><td class=\"number\">none</td>"));
+  EXPECT_THAT(table, HasSubstr("<td class=\"number\">9.00°</td><td class=\"number\">30.00°</td>"));
+}
+
+}  // namespace
+}  // namespace regrasp

@@ -1,0 +1,30 @@
+#include "report/page/step_text.h"
+
+#include <gtest/gtest.h>
+
+namespace regrasp {
+namespace {
+
+TEST(StepTextTest, OnlyAnAsciiLetterIsCapitalized) {
+  EXPECT_EQ(Capitalized("slipped"), "Slipped");
+  EXPECT_EQ(Capitalized("Slipped"), "Slipped");
+  EXPECT_EQ(Capitalized("ε"), "ε");
+  EXPECT_EQ(Capitalized(""), "");
+}
+
+TEST(StepTextTest, StepsCountFromTheHold) {
+  EXPECT_EQ(StepName(0), "the hold");
+  EXPECT_EQ(StepName(3), "step 3");
+}
+
+TEST(StepTextTest, AFailedStepSaysWhy) {
+  ReportStep step;
+  EXPECT_EQ(VerdictText(step), "pass");
+  step.replay.emplace().reason = Reason::kSlipped;
+  EXPECT_EQ(VerdictText(step), "fail: slipped");
+  step.skipped = true;
+  EXPECT_EQ(VerdictText(step), "skipped");
+}
+
+}  // namespace
+}  // namespace regrasp
