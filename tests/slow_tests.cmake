@@ -36,7 +36,7 @@ set(regrasp_slow_tests
   ContourOracle.*
   Degenerate.*
   Discrimination.*
-  DrawGoodGrasp.*
+  DrawOnSurface.GivesGood*
   FileTest.AFileThatIsTooLarge*
   FindContactChain.*
   FrameTest.DrawsTheLargest*

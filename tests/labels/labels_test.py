@@ -1,21 +1,20 @@
 """Every test is labelled fast or slow, and every name in the list of slow ones is that of a test.
 
-usage: labels_test.py --ctest FILE --build DIR --slow "NAME;NAME;..." [unittest's own arguments]
+usage: labels_test.py CTEST BUILD_FOLDER "SLOW_NAME;SLOW_NAME;..." [unittest's own arguments]
 """
 
-import argparse
 import fnmatch
 import json
 import subprocess
 import sys
 import unittest
 
-ARGUMENTS = argparse.Namespace(ctest="", build="", slow="")
+CTEST, BUILD, SLOW = sys.argv[1:4]
 
 
 def ctest_tests():
     """The labels of every test, by its name."""
-    listed = subprocess.run([ARGUMENTS.ctest, "--test-dir", ARGUMENTS.build, "--show-only=json-v1"],
+    listed = subprocess.run([CTEST, "--test-dir", BUILD, "--show-only=json-v1"],
                             check=True, capture_output=True, text=True)
     return {test["name"]: labels_of(test) for test in json.loads(listed.stdout)["tests"]}
 
@@ -45,7 +44,7 @@ class Labels(unittest.TestCase):
         self.assertEqual(without_speed(tests), [], "is everything built?")
 
     def test_every_slow_name_is_that_of_a_slow_test(self):
-        self.assertEqual(out_of_date(ARGUMENTS.slow.split(";"), ctest_tests()), [])
+        self.assertEqual(out_of_date(SLOW.split(";"), ctest_tests()), [])
 
     def test_a_test_without_speed_or_with_two_is_found(self):
         tests = {"a": ["fast", "sim"], "b": ["sim"], "c": ["fast", "slow"], "d": []}
@@ -58,13 +57,5 @@ class Labels(unittest.TestCase):
         self.assertEqual(out_of_date(slow, tests), ["Replay.*", "Stress.*"])
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    for name in vars(ARGUMENTS):
-        parser.add_argument(f"--{name}", required=True)
-    _, rest = parser.parse_known_args(namespace=ARGUMENTS)
-    unittest.main(argv=[sys.argv[0], *rest])
-
-
 if __name__ == "__main__":
-    main()
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -1,16 +1,15 @@
 """The public headers are few and include no others of the project.
 
-usage: public_headers_test.py --source DIR --headers "FILE;FILE;..." [unittest's own arguments]
+usage: public_headers_test.py SOURCE_FOLDER "HEADER;HEADER;..." [unittest's own arguments]
 """
 
-import argparse
 import pathlib
 import re
 import sys
 import tempfile
 import unittest
 
-ARGUMENTS = argparse.Namespace(source="", headers="")
+SOURCE, HEADERS = sys.argv[1:3]
 
 MOST_HEADERS = 40
 
@@ -28,15 +27,15 @@ def not_public(source, headers):
 
 class PublicHeaders(unittest.TestCase):
     def test_are_few_and_named_once(self):
-        headers = ARGUMENTS.headers.split(";")
+        headers = HEADERS.split(";")
         self.assertLessEqual(len(headers), MOST_HEADERS)
         self.assertEqual(len(headers), len(set(headers)))
 
     def test_include_public_headers_only(self):
-        headers = ARGUMENTS.headers.split(";")
-        self.assertGreater(sum(len(included(pathlib.Path(ARGUMENTS.source) / header))
+        headers = HEADERS.split(";")
+        self.assertGreater(sum(len(included(pathlib.Path(SOURCE) / header))
                                for header in headers), len(headers))
-        self.assertEqual(not_public(ARGUMENTS.source, headers), [])
+        self.assertEqual(not_public(SOURCE, headers), [])
 
     def test_one_that_includes_another_header_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -46,13 +45,5 @@ class PublicHeaders(unittest.TestCase):
             self.assertEqual(not_public(source, ["a.h", "b.h"]), [("a.h", "c.h")])
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    for name in vars(ARGUMENTS):
-        parser.add_argument(f"--{name}", required=True)
-    _, rest = parser.parse_known_args(namespace=ARGUMENTS)
-    unittest.main(argv=[sys.argv[0], *rest])
-
-
 if __name__ == "__main__":
-    main()
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

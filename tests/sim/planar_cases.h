@@ -1,22 +1,15 @@
 #pragma once
 
-#include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/object/polygon.h"
+#include "tests/fixtures/polygons.h"
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp {
-
-/// The contact at `share` of the way along an edge.
-inline Contact OnEdge(const Polygon& polygon, int edge, double share) {
-  const auto [from, to] = polygon.edge(edge);
-  return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
-}
 
 inline FingerContact OnEdge(const Polygon& polygon, int finger, int edge, double share) {
   return {finger, OnEdge(polygon, edge, share)};
@@ -37,17 +30,6 @@ inline Plan MakePlanarPlan(FingerGrasp initial, double half_angle_deg, int finge
   Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
   plan.dimension = 2;
   return plan;
-}
-
-/// A square of side 60 mm; edges 0 below, 1 right, 2 above, 3 left.
-inline Polygon MakeSquare() {
-  return Polygon::FromWkt("POLYGON((-.03 -.03, .03 -.03, .03 .03, -.03 .03, -.03 -.03))", "square");
-}
-
-/// An equilateral triangle of side 80 mm.
-inline Polygon MakeTriangle() {
-  const double height = 0.08 * std::sqrt(3.0) / 2;
-  return Polygon::FromRings({{{0, 0}, {0.08, 0}, {0.04, height}}}, "triangle");
 }
 
 /// An L with arms of 80 mm, 40 mm wide, whose inner corner is at (0.04, 0.04): edges 2 (below it,

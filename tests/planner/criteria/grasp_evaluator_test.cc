@@ -5,14 +5,10 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
-#include "planner/object/polygon.h"
+#include "tests/fixtures/polygons.h"
 
 namespace regrasp {
 namespace {
-
-Polygon Square(double size) {
-  return Polygon::FromRings({{{0, 0}, {size, 0}, {size, size}, {0, size}}}, "square");
-}
 
 /// Contacts at shares of the unit square's width.
 Grasp Across(const Polygon& square, double bottom, double top) {

@@ -7,7 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "tests/planner/plan/bodies.h"
+#include "planner/object/polygon.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

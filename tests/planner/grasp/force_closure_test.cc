@@ -10,7 +10,7 @@
 
 #include "planner/base/angle.h"
 #include "pyramid_program.h"
-#include "random_grasps.h"
+#include "tests/fixtures/random_grasps.h"
 
 namespace regrasp {
 namespace {

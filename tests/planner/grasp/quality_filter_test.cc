@@ -5,7 +5,7 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "random_grasps.h"
+#include "tests/fixtures/random_grasps.h"
 
 namespace regrasp {
 namespace {

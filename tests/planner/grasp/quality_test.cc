@@ -10,7 +10,7 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
-#include "random_grasps.h"
+#include "tests/fixtures/random_grasps.h"
 
 namespace regrasp {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/grasp/cone_support.h"
-#include "tests/planner/grasp/random_grasps.h"
+#include "tests/fixtures/random_grasps.h"
 
 namespace regrasp {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "planner/object/diameter.h"
 #include "planner/object/polyhedron.h"
-#include "tests/planner/object/meshes.h"
+#include "tests/fixtures/soups.h"
 
 namespace regrasp {
 namespace {

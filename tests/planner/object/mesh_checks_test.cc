@@ -12,7 +12,7 @@
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/size_limits.h"
-#include "tests/planner/object/meshes.h"
+#include "tests/fixtures/soups.h"
 
 namespace regrasp {
 namespace {

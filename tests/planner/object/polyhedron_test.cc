@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/planner/object/meshes.h"
+#include "tests/fixtures/soups.h"
 
 namespace regrasp {
 namespace {

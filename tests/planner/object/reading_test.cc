@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/object/polyhedron.h"
-#include "tests/planner/counted_deadline.h"
+#include "tests/fixtures/counted_deadline.h"
 
 namespace regrasp {
 namespace {

@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-#include "bodies.h"
 #include "planner/base/angle.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -115,15 +116,15 @@ TEST(CheckAlign, KeepsCollinearEdgesOfAPolygonApart) {
   const auto slide = AlignPlan(plan, {grasp(-0.3), grasp(0.3)});
   const auto stop = AlignPlan(plan, {grasp(-0.3), grasp(0), grasp(0.3)});
   EXPECT_EQ(ReasonOf(MakeSquare(), slide), Reason::kNone);
-  EXPECT_EQ(ReasonOf(MakeSquare(/*divided=*/true), slide), Reason::kLeavesFace);
-  EXPECT_EQ(ReasonOf(MakeSquare(/*divided=*/true), stop), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(MakeSquare(1, true), slide), Reason::kLeavesFace);
+  EXPECT_EQ(ReasonOf(MakeSquare(1, true), stop), Reason::kLeavesFace);
 }
 
 TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
   const auto grasp = [](double x) {
     return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
   };
-  const Polygon square = MakeSquare(/*divided=*/true);
+  const Polygon square = MakeSquare(1, true);
   const Plan plan = EmptyPlan(2, 4, 30);
   for (const double sign : {1.0, -1.0}) {
     const auto over = AlignPlan(plan, {grasp(-0.3 * sign), grasp(0), grasp(0), grasp(0.3 * sign)});

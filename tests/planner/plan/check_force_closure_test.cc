@@ -4,11 +4,12 @@
 
 #include <cmath>
 
-#include "bodies.h"
 #include "check_expectations.h"
 #include "planner/base/angle.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

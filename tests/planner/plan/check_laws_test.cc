@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "bodies.h"
 #include "planner/base/angle.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

@@ -5,11 +5,12 @@
 #include <Eigen/Geometry>
 #include <functional>
 
-#include "bodies.h"
 #include "check_expectations.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "sample_plans.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

@@ -10,29 +10,13 @@
 #include <random>
 #include <stdexcept>
 
-#include "bodies.h"
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/switch_region.h"
+#include "tests/fixtures/polygons.h"
 
 namespace regrasp {
 namespace {
-
-using Ring = std::vector<Eigen::Vector2d>;
-
-Contact OnEdge(const Polygon& polygon, int edge, double share) {
-  const auto [from, to] = polygon.edge(edge);
-  return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
-}
-
-Polygon MakeDisc(int edges, double radius) {
-  Ring ring;
-  for (int i = 0; i < edges; ++i) {
-    const double angle = 2 * std::numbers::pi * i / edges;
-    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return Polygon::FromRings({ring}, "disc");
-}
 
 /// An uneven outline around a circle, convex and concave corners.
 Ring DrawRing(int edges, std::mt19937& random) {

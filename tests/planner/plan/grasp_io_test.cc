@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "bodies.h"
 #include "planner/base/error.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <random>
 
-#include "bodies.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "sample_plans.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

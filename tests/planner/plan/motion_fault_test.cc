@@ -5,9 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "bodies.h"
 #include "planner/base/angle.h"
+#include "planner/object/polygon.h"
 #include "planner/plan/locate.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bodies.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

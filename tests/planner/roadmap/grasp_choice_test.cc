@@ -5,7 +5,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -27,7 +27,8 @@ GraspChoice OppositePairs(double lean) {
 }
 
 void Check(const GraspChoice& choice, double degrees) {
-  CheckGivenGrasp(choice, {"roadmap", 4, 4}, MakeCube().wrench_frame(), Radians(degrees), kApart);
+  CheckGivenGrasp(choice, {"roadmap", 4, 4}, MakeBox({0.06, 0.06, 0.06}).wrench_frame(),
+                  Radians(degrees), kApart);
 }
 
 TEST(CheckGivenGrasp, AcceptsAForceClosureGraspOfFour) {
@@ -67,7 +68,8 @@ TEST(CheckGivenGrasp, NamesTheRangeOfContactsThatAPlannerTakes) {
   choice.grasp.resize(1);
   EXPECT_THAT(
       [&] {
-        CheckGivenGrasp(choice, {"polygon", 2, 4}, MakeCube().wrench_frame(), Radians(20), kApart);
+        CheckGivenGrasp(choice, {"polygon", 2, 4}, MakeBox({0.06, 0.06, 0.06}).wrench_frame(),
+                        Radians(20), kApart);
       },
       ThrowsMessage<InputError>(HasSubstr("the planner polygon needs 2 to 4 contacts, found 1")));
 }

@@ -12,8 +12,8 @@
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
-#include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {
 namespace {

@@ -15,7 +15,7 @@
 #include "planner/plan/plan_io.h"
 #include "planner/roadmap/vertex_quality.h"
 #include "planner/search/fewest_switches.h"
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -123,7 +123,7 @@ BestSequence FindByBruteForce(const Polyhedron& solid, const Roadmap& roadmap, i
 }
 
 TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int checked = 0;
   int detours = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -149,7 +149,7 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
 }
 
 TEST(PlanOnRoadmap, MarginIsTheSmallestOfThePlansGrasps) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const RoadmapPlanResult result =
       PlanOnRoadmap(cube, Given(AcrossAxis(cube, 0)), Given(AcrossAxis(cube, 2)), Options(24));
   ASSERT_EQ(result.status, Status::kFound);
@@ -180,7 +180,7 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
 }
 
 TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const auto plan = [&](std::uint64_t seed) {
     return FormatPlan(*PlanOnRoadmap(cube, Random(), RandomAny(), Options(20, seed)).plan);
   };
@@ -189,7 +189,7 @@ TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
 }
 
 TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const Grasp start = AcrossAxis(cube, 0);
   Grasp goal = start;
   std::reverse(goal.begin(), goal.end());
@@ -202,7 +202,7 @@ TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
 }
 
 TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   Grasp start = AcrossAxis(cube, 0);
   std::reverse(start.begin(), start.end());
   const RoadmapPlanResult result =
@@ -216,7 +216,7 @@ TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
 }
 
 TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   // Two pairs whose torques cancel, so that hardly any friction holds and no contact can leave
   // unless another takes its very line of force.
   const auto pinwheel = [&](int axis) {
@@ -237,7 +237,7 @@ TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
 }
 
 TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   RoadmapOptions options = Options(20);
   options.min_quality = 0.9;  // more than any grasp of the cube has at this friction
   const RoadmapPlanResult result =
@@ -251,13 +251,14 @@ TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
 TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
   RoadmapOptions options = Options(10);
   options.min_quality = 0.9;
-  const RoadmapPlanResult result = PlanOnRoadmap(MakeCube(), Random(), Random(), options);
+  const RoadmapPlanResult result =
+      PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(result.message, HasSubstr("random: none of"));
 }
 
 TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const RoadmapPlanResult result = PlanOnRoadmap(cube, Random(), Random(), Options(9, seed, 12));
@@ -269,7 +270,7 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
 }
 
 TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(3)), std::invalid_argument);
   EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(kMaxRoadmapContacts + 1)),
                std::invalid_argument);
@@ -278,7 +279,7 @@ TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
 }
 
 TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   Grasp start = AcrossAxis(cube, 0);
   start[2] = start[0];
   start[2].p.y() += 0.01;

@@ -4,10 +4,10 @@
 #include "planner/base/angle.h"
 #include "planner/roadmap/plan_roadmap.h"
 #include "planner/roadmap/roadmap_memory.h"
-#include "tests/planner/counted_deadline.h"
-#include "tests/planner/peak_memory.h"
+#include "tests/fixtures/counted_deadline.h"
+#include "tests/fixtures/peak_memory.h"
+#include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
-#include "tests/planner/roadmap/solids.h"
 
 namespace regrasp {
 namespace {
@@ -50,7 +50,7 @@ TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 TEST(RoadmapMemory, TheEstimateGrowsWithTheContactPointsAndNotWithTheMesh) {
   double last = 0;
   for (const int contacts : {4, 10, 30, 100, kMaxRoadmapContacts}) {
-    const MemoryNeed need = EstimateRoadmap(MakeCube(), Options(contacts, 0, 30));
+    const MemoryNeed need = EstimateRoadmap(MakeBox({0.06, 0.06, 0.06}), Options(contacts, 0, 30));
     EXPECT_EQ(need.count, contacts);
     EXPECT_GT(need.bytes(), last) << contacts;
     last = need.bytes();
@@ -64,12 +64,12 @@ TEST(RoadmapMemory, TheEstimateGrowsWithTheContactPointsAndNotWithTheMesh) {
 TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
   RoadmapOptions options = Options(kMaxRoadmapContacts, 0, 40);
   options.memory = 1e8;
-  const PlanResult result = PlanOnRoadmap(MakeCube(), kRandom, kRandom, options);
+  const PlanResult result = PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 200 contact points"));
   options = Options(kMaxClusteredContacts, 20, 40);
   options.memory = 1e8;
-  EXPECT_THAT(PlanOnRoadmap(MakeCube(), kRandom, kRandom, options).message,
+  EXPECT_THAT(PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).message,
               HasSubstr("for 4000 contact points"));
 }
 
@@ -78,11 +78,13 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
     RoadmapOptions options = Options(clusters > 0 ? 60 : 14, clusters, 30);
     const CountedDeadline never;
     options.deadline = never.deadline();
-    ASSERT_TRUE(PlanOnRoadmap(MakeCube(), kRandom, kRandom, options).plan) << clusters;
+    ASSERT_TRUE(PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).plan)
+        << clusters;
     EXPECT_GT(never.looks(), 80) << clusters;  // at every pair of contact points
     for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
       options.deadline = CountedDeadline(look).deadline();
-      const PlanResult result = PlanOnRoadmap(MakeCube(), kRandom, kRandom, options);
+      const PlanResult result =
+          PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
       EXPECT_FALSE(result.plan.has_value()) << look;
       EXPECT_THAT(result.message, HasSubstr("the planner roadmap when the time was up"));
     }

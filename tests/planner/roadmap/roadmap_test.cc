@@ -11,7 +11,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/sampling/contact_points.h"
 #include "planner/search/fewest_switches.h"
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -19,11 +19,11 @@ namespace {
 constexpr double kSamePoint = 1e-7;
 
 Roadmap MakeRoadmap(const std::vector<Contact>& points, double degrees) {
-  return Roadmap(points, MakeCube().wrench_frame(), Radians(degrees), kSamePoint);
+  return Roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(degrees), kSamePoint);
 }
 
 std::vector<Contact> CubePoints(int count, std::uint64_t seed = 1) {
-  return SpreadContactPoints(MakeCube(), count, seed);
+  return SpreadContactPoints(MakeBox({0.06, 0.06, 0.06}), count, seed);
 }
 
 TEST(Roadmap, HasOneVertexPerForceClosureGraspOfFour) {
@@ -36,7 +36,8 @@ TEST(Roadmap, HasOneVertexPerForceClosureGraspOfFour) {
       for (int c = b + 1; c < 14; ++c) {
         for (int d = c + 1; d < 14; ++d) {
           const Grasp grasp = {points[a], points[b], points[c], points[d]};
-          const bool expected = IsForceClosure(grasp, MakeCube().wrench_frame(), Radians(20));
+          const bool expected =
+              IsForceClosure(grasp, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(20));
           EXPECT_EQ(roadmap.Find(std::array{d, b, a, c}).has_value(), expected);
           ++(expected ? force_closure : others);
         }
@@ -125,7 +126,8 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
   int left_out = 0;
   std::int64_t cut = 0;
   for (const double radius : {0.006, 0.012}) {
-    const Roadmap roadmap(points, MakeCube().wrench_frame(), Radians(25), kSamePoint, radius);
+    const Roadmap roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(25),
+                          kSamePoint, radius);
     int kept = 0;
     for (int v = 0; v < plain.vertex_count(); ++v) {
       const bool apart = KeepApart(plain.grasp(v), radius);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -40,7 +40,7 @@ TEST(SpreadContactPoints, GiveEachFaceItsShareOfTheArea) {
 }
 
 TEST(SpreadContactPoints, AreTheSameForTheSameSeedOnly) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const std::vector<Contact> a = SpreadContactPoints(cube, 30, 5);
   const std::vector<Contact> b = SpreadContactPoints(cube, 30, 5);
   const std::vector<Contact> c = SpreadContactPoints(cube, 30, 6);
@@ -63,7 +63,7 @@ TEST(SpreadContactPoints, AreCentroidsOfTheTrianglesWhereTheMeshIsFine) {
     });
   };
   EXPECT_EQ(off_centroids(MakeBox({0.06, 0.06, 0.06}, 10), 60), 0);
-  EXPECT_GT(off_centroids(MakeCube(), 60), 50);
+  EXPECT_GT(off_centroids(MakeBox({0.06, 0.06, 0.06}), 60), 50);
 }
 
 TEST(SpreadContactPoints, DoNotDependOnTheUnitOfLength) {
@@ -74,7 +74,7 @@ TEST(SpreadContactPoints, DoNotDependOnTheUnitOfLength) {
 }
 
 TEST(SpreadContactPoints, RefusesNone) {
-  EXPECT_THROW((void)SpreadContactPoints(MakeCube(), 0, 1), std::invalid_argument);
+  EXPECT_THROW((void)SpreadContactPoints(MakeBox({0.06, 0.06, 0.06}), 0, 1), std::invalid_argument);
 }
 
 /// The same solid, every vertex mapped.
@@ -155,11 +155,11 @@ TEST(MeshContacts, AreSpreadOnFlatFacesHoweverTheseAreCut) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 4);
   ASSERT_EQ(cube.triangles().size(), std::size_t{kPotatoTriangles});
   EXPECT_EQ(MeshContacts(cube, 300, 1).size(), 300u);
-  EXPECT_EQ(MeshContacts(MakeCube(), 300, 1).size(), 300u);
+  EXPECT_EQ(MeshContacts(MakeBox({0.06, 0.06, 0.06}), 300, 1).size(), 300u);
 }
 
 TEST(MeshContacts, RefusesNone) {
-  EXPECT_THROW((void)MeshContacts(MakeCube(), 0, 1), std::invalid_argument);
+  EXPECT_THROW((void)MeshContacts(MakeBox({0.06, 0.06, 0.06}), 0, 1), std::invalid_argument);
 }
 
 }  // namespace

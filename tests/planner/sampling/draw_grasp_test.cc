@@ -10,7 +10,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {
@@ -49,7 +49,7 @@ TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) 
 }
 
 TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const GraspEvaluator evaluator(cube, {Radians(20), 0.02});
   RandomStream random(1, RandomUse::kStart);
   std::vector<int> on_face(cube.face_count(), 0);
@@ -67,7 +67,7 @@ TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
 
 TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
   // No grasp resists more than its whole squeeze.
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const ObjectFile square = ReadObject(REGRASP_SOURCE_DIR "/models/square.wkt");
   RandomStream random(1, RandomUse::kStart);
   const auto refusal = [&](const Object& object, const ContactRange& contacts) {
@@ -104,7 +104,7 @@ TEST(DrawOnSurface, SaysThatFingersReachNothing) {
 }
 
 TEST(DrawOnSurface, MakesAnEndWhereItIsTold) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const GraspEvaluator evaluator(cube, {Radians(5), 1.1});
   RandomStream random(1, RandomUse::kStart);
   int draws = 0;

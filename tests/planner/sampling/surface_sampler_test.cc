@@ -6,7 +6,7 @@
 
 #include "planner/criteria/clearance.h"
 #include "planner/object/polygon.h"
-#include "tests/planner/roadmap/solids.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 namespace {

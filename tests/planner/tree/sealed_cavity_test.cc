@@ -11,7 +11,7 @@
 #include "planner/sampling/contact_points.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
-#include "tests/planner/object/meshes.h"
+#include "tests/fixtures/soups.h"
 
 namespace regrasp {
 namespace {

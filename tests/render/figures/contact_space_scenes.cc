@@ -1,10 +1,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include "planner/base/angle.h"
 #include "tests/render/figures/planar_scenes.h"
 
 namespace regrasp {
@@ -13,36 +10,12 @@ using Eigen::Vector2d;
 
 namespace {
 
-std::vector<Vector2d> Circle(int edges, double radius) {
-  std::vector<Vector2d> circle;
-  for (int k = 0; k < edges; ++k) {
-    const double angle = 2 * std::numbers::pi * k / edges;
-    circle.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return circle;
-}
-
-Plan MakePlan(const FingerGrasp& initial, std::vector<Step> steps) {
-  Plan plan;
-  plan.dimension = 2;
-  plan.half_angle = Radians(20);
-  plan.fingers = 4;
-  plan.initial = initial;
-  plan.steps = std::move(steps);
-  FingerGrasp last = initial;
-  for (const Step& step : plan.steps) last = GraspAfter(last, step);
-  plan.goal = ContactsOf(last);
-  return plan;
-}
-
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
-Polygon MakeDisc(int edges) { return Polygon::FromRings({Circle(edges, 1)}, "disc"); }
-
 Polygon MakeRing(int edges) {
-  return Polygon::FromRings({Circle(edges, 1), Circle(edges, 0.5)}, "ring");
+  return Polygon::FromRings({Circle(edges), Circle(edges, 0.5)}, "ring");
 }
 
 Polygon MakeFork() {
@@ -56,7 +29,7 @@ Plan MakeForkPlan() {
   const FingerContact left = FingerAt(fork, 1, 7, 0.2);
   const FingerContact inner_right = FingerAt(fork, 2, 3, 2.0 / 7);
   const FingerContact inner_left = FingerAt(fork, 1, 5, 5.0 / 7);
-  return MakePlan({right, left}, {Switch{{inner_right}, {1}}, Switch{{inner_left}, {0}}});
+  return MakePlanarPlan({right, left}, {Switch{{inner_right}, {1}}, Switch{{inner_left}, {0}}});
 }
 
 Plan MakeDiscPlan(const Polygon& disc) {
@@ -65,14 +38,14 @@ Plan MakeDiscPlan(const Polygon& disc) {
     return FingerGrasp{FingerAt(disc, 0, edge % edges, u),
                        FingerAt(disc, 1, (edge + edges / 2) % edges, u)};
   };
-  return MakePlan(at(edges - 1, 0.5),
-                  {Align{{at(edges - 1, 0.5), at(edges - 1, 1), at(0, 0), at(0, 0.5)}}});
+  return MakePlanarPlan(at(edges - 1, 0.5),
+                        {Align{{at(edges - 1, 0.5), at(edges - 1, 1), at(0, 0), at(0, 0.5)}}});
 }
 
 Plan MakeExchangePlan() {
   const Polygon square = MakeSquare();
   const auto at = [&](int finger, int edge) { return FingerAt(square, finger, edge, 0.5); };
-  return MakePlan({at(0, 0), at(1, 2)}, {Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
+  return MakePlanarPlan({at(0, 0), at(1, 2)}, {Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
 }
 
 bool Contains(const Outline& outline, const Vector2d& p, double margin) {

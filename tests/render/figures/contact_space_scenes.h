@@ -6,10 +6,9 @@
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
 #include "render/figures/grasp_diagram.h"
+#include "tests/fixtures/polygons.h"
 
 namespace regrasp {
-
-[[nodiscard]] Polygon MakeDisc(int edges);  ///< regular, radius 1, first vertex on the x axis
 
 /// A disc with a concentric round hole of half its radius, of as many edges.
 [[nodiscard]] Polygon MakeRing(int edges);

@@ -27,12 +27,12 @@ const double kHeight = std::sqrt(3.0) / 2;
 
 Grasp MiddleOfTriangle() {
   const Polygon triangle = MakeTriangle();
-  return {ContactAt(triangle, 0, 0.5), ContactAt(triangle, 1, 0.5), ContactAt(triangle, 2, 0.5)};
+  return {OnEdge(triangle, 0, 0.5), OnEdge(triangle, 1, 0.5), OnEdge(triangle, 2, 0.5)};
 }
 
 Grasp OnSquare(const std::vector<std::pair<int, double>>& places) {
   Grasp grasp;
-  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(MakeSquare(), edge, u));
+  for (const auto& [edge, u] : places) grasp.push_back(OnEdge(MakeSquare(), edge, u));
   return grasp;
 }
 
@@ -68,8 +68,8 @@ TEST(GraspDiagramTest, AnEquilateralTriangleHeldInTheMiddlesHasItsFocusAtTheCent
 
 TEST(GraspDiagramTest, TheFocusMovesWithTheContacts) {
   const Polygon triangle = MakeTriangle();
-  const Grasp grasp = {ContactAt(triangle, 0, 0.6), ContactAt(triangle, 1, 0.5),
-                       ContactAt(triangle, 2, 0.5)};
+  const Grasp grasp = {OnEdge(triangle, 0, 0.6), OnEdge(triangle, 1, 0.5),
+                       OnEdge(triangle, 2, 0.5)};
   const GraspDiagram diagram = DescribeGrasp(triangle, grasp, Radians(20));
   ASSERT_TRUE(diagram.focus);
   EXPECT_GT(diagram.focus->x(), 0.5 + kClose);
@@ -118,8 +118,8 @@ TEST(GraspDiagramTest, TheFocusCellOfATriangleHasTheCornersThatGeometrySays) {
 
 TEST(GraspDiagramTest, ContactsThatSeeNoCommonPointAreNotConcurrent) {
   const Polygon triangle = MakeTriangle();
-  const Grasp apart = {ContactAt(triangle, 0, 0.05), ContactAt(triangle, 1, 0.05),
-                       ContactAt(triangle, 2, 0.05)};
+  const Grasp apart = {OnEdge(triangle, 0, 0.05), OnEdge(triangle, 1, 0.05),
+                       OnEdge(triangle, 2, 0.05)};
   const GraspDiagram diagram = DescribeGrasp(triangle, apart, Radians(5));
   EXPECT_EQ(diagram.kind, DiagramKind::kOther);
   EXPECT_FALSE(diagram.focus);
@@ -156,8 +156,7 @@ TEST(GraspDiagramTest, ACommonConeIsNarrowerWhereTheEdgesLean) {
   const double second = std::tan(Radians(10));
   const Polygon wedge = Polygon::FromRings(
       {{{-1, -1}, {1, -1}, {1, 1}, {0, 1 - first}, {-1, 1 - first - second}}}, "wedge");
-  const Grasp grasp = {ContactAt(wedge, 0, 0.5), ContactAt(wedge, 2, 0.5),
-                       ContactAt(wedge, 3, 0.5)};
+  const Grasp grasp = {OnEdge(wedge, 0, 0.5), OnEdge(wedge, 2, 0.5), OnEdge(wedge, 3, 0.5)};
   const GraspDiagram diagram = DescribeGrasp(wedge, grasp, Radians(20));
   ASSERT_EQ(diagram.kind, DiagramKind::kParallel);
   for (const DoubleCone& cone : diagram.cones) {
@@ -201,10 +200,10 @@ TEST(GraspDiagramTest, TwoContactsAreATwoFingerGraspWhereTheirLineIsInBothCones)
 TEST(GraspDiagramTest, TwoFingersMayStretchAHole) {
   const Polygon frame = Polygon::FromRings(
       {{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}}, "frame");
-  const Grasp grasp = {ContactAt(frame, 4, 0.5), ContactAt(frame, 6, 0.5)};
+  const Grasp grasp = {OnEdge(frame, 4, 0.5), OnEdge(frame, 6, 0.5)};
   ASSERT_NEAR((grasp[0].p - grasp[1].p).norm(), 2, kClose);
   EXPECT_EQ(DescribeGrasp(frame, grasp, Radians(10)).kind, DiagramKind::kTwoFinger);
-  const Grasp corner = {ContactAt(frame, 4, 0.5), ContactAt(frame, 5, 0.5)};
+  const Grasp corner = {OnEdge(frame, 4, 0.5), OnEdge(frame, 5, 0.5)};
   EXPECT_EQ(DescribeGrasp(frame, corner, Radians(10)).kind, DiagramKind::kOther);
 }
 
@@ -246,7 +245,7 @@ TEST(GraspDiagramTest, RandomGraspsOfAKindAreForceClosure) {
     Grasp grasp;
     const int fingers = 2 + trial % 2;
     for (int k = 0; k < fingers; ++k) {
-      grasp.push_back(ContactAt(polygon, edge(random), place(random)));
+      grasp.push_back(OnEdge(polygon, edge(random), place(random)));
     }
     const GraspDiagram diagram = DescribeGrasp(polygon, grasp, theta);
     ++counts[static_cast<int>(diagram.kind)];

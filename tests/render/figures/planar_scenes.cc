@@ -1,14 +1,10 @@
 #include "tests/render/figures/planar_scenes.h"
 
-#include <cmath>
-
 #include "planner/base/angle.h"
 
 namespace regrasp {
 
-namespace {
-
-Plan MakePlan(const FingerGrasp& initial, std::vector<Step> steps) {
+Plan MakePlanarPlan(const FingerGrasp& initial, std::vector<Step> steps) {
   Plan plan;
   plan.dimension = 2;
   plan.half_angle = Radians(20);
@@ -21,23 +17,8 @@ Plan MakePlan(const FingerGrasp& initial, std::vector<Step> steps) {
   return plan;
 }
 
-}  // namespace
-
-Polygon MakeTriangle() {
-  return Polygon::FromRings({{{0, 0}, {1, 0}, {0.5, std::sqrt(3.0) / 2}}}, "triangle");
-}
-
-Polygon MakeSquare() {
-  return Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square");
-}
-
-Contact ContactAt(const Polygon& polygon, int edge, double u) {
-  const auto [a, b] = polygon.edge(edge);
-  return {a + u * (b - a), polygon.inward_normal(edge), edge};
-}
-
 FingerContact FingerAt(const Polygon& polygon, int finger, int edge, double u) {
-  return {finger, ContactAt(polygon, edge, u)};
+  return {finger, OnEdge(polygon, edge, u)};
 }
 
 Plan MakeSquarePlan() {
@@ -45,8 +26,8 @@ Plan MakeSquarePlan() {
   const auto at = [&](int finger, int edge, double u) { return FingerAt(square, finger, edge, u); };
   const FingerGrasp start = {at(0, 0, 0.5), at(1, 2, 0.25), at(2, 2, 0.75)};
   const FingerGrasp moved = {at(0, 0, 0.4), at(1, 2, 0.25), at(2, 2, 0.75)};
-  return MakePlan(start, {Align{{start, moved}}, Switch{{at(3, 0, 0.6)}, {0}},
-                          Switch{{at(0, 2, 0.4)}, {1, 2}}});
+  return MakePlanarPlan(start, {Align{{start, moved}}, Switch{{at(3, 0, 0.6)}, {0}},
+                                Switch{{at(0, 2, 0.4)}, {1, 2}}});
 }
 
 Plan MakeTrianglePlan() {
@@ -54,7 +35,8 @@ Plan MakeTrianglePlan() {
   const auto at = [&](int finger, int edge, double u) {
     return FingerAt(triangle, finger, edge, u);
   };
-  return MakePlan({at(0, 0, 0.5), at(1, 1, 0.5), at(2, 2, 0.5)}, {Switch{{at(3, 0, 0.4)}, {0}}});
+  return MakePlanarPlan({at(0, 0, 0.5), at(1, 1, 0.5), at(2, 2, 0.5)},
+                        {Switch{{at(3, 0, 0.4)}, {0}}});
 }
 
 }  // namespace regrasp

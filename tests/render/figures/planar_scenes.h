@@ -5,15 +5,14 @@
 
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
+#include "tests/fixtures/polygons.h"
 
 namespace regrasp {
 
-[[nodiscard]] Polygon MakeTriangle();  ///< equilateral, side 1, one edge on the x axis from 0 to 1
-[[nodiscard]] Polygon MakeSquare();    ///< [−1, 1]²; edges: bottom, right, top, left
+[[nodiscard]] FingerContact FingerAt(const Polygon& polygon, int finger, int edge, double share);
 
-/// The contact at `u` of the way along an edge.
-[[nodiscard]] Contact ContactAt(const Polygon& polygon, int edge, double u);
-[[nodiscard]] FingerContact FingerAt(const Polygon& polygon, int finger, int edge, double u);
+/// A plan of a hand of four fingers at θ = 20°; its goal is the last grasp.
+[[nodiscard]] Plan MakePlanarPlan(const FingerGrasp& initial, std::vector<Step> steps);
 
 /// A plan on the square at θ = 20°: a parallel grasp; finger 0 moves; 3 takes over from 0; 0 is
 /// placed opposite and 1 and 2 leave.

@@ -21,7 +21,7 @@ double Volume(const FacetMesh& mesh) {
 }
 
 TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
-  const Polyhedron block = MakeLBlock();
+  const Polyhedron block = MakeThinLBlock();
   const BodyShape shape = MakeBodyShape(block);
   const double unit = std::pow(block.diameter(), 3);
   EXPECT_NEAR(Volume(shape.surface) * unit, block.mass_properties().volume, 1e-12);
@@ -29,7 +29,7 @@ TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
 }
 
 TEST(BodyShapeTest, TurnedInsideOutHasTheOppositeVolumeAndNormals) {
-  const FacetMesh cube = MakeBodyShape(MakeCube()).surface;
+  const FacetMesh cube = MakeBodyShape(MakeCube(0.03)).surface;
   const FacetMesh turned = TurnInsideOut(cube);
   EXPECT_DOUBLE_EQ(Volume(turned), -Volume(cube));
   EXPECT_EQ(turned.normals[0][0], -cube.normals[0][0]);
@@ -114,7 +114,7 @@ TEST(BodyShapeTest, AConeHasItsHalfAngleAndOpensUpwards) {
 }
 
 TEST(BodyShapeTest, RaysMeetTheNearestTriangleBeyondTheSkip) {
-  const BodyShape cube = MakeBodyShape(MakeCube());
+  const BodyShape cube = MakeBodyShape(MakeCube(0.03));
   const double half = 0.5 / std::sqrt(3.0);
   const Vector3d x = Vector3d::UnitX();
   const Vector3d off_diagonal(0, 0.01, 0.02);

@@ -57,7 +57,7 @@ int CountDifferent(const Image& a, const Image& b) {
 }
 
 TEST(FrameTest, HasTheSizeThatWasAskedFor) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   int checked = 0;
   for (const auto& [width, height] : {std::pair(64, 48), std::pair(48, 200), std::pair(801, 333)}) {
     const Image image = Draw(cube, MakeCubeSequence(), 0, {width, height, 2});
@@ -71,7 +71,7 @@ TEST(FrameTest, HasTheSizeThatWasAskedFor) {
 }
 
 TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   const Image image = Draw(cube, MakeCubeSequence(), 0, {4096, 4096, 2});
   EXPECT_EQ(image.width, 4096);
   EXPECT_TRUE(IsWhite(PixelAt(image, 4095, 4095)));
@@ -87,21 +87,21 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
 }
 
 TEST(FrameTest, RejectsSizesOutOfRange) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {47, 480, 1}), std::invalid_argument);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 4097, 1}), std::invalid_argument);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 480, 0}), std::invalid_argument);
 }
 
 TEST(FrameTest, HasAWhiteBackgroundAtTheCorners) {
-  const Image image = Draw(MakeCube(), MakeCubeSequence(), 1, Small());
+  const Image image = Draw(MakeCube(0.03), MakeCubeSequence(), 1, Small());
   for (const int x : {0, 319}) {
     for (const int y : {0, 239}) EXPECT_TRUE(IsWhite(PixelAt(image, x, y))) << x << " " << y;
   }
 }
 
 TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   std::vector<Snapshot> snapshots = MakeCubeSequence();
   const Image all = Draw(cube, snapshots, 0, Medium());
   for (int free = 0; free < 4; ++free) {
@@ -124,7 +124,7 @@ TEST(FrameTest, GivesTheSameBytesTwice) {
 }
 
 TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   const std::vector<Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small());
   const Image still = renderer.Render(snapshots[1]);
@@ -138,7 +138,7 @@ TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
 }
 
 TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   const std::vector<Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
   const Image without = renderer.Render(snapshots[0]);
@@ -158,7 +158,7 @@ TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
 
 TEST(FrameTest, IsIndependentOfTheObjectsSize) {
   // The same scene in metres and, scaled, in millimetres: the same picture, scale bar included.
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   PolygonSoup soup;
   for (const Eigen::Vector3d& p : cube.vertices()) soup.vertices.push_back(1024 * p);
   for (const auto& t : cube.triangles()) soup.facets.push_back({t[0], t[1], t[2]});
@@ -172,7 +172,7 @@ TEST(FrameTest, IsIndependentOfTheObjectsSize) {
 
 TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
   // After a failed step the object may have fallen out of the picture; that must not matter.
-  const Polyhedron cube = MakeCube();
+  const Polyhedron cube = MakeCube(0.03);
   std::vector<Snapshot> snapshots = MakeCubeSequence();
   snapshots.back().X_WO.translation() = Eigen::Vector3d(0, 0, -50);
   const Image image = Draw(cube, snapshots, 2, Small());

@@ -14,26 +14,6 @@ using Eigen::Vector3d;
 
 constexpr double kTipRadius = 0.003;
 
-/// The prism of an outline (counter-clockwise) between z = ∓height/2.
-PolygonSoup Extrude(const std::vector<Vector2d>& outline, double height) {
-  const int n = static_cast<int>(outline.size());
-  PolygonSoup soup;
-  std::vector<int> top;
-  std::vector<int> bottom;
-  for (const double z : {-height / 2, height / 2}) {
-    for (const Vector2d& p : outline) soup.vertices.push_back({p.x(), p.y(), z});
-  }
-  for (int i = 0; i < n; ++i) {
-    bottom.push_back(n - 1 - i);
-    top.push_back(n + i);
-    const int next = (i + 1) % n;
-    soup.facets.push_back({i, next, n + next, n + i});
-  }
-  soup.facets.push_back(bottom);
-  soup.facets.push_back(top);
-  return soup;
-}
-
 Snapshot MakeSnapshot(std::vector<FingerState> fingers) {
   Snapshot snapshot;
   snapshot.fingertip_radius_m = kTipRadius;
@@ -45,22 +25,17 @@ constexpr auto kHolding = FingerRole::kHolding;
 
 }  // namespace
 
-Polyhedron MakeCube() {
-  constexpr double h = 0.03;
-  return Polyhedron::FromSoup(Extrude({{-h, -h}, {h, -h}, {h, h}, {-h, h}}, 2 * h), "cube");
-}
-
-Polyhedron MakeLBlock() {
+Polyhedron MakeThinLBlock() {
   constexpr double a = 0.08;
   constexpr double b = 0.035;
-  return Polyhedron::FromSoup(Extrude({{0, 0}, {a, 0}, {a, b}, {b, b}, {b, a}, {0, a}}, 0.03),
-                              "l-block");
+  return Polyhedron::FromSoup(
+      Extrude({{0, 0}, {a, 0}, {a, b}, {b, b}, {b, a}, {0, a}}, -0.015, 0.015), "l-block");
 }
 
 Polyhedron MakeHoledBlock() {
   // Outer and inner ring of four; a quadrilateral per side, so that no facet has a hole.
   const std::vector<Vector2d> outer = {{-0.04, -0.03}, {0.04, -0.03}, {0.04, 0.03}, {-0.04, 0.03}};
-  PolygonSoup soup = Extrude(outer, 0.03);
+  PolygonSoup soup = Extrude(outer, -0.015, 0.015);
   soup.facets.resize(4);
   for (const double z : {-0.015, 0.015}) {
     for (const Vector2d& p : outer) soup.vertices.push_back({p.x() * 0.5, p.y() * 0.5, z});

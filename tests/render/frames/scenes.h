@@ -2,14 +2,13 @@
 
 #include <vector>
 
-#include "planner/object/polyhedron.h"
 #include "planner/plan/snapshot.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp {
 
 /// Bodies in metres, built without files.
-[[nodiscard]] Polyhedron MakeCube();        ///< side 0.06, centred at the origin
-[[nodiscard]] Polyhedron MakeLBlock();      ///< 0.08 × 0.08 × 0.03, legs 0.035 wide
+[[nodiscard]] Polyhedron MakeThinLBlock();  ///< 0.08 × 0.08 × 0.03, legs 0.035 wide
 [[nodiscard]] Polyhedron MakeHoledBlock();  ///< 0.08 × 0.06 × 0.03 with a square hole along z
 
 /// A finger at rest on a body in its first pose, pressing with 2 N at 8° to the normal.

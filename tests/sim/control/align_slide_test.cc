@@ -23,7 +23,7 @@ void ExpectShares(const AlignShares& shares, double imitated, double slid) {
 
 /// Two opposite fingers and one below, which alone is not needed.
 struct SquareCase {
-  Polygon square = MakeSquare();
+  Polygon square = MakeSquare(0.03);
   FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
                        OnEdge(square, 2, 0, 0.4)};
 
@@ -77,7 +77,7 @@ TEST(AlignSlide, LeavesTheOthersToTheSpareFingerAndSaysHowMuchOfTheWay) {
 }
 
 TEST(AlignSlide, IsImitationWhereEveryFingerIsNeeded) {
-  const Polygon triangle = MakeTriangle();
+  const Polygon triangle = MakeTriangle(0.08);
   const FingerGrasp start = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
                              OnEdge(triangle, 2, 2, 0.5)};
   const FingerGrasp end = {OnEdge(triangle, 0, 0, 0.55), OnEdge(triangle, 1, 1, 0.55),

@@ -100,35 +100,25 @@ int CountTurns(const Align& align) {
 
 namespace {
 
-constexpr double kRadius = 0.05;
-
 Eigen::Vector2d At(double turn, double radius) {
   const double angle = 2 * std::numbers::pi * turn;
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-std::vector<Eigen::Vector2d> Circle(int edges, double radius) {
-  std::vector<Eigen::Vector2d> ring;
-  for (int i = 0; i < edges; ++i) ring.push_back(At(static_cast<double>(i) / edges, radius));
-  return ring;
-}
-
 }  // namespace
-
-Polygon MakeDisc(int edges) { return Polygon::FromRings({Circle(edges, kRadius)}, "disc"); }
 
 Polygon MakeGear(int teeth, double depth) {
   std::vector<Eigen::Vector2d> ring;
   for (int i = 0; i < 2 * teeth; ++i) {
-    ring.push_back(At(0.5 * i / teeth, kRadius * (i % 2 == 0 ? 1 : 1 - depth)));
+    ring.push_back(At(0.5 * i / teeth, kDiscRadius * (i % 2 == 0 ? 1 : 1 - depth)));
   }
   return Polygon::FromRings({ring}, "gear");
 }
 
 Polygon MakeRing(int edges) {
-  std::vector<Eigen::Vector2d> hole = Circle(edges, 0.6 * kRadius);
+  std::vector<Eigen::Vector2d> hole = Circle(edges, 0.6 * kDiscRadius);
   std::ranges::reverse(hole);
-  return Polygon::FromRings({Circle(edges, kRadius), hole}, "ring");
+  return Polygon::FromRings({Circle(edges, kDiscRadius), hole}, "ring");
 }
 
 Polygon DrawOutline(int edges, std::mt19937& random) {
@@ -144,7 +134,7 @@ Polygon DrawOutline(int edges, std::mt19937& random) {
       const auto& [size, phase] = waves[k];
       radius += size * std::sin(2 * std::numbers::pi * ((k + 2.0) * turn + phase));
     }
-    ring.push_back(At(turn, kRadius * radius));
+    ring.push_back(At(turn, kDiscRadius * radius));
   }
   return Polygon::FromRings({ring}, "outline");
 }

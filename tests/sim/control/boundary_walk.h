@@ -26,11 +26,11 @@ struct Walk {
 /// How often a finger turns at a vertex in an align.
 [[nodiscard]] int CountTurns(const Align& align);
 
-/// As many vertices on a circle of 50 mm about the origin.
-[[nodiscard]] Polygon MakeDisc(int edges);
+/// Of discs, gears and rings, metres.
+inline constexpr double kDiscRadius = 0.05;
 
-/// As many teeth, each of two edges: every other corner is concave. `depth` over the radius of 50
-/// mm.
+/// As many teeth, each of two edges: every other corner is concave. `depth` over the
+/// radius.
 [[nodiscard]] Polygon MakeGear(int teeth, double depth);
 
 /// A disc with a round hole of 60 % of its radius: the first edges are the outer ones, and the k-th

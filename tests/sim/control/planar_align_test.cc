@@ -42,7 +42,7 @@ FingerGrasp TriangleGrasp(const Polygon& triangle, double share) {
 }
 
 TEST(PlanarAlign, IsImitatedFingerAfterFingerInAThreeFingerGrasp) {
-  const Polygon triangle = MakeTriangle();
+  const Polygon triangle = MakeTriangle(0.08);
   const FingerGrasp from = TriangleGrasp(triangle, 0.45), to = TriangleGrasp(triangle, 0.55);
   Plan plan = MakePlanarPlan(from, 12);
   plan.steps = {Align{{from, to}}};
@@ -50,7 +50,7 @@ TEST(PlanarAlign, IsImitatedFingerAfterFingerInAThreeFingerGrasp) {
 }
 
 TEST(PlanarAlign, IsSlidWhereNoFingerIsSpare) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp from = {OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5),
                             OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)};
   const FingerGrasp to = {OnEdge(square, 0, 1, 0.6), OnEdge(square, 1, 3, 0.35),
@@ -62,7 +62,7 @@ TEST(PlanarAlign, IsSlidWhereNoFingerIsSpare) {
 
 TEST(PlanarAlign, TwoFingersGoOverTogetherAtLittleFriction) {
   // At 1 degree a finger can be 1 mm off the other's normal, and they move 48 mm.
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp from = {OnEdge(square, 0, 1, 0.1), OnEdge(square, 1, 3, 0.9)};
   const FingerGrasp to = {OnEdge(square, 0, 1, 0.9), OnEdge(square, 1, 3, 0.1)};
   Plan plan = MakePlanarPlan(from, 1, 4);
@@ -74,7 +74,7 @@ TEST(PlanarAlign, TwoFingersGoOverTogetherAtLittleFriction) {
 }
 
 TEST(PlanarAlign, TurnsAFingerOverACornerWithAndWithoutASpareFinger) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp start = {OnEdge(square, 0, 1, 0.8), OnEdge(square, 1, 3, 0.5),
                              OnEdge(square, 2, 1, 0.4)};
   FingerGrasp corner = start, turned = start, end = start;
@@ -104,7 +104,7 @@ TEST(PlanarAlign, TurnsAFingerInAnInnerCorner) {
 }
 
 TEST(PlanarAlign, FailsWhereItEndsInAGraspThatDoesNotHold) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp from = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
   const FingerGrasp to = {OnEdge(square, 0, 1, 0.8), OnEdge(square, 1, 3, 0.8)};
   Plan plan = MakePlanarPlan(from, 15);

@@ -46,21 +46,21 @@ void ExpectPasses(const Polygon& polygon, const Plan& plan, int least_turns, int
 }
 
 TEST(PlanarCorner, FingersWalkAroundADiscOfTwelveEdges) {
-  const Polygon disc = MakeDisc(12);
+  const Polygon disc = MakeDisc(12, kDiscRadius);
   const double side = disc.face_measure(0);
   const Plan plan = MakeWalkPlan(disc, {{0, 0, 0.5, 4 * side}, {1, 6, 0.5, 4 * side}}, 25);
   ExpectPasses(disc, plan, 8, 16);
 }
 
 TEST(PlanarCorner, FingersWalkAroundADiscOfSixtyEdgesPastThirtyCorners) {
-  const Polygon disc = MakeDisc(60);
+  const Polygon disc = MakeDisc(60, kDiscRadius);
   const double side = disc.face_measure(0);
   const Plan plan = MakeWalkPlan(disc, {{0, 0, 0.3, 15 * side}, {1, 30, 0.3, 15 * side}}, 20);
   ExpectPasses(disc, plan, 30, 12);
 }
 
 TEST(PlanarCorner, OneFingerGoesPastManyCornersInOneMoveWhereForceClosureAllows) {
-  const Polygon disc = MakeDisc(180);
+  const Polygon disc = MakeDisc(180, kDiscRadius);
   const double side = disc.face_measure(0);
   // 15 corners are 30 degrees of the circle: the line tilts by 15.
   const Plan plan = MakeWalkPlan(disc, {{0, 0, 0.5, 15 * side}, {1, 90, 0.5, 0}}, 20);
@@ -68,7 +68,7 @@ TEST(PlanarCorner, OneFingerGoesPastManyCornersInOneMoveWhereForceClosureAllows)
 }
 
 TEST(PlanarCorner, FingersWalkBackwardsAndOppositeWays) {
-  const Polygon disc = MakeDisc(60);
+  const Polygon disc = MakeDisc(60, kDiscRadius);
   const double side = disc.face_measure(0);
   ExpectPasses(disc, MakeWalkPlan(disc, {{0, 0, 0.3, -9 * side}, {1, 30, 0.3, -9 * side}}, 20), 18,
                8);
@@ -142,7 +142,7 @@ TEST(PlanarCorner, AWalkNearTheLimitIsCutSoThatMixturesHaveSomethingToSpare) {
 }
 
 TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
-  const Polygon disc = MakeDisc(60);
+  const Polygon disc = MakeDisc(60, kDiscRadius);
   int checked = 0;
   for (const double share : {1e-4, 1e-3, 0.999, 0.9999}) {
     const Plan plan =
@@ -156,7 +156,7 @@ TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
 }
 
 TEST(PlanarCorner, AnAlignThatLeavesForceClosureOnTheWayFailsInCheckAndReplay) {
-  const Polygon disc = MakeDisc(60);
+  const Polygon disc = MakeDisc(60, kDiscRadius);
   const double side = disc.face_measure(0);
   // One finger goes 8 edges ahead, the other follows: at both ends they are opposite, in between
   // the line is 24 degrees off.

@@ -35,7 +35,7 @@ void ExpectRolled(const Object& object, const StepReplay& step, const Align& ali
 }
 
 TEST(RollFingers, CarriesOutAnAlignOfAHandThatNeedsAllFingers) {
-  const Polygon triangle = MakeTriangle();
+  const Polygon triangle = MakeTriangle(0.08);
   const auto at = [&](double share) {
     return FingerGrasp{OnEdge(triangle, 0, 0, share), OnEdge(triangle, 1, 1, share),
                        OnEdge(triangle, 2, 2, share)};
@@ -60,7 +60,7 @@ Align AroundTheCorner(const Polygon& square) {
 }
 
 TEST(RollFingers, GoesRoundACornerOfASquareWithAllFourFingers) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const Align align = AroundTheCorner(square);
   Plan plan = MakePlanarPlan(align.waypoints.front(), 10);
   plan.steps = {align};
@@ -71,7 +71,7 @@ TEST(RollFingers, GoesRoundACornerOfASquareWithAllFourFingers) {
 }
 
 TEST(RollFingers, FailsWhereTheFrictionIsTooSmallOnTheWay) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
                              OnEdge(square, 2, 0, 0.4)};
   FingerGrasp end = start;

@@ -57,7 +57,7 @@ TEST(ProtocolTest, BothFailBelowTheRequiredFriction) {
   const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 4.5));
   EXPECT_NE(hold.adapted->reason, Reason::kNone);
   EXPECT_NE(hold.fixed->reason, Reason::kNone);
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   // Each contact sees the other 18.4° off its normal.
   const Plan pair = MakePlanarPlan({OnEdge(square, 0, 1, 0.333), OnEdge(square, 1, 3, 0.333)}, 17);
   const StepReplay planar = HoldUnder(Protocol::kBoth, square, pair);

@@ -54,7 +54,7 @@ TEST(StressTest, BothRoutesGiveWhatTheFrictionOfFourFingersOnACubeBears) {
 }
 
 TEST(StressTest, BothRoutesGiveWhatAPairInThePlaneBears) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp pair = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
   const auto stress = StressOf(square, MakePlanarPlan(pair, kHalfAngleDeg));
   ASSERT_EQ(stress.size(), 6u);

@@ -4,34 +4,15 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <set>
 
 #include "planner/base/error.h"
+#include "tests/sim/replay/replay_expectations.h"
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp {
 namespace {
-
-/// What a good grasp may move or slide in a step, over the diameter: a tenth of the tolerance.
-constexpr double kGood = 1e-4;
-
-void ExpectGood(const ReplayResult& result, std::size_t entries) {
-  ASSERT_EQ(result.steps.size(), entries);
-  for (const StepReplay& step : result.steps) {
-    EXPECT_EQ(step.reason, Reason::kNone) << "entry " << step.index << ": " << step.detail;
-    EXPECT_LT(step.displacement_m, kGood * result.settings.diameter_m);
-    EXPECT_LT(step.slip_m, kGood * result.settings.diameter_m);
-    EXPECT_LT(step.drift_m, kGood * result.settings.diameter_m);
-    EXPECT_FALSE(step.contact_lost);
-  }
-}
-
-bool LosesObject(Reason reason) {
-  return reason == Reason::kContactLost || reason == Reason::kSlipped ||
-         reason == Reason::kObjectMoved;
-}
 
 Plan FourSwitches(const CubeCase& cube) {
   Plan plan = MakePlan(cube.Start(), 25);
@@ -169,49 +150,13 @@ TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
 
 TEST(ReplayPlanTest, TheSamePlanGivesTheSameBits) {
   const CubeCase cube;
-  const auto record = [&] {
-    std::vector<double> bits;
-    ReplayObserver observer;
-    observer.sample_interval_s = 1e-4;
-    observer.on_sample = [&](const Snapshot& sample) {
-      bits.push_back(sample.time_s);
-      for (int k = 0; k < 3; ++k) bits.push_back(sample.X_WO.translation()[k]);
-      for (const FingerState& state : sample.fingers) {
-        for (int k = 0; k < 3; ++k) bits.insert(bits.end(), {state.tip_W[k], state.force_W[k]});
-      }
-    };
-    const ReplayResult result = ReplayPlan(cube.object, FourSwitches(cube), {}, observer);
-    for (const StepReplay& step : result.steps) {
-      bits.insert(bits.end(), {step.displacement_m, step.rotation_deg, step.slip_m, step.drift_m});
-    }
-    return bits;
-  };
-  const std::vector<double> first = record(), second = record();
-  ASSERT_GT(first.size(), 1000u);
-  ASSERT_EQ(first.size(), second.size());
-  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
+  ExpectSameBitsTwice(cube.object, FourSwitches(cube));
 }
 
 TEST(ReplayPlanTest, SnapshotsShowTheContactsInTheObjectsFrame) {
   const CubeCase cube;
   const Plan plan = FourSwitches(cube);
-  const ReplayResult result = ReplayPlan(cube.object, plan, {});
-  int checked = 0;
-  FingerGrasp grasp = plan.initial;
-  for (std::size_t i = 0; i < result.steps.size(); ++i) {
-    if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
-    const Snapshot& shown = result.steps[i].snapshot;
-    for (const FingerContact& held : grasp) {
-      for (const FingerState& state : shown.fingers) {
-        if (state.finger != held.finger) continue;
-        EXPECT_LT((shown.X_WO.inverse() * state.contact_W - held.contact.p).norm(),
-                  kGood * cube.object.diameter());
-        EXPECT_GT(state.force_W.dot(held.contact.n), 0);
-        ++checked;
-      }
-    }
-  }
-  EXPECT_EQ(checked, 20);
+  ExpectTouchesAsPlanned(cube.object, plan, ReplayPlan(cube.object, plan, {}));
 }
 
 TEST(ReplayPlanTest, RefusesAContactOnNoFace) {

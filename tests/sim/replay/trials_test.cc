@@ -190,7 +190,7 @@ TEST(Trials, ChangeTheWorldAndNotWhatTheHandBelieves) {
 }
 
 TEST(Trials, WorkInThePlane) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 20);
   const auto passes = [&](double noise) {
     return RunTrials(square, plan, {}, Trials(20, noise, 0), kTip).passed;

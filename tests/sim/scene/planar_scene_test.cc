@@ -100,7 +100,7 @@ std::pair<double, double> Ends(const Polygon& polygon, int edge, const ContactPa
 }
 
 TEST(EdgePatch, CoversThePathAndItsSurroundingsAndEndsWithTheEdge) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const auto ends = [&](double from, double to) {
     const ContactSite site{1, OnEdge(square, 1, from).p, OnEdge(square, 1, to).p};
     const ContactPatch patch = MakeEdgePatch(square, site, 0.003, 0.02);

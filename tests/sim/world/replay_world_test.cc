@@ -31,7 +31,7 @@ TEST(MonitorOfAReplay, SeesAFingerThatIsDraggedOverTheSurface) {
 
 TEST(MonitorOfAReplay, SeesAFingerSlipThatHasSlidOnPurposeBefore) {
   // Two opposite fingers, and one below that is not needed and slides.
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
                              OnEdge(square, 2, 0, 0.4)};
   FingerGrasp end = start;
@@ -64,7 +64,7 @@ TEST(MonitorOfAReplay, SeesAtRestThatAFingerIsOffTheSurface) {
 
 TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
   // The square comes away from one of two opposite fingers, whose servos give way, and back again.
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 70);
   const ReplayObserver observer;
   for (const auto& [share, reason] : {std::pair{0.8, Reason::kNone}, {1.2, Reason::kContactLost}}) {
@@ -152,7 +152,7 @@ TEST(MonitorOfAReplay, AnAlignInSpaceMayMoveTheObjectByTheToleranceAndNoMore) {
 }
 
 TEST(MonitorOfAReplay, AnAlignInThePlaneMayMoveTheObjectByTheToleranceAndNoMore) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
                              OnEdge(square, 2, 0, 0.4)};
   FingerGrasp end = start;

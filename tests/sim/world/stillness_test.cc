@@ -26,7 +26,7 @@ ReplayOptions WithTimestep(double factor) {
 /// of ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until
 /// it is wedged between the fingers, by less than the tolerance where the shake is small.
 Reason Pinch(double friction, const ReplayOptions& options) {
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
                                    Degrees(std::atan(friction)));
   return ReplayPlan(square, plan, options).steps.at(0).reason;
@@ -34,7 +34,7 @@ Reason Pinch(double friction, const ReplayOptions& options) {
 
 TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
   const CubeCase cube;
-  const Polygon square = MakeSquare();
+  const Polygon square = MakeSquare(0.03);
   ReplayOptions options;
   options.gravity = false;
   int failed = 0;

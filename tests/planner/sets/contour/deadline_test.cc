@@ -5,7 +5,7 @@
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/plan_contour.h"
 #include "planner/sets/contour/projection_sweep.h"
-#include "tests/planner/deadline_laws.h"
+#include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {

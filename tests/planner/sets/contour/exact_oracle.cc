@@ -12,83 +12,18 @@
 #include <utility>
 #include <vector>
 
+#include "tests/planner/sets/exact_region.h"
+
 namespace regrasp {
 namespace {
 
 using Number = CGAL::Gmpq;
+using Vec = exact::Vec<Number>;
+using Edge = exact::Edge<Number>;
+using Region = exact::Region<Number>;
 
 /// Doubles may miss that a rectangle is full by this much, over the square of an edge's length.
 constexpr double kRounding = 1e-12;
-
-struct Vec {
-  Number x;
-  Number y;
-};
-Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y}; }
-Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y}; }
-Vec operator*(const Number& s, const Vec& a) { return {s * a.x, s * a.y}; }
-Number Cross(const Vec& a, const Vec& b) { return a.x * b.y - a.y * b.x; }
-
-struct Edge {
-  Vec a;
-  Vec along;
-  Vec right;  ///< borders of the cone about the inward normal
-  Vec left;
-};
-
-Edge MakeEdge(const Polygon& polygon, int edge, double tangent) {
-  const auto [from, to] = polygon.edge(edge);
-  const Vec a = {from.x(), from.y()};
-  const Vec along = Vec{to.x(), to.y()} - a;
-  const Vec normal = {-along.y, along.x};
-  const Number t(tangent);
-  return {a, along, normal + t * along, normal - t * along};
-}
-
-/// v lies in the interior of the edge's cone.
-bool InCone(const Edge& e, const Vec& v) { return Cross(e.right, v) > 0 && Cross(v, e.left) > 0; }
-
-/// Of two open cones of less than π that meet, one has a border or the middle of the other inside.
-bool ConesOppose(const Edge& a, const Edge& b) {
-  const auto meets = [](const Edge& e, const Edge& f) {
-    const Number minus = -1;
-    return InCone(e, minus * f.right) || InCone(e, minus * f.left) ||
-           InCone(e, minus * (f.right + f.left));
-  };
-  return meets(a, b) || meets(b, a);
-}
-
-using Corner = std::array<Number, 2>;
-using Region = std::vector<Corner>;  ///< convex, of parameters in [0, 1]²
-
-/// The part where sign · cross(border, p_b(u_b) − p_a(u_a)) >= 0.
-Region Clip(const Region& region, const Edge& a, const Edge& b, const Vec& border, int sign) {
-  const auto value = [&](const Corner& u) {
-    return Number(sign) * Cross(border, (b.a - a.a) + u[1] * b.along - u[0] * a.along);
-  };
-  Region clipped;
-  for (std::size_t k = 0; k < region.size(); ++k) {
-    const Corner& from = region[k];
-    const Corner& to = region[(k + 1) % region.size()];
-    const Number f = value(from);
-    const Number g = value(to);
-    if (f >= 0) clipped.push_back(from);
-    if ((f > 0 && g < 0) || (f < 0 && g > 0)) {
-      const Number s = f / (f - g);
-      clipped.push_back({from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])});
-    }
-  }
-  return clipped;
-}
-
-Number TwiceArea(const Region& region) {
-  Number area = 0;
-  for (std::size_t k = 1; k + 1 < region.size(); ++k) {
-    area += (region[k][0] - region[0][0]) * (region[k + 1][1] - region[0][1]) -
-            (region[k][1] - region[0][1]) * (region[k + 1][0] - region[0][0]);
-  }
-  return area;
-}
 
 /// An open interval; empty where low >= high.
 struct Range {
@@ -121,15 +56,15 @@ struct Piece {
 
 Piece MakePiece(int e, int f, bool stretching, const Edge& a, const Edge& b, const Region& region) {
   Piece piece = {{e, f}, stretching, false, false, {}, {}};
-  for (const Corner& corner : region) {
+  for (const exact::Corner<Number>& corner : region) {
     for (int k = 0; k < 2; ++k) {
       piece.contact[k].Include(corner[k]);
       if (corner[k] == 0) piece.sides[2 * k].Include(corner[1 - k]);
       if (corner[k] == 1) piece.sides[2 * k + 1].Include(corner[1 - k]);
     }
   }
-  piece.covers = TwiceArea(region) == 2;
-  const Number length = a.along.x * a.along.x + a.along.y * a.along.y;
+  piece.covers = exact::TwiceArea(region) == 2;
+  const Number length = Dot(a.along, a.along);
   for (const int ua : {0, 1}) {
     for (const int ub : {0, 1}) {
       const Vec v = (b.a - a.a) + Number(ub) * b.along - Number(ua) * a.along;
@@ -150,7 +85,7 @@ class Oracle {
       for (int k = 0; k < count; ++k) next_.push_back(first + (k + 1) % count);
       first += count;
     }
-    for (int e = 0; e < first; ++e) edges_.push_back(MakeEdge(polygon, e, tangent));
+    for (int e = 0; e < first; ++e) edges_.push_back(exact::MakeEdge<Number>(polygon, e, tangent));
     FindPieces();
     FindPassages();
     FindSwitches();
@@ -165,7 +100,6 @@ class Oracle {
 
  private:
   void FindPieces() {
-    const Region square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
       for (int f = e + 1; f < static_cast<int>(edges_.size()); ++f) {
         const Edge& a = edges_[e];
@@ -173,11 +107,8 @@ class Oracle {
         if (ConesOppose(a, b)) ++candidates;
         const std::size_t before = pieces.size();
         for (const int sign : {1, -1}) {
-          Region region = Clip(square, a, b, a.right, sign);
-          region = Clip(region, a, b, a.left, -sign);
-          region = Clip(region, a, b, b.right, -sign);
-          region = Clip(region, a, b, b.left, sign);
-          if (TwiceArea(region) == 0) continue;
+          const Region region = exact::TwoFingerRegion(a, b, sign);
+          if (exact::TwiceArea(region) == 0) continue;
           number_[{e, f, sign < 0}] = static_cast<int>(pieces.size());
           pieces.push_back(MakePiece(e, f, sign < 0, a, b, region));
         }

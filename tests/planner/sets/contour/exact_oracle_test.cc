@@ -10,26 +10,13 @@
 #include <limits>
 #include <random>
 
+#include "tests/fixtures/roundings.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kSeed = 5;
-
-/// An angle whose tangent is this very double.
-double HalfAngleOf(double tangent) {
-  double angle = std::atan(tangent);
-  constexpr int kRoundings = 4;
-  for (int k = 0; k < kRoundings && std::tan(angle) > tangent; ++k)
-    angle = std::nextafter(angle, 0);
-  for (int k = 0; k < kRoundings && std::tan(angle) < tangent; ++k) {
-    angle = std::nextafter(angle, kInfinity);
-  }
-  EXPECT_EQ(std::tan(angle), tangent);
-  return angle;
-}
 
 void Check(const Polygon& polygon, double half_angle, OracleCounts& total) {
   const ContourGraph graph(polygon, half_angle);

@@ -8,7 +8,7 @@
 
 #include "planner/object/polygon_rings.h"
 #include "planner/sets/contour/plan_contour.h"
-#include "tests/planner/peak_memory.h"
+#include "tests/fixtures/peak_memory.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {

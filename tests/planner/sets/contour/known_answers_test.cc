@@ -11,33 +11,13 @@
 #include "planner/search/components.h"
 #include "planner/sets/contour/contact_space.h"
 #include "planner/sets/contour/region_diagram.h"
+#include "tests/planner/sets/contour/graph_counts.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
 namespace {
 
 using Eigen::Vector2d;
-
-struct Counts {
-  std::int64_t candidates;
-  std::int64_t combinations;
-  std::int64_t vertices;
-  std::int64_t switches;
-  std::int64_t components;
-
-  bool operator==(const Counts&) const = default;
-};
-
-void PrintTo(const Counts& c, std::ostream* out) {
-  *out << "candidates " << c.candidates << ", combinations " << c.combinations << ", vertices "
-       << c.vertices << ", switches " << c.switches << ", components " << c.components;
-}
-
-Counts CountsOf(const Polygon& polygon, double degrees) {
-  const ContourGraph graph(polygon, Radians(degrees));
-  return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
-          graph.switch_count(), graph.components().count()};
-}
 
 double LargestSize(const ContourGraph& graph, int set) {
   double largest = 0;

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "tests/planner/sets/contour/contact_grid.h"
+#include "tests/planner/sets/contour/graph_counts.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
@@ -19,27 +20,6 @@ using Eigen::Vector2d;
 
 constexpr double kAngles[] = {10, 20, 35, 50};
 constexpr std::uint64_t kSeed = 4;
-
-struct Counts {
-  std::int64_t candidates;
-  std::int64_t combinations;
-  std::int64_t vertices;
-  std::int64_t switches;
-  std::int64_t components;
-
-  bool operator==(const Counts&) const = default;
-};
-
-void PrintTo(const Counts& c, std::ostream* out) {
-  *out << "candidates " << c.candidates << ", combinations " << c.combinations << ", vertices "
-       << c.vertices << ", switches " << c.switches << ", components " << c.components;
-}
-
-Counts CountsOf(const Polygon& polygon, double degrees) {
-  const ContourGraph graph(polygon, Radians(degrees));
-  return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
-          graph.switch_count(), graph.components().count()};
-}
 
 /// The twelve-edge polygons and some of 40 edges.
 const std::vector<NamedPolygon>& Polygons() {

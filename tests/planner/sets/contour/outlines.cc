@@ -93,33 +93,6 @@ const std::vector<NamedPolygon>& DegeneratePolygons() {
   return all;
 }
 
-Polygon Mapped(const Polygon& polygon,
-               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map) {
-  std::vector<Ring> rings = polygon.rings();
-  for (Ring& ring : rings) {
-    for (Eigen::Vector2d& p : ring) p = map(p);
-  }
-  return Polygon::FromRings(std::move(rings), "mapped");
-}
-
-Polygon Shaken(const Polygon& polygon, const Shake& shake, std::mt19937_64& engine) {
-  std::bernoulli_distribution up(0.5);
-  return Mapped(polygon, [&](const Eigen::Vector2d& p) {
-    const double x = shake(p.x(), up(engine));
-    return Eigen::Vector2d(x, shake(p.y(), up(engine)));
-  });
-}
-
-double OneRounding(double x, bool up) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (x == 0) return x;  // the next double is no rounding of anything
-  return std::nextafter(x, up ? kInfinity : -kInfinity);
-}
-
-Shake By(double amount) {
-  return [amount](double x, bool up) { return x + (up ? amount : -amount); };
-}
-
 Polygon Renumbered(const Polygon& polygon, int by) {
   std::vector<Ring> rings = polygon.rings();
   for (Ring& ring : rings) {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "tests/planner/sets/polygon/shapes.h"
+#include "planner/base/angle.h"
+#include "tests/fixtures/polygons.h"
+#include "tests/fixtures/roundings.h"
 
 namespace regrasp {
 
@@ -31,18 +31,6 @@ namespace regrasp {
 /// Exact ties at tan θ = 1/4, 1/2, 3/4, 1, 3/2, or as near as doubles come to a regular polygon;
 /// cells that touch at corners where four of them meet.
 [[nodiscard]] const std::vector<NamedPolygon>& DegeneratePolygons();
-
-/// The polygon with every vertex replaced; rings that turn around are put right.
-[[nodiscard]] Polygon Mapped(const Polygon& polygon,
-                             const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map);
-
-/// How a coordinate is moved up or down.
-using Shake = std::function<double(double coordinate, bool up)>;
-[[nodiscard]] double OneRounding(double x, bool up);
-[[nodiscard]] Shake By(double amount);
-
-/// The polygon with every coordinate moved up or down by chance.
-[[nodiscard]] Polygon Shaken(const Polygon& polygon, const Shake& shake, std::mt19937_64& engine);
 
 /// The polygon with its rings started from the `by`-th vertex (of each, modulo their number).
 [[nodiscard]] Polygon Renumbered(const Polygon& polygon, int by);

@@ -5,7 +5,7 @@
 #include "planner/sets/polygon/candidates.h"
 #include "planner/sets/polygon/plan_polygon.h"
 #include "planner/sets/polygon/polygon_graph.h"
-#include "tests/planner/deadline_laws.h"
+#include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {

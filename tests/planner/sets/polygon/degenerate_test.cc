@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "tests/fixtures/roundings.h"
 #include "tests/planner/sets/polygon/graph_oracle.h"
 #include "tests/planner/sets/polygon/shapes.h"
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
@@ -17,42 +18,7 @@
 namespace regrasp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kSeed = 3;
-
-/// An angle whose tangent is this very double.
-double HalfAngleOf(double tangent) {
-  double angle = std::atan(tangent);
-  constexpr int kRoundings = 4;
-  for (int k = 0; k < kRoundings && std::tan(angle) > tangent; ++k)
-    angle = std::nextafter(angle, 0);
-  for (int k = 0; k < kRoundings && std::tan(angle) < tangent; ++k) {
-    angle = std::nextafter(angle, kInfinity);
-  }
-  EXPECT_EQ(std::tan(angle), tangent);
-  return angle;
-}
-
-/// Every coordinate moved up or down by what `step` says.
-Polygon Perturbed(const Polygon& polygon, const std::function<double(double, bool)>& step,
-                  std::mt19937_64& engine) {
-  std::vector<Ring> rings = polygon.rings();
-  for (Ring& ring : rings) {
-    for (Eigen::Vector2d& p : ring) {
-      for (double& x : p) x = step(x, std::bernoulli_distribution(0.5)(engine));
-    }
-  }
-  return Polygon::FromRings(rings, "perturbed");
-}
-
-double OneRounding(double x, bool up) {
-  if (x == 0) return x;  // the next double is no rounding of anything
-  return std::nextafter(x, up ? kInfinity : -kInfinity);
-}
-
-std::function<double(double, bool)> By(double amount) {
-  return [amount](double x, bool up) { return x + (up ? amount : -amount); };
-}
 
 struct Checked {
   OracleCount concurrent;
@@ -98,7 +64,7 @@ TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
       {"1e-6", By(1e-6)}};
   for (const auto& [name, polygon] : DegeneratePolygons()) {
     for (const auto& [how, step] : steps) {
-      const Polygon moved = Perturbed(polygon, step, engine);
+      const Polygon moved = Shaken(polygon, step, engine);
       for (const double half_angle :
            {HalfAngleOf(0.25), Radians(30), HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
         for (const Spanning spanning : kSpannings) {

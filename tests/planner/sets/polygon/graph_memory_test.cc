@@ -5,7 +5,7 @@
 
 #include "planner/object/object.h"
 #include "planner/sets/polygon/plan_polygon.h"
-#include "tests/planner/peak_memory.h"
+#include "tests/fixtures/peak_memory.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,20 @@ using Ring = std::vector<Eigen::Vector2d>;
 /// A tetrahedron, round and stretched stones, frusta of a boomerang and of a ring: few faces, none
 /// of them with a symmetry, convex and not.
 [[nodiscard]] const std::vector<NamedBody>& SmallBodies();
+
+/// Calls check(body, degrees, spanning) for each of the small bodies, the angles and both
+/// spannings.
+template <class Check>
+void ForEachSmallBody(std::span<const double> angles, const Check& check) {
+  for (const NamedBody& named : SmallBodies()) {
+    for (const double degrees : angles) {
+      for (const Spanning spanning : kBothSpannings) {
+        SCOPED_TRACE(named.name + " " + std::to_string(degrees) + " " + Name(spanning));
+        check(named.body, degrees, spanning);
+      }
+    }
+  }
+}
 
 /// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.
 [[nodiscard]] PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map);

@@ -4,7 +4,7 @@
 
 #include "planner/sets/polyhedron/normal_quadruples.h"
 #include "planner/sets/polyhedron/plan_polyhedron.h"
-#include "tests/planner/deadline_laws.h"
+#include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp {

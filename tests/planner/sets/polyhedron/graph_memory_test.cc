@@ -7,7 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
 #include "planner/sets/polyhedron/plan_polyhedron.h"
-#include "tests/planner/peak_memory.h"
+#include "tests/fixtures/peak_memory.h"
 
 namespace regrasp {
 namespace {

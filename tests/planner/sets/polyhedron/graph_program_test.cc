@@ -256,29 +256,28 @@ class GraphOracle {
   std::vector<QuadrupleCandidate> candidates_;
 };
 
+void Record(const Count& count) {
+  ::testing::Test::RecordProperty("meet", count.meet);
+  ::testing::Test::RecordProperty("apart", count.apart);
+  ::testing::Test::RecordProperty("touch", count.touch);
+  ::testing::Test::RecordProperty("between", count.between);
+  ::testing::Test::RecordProperty("several", count.several);
+  ::testing::Test::RecordProperty("fallen", count.fallen);
+}
+
 template <class Check>
 Count CheckAll(const Check& check) {
   Count count;
-  for (const NamedBody& named : SmallBodies()) {
-    for (const double degrees : kDegrees) {
-      for (const Spanning spanning : kBothSpannings) {
-        SCOPED_TRACE(named.name + " " + std::to_string(degrees) + " " + Name(spanning));
-        GraphOracle oracle(named.body, degrees, spanning);
-        check(oracle, count);
-      }
-    }
-  }
+  ForEachSmallBody(kDegrees, [&](const Polyhedron& body, double degrees, Spanning spanning) {
+    GraphOracle oracle(body, degrees, spanning);
+    check(oracle, count);
+  });
   return count;
 }
 
 TEST(GraphProgram, PiecesAndTheirComponentsAreThoseOfLinearPrograms) {
   const Count count = CheckAll([](GraphOracle& o, Count& c) { o.CheckPieces(c); });
-  RecordProperty("meet", count.meet);
-  RecordProperty("apart", count.apart);
-  RecordProperty("touch", count.touch);
-  RecordProperty("between", count.between);
-  RecordProperty("several", count.several);
-  RecordProperty("fallen", count.fallen);
+  Record(count);
   EXPECT_GT(count.meet, 100);
   EXPECT_GT(count.apart, 1000);
   EXPECT_GT(count.several, 10);
@@ -287,12 +286,7 @@ TEST(GraphProgram, PiecesAndTheirComponentsAreThoseOfLinearPrograms) {
 
 TEST(GraphProgram, LinksAreThoseOfLinearPrograms) {
   const Count count = CheckAll([](GraphOracle& o, Count& c) { o.CheckLinks(c); });
-  RecordProperty("meet", count.meet);
-  RecordProperty("apart", count.apart);
-  RecordProperty("touch", count.touch);
-  RecordProperty("between", count.between);
-  RecordProperty("several", count.several);
-  RecordProperty("fallen", count.fallen);
+  Record(count);
   EXPECT_GT(count.meet, 100);
   EXPECT_GT(count.apart, 20);
   EXPECT_LT(count.between * kFewBetween, count.all());

@@ -240,15 +240,10 @@ class GraspOracle {
 template <class Check>
 Count CheckAll(const Check& check) {
   Count count;
-  for (const NamedBody& named : SmallBodies()) {
-    for (const double degrees : kDegrees) {
-      for (const Spanning spanning : kBothSpannings) {
-        SCOPED_TRACE(named.name + " " + std::to_string(degrees) + " " + Name(spanning));
-        GraspOracle oracle(named.body, degrees, spanning);
-        check(oracle, count);
-      }
-    }
-  }
+  ForEachSmallBody(kDegrees, [&](const Polyhedron& body, double degrees, Spanning spanning) {
+    GraspOracle oracle(body, degrees, spanning);
+    check(oracle, count);
+  });
   return count;
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+
+#include "planner/base/angle.h"
+#include "planner/search/components.h"
+#include "planner/sets/contour/contour_graph.h"
+
+namespace regrasp {
+
+/// What a contour graph is counted by.
+struct Counts {
+  std::int64_t candidates;
+  std::int64_t combinations;
+  std::int64_t vertices;
+  std::int64_t switches;
+  std::int64_t components;
+
+  bool operator==(const Counts&) const = default;
+};
+
+inline void PrintTo(const Counts& c, std::ostream* out) {
+  *out << "candidates " << c.candidates << ", combinations " << c.combinations << ", vertices "
+       << c.vertices << ", switches " << c.switches << ", components " << c.components;
+}
+
+inline Counts CountsOf(const Polygon& polygon, double degrees) {
+  const ContourGraph graph(polygon, Radians(degrees));
+  return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
+          graph.switch_count(), graph.components().count()};
+}
+
+}  // namespace regrasp

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/replay/replay.h"
+
+namespace regrasp {
+
+/// What a good grasp may move or slide in a step, and how far off a finger may touch, over the
+/// diameter: a tenth of the tolerance.
+inline constexpr double kGood = 1e-4;
+
+/// Expects that so many entries pass, with next to no motion.
+void ExpectGood(const ReplayResult& result, std::size_t entries);
+
+/// The object moved, slipped or lost a contact.
+[[nodiscard]] bool LosesObject(Reason reason);
+
+/// Expects that at rest, in every entry of the replay, every finger touches where it was planned,
+/// and presses.
+void ExpectTouchesAsPlanned(const Object& object, const Plan& plan, const ReplayResult& result);
+
+/// Expects that two replays of a plan are the same bits: all samples, and what is measured.
+void ExpectSameBitsTwice(const Object& object, const Plan& plan);
+
+}  // namespace regrasp
