@@ -72,7 +72,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
-    SearchSpace space(object, {setting.half_angle, 0, setting.min_quality});
+    SearchSpace space(object, {setting.half_angle, setting.min_quality});
     space.SetLimits({.most_tests = GeneralPlanOptions::kDefaultEffort});
     const ContactSet from = space.Add(pair.start);
     const ContactSet to = space.Add(pair.goal);

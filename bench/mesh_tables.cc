@@ -71,7 +71,8 @@ std::vector<std::string> QueryRow(const Setting& setting, const ClusteredRoadmap
 /// neither takes.
 std::vector<std::string> LocalRow(const Setting& setting, const ClusteredRoadmap& roadmap,
                                   double same_point) {
-  GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle, same_point);
+  GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
+                     {roadmap.half_angle, 0});
   LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
   RandomStream random(kSeed, RandomUse::kStart);
   struct Count {

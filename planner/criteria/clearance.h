@@ -14,8 +14,9 @@ namespace regrasp {
 /// Lengths are the object's own units; `contact.face` is the face that it lies on.
 [[nodiscard]] double ComputeClearance(const Object& object, const Contact& contact, double limit);
 
-/// A fingertip needs room: a ball of this radius, over the diameter, that touches at the contact.
-/// In a concave corner no finger can stand; the smallest fingertips of the replay need half of it.
+/// The clearance that a fingertip needs: the radius of a ball, over the diameter, that touches at
+/// the contact. In a concave corner there is none; the smallest fingertips of the replay need half
+/// of it.
 inline constexpr double kFingertipClearance = 5e-4;
 
 /// True iff a ball of that radius touches the object from outside at the contact and nowhere else.

@@ -15,9 +15,6 @@ namespace {
 /// Of required half-angles that are only compared, radians.
 constexpr double kScoreAccuracy = 1e-5;
 
-/// Of qualities that are only compared: to a hundredth they would take ten times as long.
-constexpr double kScoreGap = 0.1;
-
 std::vector<double> NumbersOf(const Grasp& grasp) {
   std::vector<double> numbers;
   for (const Contact& contact : grasp) {
@@ -26,15 +23,6 @@ std::vector<double> NumbersOf(const Grasp& grasp) {
     numbers.push_back(contact.face);
   }
   return numbers;
-}
-
-bool HaveDistinctPoints(const Grasp& grasp, double same_point) {
-  for (std::size_t i = 0; i < grasp.size(); ++i) {
-    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
-      if ((grasp[i].p - grasp[j].p).norm() <= same_point) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -47,23 +35,24 @@ GraspEvaluator::GraspEvaluator(const Object& object, const GraspCriteria& criter
       hand_(hand),
       same_point_(kSamePoint * object.diameter()) {}
 
-bool GraspEvaluator::AreApart(const Grasp& grasp) const {
-  return HaveDistinctPoints(grasp, same_point_) && KeepApart(grasp, finger_radius());
+bool GraspEvaluator::CanAllMeet(const Grasp& grasp) const {
+  return regrasp::CanAllMeet(grasp, same_point_, finger_radius());
 }
 
-bool GraspEvaluator::AreReachable(const Grasp& grasp) const {
-  return std::ranges::all_of(grasp, [&](const Contact& contact) {
+bool GraspEvaluator::AreReachable(const Grasp& contacts) const {
+  return std::ranges::all_of(contacts, [&](const Contact& contact) {
     return HasClearance(object_, contact) && CanReach(object_, contact, finger_radius());
   });
 }
 
-bool GraspEvaluator::CanStand(const Grasp& grasp) const {
-  return AreApart(grasp) && AreReachable(grasp);
+bool GraspEvaluator::IsReachable(const Grasp& grasp) const {
+  return CanAllMeet(grasp) && AreReachable(grasp);
 }
 
 bool GraspEvaluator::IsGood(const Grasp& grasp) const {
-  return AreApart(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
-         QualityAtLeast(grasp, frame_, half_angle(), min_quality()) && AreReachable(grasp);
+  // What takes least time and refuses most comes first.
+  return CanAllMeet(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
+         MeetsCriteria(grasp, frame_, criteria_) && AreReachable(grasp);
 }
 
 double GraspEvaluator::Score(const Grasp& grasp) const {
@@ -73,12 +62,8 @@ double GraspEvaluator::Score(const Grasp& grasp) const {
 }
 
 double GraspEvaluator::ComputeScore(const Grasp& grasp) const {
-  if (!CanStand(grasp) || !IsForceClosure(grasp, frame_, half_angle())) {
-    return -1;
-  }
-  if (!QualityAtLeast(grasp, frame_, half_angle(), min_quality())) {
-    return ComputeQuality(grasp, frame_, half_angle(), kScoreGap).lower / min_quality() - 1;
-  }
+  if (!IsReachable(grasp) || !IsForceClosure(grasp, frame_, half_angle())) return -1;
+  if (!MeetsCriteria(grasp, frame_, criteria_)) return Shortfall(grasp, frame_, criteria_);
   const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
   return required ? std::max(half_angle() - required->upper, 0.0) : 0;
 }

@@ -10,22 +10,19 @@
 
 namespace regrasp {
 
-/// Contacts this close, relative to the diameter, are at the same point: twice the tolerance for
-/// reading, so that no checker takes them for coincident after rounding.
-inline constexpr double kSamePoint = 2 * kPointTolerance;
-
-/// What a planner asks of grasps that a hand is to rest in.
+/// What a planner asks of grasps that a hand is to rest in: GraspCriteria, and that the hand can be
+/// there. For grasps whose contacts are anywhere; GraspMemory has those of numbered contacts.
 class GraspEvaluator {
  public:
   /// @param object  must outlive this object.
   GraspEvaluator(const Object& object, const GraspCriteria& criteria, const Hand& hand = {});
 
-  /// Force closure, of the quality that is asked for, and fingers can stand in it.
+  /// Force closure, meets the criteria, and the hand can be there.
   [[nodiscard]] bool IsGood(const Grasp& grasp) const;
 
-  /// Whether fingers can stand in it, good or not: at different points, with room for a fingertip
-  /// at each (HasClearance), and with the radius that they have (CanHold).
-  [[nodiscard]] bool CanStand(const Grasp& grasp) const;
+  /// Whether the hand can be there, good or not: fingers at different points (CanMeet), each with
+  /// clearance for a fingertip (HasClearance), and it can come there (CanReach).
+  [[nodiscard]] bool IsReachable(const Grasp& grasp) const;
 
   /// How good it is to rest in a grasp: its margin to the required half-angle, radians, where it is
   /// good; otherwise a negative number, the worse the lower its quality.
@@ -41,8 +38,8 @@ class GraspEvaluator {
   [[nodiscard]] const Object& object() const { return object_; }
 
  private:
-  [[nodiscard]] bool AreApart(const Grasp& grasp) const;
-  [[nodiscard]] bool AreReachable(const Grasp& grasp) const;
+  [[nodiscard]] bool CanAllMeet(const Grasp& grasp) const;
+  [[nodiscard]] bool AreReachable(const Grasp& contacts) const;
   [[nodiscard]] double ComputeScore(const Grasp& grasp) const;
 
   const Object& object_;

@@ -75,10 +75,10 @@ std::optional<std::string> FindObstacle(const Object& object, const Contact& con
   if (IsShutIn(object, contact)) {
     return "its contact lies in a sealed cavity, where no finger comes from outside";
   }
-  const double room = ComputeClearance(object, contact, radius);
-  if (room < kTouches * radius) {
+  const double clearance = ComputeClearance(object, contact, radius);
+  if (clearance < kTouches * radius) {
     return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +
-           FormatShort(room) + " fits";
+           FormatShort(clearance) + " fits";
   }
   double free = 0;
   double blocked = object.diameter();

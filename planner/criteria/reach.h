@@ -19,7 +19,7 @@ namespace regrasp {
 /// faces. A radius of 0 is a finger that is a point, and reaches everything but the walls of sealed
 /// cavities (Object::IsEnclosed).
 
-/// True iff the finger can come to the contact and stand there: the object does not enter the
+/// True iff the finger can come to the contact and stay there: the object does not enter the
 /// capsule. Touching is allowed, up to rounding.
 /// Laws: independent of rigid motion and of the unit of length; a thicker finger reaches no contact
 /// that a thinner one (of positive radius) does not reach.

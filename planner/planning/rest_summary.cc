@@ -34,7 +34,7 @@ std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < rests.size(); ++i) {
     if (evaluator.Score(rests[i].grasp) >= 0) continue;
-    if (warnings.empty() && !evaluator.CanStand(rests[i].grasp)) {
+    if (warnings.empty() && !evaluator.IsReachable(rests[i].grasp)) {
       warnings.push_back("a fingertip has no room in " + name(i) +
                          ": a contact is in a concave corner");
     }

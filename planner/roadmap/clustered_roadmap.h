@@ -28,8 +28,8 @@ struct ClusteredRoadmapOptions {
   Deadline deadline = {};    ///< when building ends by TimeUp
 };
 
-/// The contact points of a mesh at which a fingertip has room, in clusters; no more clusters than
-/// contact points less one.
+/// The contact points of a mesh at which a fingertip has clearance, in clusters; no more clusters
+/// than contact points less one.
 /// @throws std::invalid_argument  an option is out of its range.
 [[nodiscard]] ContactClusters ClusterContacts(const Polyhedron& solid,
                                               const ClusteredRoadmapOptions& options);

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "planner/base/number.h"
-#include "planner/grasp/quality.h"
 #include "planner/planning/plan_search.h"
 #include "planner/roadmap/contact_chain.h"
 #include "planner/roadmap/find_contact.h"
@@ -84,16 +83,17 @@ class ClusterPlanner {
     ContactClusters clusters = roadmap_.clusters;
     const Quadruple from = Join(start.grasp, clusters);
     const Quadruple to = Join(goal.grasp, clusters);
-    const auto good = [&](const Grasp& grasp) {
-      options_.deadline.Check();
-      return QualityAtLeast(grasp, roadmap_.frame, options_.half_angle, options_.min_quality);
+    GraspOracle oracle(clusters.contacts(), roadmap_.frame, SamePoint(),
+                       {options_.half_angle, options_.min_quality},
+                       {.fingertip_radius = options_.finger_radius}, options_.deadline);
+    const auto find = [&] {
+      return FindContactChain(roadmap_, clusters, oracle, from, to, options_.last_resort);
     };
-    ContactChain chain = Find(clusters, from, to, good);
-    const auto any = [&](const Grasp&) {
-      options_.deadline.Check();
-      return true;
-    };
-    if (chain.grasps.empty()) chain = Find(clusters, from, to, any);
+    ContactChain chain = find();
+    if (chain.grasps.empty()) {
+      oracle.SetMinQuality(0);
+      chain = find();
+    }
     if (chain.grasps.empty()) return WithSizes(NoSequence(chain));
     std::set<int> used;
     for (const Quadruple& grasp : chain.grasps) used.insert(grasp.begin(), grasp.end());
@@ -104,13 +104,6 @@ class ClusterPlanner {
     RoadmapPlanResult result = PlanOverContacts(solid_, contacts, start, goal, options_);
     if (result.plan) result.plan->roadmap = NoteOf(chain);
     return WithSizes(std::move(result));
-  }
-
-  ContactChain Find(const ContactClusters& clusters, const Quadruple& from, const Quadruple& to,
-                    std::function<bool(const Grasp&)> good) const {
-    GraspOracle oracle(clusters.contacts(), roadmap_.frame, options_.half_angle, SamePoint(),
-                       std::move(good), options_.finger_radius);
-    return FindContactChain(roadmap_, clusters, oracle, from, to, options_.last_resort);
   }
 
   /// The numbers of a grasp's contacts, which are added where they are new.

@@ -84,7 +84,7 @@ class RoadmapPlanner {
         start_(Fix(start, RandomUse::kStart)),
         goal_(Fix(goal, RandomUse::kGoal)),
         roadmap_(RoadmapOver(contacts)),
-        quality_(roadmap_, frame_, options.half_angle, options.min_quality) {}
+        quality_(roadmap_, frame_, {options.half_angle, options.min_quality}) {}
 
   RoadmapPlanResult Run() {
     const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <iterator>
 
-#include "planner/criteria/reach.h"
+#include "planner/criteria/grasp_criteria.h"
 #include "planner/grasp/subset_force_closure.h"
 #include "planner/roadmap/combination_rank.h"
 
@@ -19,8 +19,7 @@ std::vector<bool> FindExcluded(const std::vector<Contact>& points, double same_p
   std::vector<bool> excluded(count * count, false);
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const bool at_one = (points[a].p - points[b].p).norm() <= same_point;
-      if (!at_one && KeepApart(std::array{points[a], points[b]}, finger_radius)) continue;
+      if (CanMeet(points[a], points[b], same_point, finger_radius)) continue;
       excluded[a * count + b] = excluded[b * count + a] = true;
     }
   }

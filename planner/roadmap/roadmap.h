@@ -23,7 +23,7 @@ using Quadruple = std::array<int, 4>;
 ///
 /// Edges are not stored: grasps are listed by the triples of contacts that they contain, and two
 /// different grasps share at most one triple. Contacts at the same point (two normals on an edge of
-/// the solid, say) never stand in one grasp nor take turns in one switch, for two fingers cannot
+/// the solid, say) are never in one grasp nor take turns in one switch, for two fingers cannot
 /// touch one point; nor do contacts where two fingers of a radius would overlap.
 class Roadmap final : public SwitchingGraph {
  public:
@@ -67,7 +67,7 @@ class Roadmap final : public SwitchingGraph {
 
   std::vector<Contact> points_;
   std::vector<Quadruple> vertices_;  ///< in lexicographic order
-  /// Vertices that contain a triple stand at triple_begin_[triple] … triple_begin_[triple + 1].
+  /// Vertices that contain a triple are at triple_begin_[triple] … triple_begin_[triple + 1].
   std::vector<int> triple_begin_;
   std::vector<int> triple_vertices_;
   std::vector<bool> excluded_;  ///< of any two points: two fingers cannot be at both

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "planner/criteria/grasp_criteria.h"
+#include "planner/grasp/force_closure.h"
 #include "planner/sampling/draw_grasp.h"
 
 namespace regrasp {
@@ -10,12 +12,16 @@ namespace regrasp {
 std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap, double same_point,
                                           RandomStream& random) {
   const std::vector<Contact>& contacts = roadmap.clusters.contacts();
-  GraspOracle oracle(contacts, roadmap.frame, roadmap.half_angle, same_point);
   for (int draw = 0; draw < kMaxSurfaceDraws; ++draw) {
-    Quadruple grasp;
-    for (int& contact : grasp) contact = static_cast<int>(random.Index(contacts.size()));
-    std::sort(grasp.begin(), grasp.end());
-    if (oracle.Admits(grasp)) return grasp;
+    Quadruple numbers;
+    for (int& contact : numbers) contact = static_cast<int>(random.Index(contacts.size()));
+    std::sort(numbers.begin(), numbers.end());
+    Grasp grasp;
+    for (const int contact : numbers) grasp.push_back(contacts[contact]);
+    if (CanAllMeet(grasp, same_point, 0) &&
+        IsForceClosure(grasp, roadmap.frame, roadmap.half_angle)) {
+      return numbers;
+    }
   }
   return std::nullopt;
 }
@@ -30,7 +36,8 @@ std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap, doubl
     const auto goal = DrawContactGrasp(roadmap, same_point, goals);
     if (!start || !goal) break;
     const auto begin = std::chrono::steady_clock::now();
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle, same_point);
+    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
+                       {roadmap.half_angle, 0});
     ContactChain chain =
         FindContactChain(roadmap, roadmap.clusters, oracle, *start, *goal, last_resort);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;

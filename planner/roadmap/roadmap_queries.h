@@ -12,7 +12,7 @@ namespace regrasp {
 
 /// A force-closure grasp of four of the contact points, all of them equally likely; nullopt where
 /// none of kMaxSurfaceDraws draws is one.
-/// @param same_point  contacts no farther apart than this stand in no grasp.
+/// @param same_point  contacts no farther apart than this are in no grasp.
 [[nodiscard]] std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
                                                         double same_point, RandomStream& random);
 

@@ -3,24 +3,22 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 
 namespace regrasp {
 
-VertexQuality::VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame, double half_angle,
-                             double min_quality)
+VertexQuality::VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame,
+                             const GraspCriteria& criteria)
     : roadmap_(roadmap),
       frame_(frame),
-      half_angle_(half_angle),
-      min_quality_(min_quality),
+      criteria_(criteria),
       good_(roadmap.vertex_count(), Known::kNothing),
       margin_(roadmap.vertex_count(), std::numeric_limits<double>::quiet_NaN()) {}
 
 bool VertexQuality::IsGood(int vertex) {
   if (good_[vertex] == Known::kNothing) {
     ++quality_count_;
-    const bool good = QualityAtLeast(roadmap_.grasp(vertex), frame_, half_angle_, min_quality_);
+    const bool good = MeetsCriteria(roadmap_.grasp(vertex), frame_, criteria_);
     good_[vertex] = good ? Known::kGood : Known::kBad;
   }
   return good_[vertex] == Known::kGood;
@@ -32,7 +30,7 @@ double VertexQuality::Margin(int vertex) {
     const auto required =
         ComputeRequiredHalfAngle(roadmap_.grasp(vertex), frame_, kMarginTolerance);
     // A vertex is force closure at the half-angle, so at worst its margin rounds to nothing.
-    margin_[vertex] = required ? half_angle_ - required->upper : 0;
+    margin_[vertex] = required ? criteria_.half_angle - required->upper : 0;
   }
   return margin_[vertex];
 }

@@ -2,19 +2,20 @@
 
 #include <vector>
 
+#include "planner/criteria/grasp_criteria.h"
 #include "planner/object/wrench_frame.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp {
 
-/// What a search asks of a roadmap's grasps, worked out when first asked and then remembered.
+/// What a search asks of a roadmap's grasps, which are force closure: worked out when first asked
+/// and then remembered by their vertices, of which there are millions.
 class VertexQuality {
  public:
-  /// @param roadmap  outlives this object. @param half_angle  radians.
-  VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame, double half_angle,
-                double min_quality);
+  /// @param roadmap  outlives this object.
+  VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame, const GraspCriteria& criteria);
 
-  /// QualityAtLeast the minimum.
+  /// MeetsCriteria.
   [[nodiscard]] bool IsGood(int vertex);
 
   /// The half-angle less the required half-angle, radians, to `kMarginTolerance`.
@@ -29,8 +30,7 @@ class VertexQuality {
 
   const Roadmap& roadmap_;
   WrenchFrame frame_;
-  double half_angle_;
-  double min_quality_;
+  GraspCriteria criteria_;
   std::vector<Known> good_;
   std::vector<double> margin_;  ///< NaN where not known yet
   int quality_count_ = 0;

@@ -63,7 +63,7 @@ std::optional<GraspPath> BidirectionalTree::Join() {
   Meet(0, 0);
   for (int side = 0; side < 2; ++side) MakeQueueEntry(side, 0);
   bool around = false;
-  for (std::int64_t turn = kFirstTurn; !found_ && !space_.IsSpent() && space_.has_room();
+  for (std::int64_t turn = kFirstTurn; !found_ && !space_.IsSpent() && space_.has_capacity();
        turn *= 2) {
     for (int side = 0; side < 2 && !found_; ++side) {
       GrowBySwitches(side, space_.tests() + turn);
@@ -77,7 +77,7 @@ std::optional<GraspPath> BidirectionalTree::Join() {
 
 void BidirectionalTree::AddCandidates() {
   const int more = std::max(kFirstCandidates, static_cast<int>(candidates_.size()));
-  for (int i = 0; i < more && space_.has_room(); ++i) {
+  for (int i = 0; i < more && space_.has_capacity(); ++i) {
     candidates_.push_back(space_.Add(source_.Draw(random_)));
   }
   for (Tree& tree : trees_) {
@@ -90,7 +90,7 @@ void BidirectionalTree::GrowBySwitches(int side, std::int64_t until) {
   Tree& tree = trees_[side];
   while (!found_ && space_.tests() < until && !space_.IsSpent()) {
     if (tree.offers.empty()) {
-      if (tree.waiting.empty() || !space_.has_room()) return;
+      if (tree.waiting.empty() || !space_.has_capacity()) return;
       AddCandidates();
     }
     QueueEntry offer = tree.offers.top();
@@ -188,7 +188,7 @@ void BidirectionalTree::Meet(int side, int node) {
 }
 
 void BidirectionalTree::GrowAround(int side, std::int64_t until) {
-  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_capacity()) {
     const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
     double reach = space_.object().diameter();
     for (int draw = 0; draw < kDrawsAround && !found_; ++draw, reach *= kNarrower) {
@@ -213,8 +213,8 @@ bool BidirectionalTree::AlignAround(int side, int node, double reach) {
     straight += (drawn.back().p - contact.p).norm();
   }
   if (straight < least_travel) return false;
-  const auto serves = [this](const Contact& contact) { return source_.IsValid(contact); };
-  if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, serves)) return false;
+  const auto is_valid = [this](const Contact& contact) { return source_.IsValid(contact); };
+  if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, is_valid)) return false;
   const ContactSet set = space_.Add(drawn);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
     if (way < least_travel) return false;
@@ -239,7 +239,7 @@ bool BidirectionalTree::SwitchAround(int side, int node, double reach) {
 }
 
 void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
-  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_room()) {
+  while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_capacity()) {
     const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
     const ContactSet set = trees_[side].reached[node];
     space_.CountTests(kDrawCost);
@@ -283,7 +283,7 @@ int BidirectionalTree::AlignTo(int side, int node, const ContactSet& set) {
 
 int BidirectionalTree::AlignAlong(int side, int node, std::span<const Grasp> way) {
   if (way.empty() || found_) return node;
-  if (!space_.has_room()) return -1;
+  if (!space_.has_capacity()) return -1;
   if (const int end = AlignTo(side, node, space_.Add(way.back())); end >= 0) return end;
   if (way.size() == 1) return -1;
   const int middle = AlignAlong(side, node, way.first(way.size() / 2));

@@ -41,14 +41,13 @@ bool HoldsAt(const GraspMotion& motion, double t, SearchSpace& space) {
 
 /// Whether fingers that are no points can carry an align out.
 bool IsFree(const std::vector<Grasp>& waypoints, const SearchSpace& space) {
-  if (space.demands().finger_radius == 0) return true;
+  if (space.finger_radius() == 0) return true;
   Align align;
   for (const Grasp& grasp : waypoints) {
     FingerGrasp& held = align.waypoints.emplace_back();
     for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
   }
-  return !FindStepObstacle(space.object(), align.waypoints.front(), align,
-                           space.demands().finger_radius);
+  return !FindStepObstacle(space.object(), align.waypoints.front(), align, space.finger_radius());
 }
 
 /// What remains of a set without the contacts of another.
@@ -205,8 +204,8 @@ std::vector<Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& s
 
 /// Whether the grasps at the turns, where fingers wait, have some of the quality that is asked for.
 bool AreGood(const std::vector<Grasp>& waypoints, SearchSpace& space) {
-  const double asked = space.demands().min_quality;
-  if (asked == 0) return true;
+  const double asked = space.min_quality();
+  if (!space.criteria().AsksMore()) return true;
   space.SetMinQuality(kQualityAtTurns * asked);
   const bool good = std::all_of(waypoints.begin() + 1, waypoints.end() - 1,
                                 [&](const Grasp& grasp) { return space.IsAdmitted(grasp); });

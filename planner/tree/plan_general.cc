@@ -76,7 +76,8 @@ class Planner {
   };
 
   SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
-    SearchSpace space(object_, {half_angle, 0, min_quality, options_.finger_radius});
+    SearchSpace space(object_, {half_angle, min_quality},
+                      {.fingertip_radius = options_.finger_radius});
     space.SetLimits({effort, options_.deadline});
     return space;
   }

@@ -29,7 +29,7 @@ class QualityRepair {
         random_(random),
         space_(space),
         path_(path),
-        quality_(space.demands().min_quality) {}
+        quality_(space.min_quality()) {}
 
   double Run() {
     int failures = 0;

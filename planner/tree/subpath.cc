@@ -56,7 +56,7 @@ GraspPath PartOf(const GraspPath& path, const Subpath& stretch) {
 
 void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
             SearchSpace& space) {
-  while (static_cast<int>(stretch.contacts.size()) < most && space.has_room()) {
+  while (static_cast<int>(stretch.contacts.size()) < most && space.has_capacity()) {
     AddContact(space.Add(source.Draw(random)), stretch.contacts);
   }
 }
@@ -65,7 +65,7 @@ void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, Random
                 SearchSpace& space) {
   const auto own = static_cast<int>(stretch.contacts.size());
   for (int draw = 0; draw < kDraws * (most - own); ++draw) {
-    if (static_cast<int>(stretch.contacts.size()) == most || !space.has_room()) return;
+    if (static_cast<int>(stretch.contacts.size()) == most || !space.has_capacity()) return;
     const Contact& near = space.contact(stretch.contacts[random.Index(own)]);
     const int halvings = static_cast<int>(random.Index(kHalvings + 1));
     const double reach = space.object().diameter() * std::ldexp(0.5, -halvings);

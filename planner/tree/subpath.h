@@ -35,7 +35,7 @@ void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStre
             SearchSpace& space);
 
 /// Adds random contacts near those of the stretch, from half the diameter away to a sixty-fourth,
-/// until there are `most`; fewer where fingers have no room.
+/// until there are `most`; fewer where contacts are not valid.
 void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
                 SearchSpace& space);
 

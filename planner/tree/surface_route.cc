@@ -53,7 +53,7 @@ class RouteSearch {
     const int last = FindLast();
     if (last < 0) return std::nullopt;
     SurfaceRoute route = MakeRoute(last);
-    return Serves(route) ? std::optional(std::move(route)) : std::nullopt;
+    return IsValid(route) ? std::optional(std::move(route)) : std::nullopt;
   }
 
  private:
@@ -117,7 +117,7 @@ class RouteSearch {
     return route;
   }
 
-  [[nodiscard]] bool Serves(const SurfaceRoute& route) const {
+  [[nodiscard]] bool IsValid(const SurfaceRoute& route) const {
     const double tolerance = kPointTolerance * object_.diameter();
     for (std::size_t i = 0; i < route.size(); i += 2) {
       if (!object_.ContainsSegment(route[i].face, route[i].p, route[i + 1].p, tolerance)) {

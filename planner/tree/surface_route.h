@@ -17,7 +17,7 @@ using SurfaceRoute = std::vector<Contact>;
 inline constexpr int kMostCrossings = 3;
 
 /// Looks for a short way from one contact to another: inside their face, or over convex edges, at
-/// points where a finger has room (HasClearance).
+/// points where a fingertip has clearance (HasClearance).
 ///
 /// Faces are tried from the nearest on (A*, Hart, Nilsson and Raphael 1968), each entered where
 /// the straight way to the end, the edge's other side unfolded, crosses the edge; then the points

@@ -34,7 +34,7 @@ class Descent {
         held_(before),
         placed_(placed),
         path_{before},
-        lowest_(space.demands().min_quality == 0 ? space.half_angle() : 0) {}
+        lowest_(space.criteria().AsksMore() ? 0 : space.half_angle()) {}
 
   std::optional<Transition> Find() {
     if (!space_.HoldsAt(After(held_, placed_), kHighest)) return std::nullopt;
@@ -64,8 +64,8 @@ class Descent {
     const Contact placed = source_.DrawNear(placed_, reach, random_);
     const double aim = lowest_ + kWorthwhile * (level_ - lowest_);
     if (!space_.HoldsAt(After(held, placed), aim) || !space_.IsAdmitted(held)) return false;
-    const auto serves = [this](const Contact& contact) { return source_.IsValid(contact); };
-    if (!serves(placed) || !std::ranges::all_of(held, serves)) return false;
+    const auto is_valid = [this](const Contact& contact) { return source_.IsValid(contact); };
+    if (!is_valid(placed) || !std::ranges::all_of(held, is_valid)) return false;
     level_ = aim;
     Lower(held, placed);
     held_ = held;

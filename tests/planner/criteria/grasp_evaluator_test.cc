@@ -53,16 +53,16 @@ TEST(GraspEvaluator, TwoContactsAtOnePointAreNoGrasp) {
   EXPECT_TRUE(evaluator.IsGood(grasp));
 }
 
-TEST(GraspEvaluator, FingersOfARadiusNeedRoom) {
+TEST(GraspEvaluator, FingersOfARadiusNeedClearance) {
   const Polygon square = Square(2);
   const Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
                        {{1.4, 0, 0}, square.inward_normal(0), 0},
                        {{1, 2, 0}, square.inward_normal(2), 2}};
-  EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0.01}).CanStand(grasp));
+  EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0.01}).IsReachable(grasp));
   EXPECT_TRUE(
-      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).CanStand(grasp));
+      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).IsReachable(grasp));
   EXPECT_FALSE(
-      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.41}).CanStand(grasp));
+      GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.41}).IsReachable(grasp));
   EXPECT_LT(GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.41}).Score(grasp),
             0);
   EXPECT_GE(GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).Score(grasp),

@@ -114,8 +114,8 @@ TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
 
 /// The least distance of any of `samples` points of the faces but the contact's own from the
 /// segment about which the finger sweeps.
-double SampledRoom(const Polyhedron& body, const Contact& contact, double radius,
-                   std::mt19937_64& random) {
+double SampledClearance(const Polyhedron& body, const Contact& contact, double radius,
+                        std::mt19937_64& random) {
   constexpr int kSamples = 4000;
   std::uniform_real_distribution<double> uniform(0, 1);
   const Vector3d rest = BallCentre(contact, radius);
@@ -153,11 +153,11 @@ TEST(Reach, AgreesWithSampledPointsOfTheSurface) {
       // Sampled points lie on the surface: one inside the capsule refutes, and where even a capsule
       // that is thicker by the samples' spacing holds none, nothing else does.
       constexpr double kSpacing = 0.15;
-      const double room = SampledRoom(body, contact, radius, random);
-      if (room < radius * (1 - 1e-9)) {
+      const double clearance = SampledClearance(body, contact, radius, random);
+      if (clearance < radius * (1 - 1e-9)) {
         EXPECT_FALSE(CanReach(body, contact, radius)) << contact.p.transpose();
         ++blocked;
-      } else if (room > radius + kSpacing) {
+      } else if (clearance > radius + kSpacing) {
         EXPECT_TRUE(CanReach(body, contact, radius)) << contact.p.transpose();
         ++free;
       }

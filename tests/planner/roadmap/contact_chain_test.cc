@@ -31,14 +31,16 @@ struct Problem {
 
   [[nodiscard]] ContactChain Find(const Quadruple& start, const Quadruple& goal,
                                   bool last_resort) const {
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle, same_point);
+    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
+                       {roadmap.half_angle, 0});
     return FindContactChain(roadmap, roadmap.clusters, oracle, start, goal, last_resort);
   }
 
   /// Whether start and goal are joined among the representatives and the contacts of those ends
   /// that the algorithms 1 and 2 did not link.
   [[nodiscard]] bool JoinedByRoadmap(const Quadruple& start, const Quadruple& goal) const {
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle, same_point);
+    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
+                       {roadmap.half_angle, 0});
     LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
     std::set<int> contacts(roadmap.clusters.representatives().begin(),
                            roadmap.clusters.representatives().end());

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
 #include <stdexcept>
 
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
 namespace regrasp {
@@ -18,8 +20,8 @@ struct Body {
   Polyhedron solid = MakeConvexBody(11, 2);
   std::vector<Contact> contacts = Centroids(solid);
   WrenchFrame frame = solid.wrench_frame();
-  GraspOracle Oracle(std::function<bool(const Grasp&)> is_good = {}) const {
-    return {contacts, frame, Radians(20), kNear, std::move(is_good)};
+  GraspOracle Oracle(double min_quality = 0) const {
+    return {contacts, frame, kNear, {Radians(20), min_quality}};
   }
 };
 
@@ -39,7 +41,7 @@ TEST(GraspKey, TellsGraspsApart) {
   std::set<std::uint64_t> keys;
   for (const Quadruple& grasp : AllQuadruples(18)) keys.insert(GraspKey(grasp));
   EXPECT_EQ(keys.size(), 3060u);
-  constexpr int kLast = kMostOracleContacts - 1;
+  constexpr int kLast = (1 << 16) - 1;
   EXPECT_NE(GraspKey({0, 1, 2, kLast}), GraspKey({0, 1, 3, kLast}));
   EXPECT_EQ(GraspKey({kLast - 3, kLast - 2, kLast - 1, kLast}), 0xfffcfffdfffeffffu);
 }
@@ -55,28 +57,48 @@ TEST(GraspOracle, AdmitsForceClosureGraspsAndTestsEachOnce) {
       EXPECT_EQ(oracle.Admits(grasp), expected);
       if (expected) ++admitted;
     }
-    EXPECT_EQ(oracle.test_count(), std::ssize(all));
+    EXPECT_EQ(oracle.counts().force_closure, std::ssize(all));
   }
   EXPECT_GT(admitted, 50);
   EXPECT_LT(admitted, std::ssize(all));
-  EXPECT_EQ(oracle.good_count(), 0);
+  EXPECT_EQ(oracle.counts().criteria, 0);
 }
 
-TEST(GraspOracle, AsksOfForceClosureGraspsOnlyWhetherTheyAreGood) {
+TEST(GraspOracle, AsksOfForceClosureGraspsOnlyWhetherTheyMeetTheCriteria) {
+  constexpr double kQuality = 0.05;
   const Body body;
   GraspOracle plain = body.Oracle();
-  const auto low = [](const Grasp& grasp) { return grasp[0].p.z() < 0; };
-  GraspOracle picky = body.Oracle(low);
+  GraspOracle picky = body.Oracle(kQuality);
   int force_closure = 0;
   int refused = 0;
   for (const Quadruple& grasp : AllQuadruples(18)) {
-    if (plain.Admits(grasp)) ++force_closure;
-    EXPECT_EQ(picky.Admits(grasp), plain.Admits(grasp) && low(plain.GraspOf(grasp)));
-    if (plain.Admits(grasp) && !picky.Admits(grasp)) ++refused;
+    const bool holds = plain.Admits(grasp);
+    if (holds) ++force_closure;
+    EXPECT_EQ(picky.Admits(grasp),
+              holds && QualityAtLeast(plain.GraspOf(grasp), body.frame, Radians(20), kQuality));
+    if (holds && !picky.Admits(grasp)) ++refused;
   }
-  EXPECT_EQ(picky.good_count(), force_closure);
+  EXPECT_EQ(picky.counts().criteria, force_closure);
   EXPECT_GT(refused, 10);
   EXPECT_LT(refused, force_closure);
+}
+
+TEST(GraspOracle, TestsNoGraspForForceClosureAgainWhenLessIsAskedFor) {
+  const Body body;
+  GraspOracle oracle = body.Oracle(0.05);
+  GraspOracle plain = body.Oracle();
+  const std::vector<Quadruple> all = AllQuadruples(18);
+  for (const Quadruple& grasp : all) (void)oracle.Admits(grasp);
+  oracle.SetMinQuality(0);
+  for (const Quadruple& grasp : all) EXPECT_EQ(oracle.Admits(grasp), plain.Admits(grasp));
+  EXPECT_EQ(oracle.counts().force_closure, std::ssize(all));
+}
+
+TEST(GraspOracle, MakesAnEndWhenTheTimeIsUp) {
+  const Body body;
+  const Deadline over = std::chrono::steady_clock::now();
+  GraspOracle oracle(body.contacts, body.frame, kNear, {Radians(20), 0}, {}, over);
+  EXPECT_THROW((void)oracle.Admits({0, 1, 2, 3}), TimeUp);
 }
 
 TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
@@ -91,21 +113,23 @@ TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
   const Contact away = {twin.p + 3 * kNear * twin.n.unitOrthogonal(), twin.n, twin.face};
   std::vector<Contact> apart = body.contacts;
   apart.back() = away;
-  GraspOracle with_room(apart, body.frame, Radians(20), kNear);
+  GraspOracle farther(apart, body.frame, kNear, {Radians(20), 0});
   int refused = 0;
   for (int b = 1; b < 18; ++b) {
     for (int c = b + 1; c < 18; ++c) {
       const Quadruple both = {0, b, c, 18};
       EXPECT_FALSE(oracle.Admits(both));
-      if (with_room.Admits(both)) ++refused;
+      if (farther.Admits(both)) ++refused;
     }
   }
   EXPECT_GT(refused, 0);
+  EXPECT_FALSE(plain.Admits({0, 1, 1, 2}));
 }
 
-TEST(GraspOracle, RefusesMoreContactsThanItsKeysHold) {
-  const std::vector<Contact> many(kMostOracleContacts + 1);
-  EXPECT_THROW(GraspOracle(many, {}, Radians(20), kNear), std::invalid_argument);
+TEST(GraspOracle, RefusesMoreContactsThanSetsHaveNumbers) {
+  const Body body;
+  const std::vector<Contact> many(ContactSet::kMostNumbers + 1, body.contacts[0]);
+  EXPECT_THROW(GraspOracle(many, body.frame, kNear, {Radians(20), 0}), std::invalid_argument);
 }
 
 }  // namespace

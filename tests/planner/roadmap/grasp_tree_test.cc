@@ -26,7 +26,7 @@ struct Problem {
         numbers(contacts.size()),
         graph((std::iota(numbers.begin(), numbers.end(), 0), Subsets(numbers, is_grasp))) {}
 
-  [[nodiscard]] GraspOracle Oracle() const { return {contacts, frame, half_angle, kNear}; }
+  [[nodiscard]] GraspOracle Oracle() const { return {contacts, frame, kNear, {half_angle, 0}}; }
   [[nodiscard]] double Distance(int a, int b) const {
     return (contacts[a].p - contacts[b].p).norm() + (contacts[a].n - contacts[b].n).norm();
   }

@@ -30,7 +30,7 @@ struct Problem {
         half_angle(Radians(degrees)),
         clusters(Centroids(solid), frame, half_angle, cluster_count, 1),
         roadmap(RepresentativesOf(clusters), frame, half_angle, kNear),
-        oracle(clusters.contacts(), frame, half_angle, kNear),
+        oracle(clusters.contacts(), frame, kNear, {half_angle, 0}),
         local(clusters, roadmap, oracle),
         is_grasp(ForceClosureOf(clusters.contacts(), frame, half_angle)),
         vertices(Subsets(clusters.representatives(), is_grasp)) {}

@@ -18,7 +18,7 @@ Plan PlanOf(const GraspPath& path, const Grasp& from, const Grasp& to, const Sea
   const CandidateSequence draft = MakeCandidate(path, from, space);
   Plan plan;
   plan.dimension = space.dimension();
-  plan.half_angle = space.demands().half_angle;
+  plan.half_angle = space.criteria().half_angle;
   plan.fingers = space.fingers();
   plan.initial = draft.initial;
   plan.steps = draft.steps;
@@ -61,14 +61,14 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BidirectionalTreeCases,
 TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
   const ObjectFile file = ReadModel(GetParam().model);
   const Object& object = *file.object;
-  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
   const SurfaceSampler source(object);
   RandomStream draws(11, RandomUse::kStart);
   int joined = 0;
   for (std::uint64_t i = 0; i < 6; ++i) {
-    const Grasp from = DrawGrasp(object, GetParam().contacts, demands, draws);
-    const Grasp to = DrawGrasp(object, GetParam().contacts, demands, draws);
-    SearchSpace space(object, demands);
+    const Grasp from = DrawGrasp(object, GetParam().contacts, criteria, draws);
+    const Grasp to = DrawGrasp(object, GetParam().contacts, criteria, draws);
+    SearchSpace space(object, criteria);
     space.SetLimits({.most_tests = kEffort});
     RandomStream random(i, RandomUse::kCandidates);
     BidirectionalTree trees(Take(from, space), Take(to, space), source, random, space);
@@ -97,9 +97,9 @@ TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
   // At 0.1 degrees a cube's faces allow next to nothing; the ends are taken as they are.
   const ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
-  const Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
-  SearchSpace space(*file.object, {Radians(0.1), 0, 0});
+  const Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  const Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  SearchSpace space(*file.object, {Radians(0.1), 0});
   space.SetLimits({.most_tests = 2000});
   RandomStream random(0, RandomUse::kCandidates);
   const SurfaceSampler source(*file.object);
@@ -112,8 +112,8 @@ TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
 TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
   const ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
-  SearchSpace space(*file.object, {Radians(25), 0, 0});
+  const Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  SearchSpace space(*file.object, {Radians(25), 0});
   RandomStream random(0, RandomUse::kCandidates);
   const SurfaceSampler source(*file.object);
   const ContactSet set = Take(grasp, space);

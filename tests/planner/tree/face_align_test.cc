@@ -88,13 +88,13 @@ INSTANTIATE_TEST_SUITE_P(Bodies, FaceAlignCases,
 
 TEST_P(FaceAlignCases, AlignsAcrossEdgesAreProvedAndLegalBothWays) {
   const ObjectFile file = ReadModel(GetParam().model);
-  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
   const SurfaceSampler source(*file.object);
   RandomStream random(11, RandomUse::kStart);
   int across = 0;
   for (int i = 0; i < 400 && across < 20; ++i) {
-    SearchSpace space(*file.object, demands);
-    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, demands, random);
+    SearchSpace space(*file.object, criteria);
+    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
     Grasp other = grasp;
     for (int k = 0; k <= i % 3; ++k) {
       other[k] = source.DrawAround(grasp[k], file.object->diameter() / 4, random);
@@ -136,13 +136,13 @@ TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
   // No finger of either can be lifted, and they are not on the same faces: neither a switch nor an
   // align on one tuple of faces leads anywhere else.
   const ObjectFile file = ReadModel(GetParam().model);
-  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
   const SurfaceSampler source(*file.object);
   RandomStream random(5, RandomUse::kStart);
   int joined = 0;
   for (int i = 0; i < 4000 && joined < 3; ++i) {
-    SearchSpace space(*file.object, demands);
-    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, demands, random);
+    SearchSpace space(*file.object, criteria);
+    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
     const ContactSet from = space.Add(grasp);
     if (!NeedsAll(from, space)) continue;
     for (int k = 0; k < 40; ++k) {
@@ -165,7 +165,7 @@ TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
 TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) {
   const ObjectFile file = ReadModel("cube.obj");
   const Object& cube = *file.object;
-  SearchSpace space(cube, {Radians(25), 0, 0});
+  SearchSpace space(cube, {Radians(25), 0});
   const SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
   const auto draw = [&](int face) { return space.Add(source.DrawOn(face, random)); };
@@ -217,13 +217,13 @@ TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
   const Object& cube = *file.object;
   const SurfaceSampler source(cube);
   RandomStream random(2, RandomUse::kStart);
-  const GraspDemands demands{Radians(25), 0, 0};
+  const GraspCriteria criteria{Radians(25), 0};
   int lost = 0;
   for (int i = 0; i < 3000 && lost < 2; ++i) {
-    const Grasp grasp = DrawGrasp(cube, 4, demands, random);
+    const Grasp grasp = DrawGrasp(cube, 4, criteria, random);
     Grasp other = grasp;
     other[0] = source.DrawAround(grasp[0], cube.diameter() / 4, random);
-    SearchSpace space(cube, demands);
+    SearchSpace space(cube, criteria);
     if (other[0].face == grasp[0].face || !space.IsAdmitted(other)) continue;
     const auto align = AlignBetween(Take(grasp, space), Take(other, space), space);
     if (!align || TurnsOf(WaypointsOf(*align, space)) != 1) continue;
@@ -233,7 +233,7 @@ TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
     };
     const double ends = std::max(required(0), required(1));
     if (required(0.5) < ends + Radians(0.5)) continue;
-    const GraspDemands less{(ends + required(0.5)) / 2, 0, 0};
+    const GraspCriteria less{(ends + required(0.5)) / 2, 0};
     SearchSpace smooth(cube, less);
     if (!smooth.IsAdmitted(grasp) || !smooth.IsAdmitted(other)) continue;
     ++lost;
@@ -245,20 +245,19 @@ TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
 TEST(FaceAlignTest, ThickFingersDoNotTurnWhereTheyWouldMeet) {
   const ObjectFile file = ReadModel("cube.obj");
   const Object& cube = *file.object;
-  const GraspDemands points{Radians(30), 0, 0};
-  GraspDemands thick = points;
-  thick.finger_radius = cube.diameter() / 10;
+  const GraspCriteria criteria{Radians(30), 0};
+  const Hand thick{.fingertip_radius = cube.diameter() / 10};
   const SurfaceSampler source(cube);
   RandomStream random(3, RandomUse::kStart);
   int kept = 0;
   int blocked = 0;
   for (int i = 0; i < 3000 && (kept == 0 || blocked == 0); ++i) {
-    const Grasp grasp = DrawGrasp(cube, 4, thick, random);
+    const Grasp grasp = DrawGrasp(cube, 4, criteria, random, thick);
     Grasp other = grasp;
     other[0] = source.DrawAround(grasp[0], cube.diameter() / 3, random);
-    SearchSpace thick_space(cube, thick);
+    SearchSpace thick_space(cube, criteria, thick);
     if (other[0].face == grasp[0].face || !thick_space.IsAdmitted(other)) continue;
-    SearchSpace space(cube, points);
+    SearchSpace space(cube, criteria);
     if (!AlignBetween(Take(grasp, space), Take(other, space), space)) continue;
     const auto align =
         AlignBetween(Take(grasp, thick_space), Take(other, thick_space), thick_space);

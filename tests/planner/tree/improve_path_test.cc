@@ -41,16 +41,16 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
   ImprovePathCases()
       : file_(ReadModel(GetParam().model)),
         source_(*file_.object),
-        demands_{Radians(GetParam().degrees), 0, 0} {}
+        criteria_{Radians(GetParam().degrees), 0} {}
 
   /// A path between random grasps of some quality.
   GraspPath Draw(double quality, std::uint64_t seed, SearchSpace& space) {
     RandomStream draws(seed, RandomUse::kStart);
-    const GraspDemands demands{demands_.half_angle, 0, quality};
+    const GraspCriteria criteria{criteria_.half_angle, quality};
     const ContactSet from =
-        Take(DrawGrasp(*file_.object, GetParam().contacts, demands, draws), space);
+        Take(DrawGrasp(*file_.object, GetParam().contacts, criteria, draws), space);
     const ContactSet to =
-        Take(DrawGrasp(*file_.object, GetParam().contacts, demands, draws), space);
+        Take(DrawGrasp(*file_.object, GetParam().contacts, criteria, draws), space);
     RandomStream random(seed, RandomUse::kCandidates);
     auto path = BidirectionalTree(from, to, source_, random, space).Join();
     if (!path) ADD_FAILURE() << "not joined";
@@ -59,7 +59,7 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
 
   ObjectFile file_;
   SurfaceSampler source_;
-  GraspDemands demands_;
+  GraspCriteria criteria_;
 };
 INSTANTIATE_TEST_SUITE_P(Bodies, ImprovePathCases,
                          testing::Values(Case{"cube.obj", 15, 4}, Case{"l_block.obj", 10, 4},
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, ImprovePathCases,
 TEST_P(ImprovePathCases, LessTravelIsNeverMoreStepsAndIsWhatTravelOfSays) {
   int less = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    SearchSpace space(*file_.object, demands_);
+    SearchSpace space(*file_.object, criteria_);
     RandomStream random(seed, RandomUse::kCandidates);
     const GraspPath path = ShortcutPath(Draw(0, seed, space), source_, random, space);
     const GraspPath shorter = MinimiseTravel(path, source_, random, space);
@@ -90,17 +90,17 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
   int mended = 0;
   int weak = 0;
   for (int seed = 0; seed < seeds; ++seed) {
-    SearchSpace space(*file_.object, demands_);
+    SearchSpace space(*file_.object, criteria_);
     RandomStream random(seed, RandomUse::kCandidates);
     GraspPath path = ShortcutPath(Draw(kQuality, seed, space), source_, random, space);
     const auto quality_of = [&](const ContactSet& set) {
-      return ComputeQuality(space.GraspOf(set), file_.object->wrench_frame(), demands_.half_angle)
+      return ComputeQuality(space.GraspOf(set), file_.object->wrench_frame(), criteria_.half_angle)
           .upper;
     };
     for (const PathStep& step : path.steps) weak += quality_of(step.to) < kQuality ? 1 : 0;
     space.SetMinQuality(kQuality);
     const double reached = RepairQuality(source_, random, space, path);
-    EXPECT_EQ(space.demands().min_quality, kQuality);
+    EXPECT_EQ(space.min_quality(), kQuality);
     EXPECT_LE(reached, kQuality);
     ExpectIsPath(path, space);
     for (const PathStep& step : path.steps) EXPECT_GE(quality_of(step.to), reached);
@@ -112,13 +112,13 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
 
 TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {
   const ObjectFile file = ReadModel("duck500.obj");
-  const GraspDemands demands{Radians(25), 0, 0};
+  const GraspCriteria criteria{Radians(25), 0};
   RandomStream random(5, RandomUse::kStart);
   int checked = 0;
   for (int i = 0; i < 12; ++i) {
-    SearchSpace space(*file.object, demands);
-    const ContactSet from = Take(DrawGrasp(*file.object, 4, demands, random), space);
-    const ContactSet to = Take(DrawGrasp(*file.object, 4, demands, random), space);
+    SearchSpace space(*file.object, criteria);
+    const ContactSet from = Take(DrawGrasp(*file.object, 4, criteria, random), space);
+    const ContactSet to = Take(DrawGrasp(*file.object, 4, criteria, random), space);
     std::vector<int> contacts(space.count());
     for (int k = 0; k < space.count(); ++k) contacts[k] = k;
     // On small faces there are no aligns: all ways of three switches, one by one.

@@ -82,9 +82,9 @@ TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneServe) {
   const auto joins = [](const char* model, int from, int to) {
     const ObjectFile file = ReadModel(model);
     RandomStream draws(1, RandomUse::kStart);
-    const GraspDemands demands{Radians(25), 0, 0.01};
-    const Grasp start = DrawGrasp(*file.object, from, demands, draws);
-    const Grasp goal = DrawGrasp(*file.object, to, demands, draws);
+    const GraspCriteria criteria{Radians(25), 0.01};
+    const Grasp start = DrawGrasp(*file.object, from, criteria, draws);
+    const Grasp goal = DrawGrasp(*file.object, to, criteria, draws);
     const PlanResult result = PlanGeneral(*file.object, Given(start), Given(goal), Options(25));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.plan->initial, SizeIs(from));
@@ -98,19 +98,19 @@ TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneServe) {
 
 TEST(PlanGeneralTest, FiveContactsOfWhichNoFourHoldAreAlignedFirst) {
   const ObjectFile file = ReadModel("cube.obj");
-  const GraspDemands demands{Radians(10), 0, 0};
+  const GraspCriteria criteria{Radians(10), 0};
   RandomStream draws(1, RandomUse::kStart);
   Grasp five;
   for (int draw = 0; draw < 2000 && five.empty(); ++draw) {
-    const Grasp grasp = DrawGrasp(*file.object, 5, demands, draws);
-    SearchSpace space(*file.object, demands);
+    const Grasp grasp = DrawGrasp(*file.object, 5, criteria, draws);
+    SearchSpace space(*file.object, criteria);
     const ContactSet all = space.Add(grasp);
     bool some = false;
     for (const int contact : all) some = some || space.Admits(all.Without(contact));
     if (!some) five = grasp;
   }
   ASSERT_THAT(five, SizeIs(5)) << "no such grasp was drawn";
-  const Grasp goal = DrawGrasp(*file.object, 4, demands, draws);
+  const Grasp goal = DrawGrasp(*file.object, 4, criteria, draws);
   GeneralPlanOptions options = Options(10);
   options.min_quality = 0;
   const PlanResult result = PlanGeneral(*file.object, Given(five), Given(goal), options);
@@ -122,7 +122,7 @@ TEST(PlanGeneralTest, FiveContactsOfWhichNoFourHoldAreAlignedFirst) {
 TEST(PlanGeneralTest, AGoalEqualToTheStartGivesNoSteps) {
   const ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(3, RandomUse::kStart);
-  Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0, 0.01}, draws);
+  Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0.01}, draws);
   const Grasp start = grasp;
   std::swap(grasp[0], grasp[2]);
   const PlanResult result = PlanGeneral(*file.object, Given(start), Given(grasp), Options(25));
@@ -157,8 +157,8 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
 TEST(PlanGeneralTest, ATimeLimitEndsTheSearchAndSaysSo) {
   const ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp from = DrawGrasp(*file.object, 5, {Radians(4), 0, 0}, draws);
-  const Grasp to = DrawGrasp(*file.object, 5, {Radians(4), 0, 0}, draws);
+  const Grasp from = DrawGrasp(*file.object, 5, {Radians(4), 0}, draws);
+  const Grasp to = DrawGrasp(*file.object, 5, {Radians(4), 0}, draws);
   GeneralPlanOptions options = Options(4);
   options.deadline = std::chrono::steady_clock::now();
   const PlanResult result = PlanGeneral(*file.object, Given(from), Given(to), options);
@@ -205,7 +205,7 @@ TEST(PlanGeneralTest, AimsAreWhatTheySay) {
 TEST(PlanGeneralTest, RefusesGraspsThatAHandCannotHold) {
   const ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp good = DrawGrasp(*file.object, 4, {Radians(25), 0, 0}, draws);
+  const Grasp good = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
   Grasp six = good;
   six.insert(six.end(), good.begin(), good.begin() + 2);
   EXPECT_THROW((void)PlanGeneral(*file.object, Given(six), Given(good), Options(25)), InputError);

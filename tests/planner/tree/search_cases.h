@@ -14,11 +14,12 @@ namespace regrasp {
   return ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
 }
 
-/// A random grasp of so many contacts that the demands admit.
+/// A random grasp of so many contacts that meets the criteria.
 [[nodiscard]] inline Grasp DrawGrasp(const Object& object, int contacts,
-                                     const GraspDemands& demands, RandomStream& random) {
+                                     const GraspCriteria& criteria, RandomStream& random,
+                                     const Hand& hand = {}) {
   const SurfaceSampler source(object);
-  SearchSpace space(object, demands);
+  SearchSpace space(object, criteria, hand);
   constexpr int kMostDraws = 1'000'000;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     Grasp grasp;

@@ -80,15 +80,15 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SubsetSearchCases,
 
 TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
   const ObjectFile file = ReadModel(GetParam().model);
-  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
   RandomStream random(7, RandomUse::kStart);
   int joined = 0;
   int apart = 0;
   for (int i = 0; i < 12; ++i) {
-    SearchSpace space(*file.object, demands);
+    SearchSpace space(*file.object, criteria);
     const auto from =
-        Take(DrawGrasp(*file.object, GetParam().from_contacts, demands, random), space);
-    const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, demands, random), space);
+        Take(DrawGrasp(*file.object, GetParam().from_contacts, criteria, random), space);
+    const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, criteria, random), space);
     const int expected = FewestSwitches(from, to, Numbers(space), space);
     const auto path = SearchOwnSubsets(from, to, space);
     ASSERT_EQ(path.has_value(), expected >= 0);
@@ -104,7 +104,7 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
     for (const PathStep& step : path->steps) {
       EXPECT_LE(ContactSet::CountUnion(*before, step.to), space.fingers());
       EXPECT_TRUE(
-          IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(), demands.half_angle));
+          IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(), criteria.half_angle));
       before = &step.to;
     }
   }
@@ -138,24 +138,24 @@ double LeastHalfAngle(const ContactSet& from, const ContactSet& to,
 
 TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
   const ObjectFile file = ReadModel(GetParam().model);
-  const GraspDemands demands{Radians(GetParam().degrees), 0, 0};
+  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
   constexpr double kAccuracy = 1.1e-3;
   RandomStream random(11, RandomUse::kStart);
   int wider = 0;
   for (int i = 0; i < 8; ++i) {
-    SearchSpace space(*file.object, demands);
+    SearchSpace space(*file.object, criteria);
     const auto from =
-        Take(DrawGrasp(*file.object, GetParam().from_contacts, demands, random), space);
-    const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, demands, random), space);
+        Take(DrawGrasp(*file.object, GetParam().from_contacts, criteria, random), space);
+    const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, criteria, random), space);
     const std::vector<int> contacts = Numbers(space);
     for (const int steps : {2, 3, 4}) {
       const double expected = LeastHalfAngle(from, to, contacts, steps, space);
       const auto path = SearchWidest(from, to, contacts, UseAligns::kNo, steps, 0, space);
-      EXPECT_EQ(space.half_angle(), demands.half_angle);
-      if (expected > demands.half_angle) {
+      EXPECT_EQ(space.half_angle(), criteria.half_angle);
+      if (expected > criteria.half_angle) {
         EXPECT_FALSE(path);
       }
-      if (expected > demands.half_angle - kAccuracy) continue;
+      if (expected > criteria.half_angle - kAccuracy) continue;
       ASSERT_TRUE(path);
       ++wider;
       EXPECT_LE(static_cast<int>(path->steps.size()), steps);
@@ -166,7 +166,7 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
       }
       // Where its own bound forbids it, no way is looked for.
       EXPECT_FALSE(
-          SearchWidest(from, to, contacts, UseAligns::kNo, steps, demands.half_angle, space));
+          SearchWidest(from, to, contacts, UseAligns::kNo, steps, criteria.half_angle, space));
     }
   }
   EXPECT_GT(wider, 0);
@@ -174,14 +174,14 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
 
 TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
   const ObjectFile file = ReadModel("cube.obj");
-  const GraspDemands demands{Radians(20), 0, 0};
+  const GraspCriteria criteria{Radians(20), 0};
   RandomStream random(3, RandomUse::kStart);
   const SurfaceSampler source(*file.object);
   int aligns = 0;
   for (int i = 0; i < 20; ++i) {
-    SearchSpace space(*file.object, demands);
-    const auto from = Take(DrawGrasp(*file.object, 4, demands, random), space);
-    const auto to = Take(DrawGrasp(*file.object, 4, demands, random), space);
+    SearchSpace space(*file.object, criteria);
+    const auto from = Take(DrawGrasp(*file.object, 4, criteria, random), space);
+    const auto to = Take(DrawGrasp(*file.object, 4, criteria, random), space);
     const auto own = SearchOwnSubsets(from, to, space);
     for (int k = 0; k < 4; ++k) (void)space.Add(source.Draw(random));
     const std::vector<int> contacts = Numbers(space);
@@ -200,13 +200,13 @@ TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
 
 TEST(SubsetSearch, ContactsAtOnePointAreNotHeldAtOnce) {
   const ObjectFile file = ReadModel("cube.obj");
-  const GraspDemands demands{Radians(25), 0, 0};
+  const GraspCriteria criteria{Radians(25), 0};
   RandomStream random(5, RandomUse::kStart);
-  const Grasp grasp = DrawGrasp(*file.object, 4, demands, random);
+  const Grasp grasp = DrawGrasp(*file.object, 4, criteria, random);
   Grasp shifted = grasp;
   // The same grasp but for a contact that is not the same one, within reading's tolerance of it.
   shifted[0].p += 1e-7 * file.object->diameter() * shifted[0].n.unitOrthogonal();
-  SearchSpace space(*file.object, demands);
+  SearchSpace space(*file.object, criteria);
   const ContactSet from = Take(grasp, space);
   const ContactSet to = Take(shifted, space);
   EXPECT_EQ(space.count(), 5);

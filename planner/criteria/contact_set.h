@@ -9,7 +9,7 @@
 
 namespace regrasp {
 
-/// The contacts that a hand holds at once, by their numbers in a SearchSpace, in ascending order.
+/// The contacts that a hand holds at once, by their numbers in a GraspMemory, in ascending order.
 class ContactSet {
  public:
   static constexpr int kMostHeld = 5;

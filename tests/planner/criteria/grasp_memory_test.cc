@@ -1,0 +1,156 @@
+#include "planner/criteria/grasp_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/quality.h"
+#include "planner/object/polygon.h"
+
+namespace regrasp {
+namespace {
+
+constexpr int kSteps = 8;
+
+Polygon UnitSquare() { return Polygon::FromRings({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, "square"); }
+
+/// Contacts at kSteps places of the bottom of the unit square, then as many of its top.
+std::vector<Contact> BottomAndTop(const Polygon& square) {
+  std::vector<Contact> contacts;
+  for (const int face : {0, 2}) {
+    for (int i = 1; i <= kSteps; ++i) {
+      const Eigen::Vector3d p(i / (kSteps + 1.0), face == 0 ? 0 : 1, 0);
+      contacts.push_back({p, square.inward_normal(face), face});
+    }
+  }
+  return contacts;
+}
+
+class GraspMemoryTest : public testing::Test {
+ protected:
+  [[nodiscard]] GraspMemory Memory(double degrees, double min_quality, const Hand& hand = {},
+                                   QualityTest quality = QualityTest::kExact) const {
+    GraspMemory memory(square_.wrench_frame(), kSamePoint, {Radians(degrees), min_quality}, hand,
+                       quality);
+    memory.Append(contacts_);
+    return memory;
+  }
+  /// Pairs of contacts, also at one face or one place.
+  [[nodiscard]] std::vector<ContactSet> Pairs() const {
+    std::vector<ContactSet> pairs;
+    for (int a = 0; a < static_cast<int>(contacts_.size()); ++a) {
+      for (int b = 0; b < a; ++b) pairs.push_back(ContactSet().With(a).With(b));
+    }
+    return pairs;
+  }
+  [[nodiscard]] bool IsGood(const ContactSet& pair, double degrees, double min_quality) const {
+    const Grasp grasp = {contacts_[pair[0]], contacts_[pair[1]]};
+    const WrenchFrame frame = square_.wrench_frame();
+    return IsForceClosure(grasp, frame, Radians(degrees)) &&
+           QualityAtLeast(grasp, frame, Radians(degrees), min_quality);
+  }
+
+  const Polygon square_ = UnitSquare();
+  const std::vector<Contact> contacts_ = BottomAndTop(square_);
+};
+
+TEST_F(GraspMemoryTest, AdmitsWhatMeetsTheCriteriaAndTestsEachGraspOnce) {
+  GraspMemory memory = Memory(20, 0.05);
+  int good = 0;
+  int weak = 0;
+  for (int round = 0; round < 2; ++round) {
+    for (const ContactSet& pair : Pairs()) {
+      const bool expected = IsGood(pair, 20, 0.05);
+      EXPECT_EQ(memory.Admits(pair), expected);
+      EXPECT_EQ(memory.IsAdmitted(memory.GraspOf(pair)), expected);
+      good += expected ? 1 : 0;
+      weak += !expected && IsGood(pair, 20, 0) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(good, 10);
+  EXPECT_GT(weak, 3);
+  // By numbers once, without numbers in both rounds.
+  EXPECT_EQ(memory.counts().force_closure, 3 * std::ssize(Pairs()));
+}
+
+TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
+  GraspMemory memory = Memory(20, 0.05);
+  for (const ContactSet& pair : Pairs()) (void)memory.Admits(pair);
+  const auto tests = memory.counts().force_closure;
+  const auto criteria = memory.counts().criteria;
+  // Less quality: force closure is known; with none nothing is asked.
+  memory.SetMinQuality(0);
+  for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
+  EXPECT_EQ(memory.counts().force_closure, tests);
+  EXPECT_EQ(memory.counts().criteria, criteria);
+  // More friction: only grasps that did not hold are tested.
+  memory.SetHalfAngle(Radians(30));
+  int more = 0;
+  for (const ContactSet& pair : Pairs()) {
+    EXPECT_EQ(memory.Admits(pair), IsGood(pair, 30, 0));
+    more += IsGood(pair, 20, 0) ? 0 : 1;
+  }
+  EXPECT_EQ(memory.counts().force_closure, tests + more);
+  // And back.
+  memory.SetHalfAngle(Radians(20));
+  for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
+  EXPECT_EQ(memory.counts().force_closure, tests + more);
+}
+
+TEST_F(GraspMemoryTest, AcceptsTheEndsOfASequenceWhateverTheyAreWorth) {
+  GraspMemory memory = Memory(20, 0.05);
+  const ContactSet bottom = ContactSet().With(0).With(1);
+  EXPECT_FALSE(memory.Admits(bottom));
+  memory.Accept(bottom);
+  EXPECT_TRUE(memory.Admits(bottom));
+  memory.SetMinQuality(1);
+  EXPECT_TRUE(memory.Admits(bottom));
+}
+
+TEST_F(GraspMemoryTest, AdmitsNoGraspWhoseFingersOverlap) {
+  const double step = 1 / (kSteps + 1.0);
+  // Two contacts of the bottom and one of the top between them.
+  const ContactSet triple = ContactSet().With(3).With(4).With(kSteps + 3);
+  EXPECT_TRUE(Memory(20, 0, {.fingertip_radius = 0.49 * step}).Admits(triple));
+  GraspMemory thick = Memory(20, 0, {.fingertip_radius = 0.51 * step});
+  EXPECT_FALSE(thick.Admits(triple));
+  EXPECT_FALSE(thick.IsAdmitted(thick.GraspOf(triple)));
+  EXPECT_FALSE(thick.CanMeet(3, 4));
+  EXPECT_TRUE(thick.CanMeet(3, 5));
+}
+
+TEST_F(GraspMemoryTest, TheQuickTestAdmitsNothingThatTheExactOneDoesNot) {
+  GraspMemory exact = Memory(20, 0.05);
+  GraspMemory quick = Memory(20, 0.05, {}, QualityTest::kQuick);
+  int both = 0;
+  for (const ContactSet& pair : Pairs()) {
+    if (!quick.Admits(pair)) continue;
+    EXPECT_TRUE(exact.Admits(pair));
+    ++both;
+  }
+  EXPECT_GT(both, 10);
+}
+
+TEST_F(GraspMemoryTest, ToldContactsAgainHaveTheirOldNumbers) {
+  GraspMemory memory = Memory(20, 0);
+  EXPECT_EQ(memory.Add(contacts_[5]), 5);
+  Contact other = contacts_[5];
+  other.p.x() += 1e-3;
+  EXPECT_EQ(memory.Add(other), std::ssize(contacts_));
+  EXPECT_EQ(memory.count(), std::ssize(contacts_) + 1);
+}
+
+TEST_F(GraspMemoryTest, RequiredHalfAngleIsTheAngleOfTheLineBetweenTwoContacts) {
+  GraspMemory memory = Memory(20, 0);
+  const double lean = 2 / (kSteps + 1.0);
+  const ContactSet pair = ContactSet().With(2).With(kSteps + 4);
+  EXPECT_NEAR(memory.RequiredHalfAngle(pair), std::atan(lean), 2e-5);
+  EXPECT_THROW(Memory(90, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace regrasp
