@@ -15,7 +15,7 @@ constexpr std::uint64_t kDrawSeed = 1;
 
 std::optional<Grasp> Draw(const Object& object, const ContestSetting& setting,
                           const GraspEvaluator& evaluator, RandomStream& random) {
-  const ContactRange contacts = {setting.fewest_contacts, setting.most_contacts};
+  const ContactLimits contacts = {setting.fewest_contacts, setting.most_contacts};
   try {
     return DrawOnSurface(object, contacts, evaluator, random, "");
   } catch (const NoGrasp&) {

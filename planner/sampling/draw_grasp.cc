@@ -46,7 +46,7 @@ bool HasOpposedEdges(const Object& polygon, double half_angle) {
 }
 
 /// The numbers of contacts to try, in their order.
-std::vector<int> DrawOrder(const Object& object, const ContactRange& contacts,
+std::vector<int> DrawOrder(const Object& object, const ContactLimits& contacts,
                            RandomStream& random) {
   if (object.dimension() == 3) return {contacts.least};
   std::vector<int> order(contacts.most - contacts.least + 1);
@@ -72,7 +72,7 @@ std::string OfRadius(double finger_radius) {
   return finger_radius > 0 ? " of radius " + FormatShort(finger_radius) : "";
 }
 
-std::string Range(const ContactRange& contacts) {
+std::string Range(const ContactLimits& contacts) {
   const std::string least = std::to_string(contacts.least);
   return contacts.most > contacts.least ? least + " and as many of " + std::to_string(contacts.most)
                                         : least;
@@ -89,7 +89,7 @@ std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw,
   return std::nullopt;
 }
 
-Grasp DrawOnSurface(const Object& object, const ContactRange& contacts,
+Grasp DrawOnSurface(const Object& object, const ContactLimits& contacts,
                     const GraspEvaluator& evaluator, RandomStream& random, const std::string& name,
                     const std::function<void()>& before_draw) {
   const double radius = evaluator.finger_radius();

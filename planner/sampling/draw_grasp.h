@@ -19,7 +19,7 @@ namespace regrasp {
                                                  const GraspEvaluator& evaluator);
 
 /// How many contacts a grasp has.
-struct ContactRange {
+struct ContactLimits {
   int least = 0;
   int most = 0;
 };
@@ -34,7 +34,7 @@ struct ContactRange {
 /// @throws NoGrasp  none of kMaxSurfaceDraws draws of each number is accepted, or fingers reach
 ///                  next to nothing of the surface.
 [[nodiscard]] Grasp DrawOnSurface(
-    const Object& object, const ContactRange& contacts, const GraspEvaluator& evaluator,
+    const Object& object, const ContactLimits& contacts, const GraspEvaluator& evaluator,
     RandomStream& random, const std::string& name,
     const std::function<void()>& before_draw = [] {});
 

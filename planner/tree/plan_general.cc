@@ -23,8 +23,8 @@ using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
 /// Of a random grasp.
-constexpr ContactRange kSpatialContacts = {4, 4};
-constexpr ContactRange kPlanarContacts = {2, 3};
+constexpr ContactLimits kSpatialContacts = {4, 4};
+constexpr ContactLimits kPlanarContacts = {2, 3};
 
 /// Where the first sequence can't be mended to the quality that is asked for, others are looked for
 /// whose grasps have these shares of it from the beginning, each with this part of the effort.
@@ -231,7 +231,7 @@ GraspChoice ResolveGrasp(const Object& object, const GraspChoice& choice, Random
     if (!options.deadline.IsOver()) return;
     throw NoGrasp{choice.name + ": the time was up before a grasp was drawn"};
   };
-  const ContactRange contacts = object.dimension() == 3 ? kSpatialContacts : kPlanarContacts;
+  const ContactLimits contacts = object.dimension() == 3 ? kSpatialContacts : kPlanarContacts;
   fixed.grasp = DrawOnSurface(object, contacts, evaluator, random, choice.name, check_time);
   return fixed;
 }
