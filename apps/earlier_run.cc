@@ -54,8 +54,8 @@ std::string TextOf(const fs::path& path) {
 }
 
 /// Whether the files beside a report are those that it names.
-bool AreUnchanged(const fs::path& folder, const std::vector<FileDigest>& files) {
-  return std::ranges::all_of(files, [&](const FileDigest& file) {
+bool AreUnchanged(const fs::path& folder, const std::vector<report::FileDigest>& files) {
+  return std::ranges::all_of(files, [&](const report::FileDigest& file) {
     const fs::path path = folder / file.name;
     return IsFile(path) && Sha256(ReadFile(path)) == file.sha256;
   });
@@ -88,7 +88,7 @@ bool HasSameRun(const ValidateOptions& options) {
   if (!finished || !IsFile(folder / kReportName)) return false;
   try {
     const std::string text = ReadFile(folder / kReportName);
-    if (!IsSealed(text)) return false;
+    if (!report::IsSealed(text)) return false;
     const ReportSummary report = SummarizeReport(ParseJson(text, kReportName), kReportName);
     return AreUnchanged(folder, report.files) && report.run == DigestOfNow(options);
   } catch (const InputError&) {

@@ -57,7 +57,7 @@ struct FigureProgram {
   [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
   void CheckHasContactSpace(const Plan& plan) const;
   void WriteFigures(const Polygon& polygon, const Plan& plan) const;
-  void WriteContactSpace(const Polygon& polygon, const Plan& plan, FigureFormat file_format,
+  void WriteContactSpace(const Polygon& polygon, const Plan& plan, render::FigureFormat file_format,
                          std::set<std::string>& written) const;
 };
 
@@ -120,7 +120,7 @@ std::string SheetName(const std::string& format) { return "sheet." + format; }
 /// Whether a file says that this program made it. One that cannot be read does not.
 bool IsOurs(const std::filesystem::path& file) {
   try {
-    return IsMarkedFigure(ReadFile(file));
+    return render::IsMarkedFigure(ReadFile(file));
   } catch (const InputError&) {
     return false;
   }
@@ -154,7 +154,7 @@ std::string FileName(int index, const std::string& kind, const std::string& form
 }
 
 void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
-  const auto rest = FindOtherThanTwoFingers(plan);
+  const auto rest = render::FindOtherThanTwoFingers(plan);
   if (!rest) return;
   const std::string entry = rest->entry == 0
                                 ? "its initial grasp"
@@ -164,13 +164,13 @@ void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
 }
 
 void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
-                                      FigureFormat file_format,
+                                      render::FigureFormat file_format,
                                       std::set<std::string>& written) const {
   const std::filesystem::path folder = out;
   const int count = static_cast<int>(plan.steps.size());
   ProgressLine progress(quiet);
   progress.Report("contact space");
-  ContactSpaceFigures figures(polygon, plan);
+  render::ContactSpaceFigures figures(polygon, plan);
   const auto write = [&](const std::string& name, const std::string& bytes) {
     WriteFile(folder / name, bytes, Durability::kCached);
     written.insert(name);
@@ -184,25 +184,27 @@ void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
 }
 
 void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const {
-  static const std::map<std::string, FigureFormat> kFormats = {
-      {"svg", FigureFormat::kSvg}, {"pdf", FigureFormat::kPdf}, {"png", FigureFormat::kPng}};
-  const FigureFormat file_format = kFormats.at(format);
+  static const std::map<std::string, render::FigureFormat> kFormats = {
+      {"svg", render::FigureFormat::kSvg},
+      {"pdf", render::FigureFormat::kPdf},
+      {"png", render::FigureFormat::kPng}};
+  const render::FigureFormat file_format = kFormats.at(format);
   const std::filesystem::path folder = out;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw EnvironmentError(folder.string() + ": " + error.message());
-  const std::vector<StepDiagram> diagrams = DescribePlan(polygon, plan);
+  const std::vector<render::StepDiagram> diagrams = render::DescribePlan(polygon, plan);
   const int count = static_cast<int>(diagrams.size());
   std::set<std::string> written;
   ProgressLine progress(quiet);
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
     const std::string name = FileName(i, diagrams[i].kind, format);
-    WriteFile(folder / name, DrawStepFigure(polygon, diagrams, i, file_format),
+    WriteFile(folder / name, render::DrawStepFigure(polygon, diagrams, i, file_format),
               Durability::kCached);
     written.insert(name);
   }
-  WriteFile(folder / SheetName(format), DrawSheet(polygon, diagrams, file_format),
+  WriteFile(folder / SheetName(format), render::DrawSheet(polygon, diagrams, file_format),
             Durability::kCached);
   if (contact_space) WriteContactSpace(polygon, plan, file_format, written);
   RemoveOthers(folder, format, written);

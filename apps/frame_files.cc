@@ -23,35 +23,36 @@ std::string FrameName(std::size_t index, const std::string& kind) {
   return std::string(zeros, '0') + number + "_" + kind + ".png";
 }
 
-std::string Caption(const Plan& plan, const ReportStep& step) {
-  const std::string caption = FrameCaption(plan, step.check.index);
-  const bool failed = step.verdict() == Verdict::kFail;
+std::string Caption(const Plan& plan, const report::ReportStep& step) {
+  const std::string caption = render::FrameCaption(plan, step.check.index);
+  const bool failed = step.verdict() == report::Verdict::kFail;
   return failed ? caption + " — " + std::string(ReasonName(step.reason())) : caption;
 }
 
-SheetLabel MakeLabel(const ReportStep& step) {
-  constexpr Color kGood = {29, 107, 60};
-  constexpr Color kBad = {179, 38, 30};
-  const bool failed = step.verdict() == Verdict::kFail;
-  const std::string verdict(failed ? ReasonName(step.reason()) : VerdictName(step.verdict()));
+render::SheetLabel MakeLabel(const report::ReportStep& step) {
+  constexpr render::Color kGood = {29, 107, 60};
+  constexpr render::Color kBad = {179, 38, 30};
+  const bool failed = step.verdict() == report::Verdict::kFail;
+  const std::string verdict(failed ? ReasonName(step.reason())
+                                   : report::VerdictName(step.verdict()));
   return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
           failed ? kBad : kGood};
 }
 
-std::vector<Snapshot> RestsOf(const Report& report) {
+std::vector<Snapshot> RestsOf(const report::Report& report) {
   std::vector<Snapshot> rests;
-  for (const ReportStep& step : report.steps) {
+  for (const report::ReportStep& step : report.steps) {
     if (step.replay) rests.push_back(step.replay->snapshot);
   }
   return rests;
 }
 
-double RelativeThickness(const Report& report) {
+double RelativeThickness(const report::Report& report) {
   return report.settings->thickness_m / report.settings->diameter_m;
 }
 
-PagePicture MakePicture(const Image& image, int width) {
-  return {EncodeWebp(image, width), image.width, image.height};
+report::PagePicture MakePicture(const render::Image& image, int width) {
+  return {render::EncodeWebp(image, width), image.width, image.height};
 }
 
 }  // namespace
@@ -81,38 +82,39 @@ bool IsValidationFile(const std::string& name) {
   return name == kReportName || name == kPageName || IsPictureName(name);
 }
 
-std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
-                                     const FrameOptions& options,
-                                     const std::filesystem::path& folder, Report& report) {
-  std::vector<PagePicture> pictures(report.steps.size());
+std::vector<report::PagePicture> WriteFrames(const Object& object, const Plan& plan,
+                                             const render::FrameOptions& options,
+                                             const std::filesystem::path& folder,
+                                             report::Report& report) {
+  std::vector<report::PagePicture> pictures(report.steps.size());
   const std::vector<Snapshot> snapshots = RestsOf(report);
   if (snapshots.empty()) return pictures;
-  FrameOptions frame = options;
+  render::FrameOptions frame = options;
   if (object.dimension() == 2) frame.thickness = RelativeThickness(report);
-  FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
+  render::FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
   const auto count = static_cast<int>(snapshots.size());
-  ContactSheet sheet(count, frame.width, frame.height);
-  for (ReportStep& step : report.steps) {
+  render::ContactSheet sheet(count, frame.width, frame.height);
+  for (report::ReportStep& step : report.steps) {
     if (!step.replay) continue;
     const std::string name = FrameName(step.check.index, step.check.kind);
-    const Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
-    WritePng(folder / name, image);
+    const render::Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
+    render::WritePng(folder / name, image);
     step.frame = name;
-    pictures[step.check.index] = MakePicture(image, PagePictureWidth(count));
+    pictures[step.check.index] = MakePicture(image, report::PagePictureWidth(count));
     sheet.Add(image, MakeLabel(step));
   }
-  WritePng(folder / kOverviewName, sheet.ToImage());
+  render::WritePng(folder / kOverviewName, sheet.ToImage());
   return pictures;
 }
 
 void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Snapshot>& samples,
-                    AnimationOptions options, const std::filesystem::path& folder,
-                    const Report& report) {
+                    render::AnimationOptions options, const std::filesystem::path& folder,
+                    const report::Report& report) {
   const std::vector<Snapshot> rests = RestsOf(report);
   if (rests.empty()) return;
   if (object.dimension() == 2) options.thickness = RelativeThickness(report);
   WriteFile(folder / kAnimationName,
-            RenderAnimation(object, plan, report.half_angle, samples, rests, options),
+            render::RenderAnimation(object, plan, report.half_angle, samples, rests, options),
             Durability::kCached);
 }
 

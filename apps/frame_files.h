@@ -36,17 +36,17 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// what the replay saw at its end.
 /// @returns the same pictures, smaller, one for each entry of the report.
 /// @throws EnvironmentError  no rendering context, or the folder cannot be written.
-[[nodiscard]] std::vector<PagePicture> WriteFrames(const Object& object, const Plan& plan,
-                                                   const FrameOptions& options,
-                                                   const std::filesystem::path& folder,
-                                                   Report& report);
+[[nodiscard]] std::vector<report::PagePicture> WriteFrames(const Object& object, const Plan& plan,
+                                                           const render::FrameOptions& options,
+                                                           const std::filesystem::path& folder,
+                                                           report::Report& report);
 
 /// Writes what was replayed as the moving picture replay.webp into `folder`; nothing where nothing
 /// was replayed.
 /// @param samples  states during the replay, ascending in time.
 /// @throws EnvironmentError  as WriteFrames.
 void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Snapshot>& samples,
-                    AnimationOptions options, const std::filesystem::path& folder,
-                    const Report& report);
+                    render::AnimationOptions options, const std::filesystem::path& folder,
+                    const report::Report& report);
 
 }  // namespace regrasp

@@ -14,7 +14,9 @@ namespace regrasp {
 
 namespace {
 
-Json FileJson(const FileDigest& file) { return {{"file", file.name}, {"sha256", file.sha256}}; }
+Json FileJson(const report::FileDigest& file) {
+  return {{"file", file.name}, {"sha256", file.sha256}};
+}
 
 Json DigestJson(const std::string& sha256) { return sha256.empty() ? Json(nullptr) : Json(sha256); }
 
@@ -35,7 +37,7 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
 std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
   const Json json = {{"version", ProgramVersion()},
                      {"build", BuildId()},
-                     {"engine", EngineVersion()},
+                     {"engine", sim::EngineVersion()},
                      {"input", FileJson(inputs.input)},
                      {"object", FileJson(inputs.object)},
                      {"start", DigestJson(inputs.start_sha256)},

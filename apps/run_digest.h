@@ -14,8 +14,8 @@ namespace regrasp {
 
 /// The files that the results of a validation come from, as they were used.
 struct RunInputs {
-  FileDigest input;  ///< the plan or the grasp
-  FileDigest object;
+  report::FileDigest input;  ///< the plan or the grasp
+  report::FileDigest object;
   std::string start_sha256;  ///< of the bytes of --start; empty where it is not given
   std::string goal_sha256;   ///< of --goal, likewise
 };

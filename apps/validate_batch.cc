@@ -192,7 +192,7 @@ class Batch {
     for (PlanOutcome& outcome : summary_.plans) {
       if (!outcome.report) continue;
       std::vector<std::string> names = {kReportName};
-      for (const FileDigest& file : outcome.report->files) names.push_back(file.name);
+      for (const report::FileDigest& file : outcome.report->files) names.push_back(file.name);
       const auto gone = std::ranges::find_if_not(names, [&](const std::string& name) {
         std::error_code error;
         return fs::is_regular_file(folder_.path() / outcome.name / name, error);

@@ -23,10 +23,10 @@ CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& he
     const auto side = [&](const std::string& digits) {
       const std::optional<double> value = ParseDouble(digits);
       const bool integer = digits.find_first_not_of("0123456789") == std::string::npos;
-      if (!value || !integer || *value < kMinFrameSide || *value > kMaxFrameSide) {
+      if (!value || !integer || *value < render::kMinFrameSide || *value > render::kMaxFrameSide) {
         throw CLI::ValidationError(
-            name, "expected WxH with sides from " + std::to_string(kMinFrameSide) + " to " +
-                      std::to_string(kMaxFrameSide) + ", found \"" + text + "\"");
+            name, "expected WxH with sides from " + std::to_string(render::kMinFrameSide) + " to " +
+                      std::to_string(render::kMaxFrameSide) + ", found \"" + text + "\"");
       }
       return static_cast<int>(*value);
     };
@@ -36,8 +36,8 @@ CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& he
   return app
       .add_option_function<std::string>(
           name, parse,
-          what + ", pixels, each side from " + std::to_string(kMinFrameSide) + " to " +
-              std::to_string(kMaxFrameSide) + " (default " + std::to_string(width) + "x" +
+          what + ", pixels, each side from " + std::to_string(render::kMinFrameSide) + " to " +
+              std::to_string(render::kMaxFrameSide) + " (default " + std::to_string(width) + "x" +
               std::to_string(height) + ")")
       ->type_name("WxH");
 }
@@ -112,8 +112,9 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
             "Size of the shake: force over squeeze, and torque over squeeze times half the "
             "diameter (default 0.01)")
       ->type_name("RHO");
-  const std::map<std::string, Protocol> protocols = {
-      {"adapted", Protocol::kAdapted}, {"fixed", Protocol::kFixed}, {"both", Protocol::kBoth}};
+  const std::map<std::string, sim::Protocol> protocols = {{"adapted", sim::Protocol::kAdapted},
+                                                          {"fixed", sim::Protocol::kFixed},
+                                                          {"both", sim::Protocol::kBoth}};
   const auto set_protocol = [&options, protocols](const std::string& name) {
     options.replay.protocol = protocols.at(name);
   };
@@ -134,7 +135,8 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
   app.add_option_function<std::string>(
          "--align",
          [&options](const std::string& text) {
-           options.replay.align = text == "slide" ? AlignChoice::kSlide : AlignChoice::kImitate;
+           options.replay.align =
+               text == "slide" ? sim::AlignChoice::kSlide : sim::AlignChoice::kImitate;
          },
          "How aligns are carried out. imitate: spare fingers take over for each finger while it "
          "goes "
@@ -147,7 +149,7 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
 
 void AddTrials(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
-  const NumberRange share{0, kMostError};
+  const NumberRange share{0, sim::kMostError};
   CLI::Option* trials = AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
                                    "Repeat the replay so often with noise: contacts off where "
                                    "fingers are put, friction and mass "

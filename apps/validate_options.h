@@ -33,10 +33,10 @@ struct ValidateOptions {
   std::string verify;  ///< a report whose proofs are checked; nothing else is done
   FrictionOptions friction;
   std::optional<double> scale;
-  ReplayOptions replay;
-  TrialOptions trials;  ///< a count of 0: none
-  FrameOptions frame;
-  AnimationOptions animation;
+  sim::ReplayOptions replay;
+  sim::TrialOptions trials;  ///< a count of 0: none
+  render::FrameOptions frame;
+  render::AnimationOptions animation;
   bool no_frames = false;
   bool animate = false;
   bool show_clusters = false;

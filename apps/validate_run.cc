@@ -91,7 +91,8 @@ Task ReadTask(const ValidateOptions& options) {
     task.object = ReadObject(options.object_path, reading);
     task.file_text = ReadFile(options.grasp_path);
     task.grasp = ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
-    task.plan = MakeHoldPlan(*task.object.object, task.grasp,
+    task.plan =
+        report::MakeHoldPlan(*task.object.object, task.grasp,
                              options.friction.required_half_angle(), options.scale.value_or(1));
   } else {
     ReadPlanTask(options, reading, task);
@@ -110,9 +111,9 @@ Task ReadTask(const ValidateOptions& options) {
   return task;
 }
 
-ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progress,
-                            Samples& samples) {
-  ReplayObserver observer;
+sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progress,
+                                 Samples& samples) {
+  sim::ReplayObserver observer;
   observer.on_progress = [&progress](int done, int total) {
     progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
   };
@@ -154,20 +155,20 @@ struct CheckTask {
   CheckOptions check;
 };
 
-Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
+report::Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
   const Object& object = *task.object.object;
   const CheckTask given(options, task);
   ProgressLine progress(options.quiet);
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
-  const ReplayObserver observer = MakeObserver(options, progress, samples);
+  const sim::ReplayObserver observer = MakeObserver(options, progress, samples);
   if (!options.for_grasp())
-    return Validate(object, task.plan, given.check, options.replay, observer);
-  return ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale, options.replay,
-                       observer);
+    return report::Validate(object, task.plan, given.check, options.replay, observer);
+  return report::ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale,
+                               options.replay, observer);
 }
 
 /// Of a plan whose replay passes.
-void AddTrials(const ValidateOptions& options, const Task& task, Report& report) {
+void AddTrials(const ValidateOptions& options, const Task& task, report::Report& report) {
   if (options.trials.count == 0) return;
   if (!report.passed()) {
     PrintMessage(kValidateName, "no trials: the replay without noise does not pass");
@@ -179,14 +180,14 @@ void AddTrials(const ValidateOptions& options, const Task& task, Report& report)
                     std::to_string(options.trials.count));
   };
   const Object& object = *task.object.object;
-  ReplayOptions replay = options.replay;
+  sim::ReplayOptions replay = options.replay;
   replay.half_angle = report.half_angle;
-  report.trials = RunTrials(object, LocatePlan(object, task.plan), replay, options.trials,
-                            report.settings->fingertip_radius_m, tell);
+  report.trials = sim::RunTrials(object, LocatePlan(object, task.plan), replay, options.trials,
+                                 report.settings->fingertip_radius_m, tell);
 }
 
-FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
-  FrameOptions frame = options.frame;
+render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
+  render::FrameOptions frame = options.frame;
   if (!options.show_clusters) return frame;
   const auto* solid = dynamic_cast<const Polyhedron*>(task.object.object.get());
   if (solid == nullptr || !task.plan.roadmap) {
@@ -210,10 +211,11 @@ std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Ta
   return ResultNames(task.plan, !options.no_frames, options.animate);
 }
 
-void WritePictures(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
-                   const Samples& samples, const std::filesystem::path& folder, Report& report) {
+void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
+                   const Task& task, const Samples& samples, const std::filesystem::path& folder,
+                   report::Report& report) {
   const Object& object = *task.object.object;
-  std::vector<PagePicture> pictures;
+  std::vector<report::PagePicture> pictures;
   if (!options.no_frames) {
     ProgressLine progress(options.quiet);
     progress.Report("drawing frames");
@@ -224,13 +226,13 @@ void WritePictures(const ValidateOptions& options, const FrameOptions& frame, co
     progress.Report("drawing the moving picture");
     WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report);
   }
-  WriteFile(folder / kPageName, FormatReportHtml(report, task.plan, pictures));
+  WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures));
 }
 
 /// What is written last says that all of it is there.
-void CheckPictures(const std::filesystem::path& folder, const Report& report) {
+void CheckPictures(const std::filesystem::path& folder, const report::Report& report) {
   std::vector<std::string> names = {kPageName};
-  for (const ReportStep& step : report.steps) {
+  for (const report::ReportStep& step : report.steps) {
     if (!step.frame.empty()) names.push_back(step.frame);
   }
   for (const std::string& name : names) {
@@ -241,9 +243,9 @@ void CheckPictures(const std::filesystem::path& folder, const Report& report) {
 }
 
 /// Those of the files that were written.
-std::vector<FileDigest> DigestFiles(const std::filesystem::path& folder,
-                                    const std::vector<std::string>& names) {
-  std::vector<FileDigest> files;
+std::vector<report::FileDigest> DigestFiles(const std::filesystem::path& folder,
+                                            const std::vector<std::string>& names) {
+  std::vector<report::FileDigest> files;
   for (const std::string& name : names) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(folder / name, error)) continue;
@@ -252,25 +254,27 @@ std::vector<FileDigest> DigestFiles(const std::filesystem::path& folder,
   return files;
 }
 
-void WriteResults(const ValidateOptions& options, const FrameOptions& frame, const Task& task,
-                  const Samples& samples, HeldFolder& folder, Report& report) {
+void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
+                  const Task& task, const Samples& samples, HeldFolder& folder,
+                  report::Report& report) {
   const std::vector<std::string> names = NamesOfResults(options, task);
   RemoveEarlierRun(folder, OwnResults(folder));
   folder.Announce(names);
   WritePictures(options, frame, task, samples, folder.path(), report);
-  if (!options.junit.empty()) WriteFile(options.junit, FormatJunit({MakeJunitSuite(report)}));
+  if (!options.junit.empty())
+    WriteFile(options.junit, report::FormatJunit({report::MakeJunitSuite(report)}));
   if (!options.trajectory.empty()) {
-    WriteFile(options.trajectory, FormatTrajectory(samples.trajectory));
+    WriteFile(options.trajectory, sim::FormatTrajectory(samples.trajectory));
   }
   if (!options.mjcf.empty()) {
     const Object& object = *task.object.object;
-    ReplayOptions replay = options.replay;
+    sim::ReplayOptions replay = options.replay;
     replay.half_angle = options.friction.half_angle();
-    WriteFile(options.mjcf, SceneMjcf(object, LocatePlan(object, task.plan), replay));
+    WriteFile(options.mjcf, sim::SceneMjcf(object, LocatePlan(object, task.plan), replay));
   }
   CheckPictures(folder.path(), report);
   report.run->files = DigestFiles(folder.path(), names);
-  WriteFile(folder.path() / kReportName, FormatReportJson(report));
+  WriteFile(folder.path() / kReportName, report::FormatReportJson(report));
 }
 
 }  // namespace
@@ -279,28 +283,29 @@ int RunValidation(const ValidateOptions& options) {
   CheckOutputs(options);
   const Task task = ReadTask(options);
   if (!options.verify.empty()) return Verify(options, task);
-  const FrameOptions frame = FrameOptionsFor(options, task);
+  const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
   const Object& object = *task.object.object;
   Samples samples;
-  Report report = Check(options, task, samples);
+  report::Report report = Check(options, task, samples);
   report.object_file = task.object.file;
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
-  report.run = RunRecord{RunDigest(options, {{report.plan_file, report.plan_sha256},
-                                             {report.object_file, report.object_sha256},
-                                             options.start.empty() ? "" : Sha256(task.start_text),
-                                             options.goal.empty() ? "" : Sha256(task.goal_text)}),
-                         {}};
+  report.run =
+      report::RunRecord{RunDigest(options, {{report.plan_file, report.plan_sha256},
+                                            {report.object_file, report.object_sha256},
+                                            options.start.empty() ? "" : Sha256(task.start_text),
+                                            options.goal.empty() ? "" : Sha256(task.goal_text)}),
+                        {}};
   AddTrials(options, task, report);
-  if (options.certificates) AddProofs(LocatePlan(object, task.plan), report);
+  if (options.certificates) report::AddProofs(LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
-  if (!options.quiet) std::cout << FormatReportTable(report);
+  if (!options.quiet) std::cout << report::FormatReportTable(report);
   return report.passed() ? kExitDone : kExitNegative;
 }
 

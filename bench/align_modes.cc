@@ -57,7 +57,7 @@ struct Outcome {
   double drift = 0;  ///< over D, as slip
   double slip = 0;
   double milliseconds = 0;
-  AlignShares shares;
+  sim::AlignShares shares;
 };
 
 /// Adds the aligns of a plan in which a finger moves.
@@ -91,14 +91,14 @@ void CollectAligns(const ObjectFile& file, const PlanFinder& find, std::size_t c
 
 const GraspChoice kAny = {GraspChoice::Kind::kRandom, {}, "random"};
 
-Outcome Replay(const AlignCase& align, AlignChoice choice, double half_angle) {
-  ReplayOptions options;
+Outcome Replay(const AlignCase& align, sim::AlignChoice choice, double half_angle) {
+  sim::ReplayOptions options;
   options.align = choice;
   options.half_angle = half_angle;
   const auto begin = std::chrono::steady_clock::now();
-  const ReplayResult result = ReplayPlan(*align.object, align.plan, options);
+  const sim::ReplayResult result = sim::ReplayPlan(*align.object, align.plan, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  const StepReplay& last = result.steps.back();
+  const sim::StepReplay& last = result.steps.back();
   Outcome outcome;
   outcome.body = align.body;
   outcome.held = result.steps.size() == 2;
@@ -111,7 +111,8 @@ Outcome Replay(const AlignCase& align, AlignChoice choice, double half_angle) {
   return outcome;
 }
 
-std::vector<Outcome> ReplayAll(const std::vector<AlignCase>& cases, AlignChoice choice, bool bad) {
+std::vector<Outcome> ReplayAll(const std::vector<AlignCase>& cases, sim::AlignChoice choice,
+                               bool bad) {
   std::vector<Outcome> outcomes;
   for (const AlignCase& align : cases) {
     const double half_angle =
@@ -152,16 +153,16 @@ struct Table {
   int false_passes = 0;
 
   void Add(const std::string& name, const std::vector<AlignCase>& cases) {
-    for (const AlignChoice choice : {AlignChoice::kImitate, AlignChoice::kSlide}) {
-      const std::string mode = choice == AlignChoice::kSlide ? "slide" : "imitate";
+    for (const sim::AlignChoice choice : {sim::AlignChoice::kImitate, sim::AlignChoice::kSlide}) {
+      const std::string mode = choice == sim::AlignChoice::kSlide ? "slide" : "imitate";
       const std::vector<Outcome> good = ReplayAll(cases, choice, false);
       const std::vector<Outcome> bad = ReplayAll(cases, choice, true);
-      const auto share = [&](double AlignShares::*of) {
+      const auto share = [&](double sim::AlignShares::*of) {
         return FormatFixed(Mean(good, [of](const Outcome& o) { return o.shares.*of; }), 2);
       };
       file.rows.push_back(
-          {name, mode, Count(good, &Outcome::passed), share(&AlignShares::imitated),
-           share(&AlignShares::slid), share(&AlignShares::best_effort),
+          {name, mode, Count(good, &Outcome::passed), share(&sim::AlignShares::imitated),
+           share(&sim::AlignShares::slid), share(&sim::AlignShares::best_effort),
            FormatShort(Largest(good, &Outcome::drift), 2),
            FormatShort(Largest(good, &Outcome::slip), 2),
            FormatFixed(Mean(good, [](const Outcome& o) { return o.milliseconds; }), 0),

@@ -92,10 +92,10 @@ Plan PlanOf(const Body& body, const Grasp& initial, double half_angle) {
   return plan;
 }
 
-Sample MotionMonitor(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
-                     const ReplayOptions& options) {
-  const ReplayResult result = ReplayPlan(body.object(), plan, options);
-  const StepReplay& last = result.steps.back();
+Sample ExamineGrasp(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
+                    const sim::ReplayOptions& options) {
+  const sim::ReplayResult result = sim::ReplayPlan(body.object(), plan, options);
+  const sim::StepReplay& last = result.steps.back();
   Sample sample;
   sample.body = body.name();
   sample.ratio = ratio;
@@ -117,8 +117,8 @@ double DrawRatio(RandomStream& random) {
   return kLeastRatio + (kMostRatio - kLeastRatio) * random.Uniform();
 }
 
-std::vector<Sample> MonitorHolds(const Body& body, int count, std::uint64_t seed,
-                                 const ReplayOptions& options) {
+std::vector<Sample> ExamineHolds(const Body& body, int count, std::uint64_t seed,
+                                 const sim::ReplayOptions& options) {
   RandomStream random(seed, RandomUse::kStart);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
@@ -127,14 +127,14 @@ std::vector<Sample> MonitorHolds(const Body& body, int count, std::uint64_t seed
     if (!critical) continue;
     const double ratio = DrawRatio(random);
     const Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
-    samples.push_back(MotionMonitor(body, plan, grasp, ratio, options));
+    samples.push_back(ExamineGrasp(body, plan, grasp, ratio, options));
   }
   return samples;
 }
 
 /// Switches of one finger from a good grasp.
-std::vector<Sample> MonitorSwitches(const Body& body, int count, std::uint64_t seed,
-                                    const ReplayOptions& options) {
+std::vector<Sample> ExamineSwitches(const Body& body, int count, std::uint64_t seed,
+                                    const sim::ReplayOptions& options) {
   RandomStream random(seed, RandomUse::kGoal);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
@@ -150,7 +150,7 @@ std::vector<Sample> MonitorSwitches(const Body& body, int count, std::uint64_t s
     Plan plan = PlanOf(body, first, half_angle);
     plan.steps.push_back(Switch{{{body.hold(), second.back()}}, {0}});
     plan.goal = second;
-    samples.push_back(MotionMonitor(body, plan, second, ratio, options));
+    samples.push_back(ExamineGrasp(body, plan, second, ratio, options));
   }
   return samples;
 }
@@ -158,27 +158,27 @@ std::vector<Sample> MonitorSwitches(const Body& body, int count, std::uint64_t s
 /// The settings that the table of settings compares, each a change of one.
 struct Variant {
   std::string name;
-  std::function<void(ReplayOptions&)> change;
+  std::function<void(sim::ReplayOptions&)> change;
 };
 
 const std::vector<Variant> kVariants = {
-    {"as they are", [](ReplayOptions&) {}},
-    {"shake ρ 0.005", [](ReplayOptions& o) { o.shake = 0.005; }},
-    {"shake ρ 0.02", [](ReplayOptions& o) { o.shake = 0.02; }},
-    {"no shake, gravity alone", [](ReplayOptions& o) { o.shake = 0; }},
-    {"tolerance 1e-4 D", [](ReplayOptions& o) { o.tolerance = 1e-4; }},
-    {"tolerance 1e-2 D", [](ReplayOptions& o) { o.tolerance = 1e-2; }},
-    {"squeeze 100 weights", [](ReplayOptions& o) { o.squeeze_N = 100; }},
-    {"squeeze 10,000 weights", [](ReplayOptions& o) { o.squeeze_N = 10'000; }},
-    {"finger stiffness halved", [](ReplayOptions& o) { o.stiffness_factor = 0.5; }},
-    {"finger stiffness doubled", [](ReplayOptions& o) { o.stiffness_factor = 2; }},
-    {"time step halved", [](ReplayOptions& o) { o.timestep_factor = 0.5; }},
-    {"time step doubled", [](ReplayOptions& o) { o.timestep_factor = 2; }},
+    {"as they are", [](sim::ReplayOptions&) {}},
+    {"shake ρ 0.005", [](sim::ReplayOptions& o) { o.shake = 0.005; }},
+    {"shake ρ 0.02", [](sim::ReplayOptions& o) { o.shake = 0.02; }},
+    {"no shake, gravity alone", [](sim::ReplayOptions& o) { o.shake = 0; }},
+    {"tolerance 1e-4 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-4; }},
+    {"tolerance 1e-2 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-2; }},
+    {"squeeze 100 weights", [](sim::ReplayOptions& o) { o.squeeze_N = 100; }},
+    {"squeeze 10,000 weights", [](sim::ReplayOptions& o) { o.squeeze_N = 10'000; }},
+    {"finger stiffness halved", [](sim::ReplayOptions& o) { o.stiffness_factor = 0.5; }},
+    {"finger stiffness doubled", [](sim::ReplayOptions& o) { o.stiffness_factor = 2; }},
+    {"time step halved", [](sim::ReplayOptions& o) { o.timestep_factor = 0.5; }},
+    {"time step doubled", [](sim::ReplayOptions& o) { o.timestep_factor = 2; }},
 };
 
 /// A squeeze given in weights becomes newtons of a body of 0.1 kg.
-ReplayOptions OptionsFor(const Variant& variant) {
-  ReplayOptions options;
+sim::ReplayOptions OptionsFor(const Variant& variant) {
+  sim::ReplayOptions options;
   variant.change(options);
   if (options.squeeze_N) {
     constexpr double kGravityOnEarth = 9.81;
@@ -197,7 +197,7 @@ TableFile SettingsTable(const std::vector<Body>& bodies, int count, std::uint64_
   for (const Variant& variant : kVariants) {
     std::vector<Sample> samples;
     for (const Body& body : bodies) {
-      const auto more = MonitorHolds(body, count, seed, OptionsFor(variant));
+      const auto more = ExamineHolds(body, count, seed, OptionsFor(variant));
       samples.insert(samples.end(), more.begin(), more.end());
     }
     const auto between = [](double x, double from, double to) { return x >= from && x < to; };
@@ -221,14 +221,14 @@ ScatterPlot PlotOf(const std::vector<Sample>& samples) {
   plot.x_to = kMostRatio;
   plot.y_from = 1e-8;
   plot.y_to = 10;
-  plot.level = ReplayOptions().tolerance;
+  plot.level = sim::ReplayOptions().tolerance;
   plot.level_name = "tolerance";
   plot.series = {{"force closure, quality above the shake", "#2166ac", {}},
                  {"force closure, quality below the shake", "#e08214", {}},
                  {"not force closure", "#b2182b", {}}};
   for (const Sample& sample : samples) {
     const std::size_t series =
-        sample.ratio < 1 ? 2 : (sample.quality < ReplayOptions().shake ? 1 : 0);
+        sample.ratio < 1 ? 2 : (sample.quality < sim::ReplayOptions().shake ? 1 : 0);
     plot.series[series].points.emplace_back(sample.ratio, sample.displacement);
   }
   return plot;
@@ -242,10 +242,10 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   std::vector<Sample> holds;
   std::vector<Sample> switches;
   for (const Body& body : bodies) {
-    ReplayOptions both;
-    both.protocol = Protocol::kBoth;
-    const auto held = MonitorHolds(body, count, kSeed, both);
-    const auto switched = MonitorSwitches(body, count, kSeed, both);
+    sim::ReplayOptions both;
+    both.protocol = sim::Protocol::kBoth;
+    const auto held = ExamineHolds(body, count, kSeed, both);
+    const auto switched = ExamineSwitches(body, count, kSeed, both);
     holds.insert(holds.end(), held.begin(), held.end());
     switches.insert(switches.end(), switched.begin(), switched.end());
     std::fprintf(stderr, "%s: %d holds and %d switches\n", body.name().c_str(), count, count);

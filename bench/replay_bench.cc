@@ -98,7 +98,7 @@ void BM_Replay(benchmark::State& state) {
   engine_time = {};
   const auto start = Clock::now();
   for (auto _ : state) {
-    const ReplayResult result = ReplayPlan(*made.file.object, made.plan, {});
+    const sim::ReplayResult result = sim::ReplayPlan(*made.file.object, made.plan, {});
     if (result.steps.back().reason != Reason::kNone) {
       state.SkipWithError("the plan failed");
       return;
@@ -125,9 +125,9 @@ struct DeleteData {
 void BM_BareSteps(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   engine_time = {};
-  (void)ReplayPlan(*made.file.object, made.plan, {});
+  (void)sim::ReplayPlan(*made.file.object, made.plan, {});
   const std::int64_t steps = engine_time.steps;
-  const std::string mjcf = SceneMjcf(*made.file.object, made.plan, {});
+  const std::string mjcf = sim::SceneMjcf(*made.file.object, made.plan, {});
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
   mj_makeEmptyFileVFS(vfs.get(), "scene.xml", static_cast<int>(mjcf.size()));
@@ -151,11 +151,11 @@ void BM_BareSteps(benchmark::State& state) {
 void BM_Setup(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   const Object& object = *made.file.object;
-  const ReplayObserver observer;
+  const sim::ReplayObserver observer;
   for (auto _ : state) {
-    const ReplayWorld stage(
+    const sim::ReplayWorld stage(
         object, made.plan,
-        MakeScene(object, made.plan, static_cast<int>(made.plan.steps.size()), {}), observer);
+        sim::MakeScene(object, made.plan, static_cast<int>(made.plan.steps.size()), {}), observer);
     benchmark::DoNotOptimize(stage.engine().time());
   }
   state.SetLabel(kModels.at(state.range(0)));

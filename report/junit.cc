@@ -4,7 +4,7 @@
 
 #include "report/markup.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::string FormatJunit(const std::vector<JunitSuite>& suites) {
          Element("testsuites", {}, elements).Format() + "\n";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 enum class JunitOutcome { kPassed, kFailed, kError, kSkipped };
 
@@ -28,4 +28,4 @@ struct JunitSuite {
 /// JUnit XML for CI servers.
 [[nodiscard]] std::string FormatJunit(const std::vector<JunitSuite>& suites);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 
 #include "planner/base/utf8.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::string Element::FormatAttributes(const Attributes& attributes) {
   return text;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// Text as it can stand in HTML, XML, SVG and in a quoted attribute: & < > " ' are escaped;
 /// bytes that are not UTF-8, and invisible characters (IsInvisible) other than tab and line feed,
@@ -46,4 +46,4 @@ class Element {
   std::string tag_, attributes_, content_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -10,7 +10,7 @@
 #include "planner/certificate/plan_proof.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -22,11 +22,11 @@ int CountPassing(const std::vector<StepCheck>& steps) {
   return static_cast<int>(std::find_if(steps.begin(), steps.end(), fails) - steps.begin());
 }
 
-void Replay(const Object& object, const Plan& located, const ReplayOptions& options,
-            const ReplayObserver& observer, int count, Report& report) {
-  ReplayResult result = ReplayPlan(object, located, options, observer, count);
+void Replay(const Object& object, const Plan& located, const sim::ReplayOptions& options,
+            const sim::ReplayObserver& observer, int count, Report& report) {
+  sim::ReplayResult result = sim::ReplayPlan(object, located, options, observer, count);
   report.settings = result.settings;
-  for (StepReplay& step : result.steps) {
+  for (sim::StepReplay& step : result.steps) {
     report.steps[step.index].replay = std::move(step);
   }
 }
@@ -60,10 +60,10 @@ void CheckCertificates(const Plan& located, int count, Report& report) {
 void ExamineSteps(const Object& object, const Plan& located, int count, Report& report) {
   for (int index = 0; index < count; ++index) {
     ReportStep& step = report.steps[index];
-    step.needs = NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
+    step.needs = sim::NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
     if (!step.replay) continue;
     step.disagreement =
-        ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
+        sim::ExplainDisagreement({object, located, step.check, *step.replay, *report.settings});
   }
 }
 
@@ -129,7 +129,7 @@ int Report::weakest_finger_step() const {
   std::vector<FingerFriction> weakest;
   std::vector<int> index;
   for (const ReportStep& step : steps) {
-    const int finger = step.skipped ? -1 : WeakestOf(step.needs);
+    const int finger = step.skipped ? -1 : sim::WeakestOf(step.needs);
     if (finger < 0) continue;
     weakest.push_back(step.needs[finger].friction);
     index.push_back(step.check.index);
@@ -155,7 +155,7 @@ std::vector<std::string> Report::warnings() const {
 }
 
 Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
-                const ReplayOptions& replay, const ReplayObserver& observer) {
+                const sim::ReplayOptions& replay, const sim::ReplayObserver& observer) {
   const PlanCheck checked = CheckPlan(object, plan, check);
   Report report;
   report.scale = plan.scale;
@@ -168,7 +168,7 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   MeasureRegions(object, checked.located, passing, report);
   CheckCertificates(checked.located, passing, report);
   if (passing > 0) {
-    ReplayOptions options = replay;
+    sim::ReplayOptions options = replay;
     options.half_angle = report.half_angle;
     options.finger_radius = report.finger_radius;
     Replay(object, checked.located, options, observer, passing, report);
@@ -205,7 +205,7 @@ Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, d
 }
 
 Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle, double scale,
-                     const ReplayOptions& replay, const ReplayObserver& observer) {
+                     const sim::ReplayOptions& replay, const sim::ReplayObserver& observer) {
   Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
   plan.finger_radius = replay.finger_radius;
   Report report = Validate(object, plan, {}, replay, observer);
@@ -218,4 +218,4 @@ Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle
   return report;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

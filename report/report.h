@@ -17,7 +17,7 @@
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 enum class Verdict { kPass, kFail, kSkipped };
 
@@ -32,11 +32,11 @@ struct ReportStep {
   /// What exact arithmetic says of the proof that the plan gives for an align, if it gives one and
   /// the align passes the analytic check.
   std::optional<ProofVerdict> certificate;
-  std::optional<StepReplay> replay;  ///< none where the analytic check failed, or when skipped
-  bool skipped = false;              ///< a step before it failed, in the analysis or the replay
-  std::vector<NeedOfFinger> needs;   ///< of a step that passes the analytic check
-  std::optional<Disagreement> disagreement;  ///< between the examinations of a step
-  std::optional<EntryProof> proof;           ///< where AddProofs was asked
+  std::optional<sim::StepReplay> replay;  ///< none where the analytic check failed, or when skipped
+  bool skipped = false;                  ///< a step before it failed, in the analysis or the replay
+  std::vector<sim::NeedOfFinger> needs;  ///< of a step that passes the analytic check
+  std::optional<sim::Disagreement> disagreement;  ///< between the examinations of a step
+  std::optional<EntryProof> proof;                ///< where AddProofs was asked
   std::string frame;  ///< file name of the picture, empty where there is none
 
   /// The analytic reason, or else that of the replay; kNone for a skipped step.
@@ -76,13 +76,13 @@ struct Report {
   double half_angle = 0;  ///< checked against, radians
   /// Of the fingers, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
-  std::optional<ReplaySettings> settings;  ///< none where nothing was replayed
+  std::optional<sim::ReplaySettings> settings;  ///< none where nothing was replayed
   std::vector<ReportStep> steps;
   /// Of a single grasp instead of a plan: the only entry is its hold.
   std::optional<GraspReport> grasp = std::nullopt;
   /// Repeats with noise, where they were asked for and the nominal replay passes. They do not
   /// change the verdict.
-  std::optional<TrialSummary> trials = std::nullopt;
+  std::optional<sim::TrialSummary> trials = std::nullopt;
   std::optional<RunRecord> run = std::nullopt;  ///< none: not told
 
   [[nodiscard]] bool passed() const;
@@ -104,7 +104,8 @@ struct Report {
 /// Files' names and digests, and frames, are left to the caller.
 /// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
 [[nodiscard]] Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
-                              const ReplayOptions& replay, const ReplayObserver& observer = {});
+                              const sim::ReplayOptions& replay,
+                              const sim::ReplayObserver& observer = {});
 
 /// Holds one grasp: the report of a plan without steps whose hand has just the fingers of the
 /// grasp, numbered in its order, with what is said of a single grasp.
@@ -114,8 +115,8 @@ struct Report {
 /// @throws InputError             the body cannot be simulated.
 /// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
 [[nodiscard]] Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle,
-                                   double scale, const ReplayOptions& replay,
-                                   const ReplayObserver& observer = {});
+                                   double scale, const sim::ReplayOptions& replay,
+                                   const sim::ReplayObserver& observer = {});
 
 /// Adds the proofs of force closure, or of its loss, of every entry that the analytic check came to
 /// and that has no fault but the loss.
@@ -136,4 +137,4 @@ void AddProofs(const Plan& located, Report& report);
 /// the verdict.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -10,7 +10,7 @@
 #include "report/stress_table.h"
 #include "report/trials_report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -19,7 +19,7 @@ Json MakeSettings(const Report& report) {
                    {"mu", std::tan(report.half_angle)}};
   if (report.finger_radius) settings["finger_radius"] = *report.finger_radius;
   if (!report.settings) return settings;
-  const ReplaySettings& replay = *report.settings;
+  const sim::ReplaySettings& replay = *report.settings;
   settings["mu"] = replay.mu;
   settings["mass_kg"] = replay.mass_kg;
   settings["squeeze_N"] = replay.squeeze_N;
@@ -29,7 +29,7 @@ Json MakeSettings(const Report& report) {
   settings["protocol"] = ProtocolName(replay.protocol);
   settings["stress"] = replay.stress;
   settings["tolerance"] = replay.tolerance;
-  settings["align"] = replay.align == AlignChoice::kSlide ? "slide" : "imitate";
+  settings["align"] = replay.align == sim::AlignChoice::kSlide ? "slide" : "imitate";
   settings["fingertip_radius_m"] = replay.fingertip_radius_m;
   settings["finger_mass_kg"] = replay.finger_mass_kg;
   settings["finger_stiffness_N_m"] = replay.finger_stiffness_N_m;
@@ -45,7 +45,7 @@ Json MakeForceClosure(const ReportStep& step) {
 }
 
 Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
-  const int weakest = step.skipped ? -1 : WeakestOf(step.needs);
+  const int weakest = step.skipped ? -1 : sim::WeakestOf(step.needs);
   if (weakest < 0) return nullptr;
   return FingerNeedJson(step.needs[weakest].finger, step.needs[weakest].friction, half_angle);
 }
@@ -70,22 +70,22 @@ Json MakeMargins(const Report& report) {
   return {{"friction", required}, {"weakest_finger", finger}, {"stress", stress}};
 }
 
-Json MakeAlignMode(const std::optional<StepReplay>& replay) {
-  switch (replay ? replay->align_mode : AlignMode::kNone) {
-    case AlignMode::kImitated:
+Json MakeAlignMode(const std::optional<sim::StepReplay>& replay) {
+  switch (replay ? replay->align_mode : sim::AlignMode::kNone) {
+    case sim::AlignMode::kImitated:
       return "imitated";
-    case AlignMode::kSlid:
+    case sim::AlignMode::kSlid:
       return "slid";
-    case AlignMode::kMixed:
+    case sim::AlignMode::kMixed:
       return "mixed";
     default:
       return nullptr;
   }
 }
 
-Json MakeAlignShares(const std::optional<StepReplay>& replay) {
-  if (!replay || replay->align_mode == AlignMode::kNone) return nullptr;
-  const AlignShares& shares = replay->align_shares;
+Json MakeAlignShares(const std::optional<sim::StepReplay>& replay) {
+  if (!replay || replay->align_mode == sim::AlignMode::kNone) return nullptr;
+  const sim::AlignShares& shares = replay->align_shares;
   return {
       {"imitated", shares.imitated}, {"slid", shares.slid}, {"best_effort", shares.best_effort}};
 }
@@ -189,4 +189,4 @@ std::string FormatReportJson(const Report& report) {
   return SealReport(std::move(json));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

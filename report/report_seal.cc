@@ -4,7 +4,7 @@
 
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -31,4 +31,4 @@ bool IsSealed(std::string_view text) {
   return SealReport(std::move(report)) == text;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

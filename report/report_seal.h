@@ -5,7 +5,7 @@
 
 #include "planner/base/json.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// The text of a report; where the report has the member `run`, with `run/report_sha256` in it, the
 /// SHA-256 of the text without that.
@@ -19,4 +19,4 @@ namespace regrasp {
 /// @throws InputError  it is not JSON.
 [[nodiscard]] bool IsSealed(std::string_view text);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -10,7 +10,7 @@
 #include "report/stress_table.h"
 #include "report/trials_report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -47,13 +47,13 @@ std::string FixedVerdict(const ReportStep& step) {
 }
 
 TextRow MakeRow(const ReportStep& step, const Columns& columns) {
-  const auto length = [&](double StepReplay::*member) -> std::string {
+  const auto length = [&](double sim::StepReplay::*member) -> std::string {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
   std::string verdict(VerdictName(step.verdict()));
   if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
   TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
-                 length(&StepReplay::displacement_m), length(&StepReplay::slip_m)};
+                 length(&sim::StepReplay::displacement_m), length(&sim::StepReplay::slip_m)};
   if (columns.regions) {
     row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
   }
@@ -100,7 +100,7 @@ std::string FormatCauses(const Report& report) {
   std::string text;
   for (const ReportStep& step : report.steps) {
     if (!step.disagreement) continue;
-    const bool fixed = step.disagreement->between == Between::kFixedFails;
+    const bool fixed = step.disagreement->between == sim::Between::kFixedFails;
     text += "step " + std::to_string(step.check.index) + ": " +
             (fixed ? "a fixed squeeze fails, " : "") + "likely cause: " + step.disagreement->text +
             "\n";
@@ -113,7 +113,7 @@ std::string FormatWeakestFinger(const Report& report) {
   const int index = report.weakest_finger_step();
   if (index < 0 || report.grasp) return "";
   const ReportStep& step = report.steps[index];
-  const NeedOfFinger& need = step.needs[WeakestOf(step.needs)];
+  const sim::NeedOfFinger& need = step.needs[sim::WeakestOf(step.needs)];
   const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
   std::string text =
       "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index);
@@ -156,4 +156,4 @@ std::string FormatReportTable(const Report& report) {
          "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -4,14 +4,14 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 Json DegreesOrNull(const std::optional<double>& angle) {
   return angle ? Json(Degrees(*angle)) : Json(nullptr);
 }
 
-Json MarginOf(const FingerMargins& margins, int finger) {
+Json MarginOf(const sim::FingerMargins& margins, int finger) {
   const auto found = margins.find(finger);
   return found == margins.end() ? Json(nullptr) : Json(Degrees(found->second));
 }
@@ -21,9 +21,9 @@ Json TextOrNull(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
-Json FingersJson(const StepReplay& replay) {
+Json FingersJson(const sim::StepReplay& replay) {
   std::set<int> fingers;
-  for (const FingerMargins* margins : {&replay.rest_margins, &replay.shake_margins}) {
+  for (const sim::FingerMargins* margins : {&replay.rest_margins, &replay.shake_margins}) {
     for (const auto& [finger, margin] : *margins) fingers.insert(finger);
   }
   Json json = Json::array();
@@ -35,7 +35,7 @@ Json FingersJson(const StepReplay& replay) {
   return json;
 }
 
-Json MotionJson(const StepMotion& motion) {
+Json MotionJson(const sim::StepMotion& motion) {
   const bool passes = motion.reason == Reason::kNone;
   return {{"verdict", passes ? "pass" : "fail"},
           {"reason", TextOrNull(ReasonName(motion.reason))},
@@ -46,59 +46,59 @@ Json MotionJson(const StepMotion& motion) {
           {"give_m", motion.give_m},
           {"slip_m", motion.slip_m},
           {"contact_lost", motion.contact_lost},
-          {"shake_margin_deg", DegreesOrNull(SmallestMargin(motion.shake_margins))}};
+          {"shake_margin_deg", DegreesOrNull(sim::SmallestMargin(motion.shake_margins))}};
 }
 
 }  // namespace
 
-const char* ProtocolName(Protocol protocol) {
+const char* ProtocolName(sim::Protocol protocol) {
   switch (protocol) {
-    case Protocol::kAdapted:
+    case sim::Protocol::kAdapted:
       return "adapted";
-    case Protocol::kFixed:
+    case sim::Protocol::kFixed:
       return "fixed";
-    case Protocol::kBoth:
+    case sim::Protocol::kBoth:
       return "both";
   }
   return "";
 }
 
-Json SimulationJson(const StepReplay& replay) {
+Json SimulationJson(const sim::StepReplay& replay) {
   return {{"displacement_m", replay.displacement_m},
           {"rotation_deg", replay.rotation_deg},
           {"motion_m", replay.moved_m},
           {"slip_m", replay.slip_m},
           {"contact_lost", replay.contact_lost},
           {"cone_margin_deg",
-           {{"motion", DegreesOrNull(SmallestMargin(replay.motion_margins))},
-            {"rest", DegreesOrNull(SmallestMargin(replay.rest_margins))},
-            {"shakes", DegreesOrNull(SmallestMargin(replay.shake_margins))}}},
+           {{"motion", DegreesOrNull(sim::SmallestMargin(replay.motion_margins))},
+            {"rest", DegreesOrNull(sim::SmallestMargin(replay.rest_margins))},
+            {"shakes", DegreesOrNull(sim::SmallestMargin(replay.shake_margins))}}},
           {"fingers", FingersJson(replay)}};
 }
 
-Json ProtocolsJson(const StepReplay& replay) {
+Json ProtocolsJson(const sim::StepReplay& replay) {
   Json json = Json::object();
   if (replay.adapted) json["adapted"] = MotionJson(*replay.adapted);
   if (replay.fixed) json["fixed"] = MotionJson(*replay.fixed);
   return json;
 }
 
-Json StressJson(const std::vector<DirectionStress>& stress) {
+Json StressJson(const std::vector<sim::DirectionStress>& stress) {
   Json json = Json::array();
-  for (const DirectionStress& direction : stress) {
-    json.push_back({{"direction", PushName(direction.push)},
+  for (const sim::DirectionStress& direction : stress) {
+    json.push_back({{"direction", sim::PushName(direction.push)},
                     {"replay", direction.replay},
                     {"analysis", direction.analysis}});
   }
   return json;
 }
 
-Json CauseJson(const std::optional<Disagreement>& disagreement) {
+Json CauseJson(const std::optional<sim::Disagreement>& disagreement) {
   if (!disagreement) return nullptr;
   Json values = Json::object();
   for (const auto& [name, value] : disagreement->values) values[name] = value;
-  return {{"between", std::string(BetweenName(disagreement->between))},
-          {"cause", std::string(CauseName(disagreement->cause))},
+  return {{"between", std::string(sim::BetweenName(disagreement->between))},
+          {"cause", std::string(sim::CauseName(disagreement->cause))},
           {"text", disagreement->text},
           {"values", values}};
 }
@@ -111,4 +111,4 @@ Json FingerNeedJson(int finger, const FingerFriction& friction, double half_angl
           {"without_half_angle_deg", DegreesOrNull(friction.without)}};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,24 +5,24 @@
 #include "sim/replay/disagreement.h"
 #include "sim/replay/replay.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// "adapted", "fixed" or "both".
-[[nodiscard]] const char* ProtocolName(Protocol protocol);
+[[nodiscard]] const char* ProtocolName(sim::Protocol protocol);
 
 /// The member `simulation` of an entry: motion, slip, cone margins.
-[[nodiscard]] Json SimulationJson(const StepReplay& replay);
+[[nodiscard]] Json SimulationJson(const sim::StepReplay& replay);
 
 /// The member `protocols`: what each protocol that ran says.
-[[nodiscard]] Json ProtocolsJson(const StepReplay& replay);
+[[nodiscard]] Json ProtocolsJson(const sim::StepReplay& replay);
 
 /// The member `stress`: an array with an element for each direction.
-[[nodiscard]] Json StressJson(const std::vector<DirectionStress>& stress);
+[[nodiscard]] Json StressJson(const std::vector<sim::DirectionStress>& stress);
 
 /// The member `cause`; null where nothing disagrees.
-[[nodiscard]] Json CauseJson(const std::optional<Disagreement>& disagreement);
+[[nodiscard]] Json CauseJson(const std::optional<sim::Disagreement>& disagreement);
 
 /// What one finger needs of its own friction.
 [[nodiscard]] Json FingerNeedJson(int finger, const FingerFriction& friction, double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

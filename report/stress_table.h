@@ -6,12 +6,12 @@
 
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// The direction of a report in which a rest resists least, by the replay.
 struct WeakestPush {
   int step = 0;
-  DirectionStress stress;
+  sim::DirectionStress stress;
 };
 
 /// Nullopt where no entry has been searched for it.
@@ -21,4 +21,4 @@ struct WeakestPush {
 /// smallest of all and what the analysis says of it; empty where there is none.
 [[nodiscard]] std::string FormatStressTable(const Report& report);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

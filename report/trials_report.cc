@@ -3,7 +3,7 @@
 #include "planner/base/binomial.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -13,7 +13,7 @@ std::string Percent(double share) { return FormatShort(100 * share, kPercentDigi
 
 }  // namespace
 
-Json TrialsJson(const TrialSummary& summary) {
+Json TrialsJson(const sim::TrialSummary& summary) {
   const ShareInterval interval = summary.interval();
   Json reasons = Json::object();
   for (const auto& [reason, count] : summary.reasons) {
@@ -30,21 +30,21 @@ Json TrialsJson(const TrialSummary& summary) {
           {"mass_error", summary.options.mass_error},
           {"passed", summary.passed},
           {"share", summary.share()},
-          {"confidence", kTrialConfidence},
+          {"confidence", sim::kTrialConfidence},
           {"interval", {interval.lower, interval.upper}},
           {"reasons", reasons},
           {"steps", steps}};
 }
 
-std::string TrialsShareText(const TrialSummary& summary) {
+std::string TrialsShareText(const sim::TrialSummary& summary) {
   const ShareInterval interval = summary.interval();
   return std::to_string(summary.passed) + " of " + std::to_string(summary.options.count) +
-         " pass: " + Percent(summary.share()) + " %, with " + Percent(kTrialConfidence) +
+         " pass: " + Percent(summary.share()) + " %, with " + Percent(sim::kTrialConfidence) +
          " % confidence between " + Percent(interval.lower) + " and " + Percent(interval.upper) +
          " %";
 }
 
-std::string TrialsFailureText(const TrialSummary& summary) {
+std::string TrialsFailureText(const sim::TrialSummary& summary) {
   std::string text;
   for (const auto& [reason, count] : summary.reasons) {
     text +=
@@ -58,11 +58,11 @@ std::string TrialsFailureText(const TrialSummary& summary) {
   return text;
 }
 
-std::string TrialsNoiseText(const TrialSummary& summary) {
-  const TrialOptions& options = summary.options;
+std::string TrialsNoiseText(const sim::TrialSummary& summary) {
+  const sim::TrialOptions& options = summary.options;
   return "contacts off by " + FormatShort(options.position_noise) + " diameters, friction by " +
          Percent(options.friction_error) + " %, mass by " + Percent(options.mass_error) +
          " % (standard deviations); seed " + std::to_string(options.seed);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

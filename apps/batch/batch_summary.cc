@@ -83,16 +83,16 @@ std::string FormatCounts(const BatchSummary& summary) {
   return text + "\n";
 }
 
-JunitOutcome OutcomeOf(const std::string& verdict) {
-  if (verdict == "pass") return JunitOutcome::kPassed;
-  return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
+report::JunitOutcome OutcomeOf(const std::string& verdict) {
+  if (verdict == "pass") return report::JunitOutcome::kPassed;
+  return verdict == "fail" ? report::JunitOutcome::kFailed : report::JunitOutcome::kSkipped;
 }
 
-JunitSuite MakeSuite(const PlanOutcome& plan) {
-  JunitSuite suite{plan.file, {}};
+report::JunitSuite MakeSuite(const PlanOutcome& plan) {
+  report::JunitSuite suite{plan.file, {}};
   if (!plan.report) {
-    suite.cases.push_back(
-        {"plan", JunitOutcome::kError, std::string(PlanVerdictName(plan.verdict)), plan.message});
+    suite.cases.push_back({"plan", report::JunitOutcome::kError,
+                           std::string(PlanVerdictName(plan.verdict)), plan.message});
     return suite;
   }
   for (std::size_t i = 0; i < plan.report->entries.size(); ++i) {
@@ -156,9 +156,9 @@ std::string FormatSummaryTable(const BatchSummary& summary) {
 }
 
 std::string FormatSummaryJunit(const BatchSummary& summary) {
-  std::vector<JunitSuite> suites;
+  std::vector<report::JunitSuite> suites;
   for (const PlanOutcome& plan : summary.plans) suites.push_back(MakeSuite(plan));
-  return FormatJunit(suites);
+  return report::FormatJunit(suites);
 }
 
 }  // namespace regrasp

@@ -19,7 +19,7 @@ struct ReportSummary {
   };
   bool passed = false;
   std::string run;  ///< the digest of what the report came from; empty where it gives none
-  std::vector<FileDigest> files;  ///< the other results of its run
+  std::vector<report::FileDigest> files;  ///< the other results of its run
   std::vector<Entry> entries;
   std::optional<int> weakest_step;
   std::optional<double> required_half_angle_deg;  ///< of the weakest step

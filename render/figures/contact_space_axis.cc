@@ -11,7 +11,7 @@
 #include "render/picture/palette.h"
 #include "render/picture/round_length.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -189,4 +189,4 @@ void DrawFrame(cairo_t* cr, const PlotWindow& window) {
   cairo_stroke(cr);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "planner/sets/contour/boundary.h"
 #include "planner/sets/contour/contact_space.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A rectangle of contact space on a page: u to the right, u′ up.
 struct PlotWindow {
@@ -59,4 +59,4 @@ void DrawLeftAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWin
 /// Draws the rectangle around a plot.
 void DrawFrame(cairo_t* cr, const PlotWindow& window);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -11,7 +11,7 @@
 #include "render/figures/plan_diagram.h"
 #include "render/picture/caption.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::optional<std::string> ContactSpaceFigures::DrawSwitch(int entry, FigureForm
                            format);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

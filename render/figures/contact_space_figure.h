@@ -11,7 +11,7 @@
 #include "render/figures/contact_space_track.h"
 #include "render/figures/figure_format.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Figures of a plan of 2-finger grasps in contact space, as files' bytes, whichever planner made
 /// it: the overview (contact_space_overview.h) and one of each switch
@@ -39,4 +39,4 @@ class ContactSpaceFigures {
   std::map<int, int> names_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 
 #include "render/figures/contact_space_unfolding.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -135,4 +135,4 @@ ContactSpaceMap MapContactSpace(SetGeometry& geometry, const std::vector<TrackEn
   return map;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

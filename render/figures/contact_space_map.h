@@ -9,7 +9,7 @@
 #include "planner/sets/contour/set_geometry.h"
 #include "render/figures/contact_space_track.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A way or an outline in contact space, all of it between one ring on the horizontal axis and one
 /// on the vertical axis.
@@ -57,4 +57,4 @@ struct ContactSpaceMap {
 [[nodiscard]] ContactSpaceMap MapContactSpace(SetGeometry& geometry,
                                               const std::vector<TrackEntry>& track);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

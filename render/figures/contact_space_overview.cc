@@ -13,7 +13,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/label_layout.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -233,4 +233,4 @@ std::string DrawContactSpace(const Boundary& boundary, const ContactSpaceMap& ma
   return page.Finish();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "render/figures/contact_space_map.h"
 #include "render/figures/figure_format.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Draws the contact space of the rings that a plan uses and the plan in it, as a file's bytes
 /// (Phoka 2010, figures 4.3, 4.4 and 4.8).
@@ -24,4 +24,4 @@ namespace regrasp {
 [[nodiscard]] std::string DrawContactSpace(const Boundary& boundary, const ContactSpaceMap& map,
                                            const std::string& caption, FigureFormat format);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

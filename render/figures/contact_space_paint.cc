@@ -7,7 +7,7 @@
 
 #include "render/picture/cairo_paint.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -119,4 +119,4 @@ void SetDots(cairo_t* cr) { cairo_set_dash(cr, &kDotDash, 1, 0); }
 
 void ClearDash(cairo_t* cr) { cairo_set_dash(cr, nullptr, 0, 0); }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "render/figures/contact_space_unfolding.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The tint of a set that a plan uses, by the number of its name; six, then they repeat. Their
 /// lightness differs, so that they stay apart in grey.
@@ -44,4 +44,4 @@ void SetDash(cairo_t* cr);
 void SetDots(cairo_t* cr);
 void ClearDash(cairo_t* cr);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -58,4 +58,4 @@ std::optional<ContactSwitch> DescribeContactSwitch(SetGeometry& geometry,
   return found;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

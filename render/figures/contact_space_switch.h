@@ -10,7 +10,7 @@
 #include "render/figures/contact_space_track.h"
 #include "render/figures/contact_space_unfolding.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// One of the two sets of a switch, unfolded: the place of the contact that stays upwards, that of
 /// the other one to the right.
@@ -40,4 +40,4 @@ struct ContactSwitch {
     SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
     const std::map<int, int>& names);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

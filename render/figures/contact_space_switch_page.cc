@@ -11,7 +11,7 @@
 #include "render/figures/print_size.h"
 #include "render/picture/cairo_paint.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -199,4 +199,4 @@ std::string DrawContactSwitch(const Boundary& boundary, const ContactSwitch& ste
   return page.Finish();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/figures/contact_space_switch.h"
 #include "render/figures/figure_format.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Where a switch's two sets are drawn.
 struct SwitchLayout {
@@ -30,4 +30,4 @@ struct SwitchLayout {
 [[nodiscard]] std::string DrawContactSwitch(const Boundary& boundary, const ContactSwitch& step,
                                             const std::string& caption, FigureFormat format);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <variant>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -78,4 +78,4 @@ SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp) {
   return point;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "planner/plan/plan.h"
 #include "planner/sets/contour/boundary.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A grasp of two contacts on the axes of contact space: the horizontal one first. Which finger is
 /// on which axis lasts while it holds.
@@ -46,4 +46,4 @@ struct RestSize {
 
 [[nodiscard]] SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

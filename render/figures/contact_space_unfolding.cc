@@ -5,7 +5,7 @@
 #include <map>
 #include <queue>
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -156,4 +156,4 @@ UnfoldedSet UnfoldSet(SetGeometry& geometry, const PlacedGrasp& root, int uprigh
   return unfolded;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

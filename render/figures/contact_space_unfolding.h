@@ -7,7 +7,7 @@
 #include "planner/sets/contour/set_geometry.h"
 #include "render/figures/grasp_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Two ends of a straight line.
 using Segment = std::array<Eigen::Vector2d, 2>;
@@ -33,4 +33,4 @@ struct UnfoldedSet {
 /// The parts of a set's border, none longer than an edge, each with the piece that it bounds.
 [[nodiscard]] std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -1,8 +1,8 @@
 #pragma once
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The file formats of figures.
 enum class FigureFormat { kSvg, kPdf, kPng };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

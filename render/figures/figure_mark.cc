@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -63,4 +63,4 @@ bool IsMarkedFigure(const std::string& bytes) {
          holds("\x89PNG"sv, PngMark());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -4,7 +4,7 @@
 
 #include "render/figures/figure_format.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Who made a figure, as its file says: the creator of a PDF, the software of a PNG.
 inline constexpr char kFigureMaker[] = "regrasp figure";
@@ -17,4 +17,4 @@ void MarkFigure(FigureFormat format, std::string& bytes);
 /// Whether these are the bytes of a marked figure of any format.
 [[nodiscard]] bool IsMarkedFigure(const std::string& bytes);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

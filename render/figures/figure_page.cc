@@ -12,7 +12,7 @@
 #include "planner/base/error.h"
 #include "render/figures/figure_mark.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::string FigurePage::Finish() {
   return std::move(*bytes_);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 
 #include "render/figures/figure_format.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A white page that Cairo draws on, in points (1/72 inch) from the top left, and the bytes of a
 /// file of it.
@@ -43,4 +43,4 @@ class FigurePage {
   std::unique_ptr<cairo_t, ContextDeleter> context_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -61,4 +61,4 @@ void DrawFingerMarker(cairo_t* cr, int finger, const Eigen::Vector2d& centre, do
   cairo_fill(cr);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

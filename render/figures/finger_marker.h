@@ -6,7 +6,7 @@
 
 #include "planner/plan/snapshot.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Marks a contact: a shape and a colour for each finger (disc, square, triangle, diamond,
 /// pentagon; both repeat after five fingers), so that they stay apart in grey.
@@ -15,4 +15,4 @@ namespace regrasp {
 void DrawFingerMarker(cairo_t* cr, int finger, const Eigen::Vector2d& centre, double radius,
                       bool outline);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -11,7 +11,7 @@
 #include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/plane.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -260,4 +260,4 @@ GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp, double ha
   return other;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

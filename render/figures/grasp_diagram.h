@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// How a planar grasp is drawn (Phoka 2010, section 3.2).
 enum class DiagramKind {
@@ -59,4 +59,4 @@ struct GraspDiagram {
 [[nodiscard]] GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp,
                                          double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -14,7 +14,7 @@
 #include "render/picture/label_layout.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -214,4 +214,4 @@ void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

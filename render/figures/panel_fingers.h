@@ -6,7 +6,7 @@
 #include "render/figures/panel_view.h"
 #include "render/figures/plan_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Draws the fingers: a marker at each contact with the finger's number beside it; a ring and an
 /// arrow that arrives for a placed finger; a hollow marker and an arrow that leaves for a released
@@ -19,4 +19,4 @@ void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram
 /// again; infinity where it never is.
 [[nodiscard]] double OutwardRoom(const Polygon& polygon, const BorderPoint& from);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

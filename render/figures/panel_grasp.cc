@@ -9,7 +9,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -196,4 +196,4 @@ void DrawFocusPoint(cairo_t* cr, const GraspDiagram& grasp, const PanelView& vie
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "render/figures/panel_view.h"
 #include "render/figures/plan_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// How long a side of a cone is drawn, points: on the inner side a share of the polygon's diameter,
 /// less where the panel ends, on the outer side no more than the panel's margin, and in both cases
@@ -31,4 +31,4 @@ void DrawForceLines(cairo_t* cr, const GraspDiagram& grasp, const PanelView& vie
 /// Marks the focus point.
 void DrawFocusPoint(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

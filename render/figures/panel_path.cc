@@ -1,6 +1,6 @@
 #include "render/figures/panel_path.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -55,4 +55,4 @@ PanelPath PathBeside(std::span<const BorderPoint> path, const PanelView& view, d
   return way;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/figures/panel_view.h"
 #include "render/figures/plan_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The way of a moved finger as a panel shows it, points.
 struct PanelPath {
@@ -28,4 +28,4 @@ struct PanelPath {
 /// Ticks are at least this far apart and from the ends of the way, points.
 inline constexpr double kPathTickGap = 6;
 
-}  // namespace regrasp
+}  // namespace regrasp::render

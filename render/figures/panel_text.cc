@@ -8,7 +8,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -137,4 +137,4 @@ void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
   DrawMark(cr, std::to_string(finger), centre);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Size of captions and of finger numbers, points: readable at the size the page is printed.
 inline constexpr double kCaptionFont = 7.5;
@@ -39,4 +39,4 @@ void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centr
 /// Writes a finger's number, centred, with a white halo.
 void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

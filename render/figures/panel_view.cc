@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -37,4 +37,4 @@ PanelView FitView(const Polygon& polygon, std::span<const StepDiagram> diagrams,
   return view;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

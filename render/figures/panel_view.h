@@ -6,7 +6,7 @@
 #include "planner/object/polygon.h"
 #include "render/figures/plan_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The object's plane on a panel of a figure: object units to points, y up to y down.
 struct PanelView {
@@ -39,4 +39,4 @@ inline constexpr double kFocusOnPage = 0.35;
 
 inline constexpr double kTallestPanel = 1.25;
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<StepDiagram> DescribePlan(const Polygon& polygon, const Plan& plan) 
   return diagrams;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "planner/plan/snapshot.h"
 #include "render/figures/grasp_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A place on the polygon's border and the unit normal that points out of the material there.
 struct BorderPoint {
@@ -44,4 +44,4 @@ struct StepDiagram {
 /// "(a)" … "(z)", "(aa)", "(ab)" …
 [[nodiscard]] std::string PanelLabel(int index);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -13,7 +13,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -144,4 +144,4 @@ std::string DrawSheet(const Polygon& polygon, std::span<const StepDiagram> diagr
   return page.Finish();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

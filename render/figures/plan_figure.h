@@ -7,7 +7,7 @@
 #include "render/figures/figure_format.h"
 #include "render/figures/plan_diagram.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Figures of a planar plan for a paper, as files' bytes: one panel for each step, as wide as a
 /// column (85 mm), or a sheet of all panels as wide as two columns (174 mm), in rows.
@@ -28,4 +28,4 @@ namespace regrasp {
 /// Panels in a row of a sheet of `count` (> 0), of objects that are not long.
 [[nodiscard]] int SheetColumns(int count);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -13,7 +13,7 @@
 #include "render/picture/label_layout.h"
 #include "render/picture/round_length.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -189,4 +189,4 @@ Image Annotate(const Image& image, const Camera& camera, std::span<const FingerG
   return page.ToImage();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/frames/finger_glyph.h"
 #include "render/picture/image.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Writes on a picture: the fingers' numbers in their colours, a ring around each finger that was
 /// just placed, the caption at the bottom left, and a scale bar at the bottom right (its length
@@ -17,4 +17,4 @@ namespace regrasp {
                              std::span<const FingerGlyph> fingers, const std::string& caption,
                              double metres_per_unit);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

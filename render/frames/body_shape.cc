@@ -13,7 +13,7 @@
 #include "planner/object/polygon_triangulation.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -171,4 +171,4 @@ double RayDistance(const FacetMesh& mesh, const Vector3d& origin, const Vector3d
   return nearest;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

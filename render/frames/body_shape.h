@@ -6,7 +6,7 @@
 
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Triangles with a normal at each corner; flat facets have three equal ones.
 struct FacetMesh {
@@ -48,4 +48,4 @@ inline constexpr double kUsualThickness = 0.25;
 [[nodiscard]] double RayDistance(const FacetMesh& mesh, const Eigen::Vector3d& origin,
                                  const Eigen::Vector3d& direction, double skip);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

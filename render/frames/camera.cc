@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -78,4 +78,4 @@ Camera FitCamera(const Eigen::Matrix3d& axes, double tan_half_height, int width,
   return camera;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

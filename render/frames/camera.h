@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A pinhole camera: right, up and back are its axes, back pointing away from what it sees.
 struct Camera {
@@ -41,4 +41,4 @@ struct Margins {
                                int height, const Margins& margins,
                                std::span<const Eigen::Vector3d> points);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -15,7 +15,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -341,4 +341,4 @@ Image Canvas::Draw(const Camera& camera, std::span<const Shape> shapes) {
   return impl_->Draw(camera, shapes);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -11,7 +11,7 @@
 #include "render/picture/image.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 struct Ball {
   Eigen::Vector3d centre;
@@ -64,4 +64,4 @@ class Canvas {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -132,4 +132,4 @@ void ContactSheet::Add(const Image& picture, const SheetLabel& label) {
 }
 Image ContactSheet::ToImage() const { return impl_->ToImage(); }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "render/picture/image.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// What stands above a picture of a contact sheet.
 struct SheetLabel {
@@ -38,4 +38,4 @@ class ContactSheet {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

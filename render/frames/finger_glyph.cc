@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -156,4 +156,4 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   if (glyph.role == FingerRole::kMoved) AddTrack(glyph, color, shapes);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/canvas.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The picture's frame P: the object's frame at the start with its origin at the centroid and the
 /// diameter as the unit of length.
@@ -69,4 +69,4 @@ inline constexpr double kArrowHeadLength = 0.040;
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

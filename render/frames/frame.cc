@@ -14,7 +14,7 @@
 #include "render/frames/viewpoint.h"
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -301,4 +301,4 @@ Image FrameRenderer::Render(const Snapshot& snapshot, const std::string& caption
   return impl_->Render(snapshot, caption);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

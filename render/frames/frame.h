@@ -12,7 +12,7 @@
 #include "render/frames/finger_glyph.h"
 #include "render/picture/image.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Sizes that frames may have, along either axis.
 inline constexpr int kMinFrameSide = 48;
@@ -65,4 +65,4 @@ class FrameRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

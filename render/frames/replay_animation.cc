@@ -8,7 +8,7 @@
 #include "render/picture/caption.h"
 #include "render/picture/webp.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::string RenderAnimation(const Object& object, const Plan& plan, double half_
   return animation.Finish();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

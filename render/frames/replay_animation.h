@@ -8,7 +8,7 @@
 #include "planner/plan/snapshot.h"
 #include "render/frames/frame.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 struct AnimationOptions {
   int width = 640;
@@ -54,4 +54,4 @@ inline constexpr int kMostPicturesInAll = 900;
                                           const std::vector<Snapshot>& rests,
                                           const AnimationOptions& options = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::render

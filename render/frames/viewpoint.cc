@@ -8,7 +8,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -129,4 +129,4 @@ Vector3d ChooseViewpoint(const BodyShape& body, bool planar,
   return best;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -6,7 +6,7 @@
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Where the pictures of a sequence are taken from.
 ///
@@ -18,4 +18,4 @@ namespace regrasp {
 [[nodiscard]] Eigen::Vector3d ChooseViewpoint(const BodyShape& body, bool planar,
                                               const std::vector<std::vector<FingerGlyph>>& frames);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::render {
 
 CairoImage::CairoImage(const Image& image)
     : width_(image.width),
@@ -42,4 +42,4 @@ std::uint32_t* CairoImage::Row(int y) const {
   return reinterpret_cast<std::uint32_t*>(data + y * stride);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 
 #include "render/picture/image.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// An image that Cairo draws on.
 class CairoImage {
@@ -35,4 +35,4 @@ class CairoImage {
   std::unique_ptr<cairo_t, ContextDeleter> context_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

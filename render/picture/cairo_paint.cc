@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -61,4 +61,4 @@ void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
   cairo_fill(cr);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

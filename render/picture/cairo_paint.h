@@ -7,7 +7,7 @@
 
 #include "render/picture/palette.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 inline constexpr Color kWhite = {255, 255, 255};
 
@@ -27,4 +27,4 @@ inline constexpr double kArrowHead = 4.2;
 /// last point. A way shorter than the head gets a head that fits it.
 void StrokeArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double width);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

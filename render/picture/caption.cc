@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::string FrameCaption(const Plan& plan, int entry) {
   return step + " · " + EntryTitle(plan, entry) + (moves ? " along the surface" : "");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

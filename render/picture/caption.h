@@ -4,7 +4,7 @@
 
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// What happens in an entry of a plan: "hold: fingers 0, 1, 2, 3", "switch: place 4, release 0",
 /// "align: move 1, 3".
@@ -16,4 +16,4 @@ namespace regrasp {
 /// @param entry  0 the hold, k the plan's k-th step.
 [[nodiscard]] std::string FrameCaption(const Plan& plan, int entry);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 Image MakeImage(int width, int height, unsigned char brightness) {
   const std::size_t bytes = std::size_t{3} * width * height;
@@ -64,4 +64,4 @@ void WritePng(const std::filesystem::path& path, const Image& image) {
   WriteFile(path, bytes, Durability::kCached);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

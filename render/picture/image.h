@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// An image, 8 bits RGB, rows from the top.
 struct Image {
@@ -22,4 +22,4 @@ struct Image {
 /// @throws EnvironmentError  the file cannot be written.
 void WritePng(const std::filesystem::path& path, const Image& image);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

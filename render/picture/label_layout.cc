@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::vector<Vector2d> PlaceLabels(std::span<const LabelAnchor> anchors,
   return layout.centres;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// What a label belongs to, in pixels: it is best placed next to `anchor` on the side of
 /// `direction` (not necessarily unit; zero where any side is as good).
@@ -30,4 +30,4 @@ struct Obstacle {
                                                        std::span<const Obstacle> obstacles,
                                                        double label_radius, int width, int height);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace regrasp {
+namespace regrasp::render {
 
 Color FingerColor(int finger) {
   static constexpr std::array<Color, 5> kColors = {{
@@ -16,4 +16,4 @@ Color FingerColor(int finger) {
   return kColors[((finger % size) + size) % size];
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A colour, 8 bits a channel, sRGB.
 struct Color {
@@ -33,4 +33,4 @@ inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},
 inline constexpr Color kBodyOutside = {148, 184, 226};
 inline constexpr Color kBodyInside = {186, 208, 236};
 
-}  // namespace regrasp
+}  // namespace regrasp::render

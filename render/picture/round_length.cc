@@ -5,7 +5,7 @@
 
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 double RoundLength(double limit) {
   const double power = std::pow(10.0, std::floor(std::log10(limit)));
@@ -30,4 +30,4 @@ std::string FormatLength(double metres) {
   return FormatShort(metres) + " m";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// The longest of 1, 2 or 5 times a power of ten that is no longer than `limit` (> 0).
 [[nodiscard]] double RoundLength(double limit);
@@ -10,4 +10,4 @@ namespace regrasp {
 /// A length for people, in the unit that suits it: "5 mm", "2 cm", "1 m".
 [[nodiscard]] std::string FormatLength(double metres);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

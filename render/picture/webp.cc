@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -133,4 +133,4 @@ WebpAnimation::~WebpAnimation() = default;
 void WebpAnimation::Add(const Image& image, int duration_ms) { impl_->Add(image, duration_ms); }
 std::string WebpAnimation::Finish() { return impl_->Finish(); }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -5,7 +5,7 @@
 
 #include "render/picture/image.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// An image as a WebP file, lossy: a tenth of the bytes of a PNG, for pages and mail.
 /// @param width  the image is scaled down to this many pixels where it is wider.
@@ -37,4 +37,4 @@ class WebpAnimation {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::render

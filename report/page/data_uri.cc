@@ -2,7 +2,7 @@
 
 #include <openssl/evp.h>
 
-namespace regrasp {
+namespace regrasp::report {
 
 std::string DataUri(std::string_view media_type, std::string_view bytes) {
   // Three bytes become four characters; the encoder adds a zero.
@@ -14,4 +14,4 @@ std::string DataUri(std::string_view media_type, std::string_view bytes) {
   return "data:" + std::string(media_type) + ";base64," + base64;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -8,7 +8,7 @@
 #include "report/page/step_text.h"
 #include "report/trials_report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -40,19 +40,19 @@ void AddGrasp(const Report& report, FactList& facts) {
   facts.Add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
 }
 
-void AddTrials(const TrialSummary& trials, FactList& facts) {
+void AddTrials(const sim::TrialSummary& trials, FactList& facts) {
   facts.Add("Trials", TrialsShareText(trials));
   const std::string failures = TrialsFailureText(trials);
   if (!failures.empty()) facts.Add("Trials that fail", failures);
   facts.Add("Noise", TrialsNoiseText(trials));
 }
 
-void AddSettings(const ReplaySettings& settings, FactList& facts) {
+void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Diameter", LengthText(settings.diameter_m));
   facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
   facts.Add("Squeeze", NumberText(settings.squeeze_N) + " N");
   facts.Add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
-  if (settings.protocol == Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
+  if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
   facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));
 }
 
@@ -77,4 +77,4 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   return facts.Make();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

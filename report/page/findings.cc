@@ -11,7 +11,7 @@
 #include "report/page/table.h"
 #include "report/stress_table.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 constexpr char kNothing[] = "–";
@@ -25,13 +25,13 @@ std::vector<const ReportStep*> Replayed(const Report& report) {
   return steps;
 }
 
-std::string_view BetweenText(Between between) {
+std::string_view BetweenText(sim::Between between) {
   switch (between) {
-    case Between::kReplayFails:
+    case sim::Between::kReplayFails:
       return "the analysis passes, the replay fails";
-    case Between::kAnalysisFails:
+    case sim::Between::kAnalysisFails:
       return "the replay passes, the analysis fails";
-    case Between::kFixedFails:
+    case sim::Between::kFixedFails:
       return "adapted forces resist the shake, a fixed squeeze does not";
   }
   return "";
@@ -50,11 +50,11 @@ std::vector<Element> Disagreements(const Report& report) {
   return {Element("h2", {}, "Disagreements"), Element("ul", {}, items)};
 }
 
-std::string Margin(const FingerMargins& margins) {
-  const auto least = SmallestMargin(margins);
+std::string Margin(const sim::FingerMargins& margins) {
+  const auto least = sim::SmallestMargin(margins);
   if (!least || !std::isfinite(*least)) return kNothing;
   return DegreesText(Degrees(*least)) + " (finger " +
-         std::to_string(FingerOfSmallestMargin(margins)) + ")";
+         std::to_string(sim::FingerOfSmallestMargin(margins)) + ")";
 }
 
 std::string FixedVerdict(const ReportStep& step) {
@@ -63,8 +63,8 @@ std::string FixedVerdict(const ReportStep& step) {
 }
 
 Element RequirementsRow(const ReportStep& step, bool both) {
-  const int weakest = WeakestOf(step.needs);
-  const NeedOfFinger* need = weakest < 0 ? nullptr : &step.needs[weakest];
+  const int weakest = sim::WeakestOf(step.needs);
+  const sim::NeedOfFinger* need = weakest < 0 ? nullptr : &step.needs[weakest];
   Element row("tr");
   row.Add(NumberCell(std::to_string(step.check.index)));
   row.Add(NumberCell(need ? std::to_string(need->finger) : kNothing));
@@ -95,7 +95,7 @@ std::vector<Element> WhatItTakes(const Report& report) {
            "its normal, as the replay measured it.")};
 }
 
-std::optional<double> Least(const ReportStep& step, double DirectionStress::*route) {
+std::optional<double> Least(const ReportStep& step, double sim::DirectionStress::*route) {
   if (!step.replay || step.skipped || step.replay->stress.empty()) return std::nullopt;
   return 100 * std::ranges::min(step.replay->stress, {}, route).*route;
 }
@@ -106,8 +106,8 @@ Element StressPlot(const Report& report) {
   plot.y_axis = "% of the squeeze";
   plot.series = {{"replay", {}, PlotMark::kDisc}, {"analysis", {}, PlotMark::kRing}};
   for (const ReportStep& step : report.steps) {
-    plot.series[0].values.push_back(Least(step, &DirectionStress::replay));
-    plot.series[1].values.push_back(Least(step, &DirectionStress::analysis));
+    plot.series[0].values.push_back(Least(step, &sim::DirectionStress::replay));
+    plot.series[1].values.push_back(Least(step, &sim::DirectionStress::analysis));
   }
   plot.limit = PlotLimit{100 * report.settings->shake, "shake", false};
   const Element caption(
@@ -118,7 +118,7 @@ Element StressPlot(const Report& report) {
 
 Element StressRow(const ReportStep& step) {
   Element row("tr", {}, NumberCell(std::to_string(step.check.index)));
-  for (const DirectionStress& stress : step.replay->stress) {
+  for (const sim::DirectionStress& stress : step.replay->stress) {
     row.Add(
         NumberCell(NumberText(100 * stress.replay) + " | " + NumberText(100 * stress.analysis)));
   }
@@ -128,8 +128,8 @@ Element StressRow(const ReportStep& step) {
 std::vector<Element> Stress(const Report& report) {
   if (!FindWeakestPush(report)) return {};
   std::vector<Element> head = {HeadCell("Step")};
-  for (const Push& push : PushDirections(report.dimension)) {
-    head.push_back(HeadCell(PushName(push)));
+  for (const sim::Push& push : sim::PushDirections(report.dimension)) {
+    head.push_back(HeadCell(sim::PushName(push)));
   }
   std::vector<Element> rows;
   for (const ReportStep* step : Replayed(report)) {
@@ -154,4 +154,4 @@ std::vector<Element> MakeFindings(const Report& report) {
   return findings;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -7,7 +7,7 @@
 
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string FormatPowerOfTen(int exponent) {
   return text;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

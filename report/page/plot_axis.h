@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::report {
 
 struct PlotTick {
   double value = 0;
@@ -39,4 +39,4 @@ inline constexpr int kMostDecades = 14;
 /// The smallest of 1, 2 or 5 times a power of ten that is no smaller than `least` (> 0).
 [[nodiscard]] double RoundStep(double least);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "report/page/plot_axis.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::string LengthText(double metres) {
 
 std::string DegreesText(double degrees) { return FormatFixed(degrees, kAngleDecimals) + "°"; }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// A number for people, three significant digits: "0.364", "2120", "4.7 × 10⁻⁶". Trailing zeros
 /// behind the point are left out. What is not finite is "–".
@@ -14,4 +14,4 @@ namespace regrasp {
 /// An angle to a hundredth of a degree: "12.40°".
 [[nodiscard]] std::string DegreesText(double degrees);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -18,7 +18,7 @@
 #include "report/page/step_text.h"
 #include "report/page/table.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -80,7 +80,7 @@ class Page {
   /// What the verdict says, in words.
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
-    const ReplaySettings& settings = *report_.settings;
+    const sim::ReplaySettings& settings = *report_.settings;
     const std::string what =
         " with " + DegreesText(Degrees(report_.half_angle)) +
         " of friction, and in the replay the object resisted a push and a twist of " +
@@ -97,7 +97,7 @@ class Page {
     std::string text;
     if (!report_.grasp) {
       text = "at " + StepName(*failed_);
-      if (*failed_ > 0) text += " (" + EntryTitle(plan_, *failed_) + ")";
+      if (*failed_ > 0) text += " (" + render::EntryTitle(plan_, *failed_) + ")";
       text += ": ";
     }
     text += std::string(ReasonName(step.reason())) + ".";
@@ -204,7 +204,7 @@ class Page {
     const PagePicture& picture = pictures_[index];
     const std::string name =
         index == 0 ? StepTitle(plan_, 0)
-                   : "Step " + std::to_string(index) + ", " + EntryTitle(plan_, index);
+                   : "Step " + std::to_string(index) + ", " + render::EntryTitle(plan_, index);
     std::string text = VerdictText(step);
     if (measures_[index].margin_deg) {
       text += ", " + DegreesText(*measures_[index].margin_deg) + " of friction left";
@@ -240,4 +240,4 @@ int PagePictureWidth(int count) {
   return count <= kManyMedium ? kMedium : kSmall;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

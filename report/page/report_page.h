@@ -6,7 +6,7 @@
 #include "planner/plan/plan.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// The picture of an entry of a report, ready to be put into a page.
 struct PagePicture {
@@ -30,4 +30,4 @@ struct PagePicture {
 /// more, the smaller.
 [[nodiscard]] int PagePictureWidth(int count);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

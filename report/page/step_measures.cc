@@ -4,7 +4,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -13,10 +13,10 @@ std::optional<double> IfFinite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-void AddReplay(const StepReplay& replay, StepMeasures& measures) {
+void AddReplay(const sim::StepReplay& replay, StepMeasures& measures) {
   measures.moved_m = IfFinite(replay.moved_m);
   measures.slip_m = IfFinite(replay.slip_m);
-  if (const auto margin = SmallestMargin(replay.rest_margins)) {
+  if (const auto margin = sim::SmallestMargin(replay.rest_margins)) {
     measures.rest_margin_deg = IfFinite(Degrees(*margin));
   }
 }
@@ -35,4 +35,4 @@ std::vector<StepMeasures> MeasureSteps(const Report& report) {
   return all;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// Numbers of each entry of a report, none where it has none; what plots and tables show.
 struct StepMeasures {
@@ -21,4 +21,4 @@ struct StepMeasures {
 
 [[nodiscard]] std::vector<StepMeasures> MeasureSteps(const Report& report);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -8,7 +8,7 @@
 #include "report/page/data_uri.h"
 #include "report/page/plot_axis.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -217,4 +217,4 @@ Element DrawStepPlot(const StepPlot& plot) {
   return Drawing(plot).Draw();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

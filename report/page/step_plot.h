@@ -6,7 +6,7 @@
 
 #include "report/markup.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// How the points of a series look; the shapes tell them apart without colour.
 enum class PlotMark { kDisc, kRing };
@@ -42,4 +42,4 @@ struct StepPlot {
 /// @throws std::invalid_argument  no series, different lengths, no step, or a value is not finite.
 [[nodiscard]] Element DrawStepPlot(const StepPlot& plot);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -7,7 +7,7 @@
 #include "report/page/step_text.h"
 #include "report/page/table.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 namespace {
 
@@ -36,7 +36,7 @@ Element TitleCell(const std::string& title, const std::string& anchor) {
 
 Element StepRow(const ReportStep& step, const std::string& title, const StepMeasures& measures,
                 const std::string& anchor) {
-  const StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
+  const sim::StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
   return Element("tr", {{"class", std::string(VerdictName(step.verdict()))}},
                  NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
                  MinorCell(Required(step.check)),
@@ -87,4 +87,4 @@ std::vector<Element> MakeFingerTable(const Report& report) {
                "friction half-angle at which the grasp is force closure without this finger.")};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -9,7 +9,7 @@
 #include "report/page/step_measures.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// A line per entry of a report: what happens, what friction it needs and has left, how far things
 /// moved in the replay, and the verdict; with a note that says what the columns are.
@@ -22,4 +22,4 @@ namespace regrasp {
 /// Of a single grasp: what friction each finger needs; empty where that is not told.
 [[nodiscard]] std::vector<Element> MakeFingerTable(const Report& report);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

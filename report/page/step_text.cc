@@ -2,9 +2,11 @@
 
 #include "render/picture/caption.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
-std::string StepTitle(const Plan& plan, int index) { return Capitalized(EntryTitle(plan, index)); }
+std::string StepTitle(const Plan& plan, int index) {
+  return Capitalized(render::EntryTitle(plan, index));
+}
 
 std::string StepName(int index) {
   return index == 0 ? "the hold" : "step " + std::to_string(index);
@@ -21,4 +23,4 @@ std::string Capitalized(std::string text) {
   return text;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 #include "planner/plan/plan.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// The title of an entry with an upper-case first letter: "Switch: place 4, release 0".
 [[nodiscard]] std::string StepTitle(const Plan& plan, int index);
@@ -19,4 +19,4 @@ namespace regrasp {
 /// The text with an upper-case first letter, if that is an ASCII one.
 [[nodiscard]] std::string Capitalized(std::string text);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -1,6 +1,6 @@
 #include "report/page/table.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 Element HeadCell(std::string_view name, std::string_view style) {
   return Element("th", {{"scope", "col"}, {"class", std::string(style)}}, name);
@@ -16,4 +16,4 @@ Element ScrolledTable(const std::vector<Element>& head, const std::vector<Elemen
 
 Element Note(std::string_view text) { return Element("p", {{"class", "note"}}, text); }
 
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 
 #include "report/markup.h"
 
-namespace regrasp {
+namespace regrasp::report {
 
 /// A column's head; numbers stand to the right.
 /// @param style  classes, "number" or "number minor"; may be empty.
@@ -22,4 +22,4 @@ namespace regrasp {
 /// What a reader of a table or of pictures has to know.
 [[nodiscard]] Element Note(std::string_view text);
 
-}  // namespace regrasp
+}  // namespace regrasp::report

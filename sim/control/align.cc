@@ -7,7 +7,7 @@
 #include "sim/control/roll.h"
 #include "sim/control/slide.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -89,4 +89,4 @@ void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B) 
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

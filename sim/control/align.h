@@ -4,7 +4,7 @@
 #include "sim/scene/align_script.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Carries out an align as its script says, and says how.
 ///
@@ -27,4 +27,4 @@ void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B);
 inline constexpr double kSlideForce = 0.01;    ///< least force of a sliding finger over the squeeze
 inline constexpr double kSlideSpeed = 1.5e-3;  ///< of D in a natural time
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -1,6 +1,6 @@
 #include "sim/control/grasp_control.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -34,4 +34,4 @@ void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to,
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include "planner/grasp/grasp_forces.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// One force per finger of the world, newtons in S on the object; zero for those that do not push.
 using HandForces = std::vector<Eigen::Vector3d>;
@@ -23,4 +23,4 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// Sets forces on the straight line between two: mixtures of balanced forces are balanced.
 void MixForces(ReplayWorld& world, const HandForces& from, const HandForces& to, double share);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

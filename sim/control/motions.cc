@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -135,4 +135,4 @@ void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,
   RetractFingers(world, released);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

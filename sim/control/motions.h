@@ -6,7 +6,7 @@
 #include "sim/control/grasp_control.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The fingers appear at their contacts and take the object: squeeze and weight grow together.
 void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B);
@@ -42,4 +42,4 @@ inline constexpr double kMostCreepTime = 24;  ///< past the tolerance for the ob
 inline constexpr double kTransferTime = 1.6;
 inline constexpr double kRetractTime = 1.2;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

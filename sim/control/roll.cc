@@ -12,7 +12,7 @@
 #include "sim/scene/align_script.h"
 #include "sim/world/stillness.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -108,4 +108,4 @@ void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGras
   TransferForces(world, world.HoldingFingers());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

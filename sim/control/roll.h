@@ -3,7 +3,7 @@
 #include "planner/plan/plan.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Moves all holding fingers at once along the surface, from one grasp to another, as fingertips
 /// that roll: their contacts move and none slips, so friction needs no force to overcome, and the
@@ -17,4 +17,4 @@ namespace regrasp {
 ///              a point of the border of two.
 void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

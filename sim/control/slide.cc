@@ -10,7 +10,7 @@
 #include "sim/scene/align_path.h"
 #include "sim/world/stillness.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -134,4 +134,4 @@ void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Co
   TransferForces(world, world.HoldingFingers());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

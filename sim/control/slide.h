@@ -3,7 +3,7 @@
 #include "planner/plan/plan.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Moves a holding finger along the surface, straight inside one face, or rolls it about a point of
 /// the border between two faces, while the others balance it.
@@ -18,4 +18,4 @@ void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Co
 [[nodiscard]] double SlideMargin(const ReplayWorld& world, int finger, const Contact& from_B,
                                  const Contact& to_B);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

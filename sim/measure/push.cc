@@ -1,6 +1,6 @@
 #include "sim/measure/push.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// In the plane there are two forces and one torque.
@@ -30,4 +30,4 @@ Wrench PushWrench(const Push& push, double size) {
                    : Wrench{along, Eigen::Vector3d::Zero()};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

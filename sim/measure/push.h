@@ -5,7 +5,7 @@
 
 #include "planner/grasp/grasp_forces.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// A direction in which an object at rest is pushed or turned.
 struct Push {
@@ -24,4 +24,4 @@ struct Push {
 /// A force of `size`, or a torque of `size` times the frame's radius.
 [[nodiscard]] Wrench PushWrench(const Push& push, double size);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

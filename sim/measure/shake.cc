@@ -8,7 +8,7 @@
 #include "sim/measure/push.h"
 #include "sim/world/stillness.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -92,4 +92,4 @@ void CheckShake(const ReplaySettings& settings) {
                    " (--tolerance); the shake has to be larger than " + FormatShort(least));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

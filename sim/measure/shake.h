@@ -3,7 +3,7 @@
 #include "planner/grasp/grasp_forces.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// How the fingers respond to a push.
 enum class DisturbanceResponse {
@@ -52,4 +52,4 @@ void CheckShake(const ReplaySettings& settings);
 /// Natural times (ReplaySettings); a finger's servo settles in a tenth.
 inline constexpr double kPushRamp = 0.6;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

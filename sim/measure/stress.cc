@@ -6,7 +6,7 @@
 #include "sim/measure/shake.h"
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// The first push that is tried, over the squeeze; doubled as long as the object stands it.
@@ -67,4 +67,4 @@ std::vector<DirectionStress> MeasureStress(ReplayWorld& world) {
   return all;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

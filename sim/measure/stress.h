@@ -4,7 +4,7 @@
 
 #include "sim/measure/push.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 class ReplayWorld;
 
@@ -31,4 +31,4 @@ struct DirectionStress {
 inline constexpr double kStressGap = 0.01;    ///< over the limit
 inline constexpr double kLeastStress = 1e-4;  ///< pushes nearer to each other count as one
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -1,6 +1,6 @@
 #include "sim/measure/weakest_finger.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 std::vector<FingerGrasp> GraspsOfEntry(const Plan& located, int index) {
   if (index == 0) return {located.initial};
@@ -30,4 +30,4 @@ int WeakestOf(const std::vector<NeedOfFinger>& needs) {
   return WeakestFinger(friction);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include "planner/object/wrench_frame.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
 struct NeedOfFinger {
@@ -29,4 +29,4 @@ struct NeedOfFinger {
 /// The grasps of an entry, in the order of time (see NeedsOfEntry).
 [[nodiscard]] std::vector<FingerGrasp> GraspsOfEntry(const Plan& located, int index);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

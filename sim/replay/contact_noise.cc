@@ -7,7 +7,7 @@
 
 #include "planner/criteria/clearance.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -112,4 +112,4 @@ Plan AddContactNoise(const Object& object, const Plan& plan, const ContactNoise&
   return noisy;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// How far off fingers are when they are put to a point of the surface.
 struct ContactNoise {
@@ -28,4 +28,4 @@ struct ContactNoise {
 
 inline constexpr int kMostNoiseDraws = 100;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

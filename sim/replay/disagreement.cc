@@ -13,7 +13,7 @@
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Finding = std::optional<Disagreement>;
@@ -281,4 +281,4 @@ std::string_view CauseName(Cause cause) {
   return "";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -10,7 +10,7 @@
 #include "planner/plan/check.h"
 #include "sim/replay/replay.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Two examinations of one step that say different things.
 enum class Between {
@@ -65,4 +65,4 @@ struct ExaminedStep {
 /// replay: none at or below 0.98 did in 2000.
 inline constexpr double kNearCritical = 0.98;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

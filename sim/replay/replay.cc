@@ -13,7 +13,7 @@
 #include "sim/world/replay_world.h"
 #include "sim/world/stillness.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 void RestoreRoles(ReplayWorld& world) {
@@ -179,4 +179,4 @@ std::string SceneMjcf(const Object& object, const Plan& plan, const ReplayOption
   return FormatScene(scene, object, HoldControls(scene, object, plan), /*surface=*/true);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -14,7 +14,7 @@
 #include "sim/world/cone_margin.h"
 #include "sim/world/replay_observer.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// What is measured of a step: its motion, its rest and the shakes after it.
 struct StepMotion {
@@ -70,4 +70,4 @@ struct ReplayResult {
 [[nodiscard]] std::string SceneMjcf(const Object& object, const Plan& plan,
                                     const ReplayOptions& options);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

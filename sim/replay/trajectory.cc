@@ -2,7 +2,7 @@
 
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 const char* RoleName(FingerRole role) {
@@ -41,4 +41,4 @@ std::string FormatTrajectory(const std::vector<Snapshot>& samples) {
   return csv;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

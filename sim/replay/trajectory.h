@@ -5,7 +5,7 @@
 
 #include "planner/plan/snapshot.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The samples of a replay as CSV for a real hand: a header row with units, then a row per sample
 /// and finger.
@@ -16,4 +16,4 @@ namespace regrasp {
 /// motion, and are not part of it. Lines end with CR LF as RFC 4180 has it.
 [[nodiscard]] std::string FormatTrajectory(const std::vector<Snapshot>& samples);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

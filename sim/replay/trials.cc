@@ -8,7 +8,7 @@
 #include "sim/replay/contact_noise.h"
 #include "sim/replay/replay.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -62,4 +62,4 @@ TrialSummary RunTrials(const Object& object, const Plan& plan, const ReplayOptio
   return summary;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

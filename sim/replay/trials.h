@@ -10,8 +10,10 @@
 #include "sim/scene/settings.h"
 
 namespace regrasp {
-
 struct ShareInterval;  // planner/base/binomial.h
+}
+
+namespace regrasp::sim {
 
 /// Replays of a plan in worlds that differ a little from what the hand believes.
 struct TrialOptions {
@@ -62,4 +64,4 @@ inline constexpr double kMostError = 1;
 /// Friction and mass are positive; a tenth of what is believed is far out at any error that is one.
 inline constexpr double kLeastFactor = 0.1;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -68,4 +68,4 @@ bool AlignPath::IsTurning(std::size_t k, double t) const {
   return waypoints_[from][k].contact.face != waypoints_[from + 1][k].contact.face;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

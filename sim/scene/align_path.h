@@ -4,7 +4,7 @@
 
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The contacts `share` of the path between two waypoints; normals turn on the great circle.
 [[nodiscard]] FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double share);
@@ -27,4 +27,4 @@ class AlignPath {
   std::vector<FingerGrasp> waypoints_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

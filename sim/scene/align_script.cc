@@ -11,7 +11,7 @@
 #include "planner/grasp/quality.h"
 #include "sim/scene/align_path.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -369,4 +369,4 @@ AlignScript WriteAlignScript(const Object& object, const Align& align, const Ali
   return ScriptWriter(object, align, limits).Write();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

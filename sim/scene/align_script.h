@@ -7,7 +7,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Fingers move to other contacts by switches: spare ones, the support fingers, touch, the fingers
 /// lift and come down at their targets, the support fingers leave. The k-th of them is for the k-th
@@ -96,4 +96,4 @@ inline constexpr double kShortestAlignSegment = 1.0 / 256;  ///< of the path bet
 inline constexpr int kHopelessSegments = 8;                 ///< where no number of them is valid
 inline constexpr std::array kEasyFriction = {0.9, 0.97, 0.99};  ///< of μ, the first that holds
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -16,7 +16,7 @@
 #include <optional>
 #include <utility>
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Eigen::Vector2d;
@@ -232,4 +232,4 @@ ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site, doub
   return {{a - up, b - up, b + up, a + up}, true};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

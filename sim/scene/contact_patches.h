@@ -6,7 +6,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Where a finger touches: a face (an edge, in the plane), and the straight path of the contact on
 /// it (a point where `from` is `to`). Lengths are the object's own units.
@@ -41,4 +41,4 @@ struct ContactPatch {
 [[nodiscard]] ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site,
                                          double size, double thickness);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -257,4 +257,4 @@ void Engine::Restore(const State& state) {
   for (const mjtWarning warning : kFatalWarnings) d.warning[warning].number = 0;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
 class UnstableError : public std::runtime_error {
@@ -86,4 +86,4 @@ class Engine {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

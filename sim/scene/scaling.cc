@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// Bodies that can be simulated. Every body looks alike to the engine (UnitsOf): these are sizes
@@ -111,4 +111,4 @@ EngineUnits UnitsOf(const ReplaySettings& settings) {
           settings.natural_time_s / kEngineTime};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include "sim/scene/engine.h"
 #include "sim/scene/settings.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Derives mass, squeeze, finger and time step from the body, so that every replay is the same
 /// experiment up to units: two bodies of one shape move through the same positions relative to
@@ -68,4 +68,4 @@ inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's pri
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -11,7 +11,7 @@
 #include "planner/object/polyhedron.h"
 #include "sim/scene/scaling.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -170,7 +170,7 @@ std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, doub
   return entries;
 }
 
-AlignScript ToScene(const Object& object, double scale, AlignScript script) {
+AlignScript ScriptToScene(const Object& object, double scale, AlignScript script) {
   const auto convert = [&](FingerGrasp& grasp) {
     grasp = ToScene(object, scale, std::move(grasp));
   };
@@ -315,7 +315,7 @@ void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene
       continue;
     }
     collector.Add(*entry.script);
-    entry.script = ToScene(object, scale, *std::move(entry.script));
+    entry.script = ScriptToScene(object, scale, *std::move(entry.script));
   }
 }
 
@@ -401,4 +401,4 @@ SiteIndex FindSite(const Scene& scene, const Contact& contact_S) {
   return FindSite(scene, contact_S, contact_S);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -12,7 +12,7 @@
 #include "sim/scene/engine.h"
 #include "sim/scene/settings.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// A place where fingers touch, and what stops them there; metres in S.
 struct SceneSite {
@@ -77,4 +77,4 @@ struct Scene {
 [[nodiscard]] std::string FormatScene(const Scene& scene, const Object& body,
                                       const std::vector<Eigen::Vector3d>& hold, bool surface);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -7,7 +7,7 @@
 #include "sim/scene/scene.h"
 #include "sim/scene/visible_surface.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
@@ -198,4 +198,4 @@ std::string FormatScene(const Scene& scene, const Object& body, const std::vecto
                {"keyframe", FormatKeyframe(scene.dimension, hold)}});
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// How the fingers respond to the shake at a rest, and which response decides.
 enum class Protocol {
@@ -65,4 +65,4 @@ struct ReplaySettings {
   double patch_thickness_m = 0;  ///< of the prism under a contact patch
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

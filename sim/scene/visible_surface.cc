@@ -4,7 +4,7 @@
 #include "planner/object/polygon_triangulation.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 VisibleSurface MakePrism(const Polygon& polygon, double thickness) {
@@ -39,4 +39,4 @@ VisibleSurface MakeVisibleSurface(const Object& object, double thickness) {
   return {body.vertices(), body.triangles()};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The true surface of the body that is simulated, for the eye.
 struct VisibleSurface {
@@ -17,4 +17,4 @@ struct VisibleSurface {
 /// A solid's own surface; a polygon's prism of the height `thickness` about the plane z = 0.
 [[nodiscard]] VisibleSurface MakeVisibleSurface(const Object& object, double thickness);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

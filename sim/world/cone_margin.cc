@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle) {
   return half_angle - std::atan2(normal.cross(force).norm(), normal.dot(force));
@@ -26,4 +26,4 @@ int FingerOfSmallestMargin(const FingerMargins& margins) {
   return least == margins.end() ? -1 : least->first;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// What is left of the friction of a contact: the friction half-angle minus the angle between the
 /// force on the object and the inward normal, radians. 0 where the force lies on its cone, negative
@@ -36,4 +36,4 @@ inline constexpr double kPressing = 1e-3;
 /// off.
 inline constexpr double kConeReached = 5e-4;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
@@ -92,4 +92,4 @@ std::string MotionMonitor::detail() const {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -7,7 +7,7 @@
 #include "sim/scene/settings.h"
 #include "sim/world/cone_margin.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// What a replay measures of one step, and its verdict.
 ///
@@ -77,4 +77,4 @@ inline constexpr double kLostGap = 1e-5;
 
 inline constexpr double kLostMotion = 10;  ///< over the tolerance
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 
 #include "planner/plan/snapshot.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// What a replay tells while it runs; both may be empty.
 struct ReplayObserver {
@@ -13,4 +13,4 @@ struct ReplayObserver {
   std::function<void(int done, int total)> on_progress;  ///< after every step
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

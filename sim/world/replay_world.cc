@@ -5,7 +5,7 @@
 
 #include "sim/scene/scaling.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -154,4 +154,4 @@ Snapshot ReplayWorld::TakeSnapshot() const {
   return snapshot;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -10,7 +10,7 @@
 #include "sim/world/motion_monitor.h"
 #include "sim/world/replay_observer.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// A finger in the world. B is the body's frame: metres about the centroid, fixed to the object.
 struct WorldFinger {
@@ -86,4 +86,4 @@ class ReplayWorld {
   double next_sample_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -71,4 +71,4 @@ double FreeMotion(double ramp) {
   return ramp * ramp / 6 + ramp / 2 * kLongestWait + kLongestWait * kLongestWait / 2;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

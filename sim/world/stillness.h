@@ -2,7 +2,7 @@
 
 #include "sim/world/replay_world.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// Waits until the object and the fingers that hold it are still: until none of them has moved by
 /// more than kStill · D in kStillTime. Gives up after kLongestWait, and once the object is lost
@@ -39,4 +39,4 @@ inline constexpr double kStill = 1e-6;
 /// by much, and none of its points goes far.
 inline constexpr double kArmOfGyration = 3;
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 TEST(MarkupTest, MarkupInATextIsEscaped) {
@@ -59,4 +59,4 @@ TEST(ElementTest, OnlyVoidElementsAreClosedInTheirOwnTag) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 Json MakeReport() {
@@ -61,4 +61,4 @@ TEST(ReportSealTest, AReportThatDoesNotTellItsRunHasNoSeal) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

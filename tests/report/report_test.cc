@@ -10,7 +10,7 @@
 #include "report/junit.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::HasSubstr;
@@ -22,7 +22,7 @@ ReportStep MakeStep(int index, const std::string& kind, double required_deg) {
   step.check.kind = kind;
   step.check.force_closure = true;
   step.check.required = RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
-  step.replay = StepReplay();
+  step.replay = sim::StepReplay();
   step.replay->index = index;
   step.replay->displacement_m = 1e-6 * (index + 1);
   step.frame = "frame" + std::to_string(index) + ".png";
@@ -34,9 +34,9 @@ Report MakeReport() {
   report.object_file = "cube.obj";
   report.plan_file = "plan.json";
   report.half_angle = Radians(20);
-  report.settings = ReplaySettings();
+  report.settings = sim::ReplaySettings();
   report.steps = {MakeStep(0, "hold", 12), MakeStep(1, "switch", 17.5), MakeStep(2, "align", 15)};
-  report.steps[2].replay->align_mode = AlignMode::kImitated;
+  report.steps[2].replay->align_mode = sim::AlignMode::kImitated;
   report.steps[2].check.undecided = 3;
   return report;
 }
@@ -169,11 +169,11 @@ TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {
 }
 
 TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
-  const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
+  const sim::CubeCase cube;
+  Plan plan = sim::MakePlan(cube.Start(), 25);
   plan.goal = ContactsOf(plan.initial);
-  ReplayOptions options;
-  options.protocol = Protocol::kBoth;
+  sim::ReplayOptions options;
+  options.protocol = sim::Protocol::kBoth;
   const Report agreed = Validate(cube.object, plan, {}, options);
   EXPECT_TRUE(agreed.passed());
   EXPECT_FALSE(agreed.steps.at(0).disagreement);
@@ -182,8 +182,8 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   const Report fixed = Validate(cube.object, plan, {}, options);
   EXPECT_TRUE(fixed.passed()) << "the adapted response decides";
   ASSERT_TRUE(fixed.steps.at(0).disagreement);
-  EXPECT_EQ(fixed.steps[0].disagreement->between, Between::kFixedFails);
-  EXPECT_EQ(fixed.steps[0].disagreement->cause, Cause::kConeReached);
+  EXPECT_EQ(fixed.steps[0].disagreement->between, sim::Between::kFixedFails);
+  EXPECT_EQ(fixed.steps[0].disagreement->cause, sim::Cause::kConeReached);
   EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed squeeze fails, likely cause: "));
 
   options.shake = 0.01;
@@ -192,10 +192,10 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   const Report weak = Validate(cube.object, plan, check, options);
   EXPECT_FALSE(weak.passed());
   ASSERT_TRUE(weak.steps.at(0).disagreement);
-  EXPECT_EQ(weak.steps[0].disagreement->between, Between::kReplayFails);
-  EXPECT_EQ(weak.steps[0].disagreement->cause, Cause::kQuality);
+  EXPECT_EQ(weak.steps[0].disagreement->between, sim::Between::kReplayFails);
+  EXPECT_EQ(weak.steps[0].disagreement->cause, sim::Cause::kQuality);
   EXPECT_THAT(FormatReportJson(weak), HasSubstr("\"quality-below-shake\""));
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
-  TrialSummary summary;
+  sim::TrialSummary summary;
   summary.options.count = 12;
   summary.passed = 9;
   summary.reasons = {{Reason::kSlipped, 2}, {Reason::kContactLost, 1}};
@@ -23,4 +23,4 @@ TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 #include "sim/world/stillness.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// The cube of CubeCase, held, at rest, and monitored from there.
 struct HeldCube {
@@ -22,4 +22,4 @@ struct HeldCube {
   }
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

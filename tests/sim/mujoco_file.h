@@ -10,7 +10,7 @@
 
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 struct DeleteModel {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -35,4 +35,4 @@ inline ModelPtr LoadFromFile(const std::string& mjcf) {
   return model;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 inline FingerContact OnEdge(const Polygon& polygon, int finger, int edge, double share) {
   return {finger, OnEdge(polygon, edge, share)};
@@ -46,4 +46,4 @@ inline Polygon MakeFrame() {
       "frame");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

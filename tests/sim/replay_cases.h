@@ -11,7 +11,7 @@
 #include "planner/plan/plan.h"
 #include "sim/replay/replay.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 inline ObjectFile ReadModel(const std::string& name) {
   return ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
@@ -72,4 +72,4 @@ struct CubeCase {
   }
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

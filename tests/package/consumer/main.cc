@@ -20,12 +20,12 @@ int main(int argc, char** argv) {
                                 {{0, -half, 0}, {0, 1, 0}},
                                 {{0, half, 0.0}, {0, -1, 0}}};
   const bool closed = regrasp::IsForceClosure(grasp, cube.wrench_frame(), half_angle);
-  regrasp::Plan hold = regrasp::MakeHoldPlan(cube, grasp, half_angle, 1);
+  regrasp::Plan hold = regrasp::report::MakeHoldPlan(cube, grasp, half_angle, 1);
   hold.object_file = file.file;
   hold.object_sha256 = file.sha256;
   const regrasp::Plan plan = regrasp::ParsePlan(regrasp::FormatPlan(hold), "hold.json");
-  const bool scene = !regrasp::SceneMjcf(cube, regrasp::LocatePlan(cube, plan), {}).empty();
-  const bool passed = regrasp::Validate(cube, plan, {}, {}).passed();
+  const bool scene = !regrasp::sim::SceneMjcf(cube, regrasp::LocatePlan(cube, plan), {}).empty();
+  const bool passed = regrasp::report::Validate(cube, plan, {}, {}).passed();
   std::printf("force closure %d, scene %d, passed %d\n", closed, scene, passed);
   return closed && scene && passed ? 0 : 1;
 }

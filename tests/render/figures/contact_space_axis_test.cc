@@ -5,7 +5,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using testing::ElementsAre;
@@ -102,4 +102,4 @@ TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

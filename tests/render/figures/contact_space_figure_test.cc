@@ -11,7 +11,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
@@ -103,4 +103,4 @@ TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow)
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -168,4 +168,4 @@ TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -4,7 +4,7 @@
 
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 using Eigen::Vector2d;
 
@@ -71,4 +71,4 @@ double AreaOf(const std::vector<Outline>& outlines) {
   return area;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "render/figures/grasp_diagram.h"
 #include "tests/fixtures/polygons.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// A disc with a concentric round hole of half its radius, of as many edges.
 [[nodiscard]] Polygon MakeRing(int edges);
@@ -36,4 +36,4 @@ namespace regrasp {
 
 [[nodiscard]] double AreaOf(const std::vector<Outline>& outlines);
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "render/figures/print_size.h"
 #include "tests/render/figures/contact_space_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -162,4 +162,4 @@ TEST(ContactSpaceSwitchPageTest, BothSetsHaveOneScaleAndOneAxisAndLieOnThePage) 
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

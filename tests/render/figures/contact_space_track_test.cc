@@ -5,7 +5,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using testing::SizeIs;
@@ -63,4 +63,4 @@ TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -8,7 +8,7 @@
 #include "tests/render/figures/contact_space_scenes.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -205,4 +205,4 @@ TEST(ContactSpaceUnfoldingTest, TheDiagramIsInsideTheSet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

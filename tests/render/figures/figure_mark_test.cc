@@ -8,7 +8,7 @@
 
 #include "render/figures/figure_page.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, FigureFormat::kPng};
@@ -40,4 +40,4 @@ TEST(FigureMarkTest, AMarkedPngIsStillReadWithoutAComplaint) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -13,7 +13,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -265,4 +265,4 @@ TEST(GraspDiagramTest, RefusesContactsWithoutAFaceAndAnglesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -66,4 +66,4 @@ TEST(PanelPathTest, TicksKeepApartHoweverManyWaypointsThereAre) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

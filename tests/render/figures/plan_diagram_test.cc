@@ -7,7 +7,7 @@
 #include "planner/base/angle.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using testing::ElementsAre;
@@ -115,4 +115,4 @@ TEST(PlanDiagramTest, LabelsOfPanelsGoOnAfterTheAlphabet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -17,7 +17,7 @@
 #include "render/picture/palette.h"
 #include "tests/render/figures/planar_scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -194,4 +194,4 @@ TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -2,7 +2,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 Plan MakePlanarPlan(const FingerGrasp& initial, std::vector<Step> steps) {
   Plan plan;
@@ -39,4 +39,4 @@ Plan MakeTrianglePlan() {
                         {Switch{{at(3, 0, 0.4)}, {0}}});
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -7,7 +7,7 @@
 #include "planner/plan/plan.h"
 #include "tests/fixtures/polygons.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 [[nodiscard]] FingerContact FingerAt(const Polygon& polygon, int finger, int edge, double share);
 
@@ -21,4 +21,4 @@ namespace regrasp {
 /// A hold and a switch on the triangle at θ = 20°, both concurrent.
 [[nodiscard]] Plan MakeTrianglePlan();
 
-}  // namespace regrasp
+}  // namespace regrasp::render

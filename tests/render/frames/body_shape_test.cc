@@ -9,7 +9,7 @@
 #include "planner/object/polygon.h"
 #include "tests/render/frames/scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector3d;
@@ -124,4 +124,4 @@ TEST(BodyShapeTest, RaysMeetTheNearestTriangleBeyondTheSkip) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

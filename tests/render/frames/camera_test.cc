@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -75,4 +75,4 @@ TEST(CameraTest, ProjectsTheCentreOfItsViewToTheCentreOfTheImage) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 /// How many pixels have this colour.
@@ -61,4 +61,4 @@ TEST(ContactSheetTest, PicturesThatWereNotAnnouncedAreRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

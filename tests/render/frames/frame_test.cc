@@ -11,7 +11,7 @@
 #include "render/picture/palette.h"
 #include "tests/render/frames/scenes.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 const double kHalfAngle = Radians(20);
@@ -224,4 +224,4 @@ TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Indices = std::vector<int>;
@@ -77,4 +77,4 @@ TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -5,7 +5,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::vector<Snapshot> MakeHoledBlockSequence() {
                         MakeFinger(4, kHolding, {-0.030, -0.01, 0.015}, -z)})};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -5,7 +5,7 @@
 #include "planner/plan/snapshot.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::render {
 
 /// Bodies in metres, built without files.
 [[nodiscard]] Polyhedron MakeThinLBlock();  ///< 0.08 × 0.08 × 0.03, legs 0.035 wide
@@ -21,4 +21,4 @@ namespace regrasp {
 [[nodiscard]] std::vector<Snapshot> MakeLBlockSequence();
 [[nodiscard]] std::vector<Snapshot> MakeHoledBlockSequence();
 
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -10,7 +10,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 Image MakeNoise(int width, int height) {
@@ -62,4 +62,4 @@ TEST(ImageTest, ShrinkingByOneChangesNothingAndAnUnevenFactorIsRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
@@ -61,4 +61,4 @@ TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::render {
 namespace {
 
 const std::uint8_t* Bytes(const std::string& text) {
@@ -86,4 +86,4 @@ TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::render

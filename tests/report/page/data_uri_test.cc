@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 TEST(DataUriTest, BytesBecomeAUriOfBase64) {
@@ -14,4 +14,4 @@ TEST(DataUriTest, BytesBecomeAUriOfBase64) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

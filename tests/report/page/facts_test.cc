@@ -5,7 +5,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::HasSubstr;
@@ -38,4 +38,4 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

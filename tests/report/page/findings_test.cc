@@ -5,7 +5,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::HasSubstr;
@@ -21,7 +21,7 @@ Report MakeReport() {
     step.check.index = index;
     step.needs = {{3, {Radians(12), true, std::nullopt}}};
     step.replay.emplace();
-    step.replay->adapted = StepMotion();
+    step.replay->adapted = sim::StepMotion();
     step.replay->rest_margins = {{2, Radians(4.5)}};
     step.replay->shake_margins = {{0, Radians(1.25)}};
   }
@@ -51,10 +51,10 @@ TEST(FindingsTest, WhatWasNotReplayedHasNone) {
 
 TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
   Report report = MakeReport();
-  report.steps[1].replay->fixed = StepMotion();
+  report.steps[1].replay->fixed = sim::StepMotion();
   report.steps[1].replay->fixed->reason = Reason::kSlipped;
-  report.steps[1].disagreement =
-      Disagreement{Between::kFixedFails, Cause::kConeReached, "finger <2> & its cone", {}};
+  report.steps[1].disagreement = sim::Disagreement{
+      sim::Between::kFixedFails, sim::Cause::kConeReached, "finger <2> & its cone", {}};
   const std::string text = FormatFindings(report);
   EXPECT_THAT(text, HasSubstr("Step 1: adapted forces resist the shake, a fixed squeeze does not. "
                               "Likely cause: finger &lt;2&gt; &amp; its cone."));
@@ -64,7 +64,7 @@ TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
 TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
   Report report = MakeReport();
   for (ReportStep& step : report.steps) {
-    for (const Push& push : PushDirections(3)) {
+    for (const sim::Push& push : sim::PushDirections(3)) {
       step.replay->stress.push_back({push, 0.25, 0.27});
     }
   }
@@ -77,4 +77,4 @@ TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 /// Values inside the ends, in order, ticks inside and ascending positions.
@@ -76,4 +76,4 @@ TEST(PlotAxisTest, StepsAreRoundAndNoSmallerThanAsked) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 TEST(QuantityTest, NumbersHaveThreeDigits) {
@@ -42,4 +42,4 @@ TEST(QuantityTest, AnglesHaveTwoDecimals) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

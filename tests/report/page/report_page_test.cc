@@ -9,7 +9,7 @@
 #include "planner/base/angle.h"
 #include "report/page/step_measures.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::DoubleNear;
@@ -179,4 +179,4 @@ TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

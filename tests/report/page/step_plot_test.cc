@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST(StepPlotTest, WhatCannotBePlottedIsRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

@@ -5,7 +5,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 using testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(FingerTableTest, AFingerThatTheOthersCannotDoWithoutSaysNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

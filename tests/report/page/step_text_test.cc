@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::report {
 namespace {
 
 TEST(StepTextTest, OnlyAnAsciiLetterIsCapitalized) {
@@ -27,4 +27,4 @@ TEST(StepTextTest, AFailedStepSaysWhy) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::report

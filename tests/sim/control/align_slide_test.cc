@@ -4,7 +4,7 @@
 #include "sim/scene/align_path.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kGood = 1e-4;
@@ -139,4 +139,4 @@ TEST(AlignPathTest, AddsUpTheWaysOfAllContacts) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

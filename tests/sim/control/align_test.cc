@@ -5,7 +5,7 @@
 #include "sim/scene/align_path.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kGood = 1e-4;
@@ -142,4 +142,4 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

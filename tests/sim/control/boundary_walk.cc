@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -139,4 +139,4 @@ Polygon DrawOutline(int edges, std::mt19937& random) {
   return Polygon::FromRings({ring}, "outline");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// A finger that goes along the boundary: from a share of an edge by a length, counter-clockwise
 /// about the material where that is positive.
@@ -41,4 +41,4 @@ inline constexpr double kDiscRadius = 0.05;
 /// and concave corners and almost straight ones.
 [[nodiscard]] Polygon DrawOutline(int edges, std::mt19937& random);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -3,7 +3,7 @@
 #include "sim/control/align.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kGood = 1e-4;
@@ -116,4 +116,4 @@ TEST(PlanarAlign, FailsWhereItEndsInAGraspThatDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "planner/plan/check.h"
 #include "tests/sim/control/boundary_walk.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr unsigned kSeed = 4;
@@ -177,4 +177,4 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 #include "sim/control/align.h"
 #include "tests/sim/control/boundary_walk.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kGood = 1e-4;
@@ -191,4 +191,4 @@ TEST(PlanarCorner, AWalkBelowTheFrictionThatItNeedsFailsInTheReplay) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

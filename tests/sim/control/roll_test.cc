@@ -4,7 +4,7 @@
 #include "sim/control/align.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kGood = 1e-4;
@@ -84,4 +84,4 @@ TEST(RollFingers, FailsWhereTheFrictionIsTooSmallOnTheWay) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 StepReplay HoldUnder(Protocol protocol, const Object& object, const Plan& plan,
@@ -110,4 +110,4 @@ TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

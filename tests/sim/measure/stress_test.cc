@@ -10,7 +10,7 @@
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// How far the two routes may differ, over the limit: the bisection's 1 %, and as much for a replay
@@ -156,4 +156,4 @@ TEST(StressTest, TheSearchLeavesNoTraceInTheReplay) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 TEST(WeakestFingerTest, ASwitchCountsTheGraspsBeforeAndAfterItByTheFingersOfTheHand) {
@@ -41,4 +41,4 @@ TEST(WeakestFingerTest, AGraspThatIsNotForceClosureHasNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

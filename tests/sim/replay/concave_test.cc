@@ -5,7 +5,7 @@
 #include "tests/sim/replay/replay_expectations.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// Expects that the plan passes and its fingers touch where they were planned.
@@ -172,4 +172,4 @@ TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

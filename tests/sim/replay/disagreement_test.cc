@@ -11,7 +11,7 @@
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

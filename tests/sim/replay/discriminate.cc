@@ -9,7 +9,7 @@
 #include "planner/grasp/required_half_angle.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -86,4 +86,4 @@ void ExpectManyDiscriminated(const DiscriminationCount& count, const std::string
   EXPECT_GE(count.above, 100);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -7,7 +7,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// How many grasps the replay told apart by the friction.
 struct DiscriminationCount {
@@ -27,4 +27,4 @@ struct DiscriminationCount {
 /// Prints and records the counts, and expects at least 100 of each.
 void ExpectManyDiscriminated(const DiscriminationCount& count, const std::string& grasps);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 #include "tests/sim/replay/discriminate.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr int kGraspsPerObject = 75;
@@ -46,4 +46,4 @@ TEST(PlanarDiscrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAboveP
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay/replay_expectations.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 TEST(PlanarHold, TwoAntipodalFingersHoldASquare) {
@@ -247,4 +247,4 @@ TEST(PlanarReplay, NothingLeavesThePlane) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

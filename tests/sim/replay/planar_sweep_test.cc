@@ -11,7 +11,7 @@
 #include "planner/plan/check.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr unsigned kSeed = 31;
@@ -182,4 +182,4 @@ TEST(PlanarSweep, RandomSwitchesBetweenGoodGraspsPassAndOneToABadGraspFails) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-namespace regrasp {
+namespace regrasp::sim {
 
 namespace {
 
@@ -77,4 +77,4 @@ void ExpectSameBitsTwice(const Object& object, const Plan& plan) {
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

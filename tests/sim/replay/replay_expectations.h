@@ -4,7 +4,7 @@
 
 #include "sim/replay/replay.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 
 /// What a good grasp may move or slide in a step, and how far off a finger may touch, over the
 /// diameter: a tenth of the tolerance.
@@ -23,4 +23,4 @@ void ExpectTouchesAsPlanned(const Object& object, const Plan& plan, const Replay
 /// Expects that two replays of a plan are the same bits: all samples, and what is measured.
 void ExpectSameBitsTwice(const Object& object, const Plan& plan);
 
-}  // namespace regrasp
+}  // namespace regrasp::sim

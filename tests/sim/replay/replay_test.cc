@@ -11,7 +11,7 @@
 #include "tests/sim/replay/replay_expectations.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 Plan FourSwitches(const CubeCase& cube) {
@@ -252,4 +252,4 @@ TEST(ReplayScale, RefusesSizesThatCannotBeSimulated) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -6,7 +6,7 @@
 
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
@@ -44,4 +44,4 @@ TEST(Trajectory, OfAReplayRunsForwardInTimeAndItsForcesCarryTheWeightAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

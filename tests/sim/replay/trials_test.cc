@@ -10,7 +10,7 @@
 #include "sim/replay/contact_noise.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 constexpr double kTip = 1e-3;  ///< metres
@@ -207,4 +207,4 @@ TEST(Trials, RefuseErrorsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

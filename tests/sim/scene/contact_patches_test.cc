@@ -13,7 +13,7 @@
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -178,4 +178,4 @@ TEST(FineFacets, AreWhereTheyAreAlthoughTheEngineKeepsMeshesInSinglePrecision) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -12,7 +12,7 @@
 #include "sim/scene/scaling.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -314,4 +314,4 @@ TEST(NonconvexContacts, WrongContactsAreSeen) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -7,7 +7,7 @@
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 Plan FramePlan(const Polygon& frame) {
@@ -152,4 +152,4 @@ TEST(VisibleSurfaceTest, OfAPolygonIsItsClosedPrism) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -5,7 +5,7 @@
 #include "planner/grasp/quality.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// A rod along x, 1 m long, with a square section.
@@ -103,4 +103,4 @@ TEST(EngineUnits, MakeEveryBodyLookAlike) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -13,7 +13,7 @@
 #include "tests/sim/mujoco_file.h"
 #include "tests/sim/replay_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
@@ -160,4 +160,4 @@ TEST(Scaling, KeepsTheRatiosThatMakeEveryBodyTheSameExperiment) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -4,7 +4,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using Eigen::Vector3d;
@@ -31,4 +31,4 @@ TEST(ConeMarginTest, OfAFingerTheSmallestStaysAndOfAllTheSmallestIsNamed) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

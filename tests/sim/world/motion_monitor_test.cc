@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 ReplaySettings UnitSettings() {
@@ -98,4 +98,4 @@ TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -9,7 +9,7 @@
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 using testing::HasSubstr;
@@ -165,4 +165,4 @@ TEST(MonitorOfAReplay, AnAlignInThePlaneMayMoveTheObjectByTheToleranceAndNoMore)
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim

@@ -10,7 +10,7 @@
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"
 
-namespace regrasp {
+namespace regrasp::sim {
 namespace {
 
 /// Shares of the derived time step.
@@ -189,4 +189,4 @@ TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sim
