@@ -67,16 +67,16 @@ MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
   return made;
 }
 
-/// The way of an align. Where a contact turns from the last edge of a ring to the first its place
+/// The path of an align. Where a contact turns from the last edge of a ring to the first its place
 /// becomes zero; no edge is as long as half of its ring.
-void AddPath(const Boundary& boundary, const std::vector<AxisGrasp>& way,
-             std::vector<SpaceShape>& ways) {
+void AddPath(const Boundary& boundary, const std::vector<AxisGrasp>& path,
+             std::vector<SpaceShape>& paths) {
   SpaceShape shape;
   const auto finish = [&] {
-    if (shape.points.size() > 1) ways.push_back(shape);
+    if (shape.points.size() > 1) paths.push_back(shape);
     shape.points.clear();
   };
-  for (const AxisGrasp& grasp : way) {
+  for (const AxisGrasp& grasp : path) {
     const SpacePoint at = PointOf(boundary, grasp);
     for (int axis = 0; !shape.points.empty() && axis < 2; ++axis) {
       const double jump = std::abs(at.places[axis] - shape.points.back()[axis]);
@@ -118,7 +118,7 @@ ContactSpaceMap MapContactSpace(SetGeometry& geometry, const std::vector<TrackEn
     const TrackEntry& entry = track[i];
     map.rests.push_back(PointOf(graph.boundary(), entry.grasp));
     used.insert(map.rests.back().rings.begin(), map.rests.back().rings.end());
-    AddPath(graph.boundary(), entry.way, map.ways);
+    AddPath(graph.boundary(), entry.path, map.paths);
     if (entry.kind == std::string_view("switch")) {
       map.switches.push_back({map.rests[i - 1], map.rests[i], entry.shared_axis});
     }

@@ -11,7 +11,7 @@
 
 namespace regrasp::render {
 
-/// A way or an outline in contact space, all of it between one ring on the horizontal axis and one
+/// A path or an outline in contact space, all of it between one ring on the horizontal axis and one
 /// on the vertical axis.
 struct SpaceShape {
   std::array<int, 2> rings = {};
@@ -42,7 +42,7 @@ struct ContactSpaceMap {
   std::vector<MapSet> sets;       ///< those on these rings
   int set_count = 0;              ///< of the whole boundary
   std::vector<SpacePoint> rests;  ///< the grasp after each entry of the plan
-  std::vector<SpaceShape> ways;   ///< of aligns, broken where a ring begins again
+  std::vector<SpaceShape> paths;  ///< of aligns, broken where a ring begins again
   std::vector<MapSwitch> switches;
 };
 

@@ -152,10 +152,10 @@ void Overview::DrawPlan(cairo_t* cr) const {
     StrokeLine(cr, ToPage(step.from), ToPage(step.to), kSwitchWidth);
   }
   ClearDash(cr);
-  for (const SpaceShape& way : map_.ways) {
-    const PlotWindow window = WindowOf(way.rings);
+  for (const SpaceShape& path : map_.paths) {
+    const PlotWindow window = WindowOf(path.rings);
     cairo_new_path(cr);
-    for (const Vector2d& p : way.points) {
+    for (const Vector2d& p : path.points) {
       const Vector2d at = window.ToPage(p);
       cairo_line_to(cr, at.x(), at.y());
     }
@@ -188,11 +188,11 @@ void Overview::DrawMarks(cairo_t* cr) const {
   for (const MapSwitch& step : map_.switches) {
     obstacles.push_back({ToPage(step.from), ToPage(step.to), 0, kTravelWeight});
   }
-  for (const SpaceShape& way : map_.ways) {
-    const PlotWindow window = WindowOf(way.rings);
-    for (std::size_t i = 1; i < way.points.size(); ++i) {
+  for (const SpaceShape& path : map_.paths) {
+    const PlotWindow window = WindowOf(path.rings);
+    for (std::size_t i = 1; i < path.points.size(); ++i) {
       obstacles.push_back(
-          {window.ToPage(way.points[i - 1]), window.ToPage(way.points[i]), 0, kTravelWeight});
+          {window.ToPage(path.points[i - 1]), window.ToPage(path.points[i]), 0, kTravelWeight});
     }
   }
   for (const MapSet& set : map_.sets) {

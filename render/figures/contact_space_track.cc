@@ -21,9 +21,9 @@ bool Holds(const FingerGrasp& grasp, int finger) {
 
 void Follow(const Align& step, const AxisGrasp& before, TrackEntry& entry) {
   for (const FingerGrasp& waypoint : step.waypoints) {
-    entry.way.push_back(OnAxes(waypoint, before));
+    entry.path.push_back(OnAxes(waypoint, before));
   }
-  entry.grasp = entry.way.back();
+  entry.grasp = entry.path.back();
 }
 
 void Follow(const Switch& step, const AxisGrasp& before, TrackEntry& entry) {

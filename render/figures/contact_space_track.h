@@ -24,7 +24,7 @@ struct SpacePoint {
 struct TrackEntry {
   const char* kind = "";           ///< "hold", "switch" or "align"
   AxisGrasp grasp;                 ///< after it
-  std::vector<AxisGrasp> way;      ///< the waypoints of an align
+  std::vector<AxisGrasp> path;     ///< the waypoints of an align
   std::optional<int> shared_axis;  ///< of a switch: where the contact is that stays, 0 or 1
 };
 

@@ -186,8 +186,8 @@ std::optional<Vector2d> SeparatingDirection(const DirectionCone<double>& cone, c
   const double start = AngleOf(right);
   const double width = std::atan2(CrossOf(right, left), right.dot(left));
   std::vector<double> turns = {0, width};
-  for (const Vector2d& way : {Vector2d(b - a), Vector2d(c - a)}) {
-    const double turn = std::remainder(AngleOf(way) - start, kPi);  // the line, not its direction
+  for (const Vector2d& line : {Vector2d(b - a), Vector2d(c - a)}) {
+    const double turn = std::remainder(AngleOf(line) - start, kPi);  // the line, not its direction
     for (const double t : {turn, turn + kPi}) {
       if (t > 0 && t < width) turns.push_back(t);
     }
@@ -248,7 +248,7 @@ GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp, double ha
   std::optional<GraspDiagram> diagram;
   if (grasp.size() == 2) diagram = TryTwoFinger(grasp, half_angle);
   if (grasp.size() == 3) {
-    // Where both serve, the wider cones show more of the grasp.
+    // Where both are valid, the wider cones show more of the grasp.
     diagram = TryConcurrent(polygon, grasp, half_angle);
     auto parallel = TryParallel(polygon, grasp, half_angle);
     const auto width = [](const GraspDiagram& d) { return d.cones.front().half_angle; };

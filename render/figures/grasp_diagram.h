@@ -49,7 +49,7 @@ struct GraspDiagram {
 /// doubles: a grasp on the very border of a type may be drawn as another.
 ///
 /// The focus point is the centroid of the largest part of the cones' intersection: a point well
-/// inside, as any point there serves.
+/// inside, as any point there will do.
 ///
 /// Laws: independent of the order of the contacts but for the order of `cones`; moves with the
 /// object under rigid motion and scaling.

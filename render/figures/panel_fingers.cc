@@ -39,7 +39,7 @@ constexpr double kShareOfRoom = 0.8;
 constexpr double kNearby = 7;
 constexpr double kAside = 3;
 
-/// A moved finger whose way is shorter, points, has no arrow: its marker covers it.
+/// A moved finger whose path is shorter, points, has no arrow: its marker covers it.
 constexpr double kShortestPath = 1;
 
 /// What it costs a number to cover things: the weights of label_layout.h.
@@ -71,10 +71,10 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
     case FingerRole::kReleased:
       return {near_end, far_end};
     case FingerRole::kMoved: {
-      const std::vector<Vector2d> way = PathBeside(finger.path, view, kPathOffset).points;
+      const std::vector<Vector2d> path = PathBeside(finger.path, view, kPathOffset).points;
       double length = 0;
-      for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
-      return length < kShortestPath ? std::vector<Vector2d>() : way;
+      for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+      return length < kShortestPath ? std::vector<Vector2d>() : path;
     }
     case FingerRole::kFree:
     case FingerRole::kHolding:
@@ -163,9 +163,9 @@ std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& dia
       obstacles.push_back({apex, apex + axis, length * std::sin(cone.half_angle) / 2, kConeWeight});
     }
     if (diagram.grasp.force_direction) {
-      const Vector2d way =
+      const Vector2d offset =
           (view.width + view.height) * PanelView::ToPanelDirection(*diagram.grasp.force_direction);
-      obstacles.push_back({apex - way, apex + way, 0, kLineWeight});
+      obstacles.push_back({apex - offset, apex + offset, 0, kLineWeight});
     }
     if (diagram.grasp.focus) {
       const Vector2d focus = view.ToPanel(*diagram.grasp.focus);

@@ -6,7 +6,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Normals whose sum is shorter than this are opposite but for rounding: any direction serves.
+/// Normals whose sum is shorter than this are opposite but for rounding: any direction will do.
 constexpr double kOpposite = 1e-9;
 
 /// The waypoints on the panel, those at one place as one.
@@ -43,16 +43,16 @@ PanelPath PathBeside(std::span<const BorderPoint> path, const PanelView& view, d
     while (kept.size() > 1 && goes_backwards(kept.back())) kept.pop_back();
     kept.push_back(i);
   }
-  PanelPath way;
-  for (const std::size_t i : kept) way.points.push_back(beside(i));
+  PanelPath result;
+  for (const std::size_t i : kept) result.points.push_back(beside(i));
   for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
-    const Vector2d& at = way.points[k];
-    const Vector2d& before = way.ticks.empty() ? way.points.front() : way.ticks.back().at;
+    const Vector2d& at = result.points[k];
+    const Vector2d& before = result.ticks.empty() ? result.points.front() : result.ticks.back().at;
     const bool apart =
-        (at - before).norm() >= kPathTickGap && (at - way.points.back()).norm() >= kPathTickGap;
-    if (apart) way.ticks.push_back({at, joined[kept[k]].outward});
+        (at - before).norm() >= kPathTickGap && (at - result.points.back()).norm() >= kPathTickGap;
+    if (apart) result.ticks.push_back({at, joined[kept[k]].outward});
   }
-  return way;
+  return result;
 }
 
 }  // namespace regrasp::render

@@ -9,7 +9,7 @@
 
 namespace regrasp::render {
 
-/// The way of a moved finger as a panel shows it, points.
+/// The path of a moved finger as a panel shows it, points.
 struct PanelPath {
   std::vector<Eigen::Vector2d> points;  ///< from the start to the contact
   struct Tick {
@@ -19,13 +19,13 @@ struct PanelPath {
   std::vector<Tick> ticks;
 };
 
-/// The way beside the border, `distance` outside the material. At a vertex it goes through the
+/// The path beside the border, `distance` outside the material. At a vertex it goes through the
 /// middle between the two edges' normals. Where notches are narrower than the distance it leaves
 /// out what would go backwards. Ticks are waypoints, as many as print keeps apart.
 [[nodiscard]] PanelPath PathBeside(std::span<const BorderPoint> path, const PanelView& view,
                                    double distance);
 
-/// Ticks are at least this far apart and from the ends of the way, points.
+/// Ticks are at least this far apart and from the ends of the path, points.
 inline constexpr double kPathTickGap = 6;
 
 }  // namespace regrasp::render

@@ -22,7 +22,7 @@ struct DiagramFinger {
   int finger = 0;
   FingerRole role = FingerRole::kHolding;
   BorderPoint contact;
-  /// The way of a moved finger, its start first and its contact last; empty for the others.
+  /// The path of a moved finger, its start first and its contact last; empty for the others.
   std::vector<BorderPoint> path;
 };
 

@@ -104,9 +104,9 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
     obstacles.push_back({camera.Project(glyph.contact),
                          camera.Project(glyph.contact - glyph.outward * kConeLength),
                          kConeStrip * kConeLength * pixels, kConeWeight});
-    for (std::size_t i = 1; i < glyph.way.size(); ++i) {
+    for (std::size_t i = 1; i < glyph.path.size(); ++i) {
       obstacles.push_back(
-          {camera.Project(glyph.way[i - 1]), camera.Project(glyph.way[i]), 0, kFingerWeight});
+          {camera.Project(glyph.path[i - 1]), camera.Project(glyph.path[i]), 0, kFingerWeight});
     }
   }
   return obstacles;

@@ -57,20 +57,20 @@ void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes&
            meshes, shapes);
 }
 
-/// Dashes along the way that a finger came, just off the surface, and a small ball at its start.
+/// Dashes along the path that a finger came, just off the surface, and a small ball at its start.
 void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes) {
   double length = 0;
-  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
-    length += (glyph.way[i] - glyph.way[i - 1]).norm();
+  for (std::size_t i = 1; i < glyph.path.size(); ++i) {
+    length += (glyph.path[i] - glyph.path[i - 1]).norm();
   }
   if (length < kTrackDash) return;
   const Vector3d lift = glyph.outward * kTrackRadius;
-  shapes.push_back({Ball{glyph.way.front() + lift, 2 * kTrackRadius}, color});
+  shapes.push_back({Ball{glyph.path.front() + lift, 2 * kTrackRadius}, color});
   // Gaps and dashes take turns; a dash that goes round a corner is drawn in two.
   double before = 0;
-  for (std::size_t i = 1; i < glyph.way.size(); ++i) {
-    const Vector3d from = glyph.way[i - 1] + lift;
-    const Vector3d leg = glyph.way[i] - glyph.way[i - 1];
+  for (std::size_t i = 1; i < glyph.path.size(); ++i) {
+    const Vector3d from = glyph.path[i - 1] + lift;
+    const Vector3d leg = glyph.path[i] - glyph.path[i - 1];
     const double after = before + leg.norm();
     for (int k = static_cast<int>(before / (2 * kTrackDash)); (2 * k + 1) * kTrackDash < after;
          ++k) {
@@ -113,7 +113,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const Pictur
     glyph.finger = state.finger;
     glyph.role = state.role;
     glyph.contact = frame.FromWorld(state.contact_W);
-    for (const Vector3d& p_W : state.path_W) glyph.way.push_back(frame.FromWorld(p_W));
+    for (const Vector3d& p_W : state.path_W) glyph.path.push_back(frame.FromWorld(p_W));
     glyph.outward = -state.normal_W.normalized();
     glyph.force = state.force_W;
     const double room =

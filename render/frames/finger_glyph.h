@@ -32,8 +32,8 @@ struct FingerGlyph {
   Eigen::Vector3d stem_end;
   Eigen::Vector3d
       end;  ///< of all that is drawn: the stem, or the arrow of a placed or released one
-  std::vector<Eigen::Vector3d> way;  ///< of an align, up to the contact; empty for others
-  Eigen::Vector3d force;             ///< newtons, on the object
+  std::vector<Eigen::Vector3d> path;  ///< of an align, up to the contact; empty for others
+  Eigen::Vector3d force;              ///< newtons, on the object
   double ball_radius = 0;
 };
 

@@ -39,7 +39,7 @@ struct FrameOptions {
 /// track. Planar objects are nearly opaque prisms, seen from above at a slight tilt, with contacts
 /// and flat friction cones on their top.
 ///
-/// One renderer serves a whole plan, with one camera, so that frames can be laid side by side. The
+/// One renderer draws a whole plan, with one camera, so that frames can be laid side by side. The
 /// camera is chosen once so that the contacts of all `snapshots` are seen as well as possible.
 /// Force arrows have one scale for all of them too. Deterministic: the same bytes every time.
 class FrameRenderer {

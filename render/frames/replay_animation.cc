@@ -32,9 +32,9 @@ double MotionBetween(const Snapshot& a, const Snapshot& b, double diameter_m,
   for (const FingerState& after : b.fingers) {
     const auto before = std::ranges::find(a.fingers, after.finger, &FingerState::finger);
     if (before == a.fingers.end()) continue;
-    const double way = (after.tip_W - before->tip_W).norm() / (kMotionUnit * diameter_m);
+    const double travel = (after.tip_W - before->tip_W).norm() / (kMotionUnit * diameter_m);
     const double force = 2 * (after.force_W - before->force_W).norm() / largest_force;
-    most = std::max({most, way, force});
+    most = std::max({most, travel, force});
   }
   return std::isfinite(most) ? std::min(most, kLargestMotion) : kLargestMotion;
 }

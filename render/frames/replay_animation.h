@@ -17,8 +17,8 @@ struct AnimationOptions {
 };
 
 /// How an animation is cut: pictures where something moves, whatever its time in the replay, and a
-/// rest at the end of every entry. A unit of motion is a fingertip's way of kMotionUnit diameters,
-/// or half of the largest contact force coming or going.
+/// rest at the end of every entry. A unit of motion is a fingertip's travel of kMotionUnit
+/// diameters, or half of the largest contact force coming or going.
 inline constexpr double kMotionUnit = 0.02;
 inline constexpr double kPicturesPerUnit = 4;  ///< a finger comes down in ten pictures
 inline constexpr int kFewestPictures = 8;      ///< of an entry

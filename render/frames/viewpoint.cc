@@ -41,10 +41,10 @@ double SegmentDistance(const Vector2d& a, const Vector2d& b, const Vector2d& c, 
     return u.x() * v.y() - u.y() * v.x();
   };
   const auto to_segment = [](const Vector2d& p, const Vector2d& from, const Vector2d& to) {
-    const Vector2d way = to - from;
-    const double square = way.squaredNorm();
-    const double t = square > 0 ? std::clamp((p - from).dot(way) / square, 0.0, 1.0) : 0;
-    return (p - from - t * way).norm();
+    const Vector2d segment = to - from;
+    const double square = segment.squaredNorm();
+    const double t = square > 0 ? std::clamp((p - from).dot(segment) / square, 0.0, 1.0) : 0;
+    return (p - from - t * segment).norm();
   };
   const bool apart_cd = cross(b - a, c - a) * cross(b - a, d - a) > 0;
   const bool apart_ab = cross(d - c, a - c) * cross(d - c, b - c) > 0;

@@ -24,7 +24,7 @@ void StrokeLine(cairo_t* cr, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
 inline constexpr double kArrowHead = 4.2;
 
 /// Strokes an open path with the current colour and ends it with an arrow head whose tip is the
-/// last point. A way shorter than the head gets a head that fits it.
+/// last point. A path shorter than the head gets a head that fits it.
 void StrokeArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double width);
 
 }  // namespace regrasp::render

@@ -25,10 +25,10 @@ constexpr double kLabelMargin = 1.1;
 constexpr int kRounds = 4;
 
 double DistanceToSegment(const Vector2d& p, const Obstacle& obstacle) {
-  const Vector2d way = obstacle.b - obstacle.a;
-  const double square = way.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - obstacle.a).dot(way) / square, 0.0, 1.0) : 0;
-  return (p - obstacle.a - t * way).norm();
+  const Vector2d segment = obstacle.b - obstacle.a;
+  const double square = segment.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - obstacle.a).dot(segment) / square, 0.0, 1.0) : 0;
+  return (p - obstacle.a - t * segment).norm();
 }
 
 double Cover(const Vector2d& centre, double radius, const Obstacle& obstacle) {

@@ -135,11 +135,11 @@ TEST(ContactSpaceMapTest, AWayBreaksWhereTheRingBeginsAgain) {
   const Polygon disc = MakeDisc(12);
   const Scene scene(disc, MakeDiscPlan(disc));
   const double perimeter = scene.graph.boundary().perimeter(0);
-  ASSERT_THAT(scene.map.ways, SizeIs(2));
+  ASSERT_THAT(scene.map.paths, SizeIs(2));
   // The contact on the lower edge, here the other one, is across.
-  EXPECT_NEAR(scene.map.ways[0].points.back().y(), perimeter, 1e-12);
-  EXPECT_NEAR(scene.map.ways[1].points.front().y(), 0, 1e-12);
-  EXPECT_NEAR(scene.map.ways[1].points.front().x(), perimeter / 2, 1e-12);
+  EXPECT_NEAR(scene.map.paths[0].points.back().y(), perimeter, 1e-12);
+  EXPECT_NEAR(scene.map.paths[1].points.front().y(), 0, 1e-12);
+  EXPECT_NEAR(scene.map.paths[1].points.front().x(), perimeter / 2, 1e-12);
 }
 
 TEST(ContactSpaceMapTest, AWayThatTurnsElsewhereIsOne) {
@@ -150,7 +150,7 @@ TEST(ContactSpaceMapTest, AWayThatTurnsElsewhereIsOne) {
   };
   plan.initial = at(2, 0.5);
   plan.steps = {Align{{at(2, 0.5), at(2, 1), at(3, 0), at(3, 0.5)}}};
-  EXPECT_THAT(Scene(disc, plan).map.ways, SizeIs(1));
+  EXPECT_THAT(Scene(disc, plan).map.paths, SizeIs(1));
 }
 
 TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {

@@ -39,8 +39,8 @@ TEST(ContactSpaceTrackTest, AWaypointHasTheAxesOfTheGraspBefore) {
   std::swap(waypoints[2][0], waypoints[2][1]);  // the order in a file means nothing
   const std::vector<TrackEntry> track = TrackPlan(plan);
   ASSERT_THAT(track, SizeIs(2));
-  ASSERT_THAT(track[1].way, SizeIs(4));
-  for (const AxisGrasp& grasp : track[1].way) {
+  ASSERT_THAT(track[1].path, SizeIs(4));
+  for (const AxisGrasp& grasp : track[1].path) {
     EXPECT_EQ(grasp[0].finger, track[0].grasp[0].finger);
     EXPECT_EQ(grasp[1].finger, track[0].grasp[1].finger);
   }

@@ -43,9 +43,9 @@ UnfoldedSet Unfold(SetGeometry& geometry, int set, int upright) {
 
 bool IsOn(const Vector2d& p, const std::vector<Segment>& segments) {
   return std::ranges::any_of(segments, [&](const Segment& segment) {
-    const Vector2d way = segment[1] - segment[0];
-    const double t = std::clamp((p - segment[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (p - segment[0] - t * way).norm() < kAside / 100;
+    const Vector2d side = segment[1] - segment[0];
+    const double t = std::clamp((p - segment[0]).dot(side) / side.squaredNorm(), 0.0, 1.0);
+    return (p - segment[0] - t * side).norm() < kAside / 100;
   });
 }
 
@@ -111,10 +111,10 @@ TEST(ContactSpaceUnfoldingTest, BorderHasTheSetOnOneSideOnly) {
     for (int set = 0; set < graph.vertex_count(); ++set) {
       const UnfoldedSet unfolded = Unfold(geometry, set, 1);
       for (const Segment& segment : unfolded.border) {
-        const Vector2d way = segment[1] - segment[0];
-        if (way.norm() < 100 * kAside) continue;
-        const Vector2d across = kAside * Vector2d(way.y(), -way.x()).normalized();
-        const Vector2d p = segment[0] + 0.37 * way;
+        const Vector2d side = segment[1] - segment[0];
+        if (side.norm() < 100 * kAside) continue;
+        const Vector2d across = kAside * Vector2d(side.y(), -side.x()).normalized();
+        const Vector2d p = segment[0] + 0.37 * side;
         EXPECT_EQ(CountContaining(unfolded.pieces, p + across) +
                       CountContaining(unfolded.pieces, p - across),
                   1)
@@ -176,10 +176,10 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
   const UnfoldedSet unfolded = Unfold(round_geometry, 0, 1);
   EXPECT_THAT(unfolded.cuts, Not(IsEmpty()));
   for (const Segment& cut : unfolded.cuts) {
-    const Vector2d way = cut[1] - cut[0];
-    if (way.norm() < 100 * kAside) continue;
-    const Vector2d across = kAside * Vector2d(way.y(), -way.x()).normalized();
-    const Vector2d p = cut[0] + 0.37 * way;
+    const Vector2d side = cut[1] - cut[0];
+    if (side.norm() < 100 * kAside) continue;
+    const Vector2d across = kAside * Vector2d(side.y(), -side.x()).normalized();
+    const Vector2d p = cut[0] + 0.37 * side;
     EXPECT_EQ(
         CountContaining(unfolded.pieces, p + across) + CountContaining(unfolded.pieces, p - across),
         1);

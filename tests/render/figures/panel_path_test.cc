@@ -24,15 +24,15 @@ TEST(PanelPathTest, GoesAroundAVertexThroughTheMiddleOfItsNormals) {
   const std::vector<BorderPoint> path = {
       {{0, 20}, {0, 1}}, {{20, 20}, {0, 1}}, {{20, 20}, {1, 0}}, {{20, 0}, {1, 0}}};
   const PanelView view = UnitView();
-  const PanelPath way = PathBeside(path, view, kDistance);
-  ASSERT_THAT(way.points, SizeIs(3));
+  const PanelPath beside = PathBeside(path, view, kDistance);
+  ASSERT_THAT(beside.points, SizeIs(3));
   const Vector2d corner = view.ToPanel({20 + kDistance * half, 20 + kDistance * half});
-  EXPECT_LT((way.points[1] - corner).norm(), 1e-12);
-  ASSERT_THAT(way.ticks, SizeIs(1));
-  EXPECT_LT((way.ticks[0].across - Vector2d(half, -half)).norm(), 1e-12);
+  EXPECT_LT((beside.points[1] - corner).norm(), 1e-12);
+  ASSERT_THAT(beside.ticks, SizeIs(1));
+  EXPECT_LT((beside.ticks[0].across - Vector2d(half, -half)).norm(), 1e-12);
 }
 
-/// A way across a notch with upright sides, this wide and 20 deep.
+/// A path across a notch with upright sides, this wide and 20 deep.
 std::vector<BorderPoint> AcrossNotch(double width) {
   return {{{-30, 0}, {0, 1}},       {{0, 0}, {0, 1}},      {{0, 0}, {1, 0}},
           {{0, -20}, {1, 0}},       {{0, -20}, {0, 1}},    {{width, -20}, {0, 1}},
@@ -55,13 +55,13 @@ TEST(PanelPathTest, LeavesOutWhatWouldGoBackwardsInANarrowNotch) {
 TEST(PanelPathTest, TicksKeepApartHoweverManyWaypointsThereAre) {
   std::vector<BorderPoint> path;
   for (int k = 0; k <= 50; ++k) path.push_back({{2.0 * k, 0}, {0, 1}});
-  const PanelPath way = PathBeside(path, UnitView(), kDistance);
-  EXPECT_THAT(way.points, SizeIs(51));
-  ASSERT_THAT(way.ticks, SizeIs(15));
-  for (std::size_t i = 1; i < way.ticks.size(); ++i) {
-    EXPECT_GE((way.ticks[i].at - way.ticks[i - 1].at).norm(), kPathTickGap);
+  const PanelPath beside = PathBeside(path, UnitView(), kDistance);
+  EXPECT_THAT(beside.points, SizeIs(51));
+  ASSERT_THAT(beside.ticks, SizeIs(15));
+  for (std::size_t i = 1; i < beside.ticks.size(); ++i) {
+    EXPECT_GE((beside.ticks[i].at - beside.ticks[i - 1].at).norm(), kPathTickGap);
   }
-  EXPECT_GE((way.ticks.back().at - way.points.back()).norm(), kPathTickGap);
+  EXPECT_GE((beside.ticks.back().at - beside.points.back()).norm(), kPathTickGap);
   EXPECT_THAT(PathBeside(std::span(path).first(3), UnitView(), kDistance).ticks, IsEmpty());
 }
 

@@ -53,7 +53,7 @@ TEST(ReplayAnimationTest, PicturesAreSpreadOverWhatMoves) {
     const double force = samples[at].fingers[0].force_W.z();
     pressing += force > 0 && force < 1;
   }
-  // 2.5 units of way, 2 of force, and 2 of waiting.
+  // 2.5 units of travel, 2 of force, and 2 of waiting.
   EXPECT_EQ(shown.size(), 40u);
   EXPECT_GE(coming, 13);
   EXPECT_GE(pressing, 11);

@@ -65,8 +65,8 @@ TEST(AlignSlide, MovesAFingerThatTheOthersDoNotNeed) {
 
 TEST(AlignSlide, LeavesTheOthersToTheSpareFingerAndSaysHowMuchOfTheWay) {
   const SquareCase square;
-  // A third of the way is that of finger 2, the rest that of finger 0, without which two fingers at
-  // a right angle remain.
+  // A third of the travel is that of finger 2, the rest that of finger 0, without which two fingers
+  // at a right angle remain.
   FingerGrasp end = square.Moved(2, 0.5);
   end[0].contact = OnEdge(square.square, 1, 0.7);
   const StepReplay step =
@@ -89,7 +89,7 @@ TEST(AlignSlide, IsImitationWhereEveryFingerIsNeeded) {
   EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
   EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
   ExpectShares(result.steps[1].align_shares, 1, 0);
-  // Without the spare finger all roll together: nothing else serves.
+  // Without the spare finger all roll together: nothing else is valid.
   plan.fingers = 3;
   const ReplayResult alone = ReplayPlan(triangle, plan, Sliding());
   ASSERT_EQ(alone.steps.size(), 2u);

@@ -124,7 +124,7 @@ int CountMoves(const CubeCase& cube, const FingerGrasp& from, const FingerGrasp&
 TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNoneIs) {
   const CubeCase cube;
   // Two opposite pairs slide from one end of their faces to the other: a pair that has half gone
-  // over is far from opposite, so at little friction the way must be cut.
+  // over is far from opposite, so at little friction the path must be cut.
   const FingerGrasp from = {cube.At(0, 0.03, -0.02, -0.02), cube.At(1, -0.03, -0.02, -0.02),
                             cube.At(2, -0.02, 0.03, -0.018), cube.At(3, -0.02, -0.03, -0.018)};
   FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
@@ -135,7 +135,7 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {4}), 0);
   EXPECT_EQ(CountMoves<FingerHandover>(cube, from, to, 5, {}), 0);
   EXPECT_EQ(CountMoves<FingersRoll>(cube, from, to, 5, {}), 1);
-  // Both pairs end askew: from somewhere on the way on nothing holds.
+  // Both pairs end askew: from somewhere on the path on nothing holds.
   to = {cube.At(0, 0.03, 0.029, 0.029), cube.At(1, -0.03, -0.029, -0.029),
         cube.At(2, 0.029, 0.03, -0.029), cube.At(3, -0.029, -0.03, 0.029)};
   EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {4}), 1);

@@ -7,7 +7,7 @@ namespace regrasp::sim {
 
 namespace {
 
-/// A finger's place on the way.
+/// A finger's place on the path.
 struct Walker {
   const Polygon& polygon;
   int finger, edge;
@@ -28,7 +28,7 @@ struct Walker {
     }
   }
 
-  /// The share of the way after which it gets to a vertex.
+  /// The share of the path after which it gets to a vertex.
   [[nodiscard]] double Rest() const {
     if (rate == 0) return std::numeric_limits<double>::infinity();
     return (rate > 0 ? polygon.face_measure(edge) - at : at) / std::abs(rate);
@@ -46,7 +46,7 @@ struct Walker {
   }
 };
 
-/// Fingers that get to a vertex within this share of the way do so at once.
+/// Fingers that get to a vertex within this share of the path do so at once.
 constexpr double kAtOnce = 1e-9;
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(PlanarAlign, IsSlidWhereNoFingerIsSpare) {
   ExpectAligned(square, plan, AlignMode::kSlid);
 }
 
-TEST(PlanarAlign, TwoFingersGoOverTogetherAtLittleFriction) {
+TEST(PlanarAlign, TwoFingersAreHandedOverTogetherAtLittleFriction) {
   // At 1 degree a finger can be 1 mm off the other's normal, and they move 48 mm.
   const Polygon square = MakeSquare(0.03);
   const FingerGrasp from = {OnEdge(square, 0, 1, 0.1), OnEdge(square, 1, 3, 0.9)};

@@ -42,7 +42,7 @@ class Dice {
            QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
   }
 
-  /// A walk of both fingers, halved until it is force closure all the way and ends in a good grasp.
+  /// A walk of both fingers, halved until it is force closure all along and ends in a good grasp.
   [[nodiscard]] std::optional<Plan> DrawWalk() {
     const std::optional<Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;

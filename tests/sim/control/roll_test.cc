@@ -45,7 +45,7 @@ TEST(RollFingers, CarriesOutAnAlignOfAHandThatNeedsAllFingers) {
   ExpectRolled(triangle, step, align);
 }
 
-/// Four fingers around a square, one of which goes round a corner at a share of the way.
+/// Four fingers around a square, one of which goes round a corner at a share of the path.
 Align AroundTheCorner(const Polygon& square) {
   const auto grasp = [&](double right, double above, double left, const Contact& moving) {
     return FingerGrasp{OnEdge(square, 0, 1, right),

@@ -70,7 +70,7 @@ class Dice {
   std::mt19937& random_;
 };
 
-/// A random align inside the edges of a grasp, or over a corner, that is force closure all the way.
+/// A random align inside the edges of a grasp, or over a corner, that is force closure all along.
 std::optional<Plan> DrawAlign(const Polygon& polygon, int fingers, bool corner, Dice& dice) {
   for (int i = 0; i < kMostAligns; ++i) {
     const FingerGrasp from = dice.DrawGrasp(fingers);

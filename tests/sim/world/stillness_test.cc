@@ -150,15 +150,15 @@ TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
   for (const char* name : {"l_block.obj", "stone.obj", "body36.obj"}) {
     const ObjectFile file = ReadModel(name);
     const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
-    for (int judged = 0; judged < 8;) {
+    for (int examined = 0; examined < 8;) {
       FingerGrasp grasp;
       for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
       const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
       if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
-      SCOPED_TRACE(std::string(name) + " " + std::to_string(judged));
-      const double share = judged % 2 == 0 ? 0.95 : 0.997;
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(examined));
+      const double share = examined % 2 == 0 ? 0.95 : 0.997;
       ExpectFailsAtEveryTimeStep(body, grasp, share * std::tan(required->lower));
-      ++judged;
+      ++examined;
     }
   }
 }
