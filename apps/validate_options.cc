@@ -120,7 +120,7 @@ void AddPhysics(CLI::App& app, ValidateOptions& options) {
   };
   app.add_option_function<std::string>(
          "--protocol", set_protocol,
-         "How the fingers answer the shake: adapted with forces planned for each "
+         "How the fingers respond to the shake: adapted with forces planned for each "
          "direction, fixed with the forces of the rest and the stiffness of their servos "
          "alone; both runs both, the adapted one decides (default adapted)")
       ->check(CLI::IsMember({"adapted", "fixed", "both"}))

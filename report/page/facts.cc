@@ -34,7 +34,7 @@ class FactList {
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
   const std::optional<RequiredHalfAngle>& required = report.steps.front().check.required;
-  facts.Add("Needs", required ? DegreesText(Degrees(required->upper)) : "none serves");
+  facts.Add("Needs", required ? DegreesText(Degrees(required->upper)) : "none is enough");
   if (grasp.fingers.empty()) return;
   facts.Add("Quality ε", QualityText(grasp.quality, kQualityDigits));
   facts.Add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));

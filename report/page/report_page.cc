@@ -195,7 +195,7 @@ class Page {
             Note("Each picture shows the state after its step. A finger keeps its number and "
                  "colour; a cone is what friction allows, an arrow the force. A ring marks a "
                  "finger just placed, a pale finger with an arrow one that leaves, a dashed line "
-                 "the way of one that moved."),
+                 "the path of one that moved."),
             Element("div", {{"class", "frames"}}, frames)};
   }
 
