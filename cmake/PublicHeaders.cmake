@@ -35,13 +35,9 @@ set(regrasp_public_headers
   planner/plan/snapshot.h
   planner/plan/switch_region.h
   # Replay and report.
-  sim/scene/align_script.h
+  sim/scene/measured.h
   sim/scene/settings.h
-  sim/world/cone_margin.h
   sim/world/replay_observer.h
-  sim/measure/push.h
-  sim/measure/stress.h
-  sim/measure/weakest_finger.h
   sim/replay/disagreement.h
   sim/replay/replay.h
   sim/replay/trials.h

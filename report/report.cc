@@ -9,6 +9,7 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
 #include "planner/object/polygon.h"
+#include "sim/measure/weakest_finger.h"
 
 namespace regrasp::report {
 

@@ -12,10 +12,10 @@
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/switch_region.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/replay/disagreement.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
+#include "sim/scene/measured.h"
 
 namespace regrasp::report {
 

@@ -9,6 +9,7 @@
 #include "report/report.h"
 #include "report/stress_table.h"
 #include "report/trials_report.h"
+#include "sim/measure/weakest_finger.h"
 
 namespace regrasp::report {
 

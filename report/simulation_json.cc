@@ -3,6 +3,8 @@
 #include <set>
 
 #include "planner/base/angle.h"
+#include "sim/measure/push.h"
+#include "sim/world/cone_margin.h"
 
 namespace regrasp::report {
 namespace {

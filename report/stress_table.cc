@@ -2,6 +2,7 @@
 
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
+#include "sim/measure/push.h"
 
 namespace regrasp::report {
 namespace {

@@ -10,6 +10,9 @@
 #include "report/page/step_plot.h"
 #include "report/page/table.h"
 #include "report/stress_table.h"
+#include "sim/measure/push.h"
+#include "sim/measure/weakest_finger.h"
+#include "sim/world/cone_margin.h"
 
 namespace regrasp::report {
 namespace {

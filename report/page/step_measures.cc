@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "sim/world/cone_margin.h"
 
 namespace regrasp::report {
 

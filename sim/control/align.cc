@@ -6,6 +6,7 @@
 #include "sim/control/motions.h"
 #include "sim/control/roll.h"
 #include "sim/control/slide.h"
+#include "sim/scene/align_script.h"
 
 namespace regrasp::sim {
 

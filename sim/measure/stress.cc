@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/grasp/largest_load.h"
+#include "sim/measure/push.h"
 #include "sim/measure/shake.h"
 #include "sim/world/replay_world.h"
 

@@ -2,17 +2,11 @@
 
 #include <vector>
 
-#include "planner/grasp/finger_friction.h"
 #include "planner/object/wrench_frame.h"
 #include "planner/plan/plan.h"
+#include "sim/scene/measured.h"
 
 namespace regrasp::sim {
-
-/// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
-struct NeedOfFinger {
-  int finger = 0;
-  FingerFriction friction;
-};
 
 /// What every finger of the grasps of an entry needs, at rest: of the hold the initial grasp, of a
 /// switch the grasps before and after it, of an align the grasps at its waypoints. A finger that

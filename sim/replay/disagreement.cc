@@ -12,6 +12,7 @@
 #include "sim/measure/push.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
+#include "sim/world/cone_margin.h"
 
 namespace regrasp::sim {
 namespace {

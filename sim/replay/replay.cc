@@ -9,7 +9,10 @@
 #include "sim/control/align.h"
 #include "sim/control/motions.h"
 #include "sim/measure/shake.h"
+#include "sim/measure/stress.h"
+#include "sim/scene/align_script.h"
 #include "sim/scene/scene.h"
+#include "sim/world/cone_margin.h"
 #include "sim/world/replay_world.h"
 #include "sim/world/stillness.h"
 

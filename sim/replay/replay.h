@@ -8,10 +8,8 @@
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 #include "planner/plan/snapshot.h"
-#include "sim/measure/stress.h"
-#include "sim/scene/align_script.h"
+#include "sim/scene/measured.h"
 #include "sim/scene/settings.h"
-#include "sim/world/cone_margin.h"
 #include "sim/world/replay_observer.h"
 
 namespace regrasp::sim {

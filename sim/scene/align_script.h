@@ -6,6 +6,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "sim/scene/measured.h"
 
 namespace regrasp::sim {
 
@@ -31,17 +32,6 @@ struct FingersRoll {
 };
 
 using AlignMove = std::variant<FingerHandover, FingersSlide, FingersRoll>;
-
-/// Shares of the travel of an align, summed over its contacts, by how it is carried out. They sum
-/// to 1; for an align that only turns normals they are shares of the subpaths between waypoints.
-struct AlignShares {
-  double imitated = 0;
-  double slid = 0;         ///< while the other fingers alone hold the object
-  double best_effort = 0;  ///< slid although they do not, or rolled: nothing else is valid
-};
-
-/// How an align was carried out; kNone for other steps.
-enum class AlignMode { kNone, kImitated, kSlid, kMixed };
 
 /// How the replay carries out an align.
 struct AlignScript {

@@ -9,6 +9,7 @@
 #include "planner/criteria/clearance.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "sim/scene/align_script.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {

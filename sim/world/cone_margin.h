@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "sim/scene/measured.h"
+
 namespace regrasp::sim {
 
 /// What is left of the friction of a contact: the friction half-angle minus the angle between the
@@ -13,10 +15,6 @@ namespace regrasp::sim {
 /// @pre the force is not zero.
 [[nodiscard]] double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
                                 double half_angle);
-
-/// The smallest margin that each finger came to, radians, by the finger's number. A finger that
-/// never pressed has none.
-using FingerMargins = std::map<int, double>;
 
 /// Of several margins of a finger the smallest stays.
 void AddMargin(int finger, double margin, FingerMargins& margins);

@@ -5,6 +5,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "sim/world/cone_margin.h"
 
 namespace regrasp::sim {
 namespace {

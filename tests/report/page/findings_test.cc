@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/angle.h"
+#include "sim/measure/push.h"
 
 namespace regrasp::report {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/scene/align_path.h"
+#include "sim/scene/align_script.h"
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {

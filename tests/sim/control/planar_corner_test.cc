@@ -4,6 +4,7 @@
 
 #include "planner/plan/check.h"
 #include "sim/control/align.h"
+#include "sim/scene/align_script.h"
 #include "tests/sim/control/boundary_walk.h"
 
 namespace regrasp::sim {

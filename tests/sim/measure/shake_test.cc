@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sim/measure/push.h"
+#include "sim/world/cone_margin.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "planner/grasp/quality.h"
+#include "sim/measure/push.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay_cases.h"
 
