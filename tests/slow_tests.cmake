@@ -58,7 +58,6 @@ set(regrasp_slow_tests
   PlanOnPolygon.LeadsBetween*
   */PlanOnPolygonAt.*
   PlanOnRoadmap.FindsTheBest*
-  PlanPlanar.*
   PlanarAlign.TwoFingers*
   PlanarCornerSweep.*
   PlanarDiscrimination.*
