@@ -5,12 +5,13 @@
 #include <span>
 
 #include "planner/grasp/unit_contacts.h"
+#include "planner/lp/simplex.h"
 
 namespace regrasp {
 
-/// The simplex method over the wrenches of friction cones, with the true circular cone as its
-/// pricing step: one linear program with infinitely many columns serves force closure, quality and
-/// grasp forces.
+/// The simplex method (lp::Simplex) over the wrenches of friction cones, with the true circular
+/// cone as its pricing step: one linear program with infinitely many columns serves force closure,
+/// quality and grasp forces.
 ///
 /// The columns are the wrenches w(g) = (g, q × g) of the rim forces g = axial n + tangential t of
 /// every contact, t ⟂ n any unit vector (the two cone edges in the plane). With weights λ ≥ 0,
@@ -22,7 +23,7 @@ namespace regrasp {
 ///
 /// Column generation: Dantzig and Wolfe 1960; that extreme wrenches are all a method needs: Zheng
 /// and Chew 2009. The program starts from a point inside the hull with uneven weights, so that
-/// symmetric grasps cause no degenerate pivots; an iteration limit ends what would still stall.
+/// symmetric grasps cause no degenerate pivots; a limit on pivots ends what would still stall.
 ///
 /// @tparam kDim  6 in space, 3 in the plane (force x, y and torque z).
 template <int kDim>
@@ -85,27 +86,27 @@ class WrenchSimplex {
   [[nodiscard]] static double Support(std::span<const UnitContact> contacts, const Vector& twist);
 
  private:
-  static constexpr int kRows = kDim + 1;      // balance, and Σ λ = 1
-  static constexpr int kTableau = kRows + 1;  // and the objective
-  static constexpr int kSolution = kRows;     // the tableau's last column: the basic weights
-
-  static constexpr int kArtificial = -1;
-  static constexpr int kStart = -2;
-  static constexpr int kExtra = -3;
+  static constexpr int kRows = kDim + 1;  // balance, and Σ λ = 1
 
   struct Column {
-    int contact;
+    int contact;  ///< or what else it is, negative
     std::array<double, kRows> entries;
-  };
 
-  [[nodiscard]] Column BestColumn() const;
-  [[nodiscard]] double ReducedCost(const Column& column) const;
-  bool Enter(const Column& column);
-  int ChooseLeaving(const std::array<double, kTableau>& alpha) const;
-  void Pivot(int leaving, const std::array<double, kTableau>& alpha);
-  void Refactor();
-  [[nodiscard]] bool Separates(double reduced_cost) const;
-  [[nodiscard]] double TwistSize() const;
+    template <class Visit>
+    void ForEachEntry(const Visit& visit) const {
+      for (int r = 0; r < kRows; ++r) visit(r, entries[r]);
+    }
+    [[nodiscard]] double cost() const { return contact == kMaximised ? -1 : 0; }
+  };
+  static constexpr int kStart = -1;
+  static constexpr int kMaximised = -2;
+
+  using Program = lp::Simplex<kRows, Column>;
+  using Dual = typename Program::Vector;
+
+  /// @returns its reduced cost.
+  double FindBest(const Dual& dual, Column& column) const;
+  [[nodiscard]] bool Separates(const Dual& dual, double reduced_cost) const;
 
   std::span<const UnitContact> contacts_;
   Vector target_;
@@ -113,13 +114,7 @@ class WrenchSimplex {
   double start_weight_sum_ = 0;
   double target_size_;
   double column_size_;
-  int artificial_count_ = kDim;
-  int pivots_since_refactor_ = 0;
-  bool maximising_ = false;
-  std::array<Column, kRows> basis_;
-  // Row r: the inverse basis's row and the weight of basis_[r]; the last row: the dual (y, y_last)
-  // and the objective's value.
-  alignas(16) std::array<std::array<double, kTableau>, kTableau> tableau_;
+  Program program_;
 };
 
 extern template class WrenchSimplex<3>;

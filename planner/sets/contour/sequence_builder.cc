@@ -20,8 +20,9 @@ constexpr double kBoundaryRounding = 1e-11;
 
 }  // namespace
 
-ContourSequenceBuilder::ContourSequenceBuilder(SetGeometry& geometry, const GraspEvaluator& evaluator, SwitchObjective aim,
-                                     const End& start, const End& goal)
+ContourSequenceBuilder::ContourSequenceBuilder(SetGeometry& geometry,
+                                               const GraspEvaluator& evaluator, SwitchObjective aim,
+                                               const End& start, const End& goal)
     : geometry_(geometry), evaluator_(evaluator), aim_(aim), start_(start), goal_(goal) {}
 
 CandidateSequence ContourSequenceBuilder::MakeEmpty() const {
@@ -34,7 +35,7 @@ CandidateSequence ContourSequenceBuilder::MakeEmpty() const {
 }
 
 std::optional<CandidateSequence> ContourSequenceBuilder::Make(const std::vector<int>& path,
-                                             std::set<VertexPair>& banned) {
+                                                              std::set<VertexPair>& banned) {
   CandidateSequence draft = MakeEmpty();
   at_ = start_.at;
   for (const FingerContact& held : draft.initial) {
@@ -77,8 +78,8 @@ void ContourSequenceBuilder::Enlarge(int from, int to, ContourSwitch& found) {
 }
 
 /// Well inside both sets; where that is not good, the best by its score.
-const std::optional<ContourSwitch>& ContourSequenceBuilder::BestMaxMarginSwitch(int from, int to,
-                                                                       const PlacedScore& margin) {
+const std::optional<ContourSwitch>& ContourSequenceBuilder::BestMaxMarginSwitch(
+    int from, int to, const PlacedScore& margin) {
   const auto [known, is_new] = max_margin_.try_emplace({from, to});
   if (!is_new) return known->second;
   known->second = FindMaxMarginSwitch(geometry_, from, to, margin);
@@ -89,7 +90,8 @@ const std::optional<ContourSwitch>& ContourSequenceBuilder::BestMaxMarginSwitch(
   return known->second;
 }
 
-std::optional<ContourSwitch> ContourSequenceBuilder::ChooseMaxMarginSwitch(int from, int to, bool last) {
+std::optional<ContourSwitch> ContourSequenceBuilder::ChooseMaxMarginSwitch(int from, int to,
+                                                                           bool last) {
   const PlacedScore margin = [this](const PlacedGrasp& grasp) {
     return geometry_.AngleMarginOf(grasp);
   };
@@ -152,7 +154,7 @@ FingerGrasp ContourSequenceBuilder::Held(const PlacedGrasp& grasp) const {
 }
 
 void ContourSequenceBuilder::AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for,
-                                CandidateSequence& draft) {
+                                     CandidateSequence& draft) {
   if (at_ == to) return;
   const ContourGraph& graph = geometry_.graph();
   Align align;
@@ -170,7 +172,8 @@ void ContourSequenceBuilder::AlignTo(const PlacedGrasp& to, std::optional<Vertex
   draft.rests.push_back({GraspOf(at_), chosen_for});
 }
 
-void ContourSequenceBuilder::SwitchTo(const ContourSwitch& found, VertexPair chosen_for, CandidateSequence& draft) {
+void ContourSequenceBuilder::SwitchTo(const ContourSwitch& found, VertexPair chosen_for,
+                                      CandidateSequence& draft) {
   const ContourGraph& graph = geometry_.graph();
   const int stays_before = graph.pieces()[found.before.piece].edges[0] == found.edge ? 0 : 1;
   const int stays_after = graph.pieces()[found.after.piece].edges[0] == found.edge ? 0 : 1;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "planner/sets/contour/contour_switch.h"
-#include "planner/planning/candidate_sequence.h"
 #include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/candidate_sequence.h"
+#include "planner/sets/contour/contour_switch.h"
 
 namespace regrasp {
 
@@ -31,8 +31,8 @@ class ContourSequenceBuilder {
   };
 
   /// All arguments must outlive this object.
-  ContourSequenceBuilder(SetGeometry& geometry, const GraspEvaluator& evaluator, SwitchObjective aim, const End& start,
-                    const End& goal);
+  ContourSequenceBuilder(SetGeometry& geometry, const GraspEvaluator& evaluator,
+                         SwitchObjective aim, const End& start, const End& goal);
   ContourSequenceBuilder(const ContourSequenceBuilder&) = delete;
   ContourSequenceBuilder& operator=(const ContourSequenceBuilder&) = delete;
 
@@ -43,18 +43,19 @@ class ContourSequenceBuilder {
   /// @param banned  gets a switch of the path where doubles find no common place.
   /// @returns nullopt then.
   [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path,
-                                          std::set<VertexPair>& banned);
+                                                      std::set<VertexPair>& banned);
 
  private:
   [[nodiscard]] std::optional<ContourSwitch> ChooseMaxMarginSwitch(int from, int to, bool last);
   [[nodiscard]] const std::optional<ContourSwitch>& BestMaxMarginSwitch(int from, int to,
-                                                                    const PlacedScore& margin);
+                                                                        const PlacedScore& margin);
   void Enlarge(int from, int to, ContourSwitch& found);
   [[nodiscard]] double RegionOf(const ContourSwitch& found) const;
   [[nodiscard]] bool IsGood(const ContourSwitch& found) const;
   [[nodiscard]] Grasp GraspOf(const PlacedGrasp& grasp) const;
   [[nodiscard]] FingerGrasp Held(const PlacedGrasp& grasp) const;
-  void AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for, CandidateSequence& draft);
+  void AlignTo(const PlacedGrasp& to, std::optional<VertexPair> chosen_for,
+               CandidateSequence& draft);
   void SwitchTo(const ContourSwitch& found, VertexPair chosen_for, CandidateSequence& draft);
 
   SetGeometry& geometry_;

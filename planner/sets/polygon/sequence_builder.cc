@@ -44,8 +44,9 @@ std::size_t FingersDuring(const FingerGrasp& before, const Grasp& after) {
 
 }  // namespace
 
-PolygonSequenceBuilder::PolygonSequenceBuilder(const Polygon& polygon, const PolygonGraph& graph, GraphCells& cells,
-                       const GraspEvaluator& evaluator, const Grasp& start, const Grasp& goal)
+PolygonSequenceBuilder::PolygonSequenceBuilder(const Polygon& polygon, const PolygonGraph& graph,
+                                               GraphCells& cells, const GraspEvaluator& evaluator,
+                                               const Grasp& start, const Grasp& goal)
     : polygon_(polygon),
       graph_(graph),
       cells_(cells),
@@ -65,8 +66,10 @@ CandidateSequence PolygonSequenceBuilder::MakeEmpty() const {
   return draft;
 }
 
-std::optional<CandidateSequence> PolygonSequenceBuilder::Make(const std::vector<int>& path, const Attachment& from,
-                                      const Attachment& to, std::set<VertexPair>& banned) {
+std::optional<CandidateSequence> PolygonSequenceBuilder::Make(const std::vector<int>& path,
+                                                              const Attachment& from,
+                                                              const Attachment& to,
+                                                              std::set<VertexPair>& banned) {
   CandidateSequence draft = MakeEmpty();
   holding_ = held_before_ = draft.initial;
   SwitchTo(GraspAt(graph_.sets()[from.vertex], from.parameters), std::nullopt, draft);
@@ -92,8 +95,9 @@ std::optional<CandidateSequence> PolygonSequenceBuilder::Make(const std::vector<
 
 /// The switch between two sets: from the grasp at hand and to the goal's where that costs little,
 /// otherwise the best there is.
-std::optional<SwitchPoint> PolygonSequenceBuilder::ChooseSwitch(int from, int to, const VectorXd& at,
-                                                    const Attachment* goal) {
+std::optional<SwitchPoint> PolygonSequenceBuilder::ChooseSwitch(int from, int to,
+                                                                const VectorXd& at,
+                                                                const Attachment* goal) {
   SwitchSide a = {&graph_.sets()[from], &cells_.of(from), std::nullopt};
   SwitchSide b = {&graph_.sets()[to], &cells_.of(to), std::nullopt};
   auto [known, is_new] = best_switches_.try_emplace({from, to});
@@ -134,7 +138,8 @@ Grasp PolygonSequenceBuilder::GraspAt(const GraspSet& set, const VectorXd& param
 
 /// @returns false where no way is found inside the set.
 bool PolygonSequenceBuilder::AlignTo(int vertex, const VectorXd& from, const VectorXd& to,
-                         std::optional<VertexPair> chosen_for, CandidateSequence& draft) {
+                                     std::optional<VertexPair> chosen_for,
+                                     CandidateSequence& draft) {
   if (from == to) return true;
   const std::vector<VectorXd> path = FindAlignPath(cells_.of(vertex), from, to);
   if (path.empty()) return false;
@@ -155,7 +160,8 @@ bool PolygonSequenceBuilder::AlignTo(int vertex, const VectorXd& from, const Vec
 }
 
 /// No step where the contacts are those that hold already.
-void PolygonSequenceBuilder::SwitchTo(const Grasp& after, std::optional<VertexPair> chosen_for, CandidateSequence& draft) {
+void PolygonSequenceBuilder::SwitchTo(const Grasp& after, std::optional<VertexPair> chosen_for,
+                                      CandidateSequence& draft) {
   const auto is_empty = [](const Switch& s) { return s.place.empty() && s.release.empty(); };
   Switch step = MakeSwitch(holding_, after, kPolygonFingers);
   if (is_empty(step)) return;
@@ -172,7 +178,8 @@ void PolygonSequenceBuilder::SwitchTo(const Grasp& after, std::optional<VertexPa
   AddStep(std::move(step), chosen_for, draft);
 }
 
-void PolygonSequenceBuilder::AddStep(Step step, std::optional<VertexPair> chosen_for, CandidateSequence& draft) {
+void PolygonSequenceBuilder::AddStep(Step step, std::optional<VertexPair> chosen_for,
+                                     CandidateSequence& draft) {
   held_before_ = holding_;
   holding_ = GraspAfter(holding_, step);
   draft.rests.push_back({regrasp::ContactsOf(holding_), chosen_for});

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "planner/planning/candidate_sequence.h"
 #include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/sets/polygon/attached_graph.h"
 #include "planner/sets/polygon/switch_point.h"
 
@@ -23,7 +23,7 @@ class PolygonSequenceBuilder {
  public:
   /// All arguments must outlive this object.
   PolygonSequenceBuilder(const Polygon& polygon, const PolygonGraph& graph, GraphCells& cells,
-             const GraspEvaluator& evaluator, const Grasp& start, const Grasp& goal);
+                         const GraspEvaluator& evaluator, const Grasp& start, const Grasp& goal);
   PolygonSequenceBuilder(const PolygonSequenceBuilder&) = delete;
   PolygonSequenceBuilder& operator=(const PolygonSequenceBuilder&) = delete;
 
@@ -33,8 +33,9 @@ class PolygonSequenceBuilder {
   /// @param path  of sets, from one that `from` belongs to, to one that `to` belongs to.
   /// @param banned  gets a switch of the path where doubles find no way through it.
   /// @returns nullopt then.
-  [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path, const Attachment& from,
-                                          const Attachment& to, std::set<VertexPair>& banned);
+  [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path,
+                                                      const Attachment& from, const Attachment& to,
+                                                      std::set<VertexPair>& banned);
 
  private:
   [[nodiscard]] std::optional<SwitchPoint> ChooseSwitch(int from, int to, const Eigen::VectorXd& at,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "planner/lp/simplex.h"
 #include "planner/sets/polyhedron/union_volume.h"
 
 namespace regrasp {
@@ -22,14 +23,15 @@ struct MinMaxResult {
   double value = 0;  ///< max g_i(point)
 };
 
-/// Minimises the largest of some convex functions over space by cutting planes, as the simplex
-/// method sees them: the lower bound is the value t of a basis of four cuts whose gradients have
-/// the origin in their hull,
+/// Minimises the largest of some convex functions over space by cutting planes (Kelley 1960), as
+/// the simplex method sees them (lp::Simplex): the lower bound is the value t of a basis of four
+/// cuts whose gradients have the origin in their hull,
 ///
 ///     t = Σ λ_k offset_k  with  Σ λ_k gradient_k = 0, Σ λ_k = 1, λ ≥ 0,
 ///
-/// the point is where the four are equal, and the cut of the function that is largest there enters
-/// next (column generation, Dantzig and Wolfe 1960; cutting planes, Kelley 1960).
+/// the largest there is; the dual solution is the point where the four are equal, with −t, and the
+/// cut of the function that is largest there enters next: its reduced cost is how far it is above
+/// t.
 class MinMax {
  public:
   /// @param centre, reach  the minimum is looked for within `reach` of `centre`, and not farther;
@@ -58,24 +60,32 @@ class MinMax {
 
   /// To go on later from the basis at hand.
   using Basis = std::array<Cut, 4>;
-  [[nodiscard]] const Basis& basis() const { return cuts_; }
+  [[nodiscard]] Basis basis() const;
   void Resume(const Basis& basis);
 
  private:
   static constexpr int kRows = 4;
 
+  struct Column {
+    Cut cut;  ///< about the centre
+
+    template <class Visit>
+    void ForEachEntry(const Visit& visit) const {
+      for (int axis = 0; axis < 3; ++axis) visit(axis, cut.gradient[axis]);
+      visit(3, 1);
+    }
+    [[nodiscard]] double cost() const { return -cut.offset; }
+  };
+  using Program = lp::Simplex<kRows, Column>;
+
   template <class Oracle>
   [[nodiscard]] MinMaxResult SolveWith(const Oracle& largest_cut, Until until);
-  [[nodiscard]] Eigen::Vector4d Dual() const;
-  void Enter(const Cut& cut);
   [[nodiscard]] bool IsSeparated() const;
 
   Eigen::Vector3d centre_;
   double reach_;
   double rounding_;
-  Basis cuts_;  ///< about the centre
-  /// The inverse of the matrix whose columns are (gradient_k, 1); its last column is λ.
-  Eigen::Matrix4d inverse_;
+  Program program_;
 };
 
 }  // namespace regrasp

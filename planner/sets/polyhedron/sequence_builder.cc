@@ -18,8 +18,9 @@ const FocusGrasp* FindIn(const std::vector<FocusGrasp>& grasps, int cell) {
 
 }  // namespace
 
-PolyhedronSequenceBuilder::PolyhedronSequenceBuilder(FocusGeometry& geometry, const GraspEvaluator& evaluator,
-                                           const End& start, const End& goal)
+PolyhedronSequenceBuilder::PolyhedronSequenceBuilder(FocusGeometry& geometry,
+                                                     const GraspEvaluator& evaluator,
+                                                     const End& start, const End& goal)
     : geometry_(geometry), evaluator_(evaluator), start_(start), goal_(goal) {}
 
 CandidateSequence PolyhedronSequenceBuilder::MakeEmpty() const {
@@ -32,7 +33,7 @@ CandidateSequence PolyhedronSequenceBuilder::MakeEmpty() const {
 }
 
 std::optional<CandidateSequence> PolyhedronSequenceBuilder::Make(const std::vector<int>& path,
-                                                std::set<VertexPair>& banned) {
+                                                                 std::set<VertexPair>& banned) {
   CandidateSequence draft = MakeEmpty();
   at_ = *FindIn(start_.at, path.front());
   goal_at_ = FindIn(goal_.at, path.back());
@@ -93,7 +94,7 @@ FingerGrasp PolyhedronSequenceBuilder::Held(const FocusGrasp& grasp) const {
 
 /// @returns false where no way is found inside the cell.
 bool PolyhedronSequenceBuilder::AlignTo(const FocusGrasp& to, std::optional<VertexPair> chosen_for,
-                                   CandidateSequence& draft) {
+                                        CandidateSequence& draft) {
   if (at_.points == to.points) {
     at_ = to;
     return true;
@@ -108,7 +109,8 @@ bool PolyhedronSequenceBuilder::AlignTo(const FocusGrasp& to, std::optional<Vert
   return true;
 }
 
-void PolyhedronSequenceBuilder::SwitchTo(const FocusSwitch& found, VertexPair chosen_for, CandidateSequence& draft) {
+void PolyhedronSequenceBuilder::SwitchTo(const FocusSwitch& found, VertexPair chosen_for,
+                                         CandidateSequence& draft) {
   const std::array<int, 4>& before = geometry_.graph().cells()[found.before.cell].faces;
   const std::array<int, 4>& after = geometry_.graph().cells()[found.after.cell].faces;
   // The fingers' numbers sum to 10 with the one that is free.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/planning/candidate_sequence.h"
 #include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/candidate_sequence.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
 
 namespace regrasp {
@@ -25,8 +25,8 @@ class PolyhedronSequenceBuilder {
   };
 
   /// All arguments must outlive this object.
-  PolyhedronSequenceBuilder(FocusGeometry& geometry, const GraspEvaluator& evaluator, const End& start,
-                       const End& goal);
+  PolyhedronSequenceBuilder(FocusGeometry& geometry, const GraspEvaluator& evaluator,
+                            const End& start, const End& goal);
   PolyhedronSequenceBuilder(const PolyhedronSequenceBuilder&) = delete;
   PolyhedronSequenceBuilder& operator=(const PolyhedronSequenceBuilder&) = delete;
 
@@ -37,7 +37,7 @@ class PolyhedronSequenceBuilder {
   /// @param banned  gets a switch of the path where doubles find no way through it.
   /// @returns nullopt then.
   [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path,
-                                          std::set<VertexPair>& banned);
+                                                      std::set<VertexPair>& banned);
 
  private:
   [[nodiscard]] std::optional<FocusSwitch> ChooseSwitch(int from, int to, bool last);
