@@ -13,10 +13,11 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/roadmap/roadmap_memory.h"
+#include "planner/object/polygon.h"
+#include "planner/planning/planner.h"
+#include "planner/registry/registry.h"
+#include "planner/roadmap/build_roadmap.h"
 #include "planner/sets/contour/graph_memory.h"
-#include "planner/sets/polygon/graph_memory.h"
-#include "planner/sets/polyhedron/graph_memory.h"
 
 namespace {
 
@@ -39,7 +40,7 @@ struct GraphProgram {
   bool no_lazy = false;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app, {.in_plane = "polygon", .in_space = "roadmap"});
+    common.AddTo(app, "polygon in the plane, roadmap in space");
     app.add_option("--json", json,
                    "Also writes the counts as JSON; - is standard output, instead "
                    "of the table")
@@ -106,34 +107,26 @@ struct GraphProgram {
     if (queries > 0 && planar) {
       throw InputError("--queries: " + common.object + " is planar; only a roadmap answers them");
     }
-    const double half_angle = common.friction.required_half_angle();
-    if (common.planner == "polyhedron") {
-      const Polyhedron& solid = SolidOf(object, common);
-      common.CheckMemory(EstimatePolyhedronGraph(solid, half_angle, common.spanning_value()));
-      progress.Report("building the switching graph");
-      summary =
-          SummarizePolyhedron(solid, half_angle, common.spanning_value(), sampling, common.seed);
-    } else if (common.planner == "contour") {
-      const Polygon& polygon = PolygonOf(object, common);
-      common.CheckMemory(EstimateContourGraph(polygon, half_angle));
-      progress.Report("building the switching graph");
-      summary = SummarizeContour(polygon, half_angle);
-    } else if (common.planner == "polygon" || (common.planner == "auto" && planar)) {
-      const Polygon& polygon = PolygonOf(object, common);
-      common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, common.spanning_value()));
-      progress.Report("building the switching graph");
-      summary = SummarizePolygon(polygon, half_angle, common.spanning_value());
-    } else {
-      const Polyhedron& solid = SolidOf(object, common);
-      RoadmapOptions options = common.roadmap(solid);
-      options.progress = [&](std::string_view text) { progress.Report(text); };
-      options.last_resort = !no_lazy;
-      if (queries > 0 && options.clusters == 0) {
-        throw InputError("--queries: needs a roadmap of clusters (--clusters)");
-      }
-      common.CheckMemory(EstimateRoadmap(solid, options));
-      summary = SummarizeRoadmap(solid, options, queries);
+    PlanRequest request = common.RequestFor(*object.object);
+    request.progress = [&](std::string_view text) { progress.Report(text); };
+    request.last_resort = !no_lazy;
+    const std::string name =
+        common.planner != "auto" ? common.planner : (planar ? "polygon" : "roadmap");
+    const bool clusters = name == "roadmap" && !planar && SizeOf(request).clusters > 0;
+    if (queries > 0 && !clusters) {
+      throw InputError("--queries: needs a roadmap of clusters (--clusters)");
     }
+    const Planner& planner = *FindPlanner(name);
+    if (!planner.ScopeIn(object.object->dimension())) {
+      throw InputError(WhyNotServed(planner, request));
+    }
+    // A graph of contour alone takes less than planning on it.
+    const auto* polygon = dynamic_cast<const Polygon*>(object.object.get());
+    common.CheckMemory(name == "contour"
+                           ? EstimateContourGraph(*polygon, request.criteria.half_angle)
+                           : planner.EstimateMemory(request).value());
+    request.progress("building the switching graph");
+    summary = SummarizeGraph(name, request, {sampling, queries});
     progress.Clear();
     return summary;
   }

@@ -5,8 +5,13 @@
 #include <chrono>
 #include <limits>
 
-#include "planner/planning/grasp_choice.h"
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/object/polygon.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/roadmap_queries.h"
+#include "planner/sets/contour/contour_graph.h"
+#include "planner/sets/polygon/polygon_graph.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp {
@@ -27,13 +32,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-QuerySummary RunQueries(const Polyhedron& solid, const ClusteredRoadmap& roadmap, int count,
-                        const RoadmapOptions& options) {
-  options.progress(std::to_string(count) + " random queries");
+QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count, const PlanRequest& request) {
+  request.progress(std::to_string(count) + " random queries");
   QuerySummary summary;
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
-  for (const RandomQuery& query : RunRandomQueries(roadmap, kSamePoint * solid.diameter(), count,
-                                                   options.seed, options.last_resort)) {
+  for (const RandomQuery& query : RunRandomQueries(roadmap, kSamePoint * request.object->diameter(),
+                                                   count, request.seed, request.last_resort)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
     summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);
@@ -46,12 +50,12 @@ QuerySummary RunQueries(const Polyhedron& solid, const ClusteredRoadmap& roadmap
 }
 
 /// The part of a roadmap's summary that does not depend on its contact points' clusters.
-GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const RoadmapOptions& options,
+GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const PlanRequest& request,
                               Stopwatch& stopwatch) {
   GraphSummary summary;
   summary.planner = "roadmap";
   summary.vertex_seconds = stopwatch.Lap();
-  options.progress("joining " + std::to_string(roadmap.vertex_count()) + " grasps");
+  request.progress("joining " + std::to_string(roadmap.vertex_count()) + " grasps");
   const std::int64_t vertices = roadmap.vertex_count();
   summary.faces = std::ssize(roadmap.points());
   summary.vertices = vertices;
@@ -63,10 +67,9 @@ GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const RoadmapOptions& opti
   return summary;
 }
 
-}  // namespace
-
-GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spanning spanning) {
-  const PolygonGraph graph(polygon, half_angle, spanning);
+GraphSummary SummarizePolygon(const PlanRequest& request) {
+  const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
+  const PolygonGraph graph(polygon, request.criteria.half_angle, request.spanning);
   const auto name = [](GraspType type) {
     constexpr std::array kNames = {"concurrent", "two_finger", "parallel"};
     return std::string(kNames[static_cast<int>(type)]);
@@ -87,7 +90,8 @@ GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spannin
   add_edges(GraspType::kParallel, GraspType::kParallel);
   add_edges(GraspType::kTwoFinger, GraspType::kParallel);
   add_edges(GraspType::kTwoFinger, GraspType::kTwoFinger);
-  if (spanning == Spanning::kAdaptive) add_edges(GraspType::kConcurrent, GraspType::kParallel);
+  if (request.spanning == Spanning::kAdaptive)
+    add_edges(GraspType::kConcurrent, GraspType::kParallel);
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
   summary.vertex_seconds = graph.vertex_seconds();
@@ -95,8 +99,9 @@ GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle, Spannin
   return summary;
 }
 
-GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
-  const ContourGraph graph(polygon, half_angle);
+GraphSummary SummarizeContour(const PlanRequest& request) {
+  const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
+  const ContourGraph graph(polygon, request.criteria.half_angle);
   GraphSummary summary;
   summary.planner = "contour";
   summary.faces = polygon.face_count();
@@ -110,9 +115,10 @@ GraphSummary SummarizeContour(const Polygon& polygon, double half_angle) {
   return summary;
 }
 
-GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning,
-                                 int sampling, std::uint64_t seed) {
-  PolyhedronGraph graph(solid, half_angle, spanning);
+GraphSummary SummarizePolyhedron(const PlanRequest& request, int sampling) {
+  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+  const double half_angle = request.criteria.half_angle;
+  PolyhedronGraph graph(solid, half_angle, request.spanning);
   GraphSummary summary;
   summary.planner = "polyhedron";
   summary.faces = solid.face_count();
@@ -120,7 +126,7 @@ GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spa
     const auto region = FindSamplingRegion(solid, graph);
     Stopwatch stopwatch;
     const SampledGraph sampled =
-        SamplePolyhedron(solid, half_angle, spanning, region, sampling, seed);
+        SamplePolyhedron(solid, half_angle, request.spanning, region, sampling, request.seed);
     const auto found = std::ssize(sampled.quadruples);
     summary.vertex_seconds = stopwatch.Lap();
     summary.vertices = found;
@@ -141,17 +147,27 @@ GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle, Spa
   return summary;
 }
 
-GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options, int queries) {
+GraphSummary SummarizeRoadmap(const PlanRequest& request, int queries) {
   Stopwatch stopwatch;
-  if (options.clusters == 0) {
-    return SummarizeRoadmap(BuildRoadmap(solid, options), options, stopwatch);
+  if (SizeOf(request).clusters == 0) {
+    return SummarizeRoadmap(BuildRoadmap(request, SpreadContacts(request)), request, stopwatch);
   }
-  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(solid, options);
-  GraphSummary summary = SummarizeRoadmap(roadmap.roadmap, options, stopwatch);
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(request);
+  GraphSummary summary = SummarizeRoadmap(roadmap.roadmap, request, stopwatch);
   summary.faces = roadmap.clusters.clustered_count();
   summary.clusters = roadmap.clusters.cluster_count();
-  if (queries > 0) summary.queries = RunQueries(solid, roadmap, queries, options);
+  if (queries > 0) summary.queries = RunQueries(roadmap, queries, request);
   return summary;
+}
+
+}  // namespace
+
+GraphSummary SummarizeGraph(const std::string& planner, const PlanRequest& request,
+                            const GraphTasks& tasks) {
+  if (planner == "polygon") return SummarizePolygon(request);
+  if (planner == "contour") return SummarizeContour(request);
+  if (planner == "polyhedron") return SummarizePolyhedron(request, tasks.sampling);
+  return SummarizeRoadmap(request, tasks.queries);
 }
 
 }  // namespace regrasp

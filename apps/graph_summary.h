@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/roadmap/plan_roadmap.h"
-#include "planner/sets/contour/contour_graph.h"
-#include "planner/sets/polygon/polygon_graph.h"
+#include "planner/planning/plan_request.h"
 #include "planner/sets/polyhedron/sampled_graph.h"
 
 namespace regrasp {
@@ -47,15 +45,16 @@ struct GraphSummary {
   std::optional<QuerySummary> queries;
 };
 
-/// The switching graphs of the planners.
-[[nodiscard]] GraphSummary SummarizePolygon(const Polygon& polygon, double half_angle,
-                                            Spanning spanning);
-[[nodiscard]] GraphSummary SummarizeContour(const Polygon& polygon, double half_angle);
-/// @param sampling  random focus points in place of the direct computation; 0: none.
-[[nodiscard]] GraphSummary SummarizePolyhedron(const Polyhedron& solid, double half_angle,
-                                               Spanning spanning, int sampling, std::uint64_t seed);
-/// @param queries  random queries to answer, on a roadmap of clusters.
-[[nodiscard]] GraphSummary SummarizeRoadmap(const Polyhedron& solid, const RoadmapOptions& options,
-                                            int queries);
+/// What else is asked of a graph.
+struct GraphTasks {
+  int sampling =
+      0;            ///< polyhedron: random focus points in place of the direct computation; 0: none
+  int queries = 0;  ///< roadmap of clusters: random queries to answer
+};
+
+/// Builds the switching graph of a planner.
+/// @param planner  "polygon", "contour", "polyhedron" or "roadmap", which serves the object.
+[[nodiscard]] GraphSummary SummarizeGraph(const std::string& planner, const PlanRequest& request,
+                                          const GraphTasks& tasks);
 
 }  // namespace regrasp

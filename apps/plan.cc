@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <iostream>
-#include <limits>
+#include <map>
 #include <string>
 
 #include "apps/output_files.h"
@@ -17,13 +16,11 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
+#include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
-#include "planner/registry/plan_auto.h"
-#include "planner/registry/plan_spatial.h"
-#include "planner/roadmap/roadmap_memory.h"
-#include "planner/sets/contour/graph_memory.h"
-#include "planner/sets/polygon/graph_memory.h"
-#include "planner/sets/polyhedron/graph_memory.h"
+#include "planner/planning/solve.h"
+#include "planner/registry/choose_planner.h"
+#include "planner/tree/tree_planner.h"
 
 namespace {
 
@@ -34,36 +31,28 @@ constexpr char kProgram[] = "plan";
 /// A day's work.
 constexpr std::int64_t kMostEffort = 100'000'000'000;
 
-/// Of planners whose need was checked before.
-constexpr double kNoMemoryLimit = std::numeric_limits<double>::infinity();
-
 /// Instead of a grasp file.
 constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 bool IsRandom(const std::string& grasp) { return grasp == kRandom || grasp == kRandomAny; }
 
-using ProgressReport = std::function<void(std::string_view)>;
-
 struct PlanProgram {
   PlannerOptions common;
   std::string start;
   std::string goal;
   std::string output;
-  double min_quality = RoadmapOptions().min_quality;
+  double min_quality = GraspCriteria().min_quality;
   double finger_radius = 0;  ///< 0: points
   std::string optimize;
   bool no_lazy = false;
-  std::int64_t effort = GeneralPlanOptions::kDefaultEffort;
+  std::optional<std::int64_t> effort;
   std::optional<double> time_limit_s;
   const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   bool explain = false;
 
   void AddTo(CLI::App& app) {
-    common.AddTo(app, {.in_plane = "contour where start and goal are 2-finger grasps and it joins "
-                                   "them, polygon where that does, otherwise general",
-                       .in_space = "polyhedron where start and goal are in its graph and joined, "
-                                   "otherwise general; or roadmap where its options are given"});
+    common.AddTo(app, "general, unless an option asks for what only another has");
     const std::string kinds =
         ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
         "or random-any (evenly over the surface)";
@@ -104,7 +93,7 @@ struct PlanProgram {
     app.add_option("--effort", effort,
                    "The planner general: force-closure tests, some microseconds each, after which "
                    "it gives up (default " +
-                       std::to_string(GeneralPlanOptions::kDefaultEffort) + ")")
+                       std::to_string(TreePlanner::kDefaultEffort) + ")")
         ->check(CLI::Range(std::int64_t{1}, kMostEffort))
         ->type_name("N");
     AddNumber(
@@ -122,21 +111,12 @@ struct PlanProgram {
  private:
   GraspChoice Choose(const std::string& option, const std::string& value,
                      const Object& object) const;
+  PlanRequest RequestFor(const Object& object) const;
   PlanResult Find(const ObjectFile& object) const;
-  PlanResult PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const;
-  PlanResult PlanAnyGrasps(const Object& object, const ProgressReport& report) const;
-  void CheckUsage() const;
   void CheckOutput() const;
-  [[nodiscard]] bool AsksForRoadmap() const {
-    return no_lazy || common.contacts.has_value() || common.clusters.has_value();
-  }
   [[nodiscard]] Deadline deadline() const {
     return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
   }
-  [[nodiscard]] SwitchObjective contour_aim() const {
-    return optimize == "regions" ? SwitchObjective::kRegion : SwitchObjective::kRoom;
-  }
-  PlanResult PlanInPlane(const Polygon& polygon, const ProgressReport& report) const;
   void PrintSummary(const PlanResult& result, double seconds) const;
 };
 
@@ -148,103 +128,34 @@ GraspChoice PlanProgram::Choose(const std::string& option, const std::string& va
   return {any ? Kind::kRandomAny : Kind::kRandom, {}, option + " " + value};
 }
 
+PlanRequest PlanProgram::RequestFor(const Object& object) const {
+  static const std::map<std::string, Objective> kObjectives = {{"", Objective::kSteps},
+                                                               {"steps", Objective::kSteps},
+                                                               {"margin", Objective::kMargin},
+                                                               {"travel", Objective::kTravel},
+                                                               {"regions", Objective::kRegions}};
+  PlanRequest request = common.RequestFor(object);
+  request.hand.fingertip_radius = finger_radius;
+  request.criteria.min_quality = min_quality;
+  request.objective = kObjectives.at(optimize);
+  request.last_resort = !no_lazy;
+  request.effort = effort;
+  request.explain = explain;
+  request.deadline = deadline();
+  return request;
+}
+
 PlanResult PlanProgram::Find(const ObjectFile& object) const {
+  PlanRequest request = RequestFor(*object.object);
+  const Planner& planner = PlannerFor(common.planner, request);
+  request.start = Choose("--start", start, *object.object);
+  request.goal = Choose("--goal", goal, *object.object);
+  if (const auto need = planner.EstimateMemory(request)) common.CheckMemory(*need);
   ProgressLine progress(common.quiet);
-  const ProgressReport report = progress.reporter();
-  const bool planar = object.object->dimension() == 2;
-  PlanResult result;
-  const bool automatic = common.planner == "auto" && !AsksForRoadmap();
-  if (common.planner == "general" || automatic) {
-    result = PlanAnyGrasps(*object.object, report);
-  } else if (common.planner == "roadmap" || common.planner == "polyhedron" ||
-             (common.planner == "auto" && !planar)) {
-    result = PlanOnSolid(SolidOf(object, common), report);
-  } else {
-    result = PlanInPlane(PolygonOf(object, common), report);
-  }
+  request.progress = progress.reporter();
+  PlanResult result = Solve(planner, request);
   progress.Clear();
   return result;
-}
-
-PlanResult PlanProgram::PlanOnSolid(const Polyhedron& solid, const ProgressReport& report) const {
-  RoadmapOptions options = common.roadmap(solid);
-  options.last_resort = !no_lazy;
-  options.min_quality = min_quality;
-  options.finger_radius = finger_radius;
-  options.progress = report;
-  const GraspChoice from = Choose("--start", start, solid);
-  const GraspChoice to = Choose("--goal", goal, solid);
-  options.deadline = deadline();
-  if (common.planner == "auto") {
-    options.memory = common.memory();
-    return PlanSpatial(solid, from, to, common.spanning_value(), options);
-  }
-  if (common.planner == "roadmap") {
-    common.CheckMemory(EstimateRoadmap(solid, options));
-    return PlanOnRoadmap(solid, from, to, options);
-  }
-  common.CheckMemory(EstimatePolyhedronGraph(solid, options.half_angle, common.spanning_value()));
-  return PlanOnPolyhedron(solid, from, to,
-                          {options.half_angle, common.spanning_value(), options.seed, min_quality,
-                           report, finger_radius, kNoMemoryLimit, deadline()});
-}
-
-PlanResult PlanProgram::PlanAnyGrasps(const Object& object, const ProgressReport& report) const {
-  GeneralPlanOptions options;
-  options.half_angle = common.friction.required_half_angle();
-  options.seed = common.seed;
-  options.min_quality = min_quality;
-  options.effort = effort;
-  options.finger_radius = finger_radius;
-  options.deadline = deadline();
-  options.explain = explain;
-  options.progress = report;
-  if (optimize == "margin") options.aim = Objective::kMargin;
-  if (optimize == "travel") options.aim = Objective::kTravel;
-  const GraspChoice from = Choose("--start", start, object);
-  const GraspChoice to = Choose("--goal", goal, object);
-  if (common.planner == "general") return PlanGeneral(object, from, to, options);
-  return PlanAuto(object, from, to,
-                  {options, common.spanning_value(), contour_aim(), common.memory()});
-}
-
-PlanResult PlanProgram::PlanInPlane(const Polygon& polygon, const ProgressReport& report) const {
-  const GraspChoice from = Choose("--start", start, polygon);
-  const GraspChoice to = Choose("--goal", goal, polygon);
-  const double half_angle = common.friction.required_half_angle();
-  const PolygonPlanOptions options = {
-      half_angle, common.spanning_value(), common.seed,    min_quality,
-      report,     finger_radius,           kNoMemoryLimit, deadline()};
-  if (common.planner == "polygon") {
-    common.CheckMemory(EstimatePolygonGraph(polygon, half_angle, options.spanning));
-    return PlanOnPolygon(polygon, from, to, options);
-  }
-  common.CheckMemory(EstimateContourPlan(polygon, half_angle));
-  return PlanOnContour(polygon, from, to,
-                       {half_angle, common.seed, min_quality, contour_aim(), report, finger_radius,
-                        kNoMemoryLimit, deadline()});
-}
-
-void PlanProgram::CheckUsage() const {
-  const auto is = [&](const char* planner) {
-    return common.planner == planner || common.planner == "auto";
-  };
-  if (no_lazy && !is("roadmap")) {
-    throw InputError("--no-lazy: the planner " + common.planner +
-                     " has no last resort; roadmap has");
-  }
-  if (common.planner == "general" && AsksForRoadmap()) {
-    throw InputError("--contacts and --clusters: the planner general has none; roadmap has");
-  }
-  if (optimize == "regions" && !is("contour")) {
-    throw InputError("--optimize regions: the planner " + common.planner +
-                     " has no such regions; contour has");
-  }
-  const bool for_general = explain || (!optimize.empty() && optimize != "regions");
-  if (for_general && !is("general")) {
-    throw InputError((explain ? "--explain" : "--optimize " + optimize) + ": not for the planner " +
-                     common.planner + "; for general");
-  }
 }
 
 void PlanProgram::CheckOutput() const {
@@ -259,7 +170,6 @@ void PlanProgram::CheckOutput() const {
 }
 
 int PlanProgram::Run() const {
-  CheckUsage();
   CheckOutput();
   const ObjectFile object = common.ReadObjectFile(deadline());
   CheckFingerRadius(*object.object, finger_radius, "--finger-radius");

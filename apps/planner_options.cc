@@ -5,6 +5,8 @@
 #include "apps/progress.h"
 #include "planner/base/error.h"
 #include "planner/object/reading.h"
+#include "planner/registry/registry.h"
+#include "planner/roadmap/build_roadmap.h"
 
 namespace regrasp {
 
@@ -12,12 +14,17 @@ namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  for (const char* known : {"auto", "polygon", "contour", "polyhedron", "roadmap", "general"}) {
-    if (name == known) return {};
+  if (name == "auto" || FindPlanner(name) != nullptr) return {};
+  return "the planner \"" + name + "\" does not exist in this version; there are " + PlannerNames();
+}
+
+/// The planners, each with what it plans.
+std::string PlannersText() {
+  std::string text = "auto";
+  for (const Planner* planner : AllPlanners()) {
+    text += ", " + planner->name() + " (" + planner->traits().what + ")";
   }
-  return "the planner \"" + name +
-         "\" does not exist in this version; there are auto, polygon, contour, polyhedron, roadmap "
-         "and general";
+  return text;
 }
 
 std::string CheckSpanning(const std::string& name) {
@@ -27,24 +34,19 @@ std::string CheckSpanning(const std::string& name) {
 
 }  // namespace
 
-void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
+void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   app.add_option("--object", object,
                  "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
   friction.AddTo(app);
-  app.add_option(
-         "--planner", planner,
-         "auto, polygon, contour (2-finger grasps of the whole boundary), polyhedron "
-         "(concurrent grasps), roadmap or general (any force-closure grasps, on any body, with "
-         "switches and aligns) (default auto: in space " +
-             automatic.in_space + "; in the plane " + automatic.in_plane + ")")
+  app.add_option("--planner", planner, PlannersText() + " (default auto: " + automatic + ")")
       ->type_name("NAME")
       ->check(CheckPlanner);
   app.add_option(
          "--spanning", spanning,
          "adaptive or uniform: cones of focus cells as wide as the normals allow, or all of "
-         "the friction's half-angle; the roadmap has none (default adaptive)")
+         "the friction's half-angle; of polygon and polyhedron (default adaptive)")
       ->type_name("NAME")
       ->check(CheckSpanning);
   AddInteger(app, "--contacts", contacts, kFewestClusters, kMaxClusteredContacts,
@@ -63,14 +65,16 @@ void PlannerOptions::AddTo(CLI::App& app, const AutomaticPlanner& automatic) {
   AddQuiet(app, quiet);
 }
 
-RoadmapOptions PlannerOptions::roadmap(const Polyhedron& solid) const {
-  RoadmapOptions options;
-  options.half_angle = friction.required_half_angle();
-  const RoadmapSize size = ChooseRoadmapSize(solid, contacts, clusters);
-  options.contacts = size.contacts;
-  options.clusters = size.clusters;
-  options.seed = seed;
-  return options;
+PlanRequest PlannerOptions::RequestFor(const Object& of) const {
+  PlanRequest request;
+  request.object = &of;
+  request.object_name = object;
+  request.criteria.half_angle = friction.required_half_angle();
+  request.seed = seed;
+  request.spanning = spanning == "uniform" ? Spanning::kUniform : Spanning::kAdaptive;
+  request.contact_points = contacts;
+  request.clusters = clusters;
+  return request;
 }
 
 ObjectFile PlannerOptions::ReadObjectFile(const Deadline& deadline) const {
@@ -85,28 +89,6 @@ double PlannerOptions::memory() const {
 void PlannerOptions::CheckMemory(const MemoryNeed& need) const {
   const std::string why = MemoryComplaint(need, memory());
   if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
-}
-
-Spanning PlannerOptions::spanning_value() const {
-  return spanning == "uniform" ? Spanning::kUniform : Spanning::kAdaptive;
-}
-
-const Polygon& PolygonOf(const ObjectFile& file, const PlannerOptions& options) {
-  const auto* polygon = dynamic_cast<const Polygon*>(file.object.get());
-  if (polygon == nullptr) {
-    throw InputError(options.object + ": a solid, and the planner " + options.planner +
-                     " works on planar objects only");
-  }
-  return *polygon;
-}
-
-const Polyhedron& SolidOf(const ObjectFile& file, const PlannerOptions& options) {
-  const auto* solid = dynamic_cast<const Polyhedron*>(file.object.get());
-  if (solid == nullptr) {
-    throw InputError(options.object + ": a planar object, and the planner " + options.planner +
-                     " works on solids only");
-  }
-  return *solid;
 }
 
 }  // namespace regrasp

@@ -22,9 +22,10 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "planner/sets/contour/plan_contour.h"
-#include "planner/sets/polygon/plan_polygon.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/planning/solve.h"
+#include "planner/sets/contour/contour_planner.h"
+#include "planner/sets/polygon/polygon_planner.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "sim/replay/replay.h"
 
 namespace {
@@ -194,41 +195,34 @@ struct Bodies {
   }
 };
 
+/// Plans between random grasps by a planner, one for each seed. Both outlive what is returned.
+std::function<PlanResult(std::uint64_t)> PlansOf(const Planner& planner, const ObjectFile& file,
+                                                 double half_angle) {
+  return [&planner, &file, half_angle](std::uint64_t seed) {
+    return Solve(planner, {.object = file.object.get(),
+                           .start = kAny,
+                           .goal = kAny,
+                           .criteria = {.half_angle = half_angle},
+                           .seed = seed});
+  };
+}
+
 std::vector<AlignCase> PolyhedronAligns(const Bodies& bodies, double half_angle, std::size_t each) {
   std::vector<AlignCase> cases;
   for (const ObjectFile& file : bodies.files) {
     const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
     PolyhedronGraph graph(solid, half_angle, Spanning::kAdaptive);
-    CollectAligns(
-        file,
-        [&](std::uint64_t seed) {
-          PolyhedronPlanOptions options;
-          options.half_angle = half_angle;
-          options.seed = seed;
-          return PlanOnPolyhedron(solid, graph, kAny, kAny, options);
-        },
-        each, cases);
+    const PolyhedronPlanner planner(&graph);
+    CollectAligns(file, PlansOf(planner, file, half_angle), each, cases);
   }
   return cases;
 }
 
-/// @param plan  of a polygon, by options: PlanOnPolygon or PlanOnContour.
-template <class Options>
-std::vector<AlignCase> PlanarAligns(PlanResult (*plan)(const Polygon&, const GraspChoice&,
-                                                       const GraspChoice&, const Options&),
-                                    const Bodies& bodies, double half_angle, std::size_t each) {
+std::vector<AlignCase> PlanarAligns(const Planner& planner, const Bodies& bodies, double half_angle,
+                                    std::size_t each) {
   std::vector<AlignCase> cases;
   for (const ObjectFile& file : bodies.files) {
-    const auto& polygon = dynamic_cast<const Polygon&>(*file.object);
-    CollectAligns(
-        file,
-        [&](std::uint64_t seed) {
-          Options options;
-          options.half_angle = half_angle;
-          options.seed = seed;
-          return plan(polygon, kAny, kAny, options);
-        },
-        each, cases);
+    CollectAligns(file, PlansOf(planner, file, half_angle), each, cases);
   }
   return cases;
 }
@@ -258,9 +252,9 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   }
   for (const double degrees : kPlanarFrictions) {
     table.Add(at("polygon", degrees),
-              PlanarAligns(PlanOnPolygon, polygons, Radians(degrees), wanted));
+              PlanarAligns(PolygonPlanner(), polygons, Radians(degrees), wanted));
     table.Add(at("contour", degrees),
-              PlanarAligns(PlanOnContour, contours, Radians(degrees), wanted));
+              PlanarAligns(ContourPlanner(), contours, Radians(degrees), wanted));
   }
   const int tight = (each + 3) / 4;
   const double spatial = kSpatialFrictions.front(), planar = kPlanarFrictions.front();

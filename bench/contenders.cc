@@ -8,16 +8,16 @@
 #include "planner/base/error.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/planning/plan_search.h"
-#include "planner/roadmap/plan_roadmap.h"
+#include "planner/object/polyhedron.h"
+#include "planner/planning/candidate_result.h"
+#include "planner/planning/solve.h"
+#include "planner/registry/registry.h"
 #include "planner/sampling/surface_sampler.h"
-#include "planner/sets/contour/plan_contour.h"
-#include "planner/sets/polygon/plan_polygon.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/tree/bidirectional_tree.h"
 #include "planner/tree/path_plan.h"
-#include "planner/tree/plan_general.h"
 #include "planner/tree/subset_search.h"
+#include "planner/tree/tree_planner.h"
 
 namespace regrasp {
 
@@ -28,44 +28,43 @@ namespace {
 /// Of every grasp that the planner contour takes.
 constexpr int kContourContacts = 2;
 
-GraspChoice Given(const Grasp& grasp, const char* name) {
-  return {GraspChoice::Kind::kGiven, grasp, name};
+PlanRequest RequestFor(const Object& object, const ContestSetting& setting, const GraspPair& pair,
+                       std::uint64_t seed) {
+  return {.object = &object,
+          .start = {GraspChoice::Kind::kGiven, pair.start, "start"},
+          .goal = {GraspChoice::Kind::kGiven, pair.goal, "goal"},
+          .criteria = {setting.half_angle, setting.min_quality},
+          .seed = seed};
 }
 
-using Query =
-    std::function<PlanResult(const GraspChoice& start, const GraspChoice& goal, std::uint64_t)>;
-
 /// A grasp that a planner does not take is a query without an answer.
-Contender Whole(std::string planner, const Query& query) {
-  return {std::move(planner), "", 0, [query](const GraspPair& pair, std::uint64_t seed) {
-            const double begin = ProcessorSeconds();
-            Answer answer;
-            try {
-              answer.result = query(Given(pair.start, "start"), Given(pair.goal, "goal"), seed);
-            } catch (const InputError& error) {
-              answer.result.status = PlanResult::Status::kNoGrasp;
-              answer.result.message = error.what();
-            }
-            answer.seconds = ProcessorSeconds() - begin;
-            return answer;
-          }};
+template <typename Ask>
+Answer Timed(const Ask& ask) {
+  const double begin = ProcessorSeconds();
+  Answer answer;
+  try {
+    answer.result = ask();
+  } catch (const InputError& error) {
+    answer.result.status = PlanResult::Status::kNoGrasp;
+    answer.result.message = error.what();
+  }
+  answer.seconds = ProcessorSeconds() - begin;
+  return answer;
+}
+
+/// By a planner of the registry, which builds what it needs for each query.
+Contender Whole(const Planner& planner, const Object& object, const ContestSetting& setting) {
+  const auto ask = [&planner, &object, setting](const GraspPair& pair, std::uint64_t seed) {
+    return Timed([&] { return Solve(planner, RequestFor(object, setting, pair, seed)); });
+  };
+  return {planner.name(), "", 0, ask};
 }
 
 Contender Absent(std::string planner, std::string why) {
   return {std::move(planner), std::move(why), 0, nullptr};
 }
 
-Contender General(const Object& object, const ContestSetting& setting) {
-  return Whole(kGeneral, [&object, setting](const auto& start, const auto& goal, auto seed) {
-    GeneralPlanOptions options;
-    options.half_angle = setting.half_angle;
-    options.min_quality = setting.min_quality;
-    options.seed = seed;
-    return PlanGeneral(object, start, goal, options);
-  });
-}
-
-/// The stages of PlanGeneral up to the first sequence. What the plan is worth is found out after
+/// The stages of TreePlanner up to the first sequence. What the plan is worth is found out after
 /// the clock has stopped.
 Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
   const auto source = std::make_shared<const SurfaceSampler>(object);
@@ -73,7 +72,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
     SearchSpace space(object, {setting.half_angle, setting.min_quality});
-    space.SetLimits({.most_tests = GeneralPlanOptions::kDefaultEffort});
+    space.SetLimits({.most_tests = TreePlanner::kDefaultEffort});
     const ContactSet from = space.Add(pair.start);
     const ContactSet to = space.Add(pair.goal);
     space.Accept(from);
@@ -84,9 +83,11 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
     answer.seconds = ProcessorSeconds() - begin;
     answer.result.status = PlanResult::Status::kNoSequence;
     if (path) {
-      const GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
+      PlanRequest request = RequestFor(object, setting, pair, seed);
+      request.hand.fingers = space.fingers();
+      const GraspEvaluator evaluator(object, request.criteria);
       answer.result = ResultOf(MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
-                               space.fingers(), pair.goal);
+                               request, pair.goal);
     }
     return answer;
   };
@@ -97,58 +98,21 @@ Contender OnPolyhedron(const Polyhedron& solid, const ContestSetting& setting) {
   if (solid.face_count() > kMostGraphFaces) {
     return Absent("polyhedron", std::to_string(solid.face_count()) + " faces");
   }
-  PolyhedronPlanOptions options;
-  options.half_angle = setting.half_angle;
-  options.min_quality = setting.min_quality;
   const bool uniform = setting.half_angle <= kMostUniform;
-  options.spanning = uniform ? Spanning::kUniform : Spanning::kAdaptive;
   const double begin = ProcessorSeconds();
-  const auto graph = std::make_shared<PolyhedronGraph>(solid, setting.half_angle, options.spanning);
+  const auto graph = std::make_shared<PolyhedronGraph>(
+      solid, setting.half_angle, uniform ? Spanning::kUniform : Spanning::kAdaptive);
   const double seconds = ProcessorSeconds() - begin;
   if (graph->vertex_count() == 0) {
     return Absent("polyhedron", uniform ? "no focus cell (uniform)" : "no focus cell (adaptive)");
   }
-  Contender contender =
-      Whole("polyhedron", [&solid, options, graph](const auto& start, const auto& goal, auto seed) {
-        PolyhedronPlanOptions own = options;
-        own.seed = seed;
-        return PlanOnPolyhedron(solid, *graph, start, goal, own);
-      });
-  contender.build_seconds = seconds;
-  return contender;
-}
-
-Contender OnRoadmap(const Polyhedron& solid, const ContestSetting& setting) {
-  return Whole("roadmap", [&solid, setting](const auto& start, const auto& goal, auto seed) {
-    const RoadmapSize size = ChooseRoadmapSize(solid, std::nullopt, std::nullopt);
-    RoadmapOptions options;
-    options.half_angle = setting.half_angle;
-    options.contacts = size.contacts;
-    options.clusters = size.clusters;
-    options.seed = seed;
-    options.min_quality = setting.min_quality;
-    return PlanResult(PlanOnRoadmap(solid, start, goal, options));
-  });
-}
-
-Contender OnPolygon(const Polygon& polygon, const ContestSetting& setting) {
-  return Whole("polygon", [&polygon, setting](const auto& start, const auto& goal, auto seed) {
-    PolygonPlanOptions options;
-    options.half_angle = setting.half_angle;
-    options.min_quality = setting.min_quality;
-    options.seed = seed;
-    return PlanOnPolygon(polygon, start, goal, options);
-  });
-}
-
-Contender OnContour(const Polygon& polygon, const ContestSetting& setting) {
-  return Whole("contour", [&polygon, setting](const auto& start, const auto& goal, auto seed) {
-    ContourPlanOptions options;
-    options.half_angle = setting.half_angle;
-    options.min_quality = setting.min_quality;
-    options.seed = seed;
-    return PlanOnContour(polygon, start, goal, options);
-  });
+  const auto ask = [&solid, setting, graph](const GraspPair& pair, std::uint64_t seed) {
+    PlanRequest request = RequestFor(solid, setting, pair, seed);
+    request.spanning =
+        setting.half_angle <= kMostUniform ? Spanning::kUniform : Spanning::kAdaptive;
+    return Timed([&] { return Solve(PolyhedronPlanner(graph.get()), request); });
+  };
+  return {"polyhedron", "", seconds, ask};
 }
 
 }  // namespace
@@ -161,15 +125,15 @@ double ProcessorSeconds() {
 }
 
 std::vector<Contender> MakeContenders(const Object& object, const ContestSetting& setting) {
-  std::vector<Contender> contenders = {General(object, setting), GeneralSearch(object, setting)};
+  const auto whole = [&](const char* name) { return Whole(*FindPlanner(name), object, setting); };
+  std::vector<Contender> contenders = {whole(kGeneral), GeneralSearch(object, setting)};
   if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
     contenders.push_back(OnPolyhedron(*solid, setting));
-    contenders.push_back(OnRoadmap(*solid, setting));
+    contenders.push_back(whole("roadmap"));
   } else {
-    const auto& polygon = dynamic_cast<const Polygon&>(object);
-    contenders.push_back(OnPolygon(polygon, setting));
+    contenders.push_back(whole("polygon"));
     if (setting.most_contacts == kContourContacts) {
-      contenders.push_back(OnContour(polygon, setting));
+      contenders.push_back(whole("contour"));
     }
   }
   return contenders;

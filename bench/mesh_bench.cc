@@ -12,9 +12,9 @@
 
 #include "bench/pyramid_force_closure.h"
 #include "planner/base/angle.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/subset_force_closure.h"
 #include "planner/object/polyhedron.h"
-#include "planner/planning/grasp_choice.h"
 #include "planner/roadmap/roadmap_queries.h"
 
 namespace {

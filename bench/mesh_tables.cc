@@ -19,8 +19,8 @@
 #include "bench/table_file.h"
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/object/polyhedron.h"
-#include "planner/planning/grasp_choice.h"
 #include "planner/roadmap/roadmap_queries.h"
 
 namespace {

@@ -4,13 +4,16 @@
 #include <chrono>
 #include <numeric>
 #include <set>
+#include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "planner/base/angle.h"
-#include "planner/planning/plan_search.h"
+#include "planner/planning/solve.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_sampling.h"
 
 namespace regrasp {
 
@@ -29,7 +32,7 @@ class QueryMaker {
         geometry_(geometry),
         evaluator_(evaluator) {}
 
-  std::array<GraspChoice, 2> Make(std::uint64_t seed) {
+  std::pair<GraspChoice, GraspChoice> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
     const GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
@@ -45,7 +48,7 @@ class QueryMaker {
       return grasp ? geometry_.GraspOf(*grasp) : Grasp();
     };
     GraspChoice choice{Kind::kGiven, {}, name};
-    choice.grasp = DrawFromSets(choice, pools, draw, evaluator_, random);
+    choice.grasp = DrawFromSets(choice.name, pools, draw, evaluator_, random);
     return choice;
   }
 
@@ -58,20 +61,20 @@ class QueryMaker {
 }  // namespace
 
 QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spanning, int queries) {
-  PolyhedronPlanOptions options;
-  options.half_angle = Radians(degrees);
-  options.spanning = spanning;
-  const GraspEvaluator evaluator(solid, {options.half_angle, options.min_quality});
-  PolyhedronGraph graph(solid, options.half_angle, spanning);
+  PlanRequest request = {
+      .object = &solid, .criteria = {.half_angle = Radians(degrees)}, .spanning = spanning};
+  const GraspEvaluator evaluator(solid, request.criteria);
+  PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
+  const PolyhedronPlanner planner(&graph);
   FocusGeometry geometry(solid, graph);
   QueryMaker maker(graph, geometry, evaluator);
   QueryTimes times;
   std::vector<double> milliseconds;
   int switches = 0;
   for (int seed = 1; seed <= queries; ++seed) {
-    const auto [start, goal] = maker.Make(seed);
+    std::tie(request.start, request.goal) = maker.Make(seed);
     const auto begin = std::chrono::steady_clock::now();
-    const PlanResult result = PlanOnPolyhedron(solid, graph, start, goal, options);
+    const PlanResult result = Solve(planner, request);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     milliseconds.push_back(kMillisecondsPerSecond * took.count());
     ++times.queries;

@@ -16,8 +16,8 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
-#include "planner/roadmap/plan_roadmap.h"
-#include "planner/sets/polygon/plan_polygon.h"
+#include "planner/planning/solve.h"
+#include "planner/registry/registry.h"
 #include "sim/replay/replay.h"
 #include "sim/scene/scene.h"
 #include "sim/world/replay_world.h"
@@ -66,19 +66,15 @@ struct Case {
 Case MakeCase(const std::string& model) {
   Case made{ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}};
   const Object& object = *made.file.object;
-  GraspChoice choice;
-  choice.kind = GraspChoice::Kind::kRandom;
-  PlanResult result;
-  if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
-    RoadmapOptions options;
-    options.half_angle = Radians(kHalfAngleDegrees);
-    result = PlanOnRoadmap(*solid, choice, choice, options);
-  } else {
-    PolygonPlanOptions options;
-    options.half_angle = Radians(kHalfAngleDegrees);
-    options.seed = 2;  // a plan of three switches
-    result = PlanOnPolygon(dynamic_cast<const Polygon&>(object), choice, choice, options);
-  }
+  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
+  const bool planar = object.dimension() == 2;
+  const PlanResult result = Solve(*FindPlanner(planar ? "polygon" : "roadmap"),
+                                  {.object = &object,
+                                   .start = random,
+                                   .goal = random,
+                                   .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+                                   // in the plane a plan of three switches
+                                   .seed = planar ? 2ULL : 0ULL});
   if (!result.plan) throw std::runtime_error(model + ": no plan to replay");
   made.plan = CheckPlan(object, *result.plan).located;
   return made;

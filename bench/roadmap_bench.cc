@@ -9,7 +9,9 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/plan_roadmap.h"
+#include "planner/planning/solve.h"
+#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_planner.h"
 #include "planner/sampling/contact_points.h"
 
 namespace {
@@ -33,11 +35,10 @@ const Polyhedron& Model(std::int64_t index) {
   return dynamic_cast<const Polyhedron&>(*files.at(index).object);
 }
 
-RoadmapOptions Options(std::int64_t contacts) {
-  RoadmapOptions options;
-  options.half_angle = Radians(kHalfAngleDegrees);
-  options.contacts = static_cast<int>(contacts);
-  return options;
+PlanRequest RequestFor(const Polyhedron& solid, std::int64_t contacts) {
+  return {.object = &solid,
+          .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+          .contact_points = static_cast<int>(contacts)};
 }
 
 void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertices) {
@@ -49,8 +50,8 @@ void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertic
 /// What a roadmap costs when each of its subsets is tested alone.
 void BM_TestEverySubset(benchmark::State& state) {
   const Polyhedron& solid = Model(state.range(0));
-  const RoadmapOptions options = Options(state.range(1));
-  const std::vector<Contact> p = SpreadContactPoints(solid, options.contacts, options.seed);
+  const PlanRequest request = RequestFor(solid, state.range(1));
+  const std::vector<Contact> p = SpreadContactPoints(solid, *request.contact_points, request.seed);
   const WrenchFrame frame = solid.wrench_frame();
   const int count = static_cast<int>(p.size());
   std::int64_t subsets = 0;
@@ -63,7 +64,7 @@ void BM_TestEverySubset(benchmark::State& state) {
           for (int d = c + 1; d < count; ++d) {
             const std::array<Contact, 4> grasp = {p[a], p[b], p[c], p[d]};
             ++subsets;
-            vertices += IsForceClosure(grasp, frame, options.half_angle) ? 1 : 0;
+            vertices += IsForceClosure(grasp, frame, request.criteria.half_angle) ? 1 : 0;
           }
         }
       }
@@ -75,11 +76,11 @@ void BM_TestEverySubset(benchmark::State& state) {
 /// Spreading the points, finding all vertices, and listing them by their triples.
 void BM_BuildRoadmap(benchmark::State& state) {
   const Polyhedron& solid = Model(state.range(0));
-  const RoadmapOptions options = Options(state.range(1));
+  const PlanRequest request = RequestFor(solid, state.range(1));
   std::int64_t subsets = 0;
   std::int64_t vertices = 0;
   for (auto _ : state) {
-    const Roadmap roadmap = BuildRoadmap(solid, options);
+    const Roadmap roadmap = BuildRoadmap(request, SpreadContacts(request));
     subsets = roadmap.candidate_count();
     vertices = roadmap.vertex_count();
   }
@@ -87,7 +88,8 @@ void BM_BuildRoadmap(benchmark::State& state) {
 }
 
 void BM_CountEdgesAndComponents(benchmark::State& state) {
-  const Roadmap roadmap = BuildRoadmap(Model(state.range(0)), Options(state.range(1)));
+  const PlanRequest request = RequestFor(Model(state.range(0)), state.range(1));
+  const Roadmap roadmap = BuildRoadmap(request, SpreadContacts(request));
   for (auto _ : state) {
     benchmark::DoNotOptimize(roadmap.edge_count());
     benchmark::DoNotOptimize(roadmap.components());
@@ -98,17 +100,15 @@ void BM_CountEdgesAndComponents(benchmark::State& state) {
 /// A whole plan between two random grasps, the roadmap included; another seed in each iteration.
 void BM_Plan(benchmark::State& state) {
   const Polyhedron& solid = Model(state.range(0));
-  RoadmapOptions options = Options(state.range(1));
-  const GraspChoice random = {GraspChoice::Kind::kRandomAny, {}, "random-any"};
+  PlanRequest request = RequestFor(solid, state.range(1));
+  request.start = request.goal = {GraspChoice::Kind::kRandomAny, {}, "random-any"};
   double switches = 0;
-  std::int64_t vertices = 0;
   for (auto _ : state) {
-    const RoadmapPlanResult result = PlanOnRoadmap(solid, random, random, options);
-    ++options.seed;
+    const PlanResult result = Solve(RoadmapPlanner(), request);
+    ++request.seed;
     switches += result.plan ? static_cast<double>(result.plan->steps.size()) : 0;
-    vertices = result.vertices;
   }
-  Describe(state, 0, vertices);
+  state.SetLabel(kModels.at(state.range(0)));
   state.counters["switches"] = benchmark::Counter(switches, benchmark::Counter::kAvgIterations);
 }
 

@@ -22,4 +22,7 @@ struct CandidateSequence {
   std::vector<Rest> rests;  ///< before all steps and after each
 };
 
+/// No steps: the fingers take the contacts of a grasp in their order.
+[[nodiscard]] CandidateSequence StartOf(const Grasp& grasp);
+
 }  // namespace regrasp

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "planner/base/error.h"
+#include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/clustered_roadmap.h"
-#include "planner/roadmap/plan_roadmap.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {

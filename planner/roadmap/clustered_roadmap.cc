@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "planner/criteria/clearance.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/criteria/reach.h"
-#include "planner/planning/grasp_choice.h"
 #include "planner/sampling/contact_points.h"
 
 namespace regrasp {

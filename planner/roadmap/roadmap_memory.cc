@@ -4,6 +4,8 @@
 
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/combination_rank.h"
 #include "planner/sampling/surface_sampler.h"
 
@@ -50,13 +52,16 @@ MemoryNeed EstimateGrasps(const Polyhedron& solid, double half_angle, int points
 
 }  // namespace
 
-MemoryNeed EstimateRoadmap(const Polyhedron& solid, const RoadmapOptions& options) {
-  if (options.clusters == 0) {
-    return EstimateGrasps(solid, options.half_angle, options.contacts, "contact points");
+MemoryNeed EstimateRoadmap(const PlanRequest& request) {
+  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+  const RoadmapSize size = SizeOf(request);
+  const double half_angle = request.criteria.half_angle;
+  if (size.clusters == 0) {
+    return EstimateGrasps(solid, half_angle, size.contacts, "contact points");
   }
-  MemoryNeed grasps = EstimateGrasps(solid, options.half_angle, options.clusters, "clusters");
-  MemoryNeed clustering = {"the clustering of the planner roadmap", options.contacts,
-                           "contact points", [](double n) { return kBytesOfPair * n * n; }};
+  MemoryNeed grasps = EstimateGrasps(solid, half_angle, size.clusters, "clusters");
+  MemoryNeed clustering = {"the clustering of the planner roadmap", size.contacts, "contact points",
+                           [](double n) { return kBytesOfPair * n * n; }};
   return clustering.bytes() > grasps.bytes() ? clustering : grasps;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "planner/base/memory.h"
-#include "planner/roadmap/plan_roadmap.h"
+#include "planner/planning/plan_request.h"
 
 namespace regrasp {
 
@@ -15,6 +15,6 @@ namespace regrasp {
 /// GB for kMaxClusteredContacts.
 ///
 /// Law: the same solid and options give the same number.
-[[nodiscard]] MemoryNeed EstimateRoadmap(const Polyhedron& solid, const RoadmapOptions& options);
+[[nodiscard]] MemoryNeed EstimateRoadmap(const PlanRequest& request);
 
 }  // namespace regrasp

@@ -123,12 +123,13 @@ class General(ProgramCase):
             _, done = self.plan("cube.obj", 3, "--optimize", aim, degrees="25")
             before, after = self.gain(done, r"steps: (\S+) at first, (\S+) now")
             self.assertLessEqual(after, before)
-            before, after = self.gain(done, r"grasp: (\S+)° at first, (\S+)° now")
-            if aim != "travel":
-                self.assertGreaterEqual(after, before)
-            before, after = self.gain(done, r"together: (\S+) at first, (\S+) now")
             if aim == "travel":
+                before, after = self.gain(done, r"together: (\S+) diameters of the object at first, "
+                                                r"(\S+) diameters of the object now")
                 self.assertLessEqual(after, before)
+            else:
+                before, after = self.gain(done, r"grasp: (\S+)° at first, (\S+)° now")
+                self.assertGreaterEqual(after, before)
         margin, _ = self.plan("cube.obj", 3, "--optimize", "margin", degrees="25")
         steps, _ = self.plan("cube.obj", 3, "--optimize", "steps", degrees="25")
         self.assertLessEqual(len(steps["steps"]), len(margin["steps"]))

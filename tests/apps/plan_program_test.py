@@ -72,29 +72,21 @@ class Plan(ProgramCase):
                     goal=self.model(name + ".goal.json"), contacts=None))
                 plan = json.loads(self.read("plan.json"))
                 self.assertEqual(plan["format"], "regrasp-plan")
-                # Of the solids of many faces the grasps are concurrent and joined.
-                self.assertEqual(plan["planner"],
-                                 "polyhedron" if name.startswith("body") else "general")
-                self.assertEqual(plan["fingers"], 5)
+                self.assertEqual((plan["planner"], plan["fingers"]), ("general", 5))
                 self.assertGreater(len(plan["steps"]), 0)
 
     def test_plans_on_every_polygon(self):
         names = sorted(name[:-len(".wkt")] for name in os.listdir(self.model(""))
                        if name.endswith(".wkt"))
         self.assertGreaterEqual(len(names), 9, names)
-        planners = set()
         for name in names:
             with self.subTest(model=name):
                 plan = self.plan(self.polygon_arguments(
                     object=self.model(name + ".wkt"), start=self.model(name + ".start.json"),
                     goal=self.model(name + ".goal.json")))
-                two_fingers = all(len(plan[end]["contacts"]) == 2 for end in ("initial", "goal"))
-                planners.add(plan["planner"])
-                self.assertEqual(plan["planner"], "contour" if two_fingers else "polygon")
-                self.assertEqual(plan["fingers"], 3 if two_fingers else 4)
+                self.assertEqual((plan["planner"], plan["fingers"]), ("general", 4))
                 self.assertEqual(plan["object"]["dimension"], 2)
                 self.assertGreater(len(plan["steps"]), 0)
-        self.assertEqual(planners, {"contour", "polygon"})
 
     def test_a_contour_is_planned_with_three_fingers_one_of_them_spare(self):
         aligns, switches = 0, 0
@@ -133,14 +125,16 @@ class Plan(ProgramCase):
                 compared += 1
         self.assertGreater(compared, 5)
 
-    def test_auto_leaves_what_contour_cannot_join_to_the_polygon(self):
+    def test_auto_and_polygon_join_what_contour_cannot(self):
         def pair(first, second):
             return self.write_json(f"{first[0]}.json", self.grasp([{"point": first},
                                                                    {"point": second}]))
         square = self.model("square.wkt")
         options = {"object": square, "start": pair([-0.03, 0], [0.03, 0]),
                    "goal": pair([0, -0.03], [0, 0.03])}
-        self.assertEqual(self.plan(self.polygon_arguments(**options))["planner"], "polygon")
+        for planner, taken in (("auto", "general"), ("polygon", "polygon")):
+            plan = self.plan(self.polygon_arguments(planner=planner, **options))
+            self.assertEqual(plan["planner"], taken)
         self.assert_refused(1, "no sequence of switches and aligns",
                             *self.polygon_arguments(planner="contour", **options))
 
@@ -454,10 +448,34 @@ class Plan(ProgramCase):
         self.assert_refused(2, [self.model("polygon15.wkt"), "planar"],
                             *self.polygon_arguments(planner="roadmap"))
 
+    def test_auto_takes_the_planner_that_has_the_option(self):
+        for model, options, planner in (("bottle200", {"optimize": "regions"}, "contour"),
+                                        ("polygon15", {"spanning": "uniform"}, "polygon"),
+                                        ("polygon15", {"optimize": "travel"}, "general")):
+            with self.subTest(options=options):
+                plan = self.plan(self.polygon_arguments(
+                    object=self.model(model + ".wkt"), start=self.model(model + ".start.json"),
+                    goal=self.model(model + ".goal.json"), **options))
+                self.assertEqual(plan["planner"], planner)
+        self.assert_refused(2, ["--optimize regions (contour)", "--explain (general)"],
+                            *self.polygon_arguments(optimize="regions"), "--explain")
+
+    def test_refuses_an_option_that_the_planner_does_not_have_and_names_one_that_does(self):
+        for option, planner, other in ((("--effort", "5"), "polygon", "general"),
+                                       (("--no-lazy",), "polyhedron", "roadmap"),
+                                       (("--contacts", "40"), "general", "roadmap"),
+                                       (("--spanning", "uniform"), "roadmap", "polyhedron")):
+            with self.subTest(option=option):
+                arguments = (self.polygon_arguments if planner == "polygon" else self.arguments)
+                given = arguments(planner=planner, **({} if planner == "polygon" else
+                                                      {"contacts": None}))
+                self.assert_refused(2, [option[0], "planner " + planner, other], *given, *option)
+
     def test_refuses_to_optimize_regions_that_a_planner_does_not_have(self):
-        for planner in ("polygon", "roadmap"):
+        for planner, arguments in (("polygon", self.polygon_arguments),
+                                   ("roadmap", self.arguments)):
             self.assert_refused(2, ["--optimize regions", planner],
-                                *self.polygon_arguments(planner=planner, optimize="regions"))
+                                *arguments(planner=planner, optimize="regions"))
         self.assert_refused(2, "--optimize", *self.polygon_arguments(optimize="colour"))
 
     def test_refuses_grasps_of_three_contacts_on_a_contour(self):

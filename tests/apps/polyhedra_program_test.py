@@ -117,8 +117,9 @@ class Sequences(ProgramCase):
     body = "body24.obj"  # its focus cells fall apart into several components
 
     def arguments(self, start, goal, seed="1", planner="polyhedron", output="plan.json"):
+        spanning = ("--spanning", "uniform") if planner == "polyhedron" else ()
         return ("--object", self.model(self.body), "--friction-angle", str(HALF_ANGLE),
-                "--planner", planner, "--spanning", "uniform", "--start", start, "--goal", goal,
+                "--planner", planner, *spanning, "--start", start, "--goal", goal,
                 "--seed", seed, "--output", output)
 
     def drawn_grasp(self, name, kind, planner, seed):

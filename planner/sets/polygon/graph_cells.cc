@@ -120,8 +120,8 @@ double GraphCells::WidthOf(int vertex) {
   return *width;
 }
 
-std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
-  std::vector<Attachment> attachments;
+std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const Grasp& grasp) {
+  std::vector<Attachment<PolygonPlace>> attachments;
   for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {
     std::sort(contacts.begin(), contacts.end(),
               [&](int a, int b) { return grasp[a].face < grasp[b].face; });
@@ -134,14 +134,14 @@ std::vector<Attachment> GraphCells::FindAttachments(const Grasp& grasp) {
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
     for (const int vertex : graph_.SetsOn(edges)) {
       if (!IsInSet(of(vertex), parameters)) continue;
-      attachments.push_back({vertex, parameters, contacts.size() == grasp.size()});
+      attachments.push_back({{vertex, parameters}, contacts.size() == grasp.size()});
     }
   }
   return attachments;
 }
 
-std::vector<Attachment> GraphCells::FindSwitches(const Grasp& grasp, int fingers) {
-  std::vector<Attachment> attachments;
+std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const Grasp& grasp, int fingers) {
+  std::vector<Attachment<PolygonPlace>> attachments;
   for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
     const std::vector<int>& edges = graph_.sets()[vertex].edges;
     const int least_kept = static_cast<int>(grasp.size() + edges.size()) - fingers;
@@ -154,7 +154,7 @@ std::vector<Attachment> GraphCells::FindSwitches(const Grasp& grasp, int fingers
         SlackSolution solution = MaximizeSlackWith(cell.inequalities, fixed);
         if (solution.slack > std::max(best.slack, kNoSlack)) best = std::move(solution);
       }
-      if (best.slack > 0) attachments.push_back({vertex, best.z.head(std::ssize(edges)), false});
+      if (best.slack > 0) attachments.push_back({{vertex, best.z.head(std::ssize(edges))}, false});
     }
   }
   return attachments;

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "planner/base/random.h"
+#include "planner/sets/grasp_set_model.h"
 #include "planner/sets/polygon/polygon_graph.h"
 #include "planner/sets/polygon/set_cells.h"
 
 namespace regrasp {
 
-/// A grasp of a vertex of the graph that another grasp is, or comes to by one switch.
-struct Attachment {
-  int vertex = 0;
-  Eigen::VectorXd parameters;  ///< of the set's contacts
-  bool whole = false;          ///< it is the grasp itself, no switch is needed
+/// A grasp of a set, by the parameters of its contacts in the order of the set's edges.
+struct PolygonPlace {
+  int set = 0;
+  Eigen::VectorXd parameters;
 };
 
 /// The cells of a graph's sets, made when first asked for.
@@ -34,12 +34,12 @@ class GraphCells {
 
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
-  [[nodiscard]] std::vector<Attachment> FindAttachments(const Grasp& grasp);
+  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindAttachments(const Grasp& grasp);
 
   /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
   /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
   /// to no set.
-  [[nodiscard]] std::vector<Attachment> FindSwitches(const Grasp& grasp, int fingers);
+  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindSwitches(const Grasp& grasp, int fingers);
 
   /// A grasp of the set, anywhere in it.
   [[nodiscard]] Grasp DrawGrasp(int vertex, RandomStream& random);

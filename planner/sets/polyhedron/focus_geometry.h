@@ -6,6 +6,7 @@
 
 #include "planner/base/random.h"
 #include "planner/grasp/contact.h"
+#include "planner/sets/grasp_set_model.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp {
@@ -21,10 +22,7 @@ struct FocusGrasp {
 };
 
 /// A common grasp of two cells but for one contact: what a finger switch goes between.
-struct FocusSwitch {
-  FocusGrasp before;
-  FocusGrasp after;
-};
+using FocusSwitch = SetSwitch<FocusGrasp>;
 
 /// Chooses focus points and contacts in the cells of a graph.
 ///

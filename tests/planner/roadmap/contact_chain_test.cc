@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "planner/base/angle.h"
-#include "planner/planning/grasp_choice.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/roadmap/roadmap_queries.h"
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"

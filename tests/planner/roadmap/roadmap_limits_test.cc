@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/angle.h"
-#include "planner/roadmap/plan_roadmap.h"
+#include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/roadmap_memory.h"
+#include "planner/roadmap/roadmap_planner.h"
 #include "tests/fixtures/counted_deadline.h"
 #include "tests/fixtures/peak_memory.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
@@ -16,12 +18,17 @@ using ::testing::HasSubstr;
 
 const GraspChoice kRandom = {GraspChoice::Kind::kRandom, {}, "random"};
 
-RoadmapOptions Options(int contacts, int clusters, double degrees) {
-  RoadmapOptions options;
-  options.half_angle = Radians(degrees);
-  options.contacts = contacts;
+PlanRequest Options(int contacts, int clusters, double degrees) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
+  options.contact_points = contacts;
   options.clusters = clusters;
   return options;
+}
+
+MemoryNeed NeedOf(const Polyhedron& body, PlanRequest request) {
+  request.object = &body;
+  return EstimateRoadmap(request);
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
@@ -30,19 +37,20 @@ TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   const Polyhedron mesh = MakeConvexBody(100, 1);
   struct Case {
     const Polyhedron& body;
-    RoadmapOptions options;
+    PlanRequest options;
   };
   for (const auto& [body, options] :
        {Case{box, Options(80, 0, 60)}, Case{box, Options(100, 0, 20)},
         Case{mesh, Options(80, 0, 35)}, Case{box, Options(400, 80, 40)},
         Case{box, Options(1200, 10, 30)}}) {
     const double used = PeakBytesOf([&, &body = body, &options = options] {
-      static_cast<void>(PlanOnRoadmap(body, kRandom, kRandom, options));
+      static_cast<void>(PlanWith(RoadmapPlanner(), body, kRandom, kRandom, options));
     });
-    const double estimate = EstimateRoadmap(body, options).bytes();
-    ASSERT_GT(used, 1e7) << options.contacts << " contacts, " << options.clusters << " clusters";
-    EXPECT_GT(estimate, used / 2) << options.contacts << " contacts, " << options.clusters;
-    EXPECT_LT(estimate, used * 2) << options.contacts << " contacts, " << options.clusters;
+    const double estimate = NeedOf(body, options).bytes();
+    ASSERT_GT(used, 1e7) << *options.contact_points << " contacts, " << *options.clusters
+                         << " clusters";
+    EXPECT_GT(estimate, used / 2) << *options.contact_points << " contacts, " << *options.clusters;
+    EXPECT_LT(estimate, used * 2) << *options.contact_points << " contacts, " << *options.clusters;
   }
 }
 #endif
@@ -50,41 +58,44 @@ TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 TEST(RoadmapMemory, TheEstimateGrowsWithTheContactPointsAndNotWithTheMesh) {
   double last = 0;
   for (const int contacts : {4, 10, 30, 100, kMaxRoadmapContacts}) {
-    const MemoryNeed need = EstimateRoadmap(MakeBox({0.06, 0.06, 0.06}), Options(contacts, 0, 30));
+    const MemoryNeed need = NeedOf(MakeBox({0.06, 0.06, 0.06}), Options(contacts, 0, 30));
     EXPECT_EQ(need.count, contacts);
     EXPECT_GT(need.bytes(), last) << contacts;
     last = need.bytes();
   }
   EXPECT_GT(last, 1e8);
-  const double coarse = EstimateRoadmap(MakeBox({1, 1, 1}, 1), Options(100, 0, 30)).bytes();
-  const double fine = EstimateRoadmap(MakeBox({1, 1, 1}, 20), Options(100, 0, 30)).bytes();
+  const double coarse = NeedOf(MakeBox({1, 1, 1}, 1), Options(100, 0, 30)).bytes();
+  const double fine = NeedOf(MakeBox({1, 1, 1}, 20), Options(100, 0, 30)).bytes();
   EXPECT_NEAR(fine / coarse, 1, 0.2);
 }
 
 TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
-  RoadmapOptions options = Options(kMaxRoadmapContacts, 0, 40);
+  PlanRequest options = Options(kMaxRoadmapContacts, 0, 40);
   options.memory = 1e8;
-  const PlanResult result = PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
+  const PlanResult result =
+      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 200 contact points"));
   options = Options(kMaxClusteredContacts, 20, 40);
   options.memory = 1e8;
-  EXPECT_THAT(PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).message,
-              HasSubstr("for 4000 contact points"));
+  EXPECT_THAT(
+      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).message,
+      HasSubstr("for 4000 contact points"));
 }
 
 TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
   for (const int clusters : {0, 10}) {
-    RoadmapOptions options = Options(clusters > 0 ? 60 : 14, clusters, 30);
+    PlanRequest options = Options(clusters > 0 ? 60 : 14, clusters, 30);
     const CountedDeadline never;
     options.deadline = never.deadline();
-    ASSERT_TRUE(PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).plan)
+    ASSERT_TRUE(
+        PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).plan)
         << clusters;
     EXPECT_GT(never.looks(), 80) << clusters;  // at every pair of contact points
     for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
       options.deadline = CountedDeadline(look).deadline();
       const PlanResult result =
-          PlanOnRoadmap(MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
+          PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
       EXPECT_FALSE(result.plan.has_value()) << look;
       EXPECT_THAT(result.message, HasSubstr("the planner roadmap when the time was up"));
     }

@@ -7,10 +7,12 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/planning/grasp_choice.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/sampling/contact_points.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
+#include "planner/tree/tree_planner.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp {
@@ -113,13 +115,15 @@ TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
   for (const double x : {-0.9, 0.9}) {
     for (int face = 0; face < hollow_.face_count(); ++face) {
       if (hollow_.IsEnclosed(face) && hollow_.inward_normal(face).x() * x > 0) {
-        choice.grasp.push_back({{x, 0, 0}, hollow_.inward_normal(face), face});
+        for (const double y : {-0.05, 0.05}) {
+          choice.grasp.push_back({{x, y, 0}, hollow_.inward_normal(face), face});
+        }
       }
     }
   }
-  ASSERT_EQ(choice.grasp.size(), 2u);
+  ASSERT_EQ(choice.grasp.size(), 4u);
   EXPECT_THAT(
-      [&] { CheckFingersFit(choice, hollow_, 0); },
+      [&] { (void)PlanWith(TreePlanner(), hollow_, choice, choice, RequestAt(20)); },
       ThrowsMessage<InputError>(HasSubstr("finger 0: its contact lies in a sealed cavity")));
 }
 

@@ -2,10 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include "planner/sets/contour/plan_contour.h"
+#include "planner/sets/contour/contour_planner.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_switch_page.h"
 #include "render/figures/print_size.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/render/figures/contact_space_scenes.h"
 
 namespace regrasp::render {
@@ -33,11 +34,11 @@ std::vector<ContactSwitch> ManySwitches() {
   for (const Polygon& polygon : {MakeFork(), MakeRing(20)}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-      ContourPlanOptions options;
-      options.half_angle = 0.45;
+      PlanRequest options;
+      options.criteria.half_angle = 0.45;
       options.seed = seed;
-      if (seed % 2 == 0) options.aim = SwitchObjective::kRegion;
-      const PlanResult result = PlanOnContour(polygon, random, random, options);
+      if (seed % 2 == 0) options.objective = Objective::kRegions;
+      const PlanResult result = PlanWith(ContourPlanner(), polygon, random, random, options);
       if (!result.plan) continue;
       for (ContactSwitch& step : SwitchesOf(polygon, *result.plan)) all.push_back(std::move(step));
     }

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "planner/sets/contour/contour_planner.h"
 #include "planner/sets/contour/grasp_pieces.h"
-#include "planner/sets/contour/plan_contour.h"
 #include "planner/sets/contour/projection_sweep.h"
 #include "tests/fixtures/deadline_laws.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
@@ -47,11 +48,11 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
 TEST(ContourDeadline, EndsAPlanWhereverItComes) {
   const Polygon polygon = IrregularOutline(60, 0.8, 3);
   const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-  ContourPlanOptions options;
-  options.half_angle = Radians(20);
+  PlanRequest options;
+  options.criteria.half_angle = Radians(20);
   ExpectPlanEndsWhereverItComes("contour", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;
-    return PlanOnContour(polygon, random, random, options);
+    return PlanWith(ContourPlanner(), polygon, random, random, options);
   });
 }
 

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "planner/object/polygon_rings.h"
-#include "planner/sets/contour/plan_contour.h"
+#include "planner/sets/contour/contour_graph.h"
+#include "planner/sets/contour/contour_planner.h"
 #include "tests/fixtures/peak_memory.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
@@ -66,14 +68,16 @@ TEST(ContourGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 
 TEST(ContourGraphMemory, TheEstimateOfAPlanIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const auto& [object, degrees] : Cases()) {
-    ContourPlanOptions options;
-    options.half_angle = Radians(degrees);
-    options.min_quality = 0;
+    PlanRequest options;
+    options.criteria.half_angle = Radians(degrees);
+    options.criteria.min_quality = 0;
     const double used = PeakBytesOf([&] {
-      static_cast<void>(PlanOnContour(object.polygon, {GraspChoice::Kind::kRandom, {}, "start"},
-                                      {GraspChoice::Kind::kRandom, {}, "goal"}, options));
+      static_cast<void>(PlanWith(ContourPlanner(), object.polygon,
+                                 {GraspChoice::Kind::kRandom, {}, "start"},
+                                 {GraspChoice::Kind::kRandom, {}, "goal"}, options));
     });
-    const double estimate = EstimateContourPlan(object.polygon, options.half_angle).bytes();
+    const double estimate =
+        EstimateContourPlan(object.polygon, options.criteria.half_angle).bytes();
     EXPECT_GT(used, 1e7) << object.name;
     EXPECT_GT(estimate, used / 2) << object.name;
     EXPECT_LT(estimate, used * 2) << object.name;
@@ -94,12 +98,12 @@ TEST(ContourGraphMemory, TheEstimateGrowsWithTheEdges) {
 }
 
 TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  ContourPlanOptions options;
-  options.half_angle = Radians(20);
+  PlanRequest options;
+  options.criteria.half_angle = Radians(20);
   options.memory = 1e8;
   const PlanResult result =
-      PlanOnContour(RegularPolygon(10'001), {GraspChoice::Kind::kRandom, {}, "start"},
-                    {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+      PlanWith(ContourPlanner(), RegularPolygon(10'001), {GraspChoice::Kind::kRandom, {}, "start"},
+               {GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 10001 edges"));
 }

@@ -1,5 +1,3 @@
-#include "planner/sets/contour/plan_contour.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +8,10 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
-#include "planner/registry/plan_planar.h"
+#include "planner/sets/contour/contour_planner.h"
+#include "planner/sets/contour/set_geometry.h"
 #include "planner/sets/polygon/set_cells.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp {
@@ -23,18 +23,11 @@ using testing::SizeIs;
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-GraspChoice Given(const Grasp& grasp, const std::string& name = "given.json") {
-  return {Kind::kGiven, grasp, name};
-}
-GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
-GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
-
-ContourPlanOptions Options(double degrees, std::uint64_t seed = 0,
-                           SwitchObjective aim = SwitchObjective::kRoom) {
-  ContourPlanOptions options;
-  options.half_angle = Radians(degrees);
+PlanRequest Options(double degrees, std::uint64_t seed = 0, Objective aim = Objective::kSteps) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
-  options.aim = aim;
+  options.objective = aim;
   return options;
 }
 
@@ -140,10 +133,10 @@ TEST_P(PlanOnContourAt, LeadsFromARandomGraspToAnother) {
   int corners = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      for (const SwitchObjective aim : {SwitchObjective::kRoom, SwitchObjective::kRegion}) {
+      for (const Objective aim : {Objective::kSteps, Objective::kRegions}) {
         SCOPED_TRACE(name + ", seed " + std::to_string(seed));
         const PlanResult result =
-            PlanOnContour(polygon, Random(), Random(), Options(GetParam(), seed, aim));
+            PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(GetParam(), seed, aim));
         ExpectGoodPlan(polygon, result);
         for (const Step& step : result.plan->steps) {
           if (const auto* align = std::get_if<Align>(&step)) {
@@ -164,12 +157,12 @@ TEST_P(PlanOnContourAt, OptimisedSwitchesHaveRegionsAtLeastAsLarge) {
   int larger = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      const PlanResult room = PlanOnContour(polygon, Random(), Random(),
-                                            Options(GetParam(), seed, SwitchObjective::kRoom));
+      const PlanResult room = PlanWith(ContourPlanner(), polygon, Random(), Random(),
+                                       Options(GetParam(), seed, Objective::kSteps));
       ASSERT_TRUE(room.plan);
       const PlanResult region =
-          PlanOnContour(polygon, Given(ContactsOf(room.plan->initial)), Given(room.plan->goal),
-                        Options(GetParam(), seed, SwitchObjective::kRegion));
+          PlanWith(ContourPlanner(), polygon, Given(ContactsOf(room.plan->initial)),
+                   Given(room.plan->goal), Options(GetParam(), seed, Objective::kRegions));
       ASSERT_TRUE(region.plan);
       // Otherwise a switch was too weak for one of the two, and they went different ways.
       if (SetsOf(polygon, *room.plan) != SetsOf(polygon, *region.plan)) continue;
@@ -191,8 +184,8 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
   int seen = 0;
   int outside_lost = 0;
   for (const auto& [name, polygon] : Objects()) {
-    const PlanResult result = PlanOnContour(polygon, Random(), Random(),
-                                            Options(GetParam(), 5, SwitchObjective::kRegion));
+    const PlanResult result = PlanWith(ContourPlanner(), polygon, Random(), Random(),
+                                       Options(GetParam(), 5, Objective::kRegions));
     ASSERT_TRUE(result.plan);
     const Boundary boundary(polygon);
     const std::vector<double> regions = RegionsOf(*result.plan);
@@ -240,7 +233,8 @@ TEST(PlanOnContour, GoesAroundADiscByOneAlign) {
   const Polygon disc = RegularPolygon(24);
   const Grasp start = MakeGrasp(disc, {{0, 0.5}, {12, 0.5}});
   const Grasp goal = MakeGrasp(disc, {{8, 0.5}, {20, 0.5}});
-  const PlanResult result = PlanOnContour(disc, Given(start), Given(goal), Options(15));
+  const PlanResult result =
+      PlanWith(ContourPlanner(), disc, Given(start), Given(goal), Options(15));
   ExpectGoodPlan(disc, result);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   const auto& align = std::get<Align>(result.plan->steps[0]);
@@ -263,8 +257,9 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
           const auto start = geometry.Draw(a, random);
           const auto goal = geometry.Draw(b, random);
           if (!start || !goal) continue;
-          const PlanResult result = PlanOnContour(polygon, Given(geometry.GraspOf(*start)),
-                                                  Given(geometry.GraspOf(*goal)), Options(degrees));
+          const PlanResult result =
+              PlanWith(ContourPlanner(), polygon, Given(geometry.GraspOf(*start)),
+                       Given(geometry.GraspOf(*goal)), Options(degrees));
           if (components.of_vertex[a] == components.of_vertex[b]) {
             ++joined;
             ExpectGoodPlan(polygon, result);
@@ -285,7 +280,8 @@ TEST(PlanOnContour, HasNothingToDoWhereTheGoalIsTheStart) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const Grasp same = {start[1], start[0]};
-  const PlanResult result = PlanOnContour(square, Given(start), Given(same), Options(10));
+  const PlanResult result =
+      PlanWith(ContourPlanner(), square, Given(start), Given(same), Options(10));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
@@ -293,7 +289,8 @@ TEST(PlanOnContour, HasNothingToDoWhereTheGoalIsTheStart) {
 TEST(PlanOnContour, IsTheSameBitForBit) {
   const Polygon polygon = Model("polygon40.wkt");
   const auto text = [&](std::uint64_t seed) {
-    return FormatPlan(*PlanOnContour(polygon, Random(), Random(), Options(20, seed)).plan);
+    return FormatPlan(
+        *PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
   };
   EXPECT_EQ(text(4), text(4));
   EXPECT_NE(text(4), text(5));
@@ -304,70 +301,33 @@ TEST(PlanOnContour, RefusesGraspsThatDoNotServe) {
   const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const Grasp three = MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}});
   const Grasp leaning = MakeGrasp(square, {{0, 0.1}, {2, 0.1}});
-  EXPECT_THROW((void)PlanOnContour(square, Given(three), Given(good), Options(10)), InputError);
-  EXPECT_THROW((void)PlanOnContour(square, Given(leaning), Given(good), Options(10)), InputError);
-  EXPECT_THROW((void)PlanOnContour(square, Given(good), Given(good), Options(0)),
+  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(three), Given(good), Options(10)),
+               InputError);
+  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(leaning), Given(good), Options(10)),
+               InputError);
+  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), Options(0)),
                std::invalid_argument);
-  ContourPlanOptions options = Options(10);
-  options.min_quality = -1;
-  EXPECT_THROW((void)PlanOnContour(square, Given(good), Given(good), options),
+  PlanRequest options = Options(10);
+  options.criteria.min_quality = -1;
+  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), options),
                std::invalid_argument);
 }
 
 TEST(PlanOnContour, RandomGraspsAreAsGoodAsAsked) {
   const Polygon polygon = Model("polygon30.wkt");
   for (const GraspChoice& choice : {Random(), RandomAny()}) {
-    ContourPlanOptions options = Options(20, 9);
-    options.min_quality = 0.05;
-    const PlanResult result = PlanOnContour(polygon, choice, choice, options);
+    PlanRequest options = Options(20, 9);
+    options.criteria.min_quality = 0.05;
+    const PlanResult result = PlanWith(ContourPlanner(), polygon, choice, choice, options);
     ASSERT_TRUE(result.plan) << result.message;
-    const GraspEvaluator evaluator(polygon, {options.half_angle, options.min_quality});
+    const GraspEvaluator evaluator(polygon,
+                                   {options.criteria.half_angle, options.criteria.min_quality});
     EXPECT_TRUE(evaluator.IsGood(ContactsOf(result.plan->initial)));
     EXPECT_TRUE(evaluator.IsGood(result.plan->goal));
-    options.min_quality = 10;
-    EXPECT_EQ(PlanOnContour(polygon, choice, choice, options).status, Status::kNoGrasp);
+    options.criteria.min_quality = 10;
+    EXPECT_EQ(PlanWith(ContourPlanner(), polygon, choice, choice, options).status,
+              Status::kNoGrasp);
   }
-}
-
-TEST(PlanPlanar, TakesContourWhereItJoinsTwoFingerGraspsAndOtherwisePolygon) {
-  const auto planner = [](const Polygon& polygon, const Grasp& start, const Grasp& goal) {
-    PlanarPlanOptions options;
-    options.polygon.half_angle = Radians(20);
-    const PlanResult result = PlanPlanar(polygon, Given(start), Given(goal), options);
-    return result.plan ? result.plan->planner : result.message;
-  };
-  const Polygon square = Square(1);
-  const Grasp upright = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const Grasp leaning = MakeGrasp(square, {{0, 0.4}, {2, 0.5}});
-  const Grasp level = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
-  const Grasp three = MakeGrasp(square, {{0, 0.3}, {0, 0.7}, {2, 0.5}});
-  EXPECT_EQ(planner(square, upright, leaning), "contour");
-  // The two sets have no place in common, but a hand of four fingers changes all contacts at once.
-  EXPECT_EQ(planner(square, upright, level), "polygon");
-  EXPECT_EQ(planner(square, upright, three), "polygon");
-}
-
-TEST(PlanPlanar, DrawsTheSameRandomGraspsForBothPlanners) {
-  const Polygon polygon = Model("polygon40.wkt");
-  int contour = 0;
-  int other = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    PlanarPlanOptions options;
-    options.polygon.half_angle = Radians(20);
-    options.polygon.seed = seed;
-    const PlanResult result = PlanPlanar(polygon, RandomAny(), RandomAny(), options);
-    ASSERT_TRUE(result.plan) << result.message;
-    const bool two = result.plan->initial.size() == 2 && result.plan->goal.size() == 2;
-    EXPECT_EQ(result.plan->planner, two ? "contour" : "polygon");
-    const PlanResult alone = PlanOnPolygon(polygon, RandomAny(), RandomAny(), options.polygon);
-    ASSERT_TRUE(alone.plan);
-    for (std::size_t i = 0; i < alone.plan->initial.size(); ++i) {
-      EXPECT_EQ(alone.plan->initial[i].contact.p, result.plan->initial[i].contact.p);
-    }
-    (two ? contour : other) += 1;
-  }
-  EXPECT_GT(contour, 0);
-  EXPECT_GT(other, 0);
 }
 
 }  // namespace

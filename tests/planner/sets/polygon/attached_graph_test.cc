@@ -1,4 +1,4 @@
-#include "planner/sets/polygon/attached_graph.h"
+#include "planner/sets/attached_graph.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 #include <set>
 
 #include "planner/search/fewest_switches.h"
+#include "planner/sets/candidate_search.h"
+#include "planner/sets/polygon/graph_cells.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {
@@ -22,8 +24,7 @@ class AttachedBlob : public testing::Test {
   AttachedBlob() : graph_(MakeGraph(blob_, 20, Spanning::kAdaptive)), cells_(blob_, graph_) {}
 
   /// The switches between a set of `start` and one of `goal`, and two for these.
-  [[nodiscard]] std::optional<int> Switches(const std::vector<Attachment>& start,
-                                            const std::vector<Attachment>& goal) const {
+  [[nodiscard]] std::optional<int> Switches(const GraspEnds& start, const GraspEnds& goal) const {
     const AttachedGraph graph(graph_, start, goal, banned_);
     return FewestSwitches(graph, graph.start(), graph.goal(), [](int) { return true; });
   }
@@ -36,8 +37,7 @@ class AttachedBlob : public testing::Test {
 
 TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
   banned_ = {{0, Neighbours(graph_, 0).front()}};
-  const AttachedGraph graph(graph_, {{0, {}, true}, {1, {}, false}, {2, {}, false}},
-                            {{2, {}, true}, {3, {}, true}}, banned_);
+  const AttachedGraph graph(graph_, {{0}, {1, 2}}, {{2, 3}, {}}, banned_);
   int edges = 0;
   for (int v = 0; v < graph.vertex_count(); ++v) {
     const std::vector<int> neighbours = Neighbours(graph, v);
@@ -59,26 +59,29 @@ TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
 }
 
 TEST_F(AttachedBlob, AGraspIsOneSwitchFartherFromSetsThatItHasToSwitchTo) {
-  EXPECT_EQ(Switches({{0, {}, true}}, {{0, {}, true}}), 2);
-  EXPECT_EQ(Switches({{0, {}, false}}, {{0, {}, true}}), 3);
-  EXPECT_EQ(Switches({{0, {}, false}}, {{0, {}, false}}), 4);
-  EXPECT_EQ(Switches({{0, {}, false}, {0, {}, true}}, {{0, {}, true}}), 2);
+  EXPECT_EQ(Switches({{0}, {}}, {{0}, {}}), 2);
+  EXPECT_EQ(Switches({{}, {0}}, {{0}, {}}), 3);
+  EXPECT_EQ(Switches({{}, {0}}, {{}, {0}}), 4);
+  EXPECT_EQ(Switches({{0}, {0}}, {{0}, {}}), 2);
 }
 
 TEST_F(AttachedBlob, BannedSwitchesAreNotTaken) {
   const int other = Neighbours(graph_, 0).front();
-  EXPECT_EQ(Switches({{0, {}, true}}, {{other, {}, true}}), 3);
+  EXPECT_EQ(Switches({{0}, {}}, {{other}, {}}), 3);
   banned_ = {Unordered(other, 0)};
-  EXPECT_GT(Switches({{0, {}, true}}, {{other, {}, true}}), 3);
+  EXPECT_GT(Switches({{0}, {}}, {{other}, {}}), 3);
   for (const int neighbour : Neighbours(graph_, 0)) banned_.insert(Unordered(0, neighbour));
-  EXPECT_FALSE(Switches({{0, {}, true}}, {{other, {}, true}}).has_value());
+  EXPECT_FALSE(Switches({{0}, {}}, {{other}, {}}).has_value());
 }
 
 TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
   int longest = 0;
   for (int goal = 0; goal < graph_.vertex_count(); ++goal) {
-    const AttachedGraph graph(graph_, {{0, {}, true}}, {{goal, {}, false}}, banned_);
-    const std::vector<int> path = FindSetPath(graph, cells_);
+    const AttachedGraph graph(graph_, {{0}, {}}, {{}, {goal}}, banned_);
+    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
+      return graph.IsSet(vertex) ? cells_.WidthOf(vertex) : 0;
+    });
+    std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });
     ASSERT_FALSE(path.empty());
     EXPECT_EQ(path.front(), 0);
     EXPECT_EQ(path.back(), goal);
@@ -89,6 +92,12 @@ TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
     longest = std::max(longest, static_cast<int>(path.size()));
   }
   EXPECT_GT(longest, 2);
+}
+
+TEST_F(AttachedBlob, ASetIsTheOnlyOneOfAnEndWhereNoOtherIsJoinedToIt) {
+  const AttachedGraph graph(graph_, {{0}, {}}, {{1}, {2}}, banned_);
+  EXPECT_TRUE(graph.IsOnlySetOfAnEnd(0));
+  for (const int other : {1, 2, 3}) EXPECT_FALSE(graph.IsOnlySetOfAnEnd(other)) << other;
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "planner/sets/polygon/candidates.h"
-#include "planner/sets/polygon/plan_polygon.h"
 #include "planner/sets/polygon/polygon_graph.h"
+#include "planner/sets/polygon/polygon_planner.h"
 #include "tests/fixtures/deadline_laws.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {
@@ -46,13 +47,13 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
 
 TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
   const Polygon polygon = RegularPolygon(9);
-  PolygonPlanOptions options;
-  options.half_angle = Radians(20);
+  PlanRequest options;
+  options.criteria.half_angle = Radians(20);
   const GraspChoice start = {GraspChoice::Kind::kRandom, {}, "start"};
   const GraspChoice goal = {GraspChoice::Kind::kRandomAny, {}, "goal"};
   ExpectPlanEndsWhereverItComes("polygon", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;
-    return PlanOnPolygon(polygon, start, goal, options);
+    return PlanWith(PolygonPlanner(), polygon, start, goal, options);
   });
 }
 

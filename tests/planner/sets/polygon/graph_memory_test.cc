@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "planner/object/object.h"
-#include "planner/sets/polygon/plan_polygon.h"
+#include "planner/sets/polygon/polygon_planner.h"
 #include "tests/fixtures/peak_memory.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {
@@ -52,11 +53,12 @@ TEST(PolygonGraphMemory, TheEstimateGrowsWithTheEdges) {
 
 TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   const Polygon polygon = RegularPolygon(1001);
-  PolygonPlanOptions options;
-  options.half_angle = Radians(20);
+  PlanRequest options;
+  options.criteria.half_angle = Radians(20);
   options.memory = 1e9;
-  const PlanResult result = PlanOnPolygon(polygon, {GraspChoice::Kind::kRandom, {}, "start"},
-                                          {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), polygon, {GraspChoice::Kind::kRandom, {}, "start"},
+               {GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
 }

@@ -1,5 +1,3 @@
-#include "planner/sets/polygon/plan_polygon.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +13,8 @@
 #include "planner/plan/plan_io.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/sets/polygon/graph_cells.h"
+#include "planner/sets/polygon/polygon_planner.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp {
@@ -27,15 +27,9 @@ using testing::SizeIs;
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-GraspChoice Given(const Grasp& grasp, const std::string& name = "given.json") {
-  return {Kind::kGiven, grasp, name};
-}
-GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
-GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
-
-PolygonPlanOptions Options(double degrees, std::uint64_t seed = 0) {
-  PolygonPlanOptions options;
-  options.half_angle = Radians(degrees);
+PlanRequest Options(double degrees, std::uint64_t seed = 0) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
   return options;
 }
@@ -84,9 +78,9 @@ bool AreJoined(const Polygon& polygon, double degrees, const Grasp& a, const Gra
   const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   const Components components = graph.components();
-  for (const Attachment& of_a : cells.FindAttachments(a)) {
-    for (const Attachment& of_b : cells.FindAttachments(b)) {
-      if (components.of_vertex[of_a.vertex] == components.of_vertex[of_b.vertex]) return true;
+  for (const auto& of_a : cells.FindAttachments(a)) {
+    for (const auto& of_b : cells.FindAttachments(b)) {
+      if (components.of_vertex[of_a.place.set] == components.of_vertex[of_b.place.set]) return true;
     }
   }
   return false;
@@ -137,7 +131,7 @@ TEST_P(PlanOnPolygonAt, LeadsFromEveryTypeToEveryType) {
         SCOPED_TRACE(name + ", type " + std::to_string(static_cast<int>(start_type)) + " to " +
                      std::to_string(static_cast<int>(goal_type)));
         const PlanResult result =
-            PlanOnPolygon(polygon, Given(start), Given(goal), Options(degrees));
+            PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(degrees));
         if (AreJoined(polygon, degrees, start, goal)) {
           ExpectGoodPlan(polygon, result, start, goal);
           ++plans;
@@ -166,7 +160,7 @@ TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
       for (std::uint64_t seed = 0; seed < 3; ++seed) {
         SCOPED_TRACE(std::string(name) + ", seed " + std::to_string(seed));
         const PlanResult result =
-            PlanOnPolygon(polygon, Random(), Random(), Options(degrees, seed));
+            PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(degrees, seed));
         ASSERT_EQ(result.status, Status::kFound) << result.message;
         const Grasp start = ContactsOf(result.plan->initial);
         ExpectGoodPlan(polygon, result, start, result.plan->goal);
@@ -184,7 +178,8 @@ TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
   const Polygon polygon = Model("polygon15.wkt");
   std::map<std::size_t, int> contacts;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    const PlanResult result = PlanOnPolygon(polygon, RandomAny(), RandomAny(), Options(25, seed));
+    const PlanResult result =
+        PlanWith(PolygonPlanner(), polygon, RandomAny(), RandomAny(), Options(25, seed));
     if (result.status != Status::kFound) continue;
     const Grasp start = ContactsOf(result.plan->initial);
     ExpectGoodPlan(polygon, result, start, result.plan->goal);
@@ -199,7 +194,8 @@ TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
   // At 20° the triangle has no grasp of two fingers.
   const Polygon triangle = Model("triangle.wkt");
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const PlanResult result = PlanOnPolygon(triangle, RandomAny(), RandomAny(), Options(20, seed));
+    const PlanResult result =
+        PlanWith(PolygonPlanner(), triangle, RandomAny(), RandomAny(), Options(20, seed));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.plan->initial, SizeIs(3));
     EXPECT_THAT(result.plan->goal, SizeIs(3));
@@ -209,7 +205,8 @@ TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
 TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
   const Polygon polygon = Model("polygon15.wkt");
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(*PlanOnPolygon(polygon, Random(), Random(), Options(20, seed)).plan);
+    return FormatPlan(
+        *PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
   EXPECT_NE(plan(3), plan(4));
@@ -219,7 +216,8 @@ TEST(PlanOnPolygon, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.4}, {2, 0.6}});
   const Grasp goal = {start[1], start[0]};
-  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
@@ -228,7 +226,8 @@ TEST(PlanOnPolygon, OneAlignLeadsFromGraspToGraspOfASet) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.3}, {2, 0.7}});
   const Grasp goal = MakeGrasp(square, {{2, 0.35}, {0, 0.65}});
-  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<Align>(result.plan->steps.front()));
@@ -238,7 +237,8 @@ TEST(PlanOnPolygon, TwoFingersAcrossTheSquareTurnByOneSwitch) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
-  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   const auto& step = std::get<Switch>(result.plan->steps.front());
@@ -251,7 +251,8 @@ TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
   const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
-  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(10));
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(10));
   ExpectGoodPlan(square, result, start, goal);
   const auto& first = std::get<Switch>(result.plan->steps.front());
   EXPECT_THAT(first.place, IsEmpty());
@@ -263,7 +264,7 @@ TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
 
 TEST(PlanOnPolygon, MarginIsTheSmallestOfThePlansGrasps) {
   const Polygon polygon = Model("polygon15.wkt");
-  const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), Options(20, 5));
+  const PlanResult result = PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, 5));
   ASSERT_EQ(result.status, Status::kFound);
   double smallest = std::numeric_limits<double>::infinity();
   for (const Grasp& grasp : RestsOf(*result.plan)) {
@@ -278,7 +279,8 @@ TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
   const Polygon polygon = Model("polygon20.wkt");
   int good = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), Options(20, seed));
+    const PlanResult result =
+        PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed));
     ASSERT_EQ(result.status, Status::kFound);
     const std::vector<Grasp> rests = RestsOf(*result.plan);
     const bool all = std::all_of(rests.begin(), rests.end(), [&](const Grasp& grasp) {
@@ -292,10 +294,11 @@ TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
 
 TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   const Polygon square = Square(1);
-  PolygonPlanOptions options = Options(20);
-  options.min_quality = 0.9;  // more than any grasp has at this friction
-  const PlanResult result = PlanOnPolygon(square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
-                                          Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
+  PlanRequest options = Options(20);
+  options.criteria.min_quality = 0.9;  // more than any grasp has at this friction
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
+               Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
   ASSERT_EQ(result.status, Status::kFound);
   ASSERT_THAT(result.warnings, SizeIs(1));
   EXPECT_THAT(result.warnings[0], AllOf(HasSubstr("below the quality 0.9"), HasSubstr("step")));
@@ -303,9 +306,9 @@ TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
 
 TEST(PlanOnPolygon, CannotDrawAGraspBetterThanAll) {
   for (const GraspChoice& choice : {Random(), RandomAny()}) {
-    PolygonPlanOptions options = Options(20);
-    options.min_quality = 0.9;
-    const PlanResult result = PlanOnPolygon(Square(1), choice, choice, options);
+    PlanRequest options = Options(20);
+    options.criteria.min_quality = 0.9;
+    const PlanResult result = PlanWith(PolygonPlanner(), Square(1), choice, choice, options);
     EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_THAT(result.message, HasSubstr(choice.name + ": no"));
     EXPECT_FALSE(result.plan.has_value());
@@ -326,7 +329,8 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
     const Grasp start = cells.DrawGrasp(v, random);
     const Grasp goal = cells.DrawGrasp(0, random);
     if (AreJoined(polygon, kDegrees, start, goal)) continue;
-    const PlanResult result = PlanOnPolygon(polygon, Given(start), Given(goal), Options(kDegrees));
+    const PlanResult result =
+        PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(kDegrees));
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_FALSE(result.plan.has_value());
     EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns"));
@@ -350,8 +354,8 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   const Grasp pinwheel = MakePinwheel(square);
   const Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const auto message = [&](const Grasp& from, const Grasp& to) {
-    const PlanResult result =
-        PlanOnPolygon(square, Given(from, "from.json"), Given(to, "to.json"), Options(5));
+    const PlanResult result = PlanWith(PolygonPlanner(), square, Given(from, "from.json"),
+                                       Given(to, "to.json"), Options(5));
     EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_FALSE(result.plan.has_value());
     return result.message;
@@ -359,9 +363,11 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   EXPECT_THAT(message(pinwheel, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
   EXPECT_THAT(message(pair, pinwheel), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
   // With friction for a pair alone it can switch, and no finger has to where it is the goal itself.
-  ExpectGoodPlan(square, PlanOnPolygon(square, Given(pinwheel), Given(pair), Options(15)), pinwheel,
-                 pair);
-  const PlanResult same = PlanOnPolygon(square, Given(pinwheel), Given(pinwheel), Options(5));
+  ExpectGoodPlan(square,
+                 PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pair), Options(15)),
+                 pinwheel, pair);
+  const PlanResult same =
+      PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pinwheel), Options(5));
   ExpectGoodPlan(square, same, pinwheel, pinwheel);
   EXPECT_THAT(same.plan->steps, IsEmpty());
 }
@@ -372,13 +378,15 @@ TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
   const Polygon triangle = RegularPolygon(3);
   const Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
   const Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
-  PolygonPlanOptions options = Options(35);
-  const PlanResult adaptive = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  PlanRequest options = Options(35);
+  const PlanResult adaptive =
+      PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
   ExpectGoodPlan(triangle, adaptive, start, goal);
   ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<Align>(adaptive.plan->steps.front()));
   options.spanning = Spanning::kUniform;
-  const PlanResult uniform = PlanOnPolygon(triangle, Given(start), Given(goal), options);
+  const PlanResult uniform =
+      PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
   ExpectGoodPlan(triangle, uniform, start, goal);
   EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.front()).place.empty());
   EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.back()).place.empty());
@@ -388,7 +396,8 @@ TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
   const Polygon square = Square(1);
   const Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
   const Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
-  const PlanResult result = PlanOnPolygon(square, Given(start), Given(goal), Options(20));
+  const PlanResult result =
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
 }
 
@@ -402,9 +411,9 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
     };
     EXPECT_EQ(joined(Spanning::kUniform), 0) << name;
     joined_under_adaptive += joined(Spanning::kAdaptive) > 0 ? 1 : 0;
-    PolygonPlanOptions options = Options(20, 1);
+    PlanRequest options = Options(20, 1);
     options.spanning = Spanning::kUniform;
-    const PlanResult result = PlanOnPolygon(polygon, Random(), Random(), options);
+    const PlanResult result = PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
     if (result.status != Status::kFound) continue;
     ExpectGoodPlan(polygon, result, ContactsOf(result.plan->initial), result.plan->goal);
     ++plans;
@@ -418,7 +427,7 @@ TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
   const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const auto refusal = [&](const Grasp& start) -> std::string {
     try {
-      (void)PlanOnPolygon(square, Given(start), Given(good), Options(20));
+      (void)PlanWith(PolygonPlanner(), square, Given(start), Given(good), Options(20));
     } catch (const InputError& error) {
       return error.what();
     }
@@ -437,11 +446,14 @@ TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
 
 TEST(PlanOnPolygon, RefusesOptionsOutOfRange) {
   const Polygon square = Square(1);
-  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), Options(90)), std::invalid_argument);
-  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), Options(0)), std::invalid_argument);
-  PolygonPlanOptions options = Options(20);
-  options.min_quality = -1;
-  EXPECT_THROW((void)PlanOnPolygon(square, Random(), Random(), options), std::invalid_argument);
+  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(90)),
+               std::invalid_argument);
+  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(0)),
+               std::invalid_argument);
+  PlanRequest options = Options(20);
+  options.criteria.min_quality = -1;
+  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), options),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/contact_motion.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp {
@@ -25,7 +26,7 @@ constexpr int kSamples = 65;
 struct PlanningCase {
   std::string name;
   const Polyhedron* body;
-  PolyhedronPlanOptions options;
+  PlanRequest options;
   std::unique_ptr<PolyhedronGraph> graph;
 };
 
@@ -52,7 +53,7 @@ std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
                         &named.body,
                         {},
                         {}};
-      made.options.half_angle = Radians(degrees);
+      made.options.criteria.half_angle = Radians(degrees);
       made.options.spanning = spanning;
       made.graph = std::make_unique<PolyhedronGraph>(named.body, Radians(degrees), spanning);
       if (made.graph->vertex_count() > 0) cases.push_back(std::move(made));
@@ -105,10 +106,11 @@ int ForEachPlan(int count, Visit visit) {
   for (std::uint64_t seed = 1; plans < count && seed <= kPlans; ++seed) {
     for (const PlanningCase& one : cases) {
       if (plans == count) break;
-      PolyhedronPlanOptions options = one.options;
+      PlanRequest options = one.options;
       options.seed = seed;
       const GraspChoice random{GraspChoice::Kind::kRandom, {}, "random"};
-      const PlanResult result = PlanOnPolyhedron(*one.body, *one.graph, random, random, options);
+      const PlanResult result =
+          PlanWith(PolyhedronPlanner(one.graph.get()), *one.body, random, random, options);
       if (result.status == PlanResult::Status::kNoGrasp) continue;  // none is as good as asked for
       SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
       EXPECT_EQ(result.status, PlanResult::Status::kFound) << result.message;
@@ -128,7 +130,7 @@ TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure
       const auto* align = std::get_if<Align>(&step);
       if (!align) continue;
       EXPECT_GE(align->waypoints.size(), 2u);
-      const Tally walked = Walk(*align, one.body->wrench_frame(), one.options.half_angle);
+      const Tally walked = Walk(*align, one.body->wrench_frame(), one.options.criteria.half_angle);
       EXPECT_EQ(walked.not_closed, 0);
       Add(walked, all);
       ++aligns_of_body[one.name.substr(0, one.name.find(','))];
@@ -169,12 +171,12 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
       Contact& contact = grasp.front().contact;
       contact.p += 1000 * one.body->diameter() * contact.n.unitOrthogonal();
     }
-    const Tally walked = Walk(off, one.body->wrench_frame(), one.options.half_angle);
+    const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
     // One waypoint only: between good ones the way is bad all the same.
     Align bent = align;
     bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
-    EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.half_angle).not_closed, 0);
+    EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.half_angle).not_closed, 0);
   });
   EXPECT_GE(pushed, 20);
 }
@@ -184,7 +186,7 @@ TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
     // A finger that pushes out of the object instead of into it.
     Align wrong = align;
     for (FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
-    const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.half_angle);
+    const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
   });
   EXPECT_GE(turned, 20);

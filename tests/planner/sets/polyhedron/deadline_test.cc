@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "planner/sets/polyhedron/normal_quadruples.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/deadline_laws.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp {
@@ -29,11 +30,11 @@ TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereve
 TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
   const Polyhedron body = RegularOctahedron();
   const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-  PolyhedronPlanOptions options;
-  options.half_angle = Radians(15);
+  PlanRequest options;
+  options.criteria.half_angle = Radians(15);
   ExpectPlanEndsWhereverItComes("polyhedron", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;
-    return PlanOnPolyhedron(body, random, random, options);
+    return PlanWith(PolyhedronPlanner(), body, random, random, options);
   });
 }
 

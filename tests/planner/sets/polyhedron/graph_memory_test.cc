@@ -6,8 +6,9 @@
 #include "bench/polyhedron_stone.h"
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
-#include "planner/sets/polyhedron/plan_polyhedron.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/peak_memory.h"
+#include "tests/fixtures/plan_with.h"
 
 namespace regrasp {
 namespace {
@@ -45,12 +46,12 @@ TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
 }
 
 TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  PolyhedronPlanOptions options;
-  options.half_angle = kHalfAngle;
+  PlanRequest options;
+  options.criteria.half_angle = kHalfAngle;
   options.memory = 1e9;
-  const PlanResult result =
-      PlanOnPolyhedron(MakeStone(300, {1, 1, 1}, 1), {GraspChoice::Kind::kRandom, {}, "start"},
-                       {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const PlanResult result = PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1),
+                                     {GraspChoice::Kind::kRandom, {}, "start"},
+                                     {GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
 }

@@ -1,5 +1,3 @@
-#include "planner/sets/polyhedron/plan_polyhedron.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,9 +7,10 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
-#include "planner/registry/plan_spatial.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
 #include "planner/sets/polyhedron/focus_view.h"
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp {
@@ -23,14 +22,9 @@ using testing::SizeIs;
 using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
-GraspChoice Given(const Grasp& grasp) { return {Kind::kGiven, grasp, "given.json"}; }
-GraspChoice Random() { return {Kind::kRandom, {}, "random"}; }
-GraspChoice RandomAny() { return {Kind::kRandomAny, {}, "random-any"}; }
-
-PolyhedronPlanOptions Options(double degrees, std::uint64_t seed,
-                              Spanning spanning = Spanning::kAdaptive) {
-  PolyhedronPlanOptions options;
-  options.half_angle = Radians(degrees);
+PlanRequest Options(double degrees, std::uint64_t seed, Spanning spanning = Spanning::kAdaptive) {
+  PlanRequest options;
+  options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
   options.spanning = spanning;
   return options;
@@ -64,8 +58,8 @@ TEST(PlanOnPolyhedron, LeadsFromARandomGraspToAnother) {
       for (const double degrees : {10.0, 25.0}) {
         for (const std::uint64_t seed : {1, 2, 3}) {
           SCOPED_TRACE(name + ", " + Name(spanning) + ", seed " + std::to_string(seed));
-          const PlanResult result =
-              PlanOnPolyhedron(body, Random(), Random(), Options(degrees, seed, spanning));
+          const PlanResult result = PlanWith(PolyhedronPlanner(), body, Random(), Random(),
+                                             Options(degrees, seed, spanning));
           if (result.status == Status::kNoGrasp) {
             ++none;
             continue;
@@ -100,8 +94,8 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
       const auto goal = geometry.Draw(b, random);
       ASSERT_TRUE(start && goal);
       const PlanResult result =
-          PlanOnPolyhedron(body, Given(geometry.GraspOf(*start)), Given(geometry.GraspOf(*goal)),
-                           Options(14, 0, Spanning::kUniform));
+          PlanWith(PolyhedronPlanner(), body, Given(geometry.GraspOf(*start)),
+                   Given(geometry.GraspOf(*goal)), Options(14, 0, Spanning::kUniform));
       SCOPED_TRACE(name + ", cells " + std::to_string(a) + " and " + std::to_string(b));
       if (components.of_vertex[a] == components.of_vertex[b]) {
         ++joined;
@@ -142,12 +136,13 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
 
 TEST(PlanOnPolyhedron, HasNothingToDoWhereTheGoalIsTheStart) {
   const Polyhedron& body = SmallBodies().front().body;
-  const PlanResult some = PlanOnPolyhedron(body, Random(), Random(), Options(15, 1));
+  const PlanResult some = PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
   ASSERT_TRUE(some.plan) << some.message;
   Grasp start = ContactsOf(some.plan->initial);
   Grasp same = start;
   std::ranges::reverse(same);
-  const PlanResult result = PlanOnPolyhedron(body, Given(start), Given(same), Options(15, 1));
+  const PlanResult result =
+      PlanWith(PolyhedronPlanner(), body, Given(start), Given(same), Options(15, 1));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
@@ -155,7 +150,8 @@ TEST(PlanOnPolyhedron, HasNothingToDoWhereTheGoalIsTheStart) {
 TEST(PlanOnPolyhedron, IsTheSameBitForBit) {
   const Polyhedron& body = SmallBodies().back().body;
   const auto text = [&](std::uint64_t seed) {
-    const PlanResult result = PlanOnPolyhedron(body, Random(), Random(), Options(12, seed));
+    const PlanResult result =
+        PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(12, seed));
     return result.plan ? FormatPlan(*result.plan) : result.message;
   };
   EXPECT_EQ(text(4), text(4));
@@ -173,55 +169,37 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
                        contact({0, 1, -0.1})};
   const Grasp other = {contact({-1, 0.2, 0}), contact({1, -0.2, 0}), contact({0, -1, 0.2}),
                        contact({0, 1, -0.2})};
-  const PlanResult result = PlanOnPolyhedron(box, Given(grasp), Given(other), Options(25, 0));
+  const PlanResult result =
+      PlanWith(PolyhedronPlanner(), box, Given(grasp), Given(other), Options(25, 0));
   EXPECT_EQ(result.status, Status::kNoGrasp);
-  EXPECT_THAT(result.message,
-              HasSubstr("given.json: force closure, but the body has no focus cell"));
-  EXPECT_EQ(PlanOnPolyhedron(box, Random(), Random(), Options(25, 0)).status, Status::kNoGrasp);
+  EXPECT_THAT(
+      result.message,
+      HasSubstr(
+          "given.json: force closure, but four contacts on this body are nowhere concurrent"));
+  EXPECT_EQ(PlanWith(PolyhedronPlanner(), box, Random(), Random(), Options(25, 0)).status,
+            Status::kNoGrasp);
   EXPECT_FALSE(DescribeFocus(box, grasp, Radians(25)));
-  // What the roadmap can do, auto does by it.
-  RoadmapOptions options;
-  options.half_angle = Radians(25);
-  options.contacts = 30;
-  const PlanResult by_auto =
-      PlanSpatial(box, Given(grasp), Given(other), Spanning::kAdaptive, options);
-  ASSERT_TRUE(by_auto.plan) << by_auto.message;
-  EXPECT_EQ(by_auto.plan->planner, "roadmap");
 }
 
 TEST(PlanOnPolyhedron, RefusesGraspsThatDoNotServe) {
   const Polyhedron& body = SmallBodies().front().body;
-  const PlanResult some = PlanOnPolyhedron(body, Random(), Random(), Options(15, 1));
+  const PlanResult some = PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
   ASSERT_TRUE(some.plan) << some.message;
   const Grasp good = ContactsOf(some.plan->initial);
   const Grasp three(good.begin(), good.begin() + 3);
-  EXPECT_THROW((void)PlanOnPolyhedron(body, Given(three), Given(good), Options(15, 1)), InputError);
-  EXPECT_THROW((void)PlanOnPolyhedron(body, Given(good), Given(three), Options(15, 1)), InputError);
-  EXPECT_THROW((void)PlanOnPolyhedron(body, Random(), Random(), Options(0, 1)),
+  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(three), Given(good), Options(15, 1)),
+               InputError);
+  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(good), Given(three), Options(15, 1)),
+               InputError);
+  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(0, 1)),
                std::invalid_argument);
-  PolyhedronPlanOptions options = Options(15, 1);
-  options.min_quality = -1;
-  EXPECT_THROW((void)PlanOnPolyhedron(body, Random(), Random(), options), std::invalid_argument);
-  options.min_quality = 10;
-  EXPECT_EQ(PlanOnPolyhedron(body, RandomAny(), Random(), options).status, Status::kNoGrasp);
-}
-
-TEST(PlanSpatial, TakesPolyhedronForConcurrentGraspsWhereItsGraphFits) {
-  for (const auto& [name, body] : SmallBodies()) {
-    const PlanResult some = PlanOnPolyhedron(body, Random(), Random(), Options(15, 2));
-    if (!some.plan || !some.warnings.empty()) continue;
-    RoadmapOptions options;
-    options.half_angle = Radians(15);
-    const PlanResult by_auto = PlanSpatial(body, Given(ContactsOf(some.plan->initial)),
-                                           Given(some.plan->goal), Spanning::kAdaptive, options);
-    ASSERT_TRUE(by_auto.plan);
-    EXPECT_EQ(by_auto.plan->planner, "polyhedron") << name;
-    options.memory = 1;
-    const PlanResult scarce = PlanSpatial(body, Given(ContactsOf(some.plan->initial)),
-                                          Given(some.plan->goal), Spanning::kAdaptive, options);
-    EXPECT_FALSE(scarce.plan) << name;
-    EXPECT_THAT(scarce.message, HasSubstr("the graph of the planner roadmap takes")) << name;
-  }
+  PlanRequest options = Options(15, 1);
+  options.criteria.min_quality = -1;
+  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), options),
+               std::invalid_argument);
+  options.criteria.min_quality = 10;
+  EXPECT_EQ(PlanWith(PolyhedronPlanner(), body, RandomAny(), Random(), options).status,
+            Status::kNoGrasp);
 }
 
 TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/plan/plan_reach.h"
+#include "planner/planning/candidate_sequence.h"
+#include "planner/planning/plan_request.h"
+#include "planner/planning/plan_result.h"
+
+namespace regrasp {
+
+/// The first step that fingers of the evaluator's hand could not carry out.
+[[nodiscard]] std::optional<PlanObstacle> FindObstacle(const CandidateSequence& candidate,
+                                                       const GraspEvaluator& evaluator);
+
+/// The answer that a sequence is: its plan, with its margin and a warning where a grasp is below
+/// the quality that is asked for; none where fingers of the hand cannot carry it out.
+/// @param request  its hand has as many fingers as the plan is for.
+[[nodiscard]] PlanResult ResultOf(const CandidateSequence& candidate,
+                                  const GraspEvaluator& evaluator, const std::string& planner,
+                                  const PlanRequest& request, const Grasp& goal);
+
+}  // namespace regrasp

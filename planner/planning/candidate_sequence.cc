@@ -1,0 +1,14 @@
+#include "planner/planning/candidate_sequence.h"
+
+namespace regrasp {
+
+CandidateSequence StartOf(const Grasp& grasp) {
+  CandidateSequence candidate;
+  for (const Contact& contact : grasp) {
+    candidate.initial.push_back({static_cast<int>(candidate.initial.size()), contact});
+  }
+  candidate.rests = {{grasp, std::nullopt}};
+  return candidate;
+}
+
+}  // namespace regrasp

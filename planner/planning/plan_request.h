@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planner/base/deadline.h"
+#include "planner/criteria/grasp_criteria.h"
+#include "planner/grasp/contact.h"
+#include "planner/hand/hand.h"
+#include "planner/object/object.h"
+#include "planner/planning/spanning.h"
+
+namespace regrasp {
+
+/// How a plan's start or goal is chosen.
+struct GraspChoice {
+  enum class Kind {
+    kGiven,      ///< `grasp`
+    kRandom,     ///< drawn from the planner's own graph; a goal out of the start's component
+    kRandomAny,  ///< drawn evenly over the surface, reachable or not
+  };
+  Kind kind = Kind::kGiven;
+  Grasp grasp;
+  std::string name;  ///< how messages call it: the file, or "--start random"
+};
+
+/// What a sequence is made best in, once one is found.
+enum class Objective {
+  kSteps,    ///< the fewest steps found, then the largest margin of the weakest grasp
+  kMargin,   ///< the largest margin, with a few steps more where they help
+  kTravel,   ///< the fewest steps found, then the least travel of all fingers together
+  kRegions,  ///< every switch where its two grasps bear the largest errors of placement
+};
+
+/// Told what is being done.
+using Progress = std::function<void(std::string_view)>;
+
+/// What is asked of a planner.
+///
+/// What stands under "Of some planners" not every planner has (Planner::options); where it is left
+/// as it is here, none is asked for it.
+struct PlanRequest {
+  const Object* object = nullptr;  ///< outlives the request
+  std::string object_name = {};    ///< how messages call it: its file
+  GraspChoice start = {};
+  GraspChoice goal = {};
+  Hand hand = {};
+  GraspCriteria criteria = {};
+  std::uint64_t seed = 0;  ///< of everything that is drawn at random
+  Progress progress = [](std::string_view) {};
+
+  // What limits the work.
+  /// When reading and planning make an end; the plan then depends on the machine.
+  Deadline deadline = {};
+  /// Bytes that a planner's graph may take; where it would take more there is no plan.
+  double memory = std::numeric_limits<double>::infinity();
+
+  // Of some planners.
+  Objective objective = Objective::kSteps;
+  Spanning spanning = Spanning::kAdaptive;
+  /// Contact points of a roadmap, and clusters that they are sorted into; nullopt: by the object.
+  std::optional<int> contact_points = std::nullopt;
+  std::optional<int> clusters = std::nullopt;
+  /// Of a roadmap of clusters: whether the grasps of all contact points are searched where the
+  /// representatives do not join start and goal.
+  bool last_resort = true;
+  /// Force-closure tests after which a search gives up, about two microseconds each; nullopt: a
+  /// million.
+  std::optional<std::int64_t> effort = std::nullopt;
+  /// Where there is no sequence: looks for the smallest friction at which one is found.
+  bool explain = false;
+};
+
+}  // namespace regrasp

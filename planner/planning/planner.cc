@@ -1,0 +1,68 @@
+#include "planner/planning/planner.h"
+
+#include <algorithm>
+
+namespace regrasp {
+
+std::string OptionName(PlanOption option) {
+  switch (option) {
+    case PlanOption::kMargin:
+      return "--optimize margin";
+    case PlanOption::kTravel:
+      return "--optimize travel";
+    case PlanOption::kRegions:
+      return "--optimize regions";
+    case PlanOption::kUniformSpanning:
+      return "--spanning uniform";
+    case PlanOption::kContactPoints:
+      return "--contacts";
+    case PlanOption::kClusters:
+      return "--clusters";
+    case PlanOption::kNoLastResort:
+      return "--no-lazy";
+    case PlanOption::kEffort:
+      return "--effort";
+    case PlanOption::kExplain:
+      return "--explain";
+  }
+  return {};
+}
+
+std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
+  std::vector<PlanOption> options;
+  const auto add = [&](bool asked, PlanOption option) {
+    if (asked) options.push_back(option);
+  };
+  add(request.objective == Objective::kMargin, PlanOption::kMargin);
+  add(request.objective == Objective::kTravel, PlanOption::kTravel);
+  add(request.objective == Objective::kRegions, PlanOption::kRegions);
+  add(request.spanning == Spanning::kUniform, PlanOption::kUniformSpanning);
+  add(request.contact_points.has_value(), PlanOption::kContactPoints);
+  add(request.clusters.has_value(), PlanOption::kClusters);
+  add(!request.last_resort, PlanOption::kNoLastResort);
+  add(request.effort.has_value(), PlanOption::kEffort);
+  add(request.explain, PlanOption::kExplain);
+  return options;
+}
+
+std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
+  const bool planar = request.object->dimension() == 2;
+  const auto scope = planner.ScopeIn(request.object->dimension());
+  if (!scope) {
+    const std::string name = request.object_name.empty() ? "" : request.object_name + ": ";
+    return name + (planar ? "a planar object" : "a solid") + ", and the planner " + planner.name() +
+           " works on " + (planar ? "solids" : "planar objects") + " only";
+  }
+  if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
+    return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +
+           " fingers, and this one has " + std::to_string(request.hand.fingers);
+  }
+  const std::vector<PlanOption>& has = planner.traits().options;
+  for (const PlanOption option : OptionsOf(request)) {
+    if (std::ranges::find(has, option) != has.end()) continue;
+    return OptionName(option) + ": the planner " + planner.name() + " has no such option";
+  }
+  return {};
+}
+
+}  // namespace regrasp

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/base/memory.h"
+#include "planner/planning/plan_request.h"
+#include "planner/planning/plan_result.h"
+#include "planner/sampling/draw_grasp.h"
+
+namespace regrasp {
+
+/// Options of a PlanRequest that only some planners have.
+enum class PlanOption {
+  kMargin,  ///< Objective::kMargin
+  kTravel,
+  kRegions,
+  kUniformSpanning,
+  kContactPoints,
+  kClusters,
+  kNoLastResort,
+  kEffort,
+  kExplain,
+};
+
+/// As users write it: "--optimize margin".
+[[nodiscard]] std::string OptionName(PlanOption option);
+
+/// Those that a request asks for.
+[[nodiscard]] std::vector<PlanOption> OptionsOf(const PlanRequest& request);
+
+/// What a planner can do with objects of one dimension.
+struct PlannerScope {
+  int fingers = 0;               ///< of the hand that it plans for
+  ContactLimits contacts;        ///< of the grasps that it takes
+  ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
+};
+
+/// What is known of a planner before it plans.
+struct PlannerTraits {
+  std::string name = {};  ///< as `--planner` takes it
+  std::string what = {};  ///< what it plans, in a few words for `--help`
+  std::optional<PlannerScope> in_plane = std::nullopt;  ///< nullopt: no planar objects
+  std::optional<PlannerScope> in_space = std::nullopt;  ///< nullopt: no solids
+  std::vector<PlanOption> options = {};
+  /// Whether GraspChoice::Kind::kRandom means grasps of a graph of its own; otherwise it means the
+  /// same as kRandomAny.
+  bool has_own_grasps = true;
+};
+
+/// A way to plan. Whoever wants a plan calls Solve (solve.h), which sees to all that planners have
+/// in common; a planner supplies its traits and the planning alone.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+
+  [[nodiscard]] const PlannerTraits& traits() const { return traits_; }
+  [[nodiscard]] const std::string& name() const { return traits_.name; }
+
+  /// @param dimension  of the object, 2 or 3.
+  [[nodiscard]] const std::optional<PlannerScope>& ScopeIn(int dimension) const {
+    return dimension == 2 ? traits_.in_plane : traits_.in_space;
+  }
+
+  /// What it is about to build for a request that it serves; nullopt: nothing large.
+  [[nodiscard]] virtual std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const {
+    (void)request;
+    return std::nullopt;
+  }
+
+  /// @param request  that it serves; its hand has a number of fingers, start and goal are grasps
+  ///                 that the planner takes, or kRandom where it has grasps of its own.
+  /// @throws NoGrasp, TimeUp  for Solve.
+  [[nodiscard]] virtual PlanResult Plan(const PlanRequest& request) const = 0;
+
+ protected:
+  explicit Planner(PlannerTraits traits) : traits_(std::move(traits)) {}
+
+ private:
+  PlannerTraits traits_;
+};
+
+/// Why a planner cannot serve a request: the object's dimension, the number of fingers of the hand,
+/// or an option that it does not have; empty where it can. Contacts of given grasps are not looked
+/// at: they are checked one by one, with a message for each (Solve).
+[[nodiscard]] std::string WhyNotServed(const Planner& planner, const PlanRequest& request);
+
+}  // namespace regrasp

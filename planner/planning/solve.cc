@@ -1,0 +1,143 @@
+#include "planner/planning/solve.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/base/random.h"
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/grasp/force_closure.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/plan_reach.h"
+#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/no_grasp.h"
+
+namespace regrasp {
+
+namespace {
+
+using Kind = GraspChoice::Kind;
+using Status = PlanResult::Status;
+
+/// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
+std::string NeededDegrees(const RequiredHalfAngle& required) {
+  constexpr double kSteps = 100;
+  return FormatDouble(std::ceil(Degrees(required.upper) * kSteps) / kSteps) + "°";
+}
+
+std::optional<std::pair<int, int>> ContactsAtSamePoint(const Grasp& grasp, double same_point) {
+  for (std::size_t i = 0; i < grasp.size(); ++i) {
+    for (std::size_t j = i + 1; j < grasp.size(); ++j) {
+      if ((grasp[i].p - grasp[j].p).norm() <= same_point) return std::pair(i, j);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string RangeText(const ContactLimits& range) {
+  return (range.least == range.most ? "" : std::to_string(range.least) + " to ") +
+         std::to_string(range.most);
+}
+
+/// What start and goal have in common.
+class GraspResolver {
+ public:
+  GraspResolver(const Planner& planner, const PlanRequest& request)
+      : planner_(planner),
+        request_(request),
+        scope_(planner.ScopeIn(request.object->dimension()).value()),
+        evaluator_(*request.object, request.criteria, request.hand) {}
+
+  /// A given grasp checked, one that is drawn evenly over the surface drawn.
+  [[nodiscard]] GraspChoice Resolve(GraspChoice choice, RandomUse use) const {
+    if (choice.kind == Kind::kGiven) {
+      Check(choice);
+      return choice;
+    }
+    if (choice.kind == Kind::kRandom && planner_.traits().has_own_grasps) return choice;
+    RandomStream random(request_.seed, use);
+    choice.grasp = DrawOnSurface(*request_.object, scope_.contacts_drawn, evaluator_, random,
+                                 choice.name, [&] { request_.deadline.Check(); });
+    choice.kind = Kind::kGiven;
+    return choice;
+  }
+
+ private:
+  void Check(const GraspChoice& choice) const {
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(choice.name + ": /contacts: " + why);
+    };
+    const Grasp& grasp = choice.grasp;
+    const int found = static_cast<int>(grasp.size());
+    if (found < scope_.contacts.least || found > scope_.contacts.most) {
+      refuse("the planner " + planner_.name() + " needs " + RangeText(scope_.contacts) +
+             " contacts, found " + std::to_string(found));
+    }
+    if (const auto pair = ContactsAtSamePoint(grasp, kSamePoint * request_.object->diameter())) {
+      refuse("contacts " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
+             " are at the same point");
+    }
+    CheckForceClosure(grasp, refuse);
+    FingerGrasp held;
+    for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
+    if (const auto obstacle =
+            FindRestObstacle(*request_.object, held, request_.hand.fingertip_radius)) {
+      refuse("with a finger at each, by their numbers: " + *obstacle);
+    }
+  }
+
+  template <typename Refuse>
+  void CheckForceClosure(const Grasp& grasp, const Refuse& refuse) const {
+    const double half_angle = request_.criteria.half_angle;
+    if (IsForceClosure(grasp, evaluator_.frame(), half_angle)) return;
+    const auto required = ComputeRequiredHalfAngle(grasp, evaluator_.frame());
+    refuse("not force closure: " +
+           (required ? "needs a friction half-angle of " + NeededDegrees(*required)
+                     : std::string("no friction half-angle below 90° is enough")) +
+           ", given " + FormatShort(Degrees(half_angle)) + "°");
+  }
+
+  const Planner& planner_;
+  const PlanRequest& request_;
+  PlannerScope scope_;
+  GraspEvaluator evaluator_;
+};
+
+PlanResult Negative(Status status, std::string message) {
+  PlanResult result;
+  result.status = status;
+  result.message = std::move(message);
+  return result;
+}
+
+}  // namespace
+
+PlanResult Solve(const Planner& planner, const PlanRequest& request) {
+  if (!(request.criteria.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
+  if (const std::string why = WhyNotServed(planner, request); !why.empty()) throw InputError(why);
+  PlanRequest resolved = request;
+  if (resolved.hand.fingers == 0) {
+    resolved.hand.fingers = planner.ScopeIn(request.object->dimension())->fingers;
+  }
+  try {
+    const GraspResolver resolver(planner, resolved);
+    resolved.start = resolver.Resolve(request.start, RandomUse::kStart);
+    resolved.goal = resolver.Resolve(request.goal, RandomUse::kGoal);
+    if (std::isfinite(request.memory)) {
+      const auto need = planner.EstimateMemory(resolved);
+      const std::string why = need ? MemoryComplaint(*need, request.memory) : "";
+      if (!why.empty()) return Negative(Status::kNoGrasp, why);
+    }
+    return planner.Plan(resolved);
+  } catch (const NoGrasp& none) {
+    return Negative(Status::kNoGrasp, none.message);
+  } catch (const TimeUp& time_up) {
+    return Negative(Status::kNoSequence, "no sequence was found by the planner " + planner.name() +
+                                             " when " + time_up.what());
+  }
+}
+
+}  // namespace regrasp

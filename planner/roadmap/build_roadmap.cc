@@ -1,0 +1,84 @@
+#include "planner/roadmap/build_roadmap.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/criteria/reach.h"
+#include "planner/object/polyhedron.h"
+#include "planner/roadmap/find_contact.h"
+#include "planner/sampling/contact_points.h"
+
+namespace regrasp {
+
+namespace {
+
+constexpr int kPlainContacts = 60;
+constexpr int kClusteredContacts = 1000;
+constexpr int kClusters = 50;
+
+const Polyhedron& SolidOf(const PlanRequest& request) {
+  return dynamic_cast<const Polyhedron&>(*request.object);
+}
+
+void CheckSize(const RoadmapSize& size) {
+  const int most = size.clusters > 0 ? kMaxClusteredContacts : kMaxRoadmapContacts;
+  if (size.contacts < kRoadmapContacts || size.contacts > most) {
+    throw std::invalid_argument("the number of contact points is out of range");
+  }
+}
+
+void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more,
+                  double tolerance) {
+  for (const Contact& contact : more) {
+    if (!FindContact(points, contact, tolerance)) points.push_back(contact);
+  }
+}
+
+}  // namespace
+
+RoadmapSize SizeOf(const PlanRequest& request) {
+  const std::optional<int>& contacts = request.contact_points;
+  const bool many = contacts.value_or(request.object->face_count()) > kMaxRoadmapContacts;
+  const int clusters = request.clusters.value_or(many ? kClusters : 0);
+  return {contacts.value_or(clusters > 0 ? kClusteredContacts : kPlainContacts), clusters};
+}
+
+std::vector<Contact> SpreadContacts(const PlanRequest& request) {
+  const RoadmapSize size = SizeOf(request);
+  CheckSize(size);
+  request.progress("spreading " + std::to_string(size.contacts) + " contact points");
+  std::vector<Contact> contacts =
+      SpreadContactPoints(SolidOf(request), size.contacts, request.seed);
+  std::erase_if(contacts, [&](const Contact& contact) {
+    return !CanReach(*request.object, contact, request.hand.fingertip_radius);
+  });
+  return contacts;
+}
+
+Roadmap BuildRoadmap(const PlanRequest& request, const std::vector<Contact>& contacts,
+                     const std::vector<Contact>& joined) {
+  const double diameter = request.object->diameter();
+  std::vector<Contact> points;
+  JoinContacts(points, joined, kPointTolerance * diameter);
+  JoinContacts(points, contacts, kPointTolerance * diameter);
+  request.progress("testing the grasps of four of " + std::to_string(points.size()) +
+                   " contact points");
+  return Roadmap(std::move(points), request.object->wrench_frame(), request.criteria.half_angle,
+                 kSamePoint * diameter, request.hand.fingertip_radius, request.deadline);
+}
+
+ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request) {
+  const RoadmapSize size = SizeOf(request);
+  CheckSize(size);
+  return ClusteredRoadmap(SolidOf(request), {.half_angle = request.criteria.half_angle,
+                                             .contacts = size.contacts,
+                                             .clusters = size.clusters,
+                                             .seed = request.seed,
+                                             .progress = request.progress,
+                                             .finger_radius = request.hand.fingertip_radius,
+                                             .deadline = request.deadline});
+}
+
+}  // namespace regrasp

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/planning/plan_request.h"
+#include "planner/roadmap/clustered_roadmap.h"
+#include "planner/roadmap/roadmap.h"
+
+namespace regrasp {
+
+/// Contacts of a grasp of a roadmap, and fingers of the hand: the fifth switches.
+inline constexpr int kRoadmapContacts = 4;
+inline constexpr int kRoadmapFingers = 5;
+/// Contact points of a plain roadmap: more need more memory than a small machine has, 65 million
+/// subsets.
+inline constexpr int kMaxRoadmapContacts = 200;
+/// Contact points of a clustered one: their affinities take 8 N² bytes three times over.
+inline constexpr int kMaxClusteredContacts = 4000;
+
+/// How many contact points and clusters a roadmap has. Where a request leaves them open: 60 points
+/// and no clusters on a body of at most kMaxRoadmapContacts faces; 1000 points in 50 clusters on
+/// one of more, a mesh. Contact points that are asked for decide in place of the faces.
+struct RoadmapSize {
+  int contacts = 0;
+  int clusters = 0;  ///< 0: none, all subsets of four contact points are looked at
+};
+[[nodiscard]] RoadmapSize SizeOf(const PlanRequest& request);
+
+/// Contact points spread over the surface that fingers of the hand reach.
+/// @throws std::invalid_argument  there are to be fewer than four or too many.
+[[nodiscard]] std::vector<Contact> SpreadContacts(const PlanRequest& request);
+
+/// The contact points, `joined` first, tested for force closure in all fours.
+[[nodiscard]] Roadmap BuildRoadmap(const PlanRequest& request, const std::vector<Contact>& contacts,
+                                   const std::vector<Contact>& joined = {});
+
+/// The roadmap of representatives of clusters.
+/// @throws std::invalid_argument  there are to be fewer than four contact points or too many.
+[[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request);
+
+}  // namespace regrasp

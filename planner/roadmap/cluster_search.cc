@@ -1,0 +1,161 @@
+#include "planner/roadmap/cluster_search.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "planner/base/number.h"
+#include "planner/base/random.h"
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/random_goal.h"
+#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/contact_chain.h"
+#include "planner/roadmap/contact_point_search.h"
+#include "planner/roadmap/find_contact.h"
+#include "planner/sampling/draw_grasp.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Representatives that may shorten a chain, beside its own contacts: enough that one or two
+/// switches are saved, few enough that all their grasps are tested in some milliseconds.
+constexpr int kMoreContacts = 20;
+
+using Kind = GraspChoice::Kind;
+using Status = PlanResult::Status;
+
+/// The plans of one clustered roadmap.
+class ClusterSearch {
+ public:
+  explicit ClusterSearch(const PlanRequest& request)
+      : request_(request),
+        evaluator_(*request.object, request.criteria, request.hand),
+        roadmap_(BuildClusteredRoadmap(request)) {}
+
+  PlanResult Plan() {
+    RandomStream start_numbers(request_.seed, RandomUse::kStart);
+    RandomStream goal_numbers(request_.seed, RandomUse::kGoal);
+    const GraspChoice start = Resolve(request_.start, start_numbers);
+    const auto plan = [&] { return PlanBetween(start, Resolve(request_.goal, goal_numbers)); };
+    if (request_.goal.kind != Kind::kRandom) return plan();
+    return PlanToRandomGoal([&](bool /*last*/) { return plan(); });
+  }
+
+ private:
+  [[nodiscard]] GraspChoice Resolve(const GraspChoice& choice, RandomStream& random) const {
+    if (choice.kind == Kind::kGiven) return choice;
+    return {Kind::kGiven, DrawContacts(choice, random), choice.name};
+  }
+
+  Grasp DrawContacts(const GraspChoice& choice, RandomStream& random) const {
+    const std::vector<Contact>& contacts = roadmap_.clusters.contacts();
+    const auto grasp = DrawGoodGrasp(
+        [&] {
+          Grasp drawn;
+          for (int i = 0; i < kRoadmapContacts; ++i)
+            drawn.push_back(contacts[random.Index(contacts.size())]);
+          return drawn;
+        },
+        evaluator_);
+    if (grasp) return *grasp;
+    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
+                  " grasps drawn from " + std::to_string(contacts.size()) +
+                  " contact points is force closure with a quality of at least " +
+                  FormatShort(request_.criteria.min_quality)};
+  }
+
+  PlanResult PlanBetween(const GraspChoice& start, const GraspChoice& goal) {
+    request_.progress("linking start and goal to " +
+                      std::to_string(roadmap_.roadmap.vertex_count()) +
+                      " grasps of representatives");
+    ContactClusters clusters = roadmap_.clusters;
+    const Quadruple from = Join(start.grasp, clusters);
+    const Quadruple to = Join(goal.grasp, clusters);
+    GraspOracle oracle(clusters.contacts(), roadmap_.frame, SamePoint(), request_.criteria,
+                       request_.hand, request_.deadline);
+    const auto find = [&] {
+      return FindContactChain(roadmap_, clusters, oracle, from, to, request_.last_resort);
+    };
+    ContactChain chain = find();
+    if (chain.grasps.empty()) {
+      oracle.SetMinQuality(0);
+      chain = find();
+    }
+    if (chain.grasps.empty()) return NoSequence(chain);
+    std::set<int> used;
+    for (const Quadruple& grasp : chain.grasps) used.insert(grasp.begin(), grasp.end());
+    const std::vector<int>& more = clusters.representatives();
+    used.insert(more.begin(), more.begin() + std::min<int>(kMoreContacts, std::ssize(more)));
+    std::vector<Contact> contacts;
+    for (const int contact : used) contacts.push_back(clusters.contacts()[contact]);
+    PlanRequest between = request_;
+    between.start = start;
+    between.goal = goal;
+    PlanResult result = SearchContactPoints(contacts, between);
+    if (result.plan) result.plan->roadmap = NoteOf(chain);
+    return result;
+  }
+
+  /// The numbers of a grasp's contacts, which are added where they are new.
+  Quadruple Join(const Grasp& grasp, ContactClusters& clusters) const {
+    Quadruple numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto known =
+          FindContact(clusters.contacts(), grasp[i], kPointTolerance * request_.object->diameter());
+      numbers[i] = known ? *known : clusters.Add(grasp[i]);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  }
+
+  RoadmapNote NoteOf(const ContactChain& chain) const {
+    const RoadmapSize size = SizeOf(request_);
+    RoadmapNote note{size.contacts, size.clusters, request_.seed, {}, {}};
+    if (chain.by == ContactChain::By::kRoadmap) {
+      note.start = RoadmapLinkName(chain.start_link);
+      note.goal = RoadmapLinkName(chain.goal_link);
+    } else {
+      note.start = note.goal =
+          chain.by == ContactChain::By::kSubsets ? "last-resort-subsets" : "last-resort";
+    }
+    return note;
+  }
+
+  PlanResult NoSequence(const ContactChain& chain) const {
+    PlanResult result;
+    result.status = Status::kNoSequence;
+    const auto end = [](const char* name, RoadmapLink link) {
+      return std::string(name) + (link == RoadmapLink::kNone
+                                      ? " has no link to them"
+                                      : std::string(" is linked by ") + RoadmapLinkName(link));
+    };
+    result.message = "no sequence of finger switches was found from start to goal over " +
+                     std::to_string(roadmap_.clusters.clustered_count()) + " contact points in " +
+                     std::to_string(roadmap_.clusters.cluster_count()) +
+                     " clusters: " + std::to_string(roadmap_.roadmap.vertex_count()) +
+                     " force-closure grasps of their representatives in " +
+                     std::to_string(roadmap_.components.count()) + " components, " +
+                     end("start", chain.start_link) + ", " + end("goal", chain.goal_link);
+    if (!request_.last_resort) return result;
+    const std::string sizes = std::to_string(chain.start_size) +
+                              " grasps of all contact points from start and " +
+                              std::to_string(chain.goal_size) + " from goal";
+    result.message += chain.exhausted ? "; there is none: the last resort reached all of " + sizes +
+                                            " that one side can come to"
+                                      : "; the last resort gave up, having reached " + sizes;
+    return result;
+  }
+
+  double SamePoint() const { return kSamePoint * request_.object->diameter(); }
+
+  const PlanRequest& request_;
+  GraspEvaluator evaluator_;
+  ClusteredRoadmap roadmap_;
+};
+
+}  // namespace
+
+PlanResult SearchClusters(const PlanRequest& request) { return ClusterSearch(request).Plan(); }
+
+}  // namespace regrasp

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "planner/planning/plan_request.h"
+#include "planner/planning/plan_result.h"
+
+namespace regrasp {
+
+/// Plans on a roadmap of clusters: FindContactChain looks for a sequence, and the contacts of the
+/// one that it finds are the contact points of a plain roadmap, which shortens and widens it. A
+/// random grasp is drawn from all force-closure grasps of four contact points; a random goal is
+/// drawn anew while no sequence leads there.
+/// @param request  as Planner::Plan has it.
+/// @throws NoGrasp, TimeUp
+[[nodiscard]] PlanResult SearchClusters(const PlanRequest& request);
+
+}  // namespace regrasp

@@ -1,0 +1,175 @@
+#include "planner/roadmap/contact_point_search.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/base/random.h"
+#include "planner/planning/candidate_result.h"
+#include "planner/planning/switch_sequence.h"
+#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/find_contact.h"
+#include "planner/roadmap/vertex_quality.h"
+#include "planner/sampling/no_grasp.h"
+#include "planner/search/fewest_switches.h"
+#include "planner/search/widest_path.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Vertices that a random draw looks at before it gives up; a second of quality tests.
+constexpr int kMaxVertexDraws = 20'000;
+
+/// Quality tests between two reports of progress, a tenth of a second or so.
+constexpr int kProgressEvery = 100;
+
+/// The planning of one sequence: what its stages share.
+class ContactPointSearch {
+ public:
+  ContactPointSearch(const std::vector<Contact>& contacts, const PlanRequest& request)
+      : request_(request),
+        frame_(request.object->wrench_frame()),
+        start_(request.start),
+        goal_(request.goal),
+        roadmap_(RoadmapOver(contacts)),
+        quality_(roadmap_, frame_, request.criteria) {}
+
+  PlanResult Run() {
+    const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
+    const int goal = ChooseVertex(goal_, RandomUse::kGoal, start);
+    ReportSearch();
+    const std::vector<int> path = FindPath(start, goal);
+    if (!path.empty()) return Finish(path);
+    PlanResult none;
+    none.status = PlanResult::Status::kNoSequence;
+    none.message = NoSequenceMessage(start, goal);
+    return none;
+  }
+
+ private:
+  [[nodiscard]] Roadmap RoadmapOver(const std::vector<Contact>& contacts) const {
+    std::vector<Contact> given = start_.grasp;
+    given.insert(given.end(), goal_.grasp.begin(), goal_.grasp.end());
+    return BuildRoadmap(request_, contacts, given);
+  }
+
+  int ChooseVertex(GraspChoice& choice, RandomUse use, std::optional<int> start) {
+    if (choice.kind == GraspChoice::Kind::kGiven) return VertexOf(choice);
+    const int vertex = DrawVertex(choice, use, start);
+    choice.grasp = roadmap_.grasp(vertex);
+    return vertex;
+  }
+
+  int VertexOf(const GraspChoice& choice) const {
+    std::vector<int> points;
+    for (const Contact& contact : choice.grasp) {
+      points.push_back(
+          FindContact(roadmap_.points(), contact, kPointTolerance * request_.object->diameter())
+              .value());
+    }
+    const std::optional<int> vertex = roadmap_.Find(points);
+    // Only where a contact was joined to another of the same place can the verdict have changed.
+    if (!vertex) throw InputError(choice.name + ": too close to the limit of force closure");
+    return *vertex;
+  }
+
+  /// A vertex of good quality by the seed, out of the start's component where there is a start and
+  /// then another one than it, if the component has another.
+  int DrawVertex(const GraspChoice& choice, RandomUse use, std::optional<int> start) {
+    std::vector<int> pool = Pool(start);
+    RandomStream random(request_.seed, use);
+    const std::size_t draws = std::min<std::size_t>(pool.size(), kMaxVertexDraws);
+    for (std::size_t i = 0; i < draws; ++i) {
+      std::swap(pool[i], pool[i + random.Index(pool.size() - i)]);
+      request_.deadline.Check();
+      if (quality_.IsGood(pool[i])) return pool[i];
+    }
+    throw NoGrasp{choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
+                  (start ? "start's component of the roadmap" : "roadmap") +
+                  " has a quality of at least " + FormatShort(request_.criteria.min_quality)};
+  }
+
+  std::vector<int> Pool(std::optional<int> start) const {
+    std::vector<int> pool(roadmap_.vertex_count());
+    std::iota(pool.begin(), pool.end(), 0);
+    if (!start) return pool;
+    const Components components = roadmap_.components();
+    const int component = components.of_vertex[*start];
+    if (components.sizes[component] == 1) return {*start};
+    std::erase_if(pool, [&](int v) { return v == *start || components.of_vertex[v] != component; });
+    return pool;
+  }
+
+  std::vector<int> FindPath(int start, int goal) {
+    const VertexFilter good = [&](int vertex) {
+      request_.deadline.Check();
+      const bool is_good = quality_.IsGood(vertex);
+      if (quality_.quality_count() % kProgressEvery == 0) ReportSearch();
+      return is_good;
+    };
+    const VertexFilter any = [&](int) {
+      request_.deadline.Check();
+      return true;
+    };
+    const std::vector<int> path = FindPath(start, goal, good);
+    return path.empty() ? FindPath(start, goal, any) : path;
+  }
+
+  void ReportSearch() const {
+    request_.progress("searching a sequence among " + std::to_string(roadmap_.vertex_count()) +
+                      " grasps, quality of " + std::to_string(quality_.quality_count()) +
+                      " tested");
+  }
+
+  std::vector<int> FindPath(int start, int goal, const VertexFilter& admits) {
+    const std::optional<int> switches = FewestSwitches(roadmap_, start, goal, admits);
+    if (!switches) return {};
+    return WidestPath(roadmap_, start, goal, *switches, admits,
+                      [&](int vertex) { return quality_.Margin(vertex); });
+  }
+
+  std::string NoSequenceMessage(int start, int goal) const {
+    const auto all = [](int) { return true; };
+    const auto size = [&](int vertex) {
+      return std::to_string(ReachableVertices(roadmap_, vertex, all).size());
+    };
+    return "no sequence of finger switches leads from start to goal over these contact points: "
+           "searched " +
+           std::to_string(roadmap_.points().size()) + " contact points, " +
+           std::to_string(roadmap_.candidate_count()) + " subsets of four, " +
+           std::to_string(roadmap_.vertex_count()) +
+           " force-closure grasps; the start's component has " + size(start) +
+           " of them, the goal's " + size(goal);
+  }
+
+  [[nodiscard]] PlanResult Finish(const std::vector<int>& path) const {
+    std::vector<Grasp> grasps;
+    for (const int vertex : path) grasps.push_back(roadmap_.grasp(vertex));
+    // The fingers of the first grasp follow the order in which it was given.
+    grasps.front() = start_.grasp;
+    Sequence sequence = MakeSwitchSequence(grasps, request_.hand.fingers);
+    CandidateSequence candidate = {std::move(sequence.initial), std::move(sequence.steps), {}};
+    for (Grasp& grasp : grasps) candidate.rests.push_back({std::move(grasp), std::nullopt});
+    const GraspEvaluator evaluator(*request_.object, request_.criteria, request_.hand);
+    return ResultOf(candidate, evaluator, "roadmap", request_, goal_.grasp);
+  }
+
+  const PlanRequest& request_;
+  WrenchFrame frame_;
+  GraspChoice start_;
+  GraspChoice goal_;
+  Roadmap roadmap_;
+  VertexQuality quality_;
+};
+
+}  // namespace
+
+PlanResult SearchContactPoints(const std::vector<Contact>& contacts, const PlanRequest& request) {
+  return ContactPointSearch(contacts, request).Run();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "planner/planning/planner.h"
+
+namespace regrasp {
+
+/// Plans finger switches between grasps of four contact points of a solid (Phoka 2010, chapter VI),
+/// with a hand of kRoadmapFingers fingers: of these grasps it knows every one and every switch.
+class RoadmapPlanner final : public Planner {
+ public:
+  RoadmapPlanner();
+  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const override;
+  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+};
+
+}  // namespace regrasp

@@ -1,0 +1,40 @@
+#include "planner/sets/attached_graph.h"
+
+namespace regrasp {
+
+bool AttachedGraph::IsOnlySetOfAnEnd(int vertex) const {
+  const auto is_only = [vertex](const GraspEnds& ends) {
+    return ends.of_itself.size() + ends.by_switch.size() == 1 &&
+           (ends.of_itself.contains(vertex) || ends.by_switch.contains(vertex));
+  };
+  return is_only(start_.sets) || is_only(goal_.sets);
+}
+
+bool AttachedGraph::GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours) {
+  if (vertex != end.grasp && vertex != end.changed) return false;
+  const std::set<int>& sets = vertex == end.grasp ? end.sets.of_itself : end.sets.by_switch;
+  neighbours.assign(sets.begin(), sets.end());
+  if (!end.sets.by_switch.empty()) {
+    neighbours.push_back(vertex == end.grasp ? end.changed : end.grasp);
+  }
+  return true;
+}
+
+void AttachedGraph::AddEnd(const End& end, int set, std::vector<int>& neighbours) {
+  if (end.sets.of_itself.contains(set)) neighbours.push_back(end.grasp);
+  if (end.sets.by_switch.contains(set)) neighbours.push_back(end.changed);
+}
+
+void AttachedGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
+  if (GetNeighboursOfEnd(start_, vertex, neighbours)) return;
+  if (GetNeighboursOfEnd(goal_, vertex, neighbours)) return;
+  graph_.GetNeighbours(vertex, neighbours);
+  if (!banned_.empty()) {
+    std::erase_if(neighbours,
+                  [&](int other) { return banned_.contains(Unordered(vertex, other)); });
+  }
+  AddEnd(start_, vertex, neighbours);
+  AddEnd(goal_, vertex, neighbours);
+}
+
+}  // namespace regrasp

@@ -1,0 +1,111 @@
+#include "planner/sets/candidate_search.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "planner/planning/candidate_result.h"
+#include "planner/search/shortest_paths.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Paths tried for one whose grasps are all of the quality that is asked for.
+constexpr int kMaxPaths = 600;
+
+/// A graph that knows how far it is to its ends on the shortest paths: a search over sequences with
+/// the fewest switches looks at nothing beside them.
+class OnShortestPaths final : public SwitchingGraph {
+ public:
+  /// Both must outlive this object.
+  OnShortestPaths(const SwitchingGraph& graph, const ShortestPaths& paths, int goal)
+      : graph_(graph), paths_(paths), goal_(goal) {}
+
+  [[nodiscard]] int vertex_count() const override { return graph_.vertex_count(); }
+  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override {
+    graph_.GetNeighbours(vertex, neighbours);
+  }
+  /// @param to  start or goal.
+  [[nodiscard]] int MinSwitches(int from, int to) const override {
+    const int depth = paths_.depth[from];
+    if (depth < 0) return paths_.switches + 1;
+    return to == goal_ ? paths_.switches - depth : depth;
+  }
+
+ private:
+  const SwitchingGraph& graph_;
+  const ShortestPaths& paths_;
+  int goal_;
+};
+
+/// Worse than every score of a GraspEvaluator: a sequence that fingers cannot carry out.
+constexpr double kScoreOfObstacle = -2;
+
+/// The switch that a step belongs to: the one that the grasp after it was chosen for, or else the
+/// last one before or the first one after it.
+std::optional<VertexPair> EdgeNear(const CandidateSequence& candidate, int step) {
+  for (int i = step; i >= 0; --i) {
+    if (candidate.rests[i].chosen_for) return candidate.rests[i].chosen_for;
+  }
+  for (const Rest& rest : candidate.rests) {
+    if (rest.chosen_for) return rest.chosen_for;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
+                              const VertexWidth& width) {
+  const auto paths = FindShortestPaths(graph, start, goal);
+  if (!paths) return {};
+  const OnShortestPaths on_paths(graph, *paths, goal);
+  return WidestPath(
+      on_paths, start, goal, paths->switches, [](int) { return true; }, width);
+}
+
+std::optional<CandidateSequence> FindCandidate(
+    const GraspEvaluator& evaluator,
+    const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
+    const std::function<std::optional<CandidateSequence>(const std::vector<int>& path,
+                                                         std::set<VertexPair>& banned)>& make,
+    const Deadline& deadline) {
+  // Where no path is free for the fingers' radius, the result is told so (ResultOf).
+  std::optional<CandidateSequence> best;
+  double best_score = -std::numeric_limits<double>::infinity();
+  std::set<VertexPair> banned;
+  for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
+    std::optional<CandidateSequence> candidate;
+    try {
+      deadline.Check();
+      const std::vector<int> path = find_path(banned);
+      if (path.empty()) break;
+      candidate = make(path, banned);
+    } catch (const TimeUp&) {
+      if (!best) throw;
+      break;
+    }
+    if (!candidate) continue;
+    double score = std::numeric_limits<double>::infinity();
+    for (const Rest& rest : candidate->rests) {
+      if (!rest.chosen_for) continue;
+      const double of_rest = evaluator.Score(rest.grasp);
+      if (of_rest < 0) banned.insert(*rest.chosen_for);
+      score = std::min(score, of_rest);
+    }
+    const auto obstacle = FindObstacle(*candidate, evaluator);
+    if (obstacle) {
+      const auto edge = EdgeNear(*candidate, obstacle->index);
+      if (!edge) return candidate;
+      banned.insert(*edge);
+      score = std::min(score, kScoreOfObstacle);
+    }
+    if (score >= 0) return candidate;
+    if (best && score <= best_score) continue;
+    best = std::move(candidate);
+    best_score = score;
+  }
+  return best;
+}
+
+}  // namespace regrasp

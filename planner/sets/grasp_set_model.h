@@ -1,0 +1,79 @@
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/planning/candidate_sequence.h"
+#include "planner/search/components.h"
+#include "planner/search/switching_graph.h"
+
+namespace regrasp {
+
+/// A grasp that a model's planning begins or ends at, as a place in one of its sets.
+template <typename Place>
+struct Attachment {
+  Place place;
+  bool whole = true;  ///< it is the grasp itself; otherwise a switch leads from one to the other
+};
+
+/// Two grasps of neighbouring sets that the hand can switch between: contacts that stay are the
+/// same, bit for bit.
+template <typename Place>
+struct SetSwitch {
+  Place before;
+  Place after;
+};
+
+/// What a switch is asked to begin or end at; nullptr: it is free to choose.
+template <typename Place>
+struct SwitchEnds {
+  const Place* before = nullptr;
+  const Place* after = nullptr;
+};
+
+/// What a planner over sets of grasps supplies (polygon, contour, polyhedron); the planning itself
+/// is written once over it (set_planner.h).
+///
+/// A set is a vertex of the switching graph; a Place is a grasp in a set, in the model's own terms.
+/// All functions may throw TimeUp.
+template <typename Model>
+concept GraspSetModel = requires(Model model, const typename Model::Place& place,
+                                 const Grasp& grasp, const GraspEvaluator& evaluator,
+                                 RandomStream& random,
+                                 const SwitchEnds<typename Model::Place>& ends,
+                                 SetSwitch<typename Model::Place>& change) {
+  { model.graph() } -> std::convertible_to<const SwitchingGraph&>;
+  { model.components() } -> std::same_as<Components>;
+  /// For messages: "focus cells".
+  { model.sets_name() } -> std::convertible_to<std::string>;
+  /// How wide a set is to pass; the more the better.
+  { model.WidthOf(0) } -> std::convertible_to<double>;
+  /// A grasp anywhere in a set; empty where none was found.
+  { model.Draw(0, random) } -> std::same_as<Grasp>;
+
+  { model.SetOf(place) } -> std::convertible_to<int>;
+  { model.GraspOf(place) } -> std::same_as<Grasp>;
+  /// The places of a grasp, the best first; empty where no set has it.
+  {
+    model.Attach(grasp, evaluator)
+    } -> std::same_as<std::vector<Attachment<typename Model::Place>>>;
+  /// Why no set has it: "in none of …".
+  { model.WhyUnattached(grasp) } -> std::convertible_to<std::string>;
+
+  /// The best switch from one set to another that has these ends.
+  {
+    model.FindSwitch(0, 0, ends, evaluator)
+    } -> std::same_as<std::optional<SetSwitch<typename Model::Place>>>;
+  /// Changes a chosen switch to what the objective asks for, and says how far its contacts may be
+  /// off; nullopt where the model does not know.
+  { model.Refine(change, evaluator) } -> std::same_as<std::optional<double>>;
+  /// The grasps that an align inside a set passes, both ends included: between two of them contacts
+  /// move straight, or one goes from a face to the next; empty where none is found.
+  { model.FindRoute(place, place) } -> std::same_as<std::vector<typename Model::Place>>;
+};
+
+}  // namespace regrasp

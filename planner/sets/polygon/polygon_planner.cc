@@ -1,0 +1,36 @@
+#include "planner/sets/polygon/polygon_planner.h"
+
+#include "planner/object/polygon.h"
+#include "planner/sets/polygon/graph_memory.h"
+#include "planner/sets/polygon/polygon_model.h"
+#include "planner/sets/set_planner.h"
+
+namespace regrasp {
+
+namespace {
+
+const Polygon& PolygonOf(const PlanRequest& request) {
+  return dynamic_cast<const Polygon&>(*request.object);
+}
+
+}  // namespace
+
+PolygonPlanner::PolygonPlanner()
+    : Planner({.name = "polygon",
+               .what = "concurrent, 2-finger and parallel grasps",
+               .in_plane = PlannerScope{kPolygonFingers, {2, kPolygonFingers}, {2, 3}},
+               .options = {PlanOption::kUniformSpanning}}) {}
+
+std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(const PlanRequest& request) const {
+  return EstimatePolygonGraph(PolygonOf(request), request.criteria.half_angle, request.spanning);
+}
+
+PlanResult PolygonPlanner::Plan(const PlanRequest& request) const {
+  request.progress("building the switching graph");
+  const PolygonGraph graph(PolygonOf(request), request.criteria.half_angle, request.spanning,
+                           request.deadline);
+  PolygonModel model(PolygonOf(request), graph, request.deadline);
+  return PlanOverSets(model, request, name());
+}
+
+}  // namespace regrasp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "planner/planning/planner.h"
+
+namespace regrasp {
+
+/// Plans on the switching graph of a polygon (Phoka 2010, section 3.4), with a hand of
+/// kPolygonFingers fingers: over all its concurrent, 2-finger and parallel grasps, on edges that
+/// need not be convex. Of the grasps of these types it finds every one and every switch, decided
+/// exactly.
+///
+/// A grasp is joined to the sets that contain it, or contain two or three of its contacts: the
+/// others are then released first or placed last.
+class PolygonPlanner final : public Planner {
+ public:
+  PolygonPlanner();
+  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const override;
+  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+};
+
+}  // namespace regrasp

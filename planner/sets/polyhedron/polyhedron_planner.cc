@@ -1,0 +1,33 @@
+#include "planner/sets/polyhedron/polyhedron_planner.h"
+
+#include "planner/object/polyhedron.h"
+#include "planner/sets/polyhedron/graph_memory.h"
+#include "planner/sets/polyhedron/polyhedron_model.h"
+#include "planner/sets/set_planner.h"
+
+namespace regrasp {
+
+PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
+    : Planner({.name = "polyhedron",
+               .what = "concurrent grasps of four faces",
+               .in_space = PlannerScope{kPolyhedronFingers, {4, 4}, {4, 4}},
+               .options = {PlanOption::kUniformSpanning}}),
+      graph_(graph) {}
+
+std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(const PlanRequest& request) const {
+  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+  return EstimatePolyhedronGraph(solid, request.criteria.half_angle, request.spanning);
+}
+
+PlanResult PolyhedronPlanner::Plan(const PlanRequest& request) const {
+  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+  std::optional<PolyhedronGraph> own;
+  if (graph_ == nullptr) {
+    request.progress("building the switching graph");
+    own.emplace(solid, request.criteria.half_angle, request.spanning, request.deadline);
+  }
+  PolyhedronModel model(solid, own ? *own : *graph_);
+  return PlanOverSets(model, request, name());
+}
+
+}  // namespace regrasp

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "planner/sampling/no_grasp.h"
+#include "planner/sets/finger_sequence.h"
+#include "planner/sets/grasp_set_model.h"
+
+namespace regrasp {
+
+/// A switch from the grasp at hand, or to the goal, is good enough with this share of the best
+/// one's score: it spares an align.
+inline constexpr double kGoodShare = 0.5;
+
+/// Contacts this close, over the diameter, are the same but for rounding.
+inline constexpr double kContactRounding = 1e-12;
+
+/// Turns paths of a switching graph into sequences from one start to one goal (Phoka 2010, sections
+/// 3.4 and 4.6): a switch happens at the grasp at hand, or at the goal's, where that costs little,
+/// otherwise where its two grasps score best; between switches the fingers align inside the set.
+template <GraspSetModel Model>
+class SequenceBuilder {
+ public:
+  using Place = typename Model::Place;
+
+  /// All arguments outlive this object. @param fingers  of the hand.
+  SequenceBuilder(Model& model, const GraspEvaluator& evaluator, const Grasp& start,
+                  const Grasp& goal, int fingers)
+      : model_(model), evaluator_(evaluator), start_(start), goal_(goal), fingers_(fingers) {}
+
+  /// @param path    of sets, from the one that `from` is in to that of `to`.
+  /// @param banned  gets a switch of the path where doubles find no way through it.
+  /// @returns nullopt then.
+  /// @throws NoGrasp  from one grasp of a set to another there is none.
+  [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path,
+                                                      const Place& from, const Place& to,
+                                                      std::set<VertexPair>& banned) {
+    const auto switches = ChooseSwitches(path, from, to, banned);
+    if (!switches) return std::nullopt;
+    FingerSequence sequence(start_, fingers_);
+    sequence.SwitchTo(GraspAt(from), std::nullopt);
+    const Place* at = &from;
+    for (const ChosenSwitch& chosen : *switches) {
+      if (!AlignTo(*at, chosen.change.before, chosen.edge, sequence)) {
+        banned.insert(chosen.edge);
+        return std::nullopt;
+      }
+      sequence.SwitchTo(GraspAt(chosen.change.after), chosen.edge, chosen.region);
+      at = &chosen.change.after;
+    }
+    if (!AlignTo(*at, to, std::nullopt, sequence)) {
+      if (switches->empty())
+        throw NoGrasp{"the align from start to goal is too narrow for doubles"};
+      banned.insert(switches->back().edge);
+      return std::nullopt;
+    }
+    sequence.SwitchTo(goal_, std::nullopt);
+    return sequence.candidate();
+  }
+
+ private:
+  using Switch = SetSwitch<Place>;
+
+  struct BestSwitch {
+    std::optional<Switch> found;
+    double score = 0;  ///< of its worse grasp
+  };
+
+  struct ChosenSwitch {
+    Switch change;
+    VertexPair edge;
+    std::optional<double> region;
+  };
+
+  [[nodiscard]] std::optional<std::vector<ChosenSwitch>> ChooseSwitches(
+      const std::vector<int>& path, const Place& from, const Place& to,
+      std::set<VertexPair>& banned) {
+    std::vector<ChosenSwitch> switches;
+    Place at = from;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const VertexPair edge = Unordered(path[i], path[i + 1]);
+      const bool last = i + 2 == path.size();
+      const auto found = ChooseSwitch(path[i], path[i + 1], at, last ? &to : nullptr);
+      if (!found) {
+        banned.insert(edge);
+        return std::nullopt;
+      }
+      at = found->after;
+      switches.push_back({*found, edge, std::nullopt});
+    }
+    for (ChosenSwitch& chosen : switches) {
+      chosen.region = model_.Refine(chosen.change, evaluator_);
+    }
+    return switches;
+  }
+
+  [[nodiscard]] std::optional<Switch> ChooseSwitch(int from, int to, const Place& at,
+                                                   const Place* goal) {
+    if (goal != nullptr) {
+      auto between = model_.FindSwitch(from, to, {&at, goal}, evaluator_);
+      if (between) return between;
+    }
+    const BestSwitch& best = FindBest(from, to);
+    if (!best.found) return std::nullopt;
+    const double least = std::max(kGoodShare * best.score, 0.0);
+    auto from_here = model_.FindSwitch(from, to, {&at, nullptr}, evaluator_);
+    if (from_here && ScoreOf(from_here->after) >= least) return from_here;
+    if (goal != nullptr) {
+      auto to_goal = model_.FindSwitch(from, to, {nullptr, goal}, evaluator_);
+      if (to_goal && ScoreOf(to_goal->before) >= least) return to_goal;
+    }
+    return best.found;
+  }
+
+  [[nodiscard]] const BestSwitch& FindBest(int from, int to) {
+    const auto [known, is_new] = best_.try_emplace({from, to});
+    if (is_new) {
+      known->second.found = model_.FindSwitch(from, to, {}, evaluator_);
+      if (const auto& found = known->second.found) {
+        known->second.score = std::min(ScoreOf(found->before), ScoreOf(found->after));
+      }
+    }
+    return known->second;
+  }
+
+  [[nodiscard]] double ScoreOf(const Place& place) const {
+    return evaluator_.Score(GraspAt(place));
+  }
+
+  /// The contacts of a place; those of start and goal as they were given.
+  [[nodiscard]] Grasp GraspAt(const Place& place) const {
+    Grasp grasp = model_.GraspOf(place);
+    const double rounding = kContactRounding * evaluator_.object().diameter();
+    for (Contact& contact : grasp) {
+      for (const Grasp* given : {&start_, &goal_}) {
+        for (const Contact& other : *given) {
+          const bool same = other.face == contact.face && (other.p - contact.p).norm() <= rounding;
+          if (same) contact = other;
+        }
+      }
+    }
+    return grasp;
+  }
+
+  /// @returns false where no way is found inside the set.
+  [[nodiscard]] bool AlignTo(const Place& from, const Place& to,
+                             std::optional<VertexPair> chosen_for, FingerSequence& sequence) {
+    if (AreSame(GraspAt(from), GraspAt(to))) return true;
+    std::vector<Grasp> waypoints;
+    for (const Place& place : model_.FindRoute(from, to)) waypoints.push_back(GraspAt(place));
+    if (waypoints.empty()) return false;
+    sequence.AlignAlong(waypoints, chosen_for);
+    return true;
+  }
+
+  [[nodiscard]] static bool AreSame(const Grasp& a, const Grasp& b) {
+    return std::ranges::equal(
+        a, b, [](const Contact& x, const Contact& y) { return x.face == y.face && x.p == y.p; });
+  }
+
+  Model& model_;
+  const GraspEvaluator& evaluator_;
+  const Grasp& start_;
+  const Grasp& goal_;
+  int fingers_;
+  std::map<std::pair<int, int>, BestSwitch> best_;  ///< by the sets before and after
+};
+
+}  // namespace regrasp

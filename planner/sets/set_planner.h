@@ -1,0 +1,184 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner/criteria/grasp_evaluator.h"
+#include "planner/plan/same_grasp.h"
+#include "planner/planning/candidate_result.h"
+#include "planner/planning/plan_request.h"
+#include "planner/planning/random_goal.h"
+#include "planner/sampling/no_grasp.h"
+#include "planner/sets/attached_graph.h"
+#include "planner/sets/candidate_search.h"
+#include "planner/sets/sequence_builder.h"
+#include "planner/sets/set_sampling.h"
+
+namespace regrasp {
+
+/// The planning of one sequence over a model of grasp sets: what its stages share.
+template <GraspSetModel Model>
+class SetPlanner {
+ public:
+  /// Both outlive this object.
+  SetPlanner(Model& model, const PlanRequest& request, std::string planner)
+      : model_(model),
+        request_(request),
+        planner_(std::move(planner)),
+        evaluator_(*request.object, request.criteria, request.hand),
+        of_start_(request.seed, RandomUse::kStart),
+        of_goal_(request.seed, RandomUse::kGoal) {}
+
+  [[nodiscard]] PlanResult Plan() {
+    start_ = request_.start.grasp;
+    if (IsRandom(request_.start)) {
+      start_ = Draw(request_.start, StartPools(model_.graph().vertex_count()), of_start_);
+    }
+    if (!IsRandom(request_.goal)) {
+      goal_ = request_.goal.grasp;
+      // Where there is nothing to do, the grasp need not be in a set.
+      if (IsGoalTheStart()) return Finish(StartOf(start_));
+      start_at_ = Attach(request_.start, start_);
+      return PlanToGoal();
+    }
+    start_at_ = Attach(request_.start, start_);
+    return PlanToRandomGoal([&](bool last) {
+      SamplingPools pools = GoalPools(model_.components(), SetsOf(start_at_));
+      if (last) pools.erase(pools.begin());
+      goal_ = Draw(request_.goal, std::move(pools), of_goal_);
+      return IsGoalTheStart() ? Finish(StartOf(start_)) : PlanToGoal();
+    });
+  }
+
+ private:
+  using Place = typename Model::Place;
+  using Attachments = std::vector<Attachment<Place>>;
+
+  static bool IsRandom(const GraspChoice& choice) {
+    return choice.kind == GraspChoice::Kind::kRandom;
+  }
+
+  [[nodiscard]] Grasp Draw(const GraspChoice& choice, SamplingPools pools, RandomStream& random) {
+    return DrawFromSets(
+        choice.name, std::move(pools),
+        [&](int set) {
+          request_.deadline.Check();
+          return model_.Draw(set, random);
+        },
+        evaluator_, random);
+  }
+
+  [[nodiscard]] bool IsGoalTheStart() const {
+    return AreSameGrasp(start_, goal_, kPointTolerance * request_.object->diameter());
+  }
+
+  [[nodiscard]] Attachments Attach(const GraspChoice& choice, const Grasp& grasp) {
+    Attachments found = model_.Attach(grasp, evaluator_);
+    if (found.empty()) {
+      throw NoGrasp{choice.name + ": force closure, but " + model_.WhyUnattached(grasp)};
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::set<int> SetsOf(const Attachments& attachments) const {
+    std::set<int> sets;
+    for (const auto& a : attachments) sets.insert(model_.SetOf(a.place));
+    return sets;
+  }
+
+  [[nodiscard]] GraspEnds EndsOf(const Attachments& attachments) const {
+    GraspEnds ends;
+    for (const auto& a : attachments) {
+      (a.whole ? ends.of_itself : ends.by_switch).insert(model_.SetOf(a.place));
+    }
+    return ends;
+  }
+
+  /// Of the places of a grasp in a set the best.
+  [[nodiscard]] const Place& PlaceIn(const Attachments& attachments, int set) const {
+    return std::ranges::find_if(attachments,
+                                [&](const auto& a) { return model_.SetOf(a.place) == set; })
+        ->place;
+  }
+
+  [[nodiscard]] PlanResult PlanToGoal() {
+    goal_at_ = Attach(request_.goal, goal_);
+    request_.progress("searching a sequence among " +
+                      std::to_string(model_.graph().vertex_count()) + " " + model_.sets_name());
+    SequenceBuilder<Model> builder(model_, evaluator_, start_, goal_, request_.hand.fingers);
+    const auto candidate = FindCandidate(
+        evaluator_, [&](const auto& banned) { return FindPath(banned); },
+        [&](const auto& path, auto& banned) {
+          return builder.Make(path, PlaceIn(start_at_, path.front()),
+                              PlaceIn(goal_at_, path.back()), banned);
+        },
+        request_.deadline);
+    if (candidate) return Finish(*candidate);
+    PlanResult none;
+    none.status = PlanResult::Status::kNoSequence;
+    none.message = NoSequenceMessage();
+    return none;
+  }
+
+  /// The sets of a sequence with the fewest switches, of these the widest.
+  [[nodiscard]] std::vector<int> FindPath(const std::set<VertexPair>& banned) {
+    const AttachedGraph graph(model_.graph(), EndsOf(start_at_), EndsOf(goal_at_), banned);
+    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
+      request_.deadline.Check();
+      const bool counts = graph.IsSet(vertex) && !graph.IsOnlySetOfAnEnd(vertex);
+      return counts ? model_.WidthOf(vertex) : std::numeric_limits<double>::infinity();
+    });
+    std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });
+    return path;
+  }
+
+  [[nodiscard]] PlanResult Finish(const CandidateSequence& candidate) const {
+    return ResultOf(candidate, evaluator_, planner_, request_, goal_);
+  }
+
+  [[nodiscard]] std::string NoSequenceMessage() const {
+    const Components components = model_.components();
+    const auto size = [&](const Attachments& attachments) {
+      std::set<int> reached;
+      for (const int set : SetsOf(attachments)) reached.insert(components.of_vertex[set]);
+      return std::to_string(std::accumulate(
+          reached.begin(), reached.end(), 0,
+          [&](int sum, int component) { return sum + components.sizes[component]; }));
+    };
+    return "no sequence of switches and aligns leads from start to goal: of " +
+           std::to_string(model_.graph().vertex_count()) + " " + model_.sets_name() +
+           " the start's component has " + size(start_at_) + ", the goal's " + size(goal_at_);
+  }
+
+  Model& model_;
+  const PlanRequest& request_;
+  std::string planner_;
+  GraspEvaluator evaluator_;
+  RandomStream of_start_;
+  RandomStream of_goal_;
+  Grasp start_;
+  Grasp goal_;
+  Attachments start_at_;
+  Attachments goal_at_;
+};
+
+/// Plans over a model of grasp sets, on a graph that is built already: many queries, one graph.
+///
+/// Among the paths with the fewest switches the one through the widest sets is taken. Where a
+/// switch's grasps are below the quality that is asked for, paths without it are tried; where there
+/// is none, a warning names the weakest step. A random goal is drawn anew where the sequence to it
+/// is not as good as asked.
+/// @param request  as Planner::Plan has it. @param planner  its name, for plan and messages.
+/// @throws NoGrasp, TimeUp
+template <GraspSetModel Model>
+[[nodiscard]] PlanResult PlanOverSets(Model& model, const PlanRequest& request,
+                                      const std::string& planner) {
+  return SetPlanner<Model>(model, request, planner).Plan();
+}
+
+}  // namespace regrasp

@@ -1,0 +1,58 @@
+#include "planner/sets/set_sampling.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "planner/base/number.h"
+#include "planner/sampling/no_grasp.h"
+
+namespace regrasp {
+
+namespace {
+
+/// Grasps drawn from one set, and sets looked at, before a random grasp is given up.
+constexpr int kDrawsPerSet = 30;
+constexpr std::size_t kMaxSetDraws = 2000;
+
+}  // namespace
+
+SamplingPools StartPools(int set_count) {
+  std::vector<int> all(set_count);
+  std::iota(all.begin(), all.end(), 0);
+  return {all};
+}
+
+SamplingPools GoalPools(const Components& components, const std::set<int>& start_sets) {
+  std::set<int> reachable;
+  for (const int set : start_sets) reachable.insert(components.of_vertex[set]);
+  std::vector<int> others;
+  for (int set = 0; set < static_cast<int>(components.of_vertex.size()); ++set) {
+    if (reachable.contains(components.of_vertex[set]) && !start_sets.contains(set)) {
+      others.push_back(set);
+    }
+  }
+  return {others, {start_sets.begin(), start_sets.end()}};
+}
+
+Grasp DrawFromSets(const std::string& name, SamplingPools pools,
+                   const std::function<Grasp(int set)>& draw, const GraspEvaluator& evaluator,
+                   RandomStream& random) {
+  std::size_t sets = 0;
+  for (std::vector<int>& pool : pools) {
+    sets += pool.size();
+    const std::size_t draws = std::min(pool.size(), kMaxSetDraws);
+    for (std::size_t i = 0; i < draws; ++i) {
+      std::swap(pool[i], pool[i + random.Index(pool.size() - i)]);
+      for (int k = 0; k < kDrawsPerSet; ++k) {
+        Grasp grasp = draw(pool[i]);
+        if (!grasp.empty() && evaluator.IsGood(grasp)) return grasp;
+      }
+    }
+  }
+  throw NoGrasp{name + ": no grasp with a quality of at least " +
+                FormatShort(evaluator.min_quality()) + " was drawn from " + std::to_string(sets) +
+                " sets of grasps" + (pools.size() > 1 ? " in the start's component" : "")};
+}
+
+}  // namespace regrasp

@@ -1,0 +1,234 @@
+#include "planner/tree/tree_planner.h"
+
+#include <algorithm>
+#include <array>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/planning/candidate_result.h"
+#include "planner/tree/bidirectional_tree.h"
+#include "planner/tree/face_align.h"
+#include "planner/tree/improve_path.h"
+#include "planner/tree/path_plan.h"
+#include "planner/tree/repair_quality.h"
+#include "planner/tree/subset_search.h"
+
+namespace regrasp {
+
+namespace {
+
+using Status = PlanResult::Status;
+
+/// Where the first sequence can't be mended to the quality that is asked for, others are looked for
+/// whose grasps have these shares of it from the beginning, each with this part of the effort.
+constexpr std::array kQualityShares = {0.6, 1.0};
+constexpr int kQualityEffortShare = 4;
+
+/// Bisections of the friction at which a sequence is found, and the largest that is tried, radians.
+constexpr int kExplainSteps = 8;
+const double kLargestExplained = Radians(85);
+
+/// The effort of one search of --explain over that of the search that found nothing.
+constexpr int kExplainEffortShare = 4;
+
+/// The planning of one sequence: what its stages share.
+class TreeSearch {
+ public:
+  explicit TreeSearch(const PlanRequest& request)
+      : request_(request),
+        object_(*request.object),
+        half_angle_(request.criteria.half_angle),
+        min_quality_(request.criteria.min_quality),
+        effort_(request.effort.value_or(TreePlanner::kDefaultEffort)),
+        evaluator_(object_, request.criteria, request.hand),
+        source_(object_, request.hand.fingertip_radius),
+        random_(request.seed, RandomUse::kCandidates) {}
+
+  PlanResult Plan(const std::string& name) {
+    const Grasp& from = request_.start.grasp;
+    const Grasp& to = request_.goal.grasp;
+    SearchSpace wide = MakeSpace(half_angle_, 0, effort_);
+    const auto found = Search(from, to, wide);
+    if (!found) return NoSequence(from, to);
+    // The contacts of the path alone: the search may have come across thousands.
+    SearchSpace space = MakeSpace(half_angle_, min_quality_, effort_);
+    GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
+    std::vector<std::string> notes = Improve(path, space);
+    PlanResult result = ResultOf(MakeCandidate(path, from, space), evaluator_, name, request_, to);
+    result.notes = std::move(notes);
+    return result;
+  }
+
+ private:
+  /// What a search that found nothing came to.
+  struct Reach {
+    std::array<int, 2> grasps{};
+    std::array<int, 2> tuples{};
+    std::int64_t tests = 0;
+    bool out_of_time = false;
+  };
+
+  SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
+    GraspCriteria criteria = request_.criteria;
+    criteria.half_angle = half_angle;
+    criteria.min_quality = min_quality;
+    SearchSpace space(object_, criteria, request_.hand);
+    space.SetLimits({effort, request_.deadline});
+    return space;
+  }
+
+  /// The path of the first stage that finds one.
+  std::optional<GraspPath> Search(const Grasp& from, const Grasp& to, SearchSpace& space) {
+    const ContactSet start = space.Add(from);
+    const ContactSet goal = space.Add(to);
+    if (start == goal) return GraspPath{start, {}};
+    space.Accept(start);
+    space.Accept(goal);
+    if (auto path = SearchOwnSubsets(start, goal, space)) return path;
+    request_.progress("growing trees of grasps from start and goal");
+    BidirectionalTree trees(start, goal, source_, random_, space);
+    auto path = trees.Join();
+    for (int side = 0; side < 2; ++side) {
+      reach_.grasps[side] = trees.tree(side).size();
+      reach_.tuples[side] = trees.tree(side).tuple_count();
+    }
+    reach_.tests = space.tests();
+    reach_.out_of_time = space.out_of_time();
+    return path;
+  }
+
+  /// The path, or one whose grasps all have the quality that is asked for; where none is found, one
+  /// whose weakest grasp is as good as could be reached, and no more is then asked for.
+  GraspPath MakeGood(GraspPath path, const Grasp& from, const Grasp& to, SearchSpace& space) {
+    if (AreAdmitted(path, space)) return path;
+    if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
+    request_.progress("looking for grasps of a quality of " + FormatShort(min_quality_));
+    double best = Repair(path, space);
+    for (const double share : kQualityShares) {
+      if (best == min_quality_) return path;
+      SearchSpace wide =
+          MakeSpace(half_angle_, share * min_quality_, effort_ / kQualityEffortShare);
+      const auto found = Search(from, to, wide);
+      // What is not found with less asked for is not going to be found with more.
+      if (!found) break;
+      GraspPath other = Renumber(*found, wide, space);
+      if (AreAdmitted(other, space)) return other;
+      const double reached = Repair(other, space);
+      if (reached <= best) continue;
+      best = reached;
+      path = std::move(other);
+    }
+    space.SetMinQuality(best);
+    return path;
+  }
+
+  /// @returns the quality that all grasps of the path have then.
+  double Repair(GraspPath& path, SearchSpace& space) {
+    space.SetMinQuality(0);
+    path = ShortcutPath(std::move(path), source_, random_, space);
+    path = MaximiseMargin(std::move(path), kMoreSteps, source_, random_, space);
+    space.SetMinQuality(min_quality_);
+    return RepairQuality(source_, random_, space, path);
+  }
+
+  /// Whether the space admits what lies between the ends.
+  [[nodiscard]] static bool AreAdmitted(const GraspPath& path, SearchSpace& space) {
+    return std::all_of(path.steps.begin(), path.steps.end(), [&](const PathStep& step) {
+      return (step.to == path.end() || space.Admits(step.to)) &&
+             (!step.align || AdmitsPath(*step.align, space));
+    });
+  }
+
+  /// @returns what was gained.
+  std::vector<std::string> Improve(GraspPath& path, SearchSpace& space) {
+    request_.progress("shortening and widening the sequence");
+    std::vector<std::string> notes;
+    const auto note = [&](const std::string& what, double before, double after,
+                          const std::string& unit) {
+      notes.push_back(what + ": " + FormatShort(before) + unit + " at first, " +
+                      FormatShort(after) + unit + " now");
+    };
+    const auto steps = static_cast<double>(path.steps.size());
+    const double before = Achieved(path, space);
+    path = ShortcutPath(std::move(path), source_, random_, space);
+    if (request_.objective == Objective::kTravel) {
+      path = MinimiseTravel(std::move(path), source_, random_, space);
+    } else {
+      const int more = request_.objective == Objective::kMargin ? kMoreSteps : 0;
+      path = MaximiseMargin(std::move(path), more, source_, random_, space);
+    }
+    note("steps", steps, static_cast<double>(path.steps.size()), "");
+    const bool is_travel = request_.objective == Objective::kTravel;
+    note(is_travel ? "travel of all fingers together" : "margin of the weakest grasp", before,
+         Achieved(path, space), is_travel ? " diameters of the object" : "°");
+    return notes;
+  }
+
+  /// What the objective counts: the travel over the diameter, or the margin, degrees.
+  [[nodiscard]] double Achieved(const GraspPath& path, SearchSpace& space) const {
+    if (request_.objective == Objective::kTravel) {
+      return TravelOf(path, space) / object_.diameter();
+    }
+    return Degrees(half_angle_ - RequiredHalfAngleOf(path, space));
+  }
+
+  PlanResult NoSequence(const Grasp& from, const Grasp& to) {
+    PlanResult result;
+    result.status = Status::kNoSequence;
+    const auto reached = [&](int side) {
+      return std::to_string(reach_.grasps[side]) + " grasps on " +
+             std::to_string(reach_.tuples[side]) + " tuples of faces";
+    };
+    result.message = std::string("no sequence was found by the planner general (failure is not ") +
+                     "a proof of infeasibility): " + reached(0) + " were reached from the start, " +
+                     reached(1) + " from the goal, in " + std::to_string(reach_.tests) + " tests" +
+                     (reach_.out_of_time ? ", when the time was up" : "");
+    if (request_.explain) result.message += Explain(from, to);
+    return result;
+  }
+
+  /// The smallest half-angle at which a sequence is found.
+  std::string Explain(const Grasp& from, const Grasp& to) {
+    double none = half_angle_;
+    double some = kLargestExplained;
+    const auto finds = [&](double half_angle) {
+      request_.progress("looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
+      SearchSpace space = MakeSpace(half_angle, 0, effort_ / kExplainEffortShare);
+      return Search(from, to, space).has_value();
+    };
+    if (!finds(some)) return "; nor was one at " + FormatShort(Degrees(some)) + "°";
+    for (int i = 0; i < kExplainSteps; ++i) {
+      const double middle = (none + some) / 2;
+      (finds(middle) ? some : none) = middle;
+    }
+    return "; one was found at " + FormatShort(Degrees(some)) +
+           "°, an upper bound by search of the friction that is needed";
+  }
+
+  const PlanRequest& request_;
+  const Object& object_;
+  double half_angle_;   ///< of the request's criteria
+  double min_quality_;  ///< of the request's criteria
+  std::int64_t effort_;
+  GraspEvaluator evaluator_;
+  SurfaceSampler source_;
+  RandomStream random_;
+  Reach reach_;
+};
+
+}  // namespace
+
+TreePlanner::TreePlanner()
+    : Planner({.name = "general",
+               .what = "any force-closure grasps, on any object",
+               .in_plane = PlannerScope{4, {2, 4}, {2, 3}},
+               .in_space = PlannerScope{5, {3, 5}, {4, 4}},
+               .options = {PlanOption::kMargin, PlanOption::kTravel, PlanOption::kEffort,
+                           PlanOption::kExplain},
+               .has_own_grasps = false}) {}
+
+PlanResult TreePlanner::Plan(const PlanRequest& request) const {
+  return TreeSearch(request).Plan(name());
+}
+
+}  // namespace regrasp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "planner/planning/planner.h"
+
+namespace regrasp {
+
+/// The planner `general`: joins any two force-closure grasps that the hand can hold, on any body,
+/// in space (three to five contacts, a hand of five fingers) and in the plane (two to four
+/// contacts, four fingers), with switches and aligns.
+///
+/// First the grasps of the two grasps' own contacts; then a tree from each, grown by switches with
+/// contacts of the whole surface and by aligns, until they meet (BidirectionalTree). The sequence
+/// is then shortened, and made better in what the objective asks for. Every align is proved to keep
+/// force closure.
+///
+/// Failure is not a proof of infeasibility: the message says what was reached.
+class TreePlanner final : public Planner {
+ public:
+  TreePlanner();
+  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+
+  /// Force-closure tests after which a search gives up where PlanRequest::effort leaves it open;
+  /// about two microseconds each.
+  static constexpr std::int64_t kDefaultEffort = 1'000'000;
+};
+
+}  // namespace regrasp

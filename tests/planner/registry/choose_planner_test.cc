@@ -1,0 +1,126 @@
+#include "planner/registry/choose_planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "planner/base/error.h"
+#include "planner/registry/registry.h"
+#include "tests/fixtures/plan_with.h"
+#include "tests/planner/tree/search_cases.h"
+
+namespace regrasp {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+const Object& Solid() {
+  static const ObjectFile file = ReadModel("stone.obj");
+  return *file.object;
+}
+
+const Object& Planar() {
+  static const ObjectFile file = ReadModel("polygon15.wkt");
+  return *file.object;
+}
+
+PlanRequest On(const Object& object) {
+  PlanRequest request = RequestAt(20);
+  request.object = &object;
+  request.object_name = "file.obj";
+  return request;
+}
+
+TEST(Registry, EveryPlannerIsFoundByItsNameAndHasOneOfItsOwn) {
+  std::set<std::string> names;
+  for (const Planner* planner : AllPlanners()) {
+    EXPECT_EQ(FindPlanner(planner->name()), planner);
+    EXPECT_TRUE(planner->traits().in_plane || planner->traits().in_space) << planner->name();
+    names.insert(planner->name());
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string>{"general", "contour", "polygon", "polyhedron", "roadmap"}));
+  EXPECT_EQ(FindPlanner("auto"), nullptr);
+  EXPECT_EQ(FindPlanner("genral"), nullptr);
+}
+
+TEST(ChoosePlanner, TakesGeneralWhereNothingElseIsAskedFor) {
+  EXPECT_EQ(ChoosePlanner(On(Solid())).name(), "general");
+  EXPECT_EQ(ChoosePlanner(On(Planar())).name(), "general");
+}
+
+TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
+  PlanRequest regions = On(Planar());
+  regions.objective = Objective::kRegions;
+  EXPECT_EQ(ChoosePlanner(regions).name(), "contour");
+  for (const Object* object : {&Planar(), &Solid()}) {
+    PlanRequest uniform = On(*object);
+    uniform.spanning = Spanning::kUniform;
+    EXPECT_EQ(ChoosePlanner(uniform).name(), object == &Planar() ? "polygon" : "polyhedron");
+  }
+  PlanRequest points = On(Solid());
+  points.contact_points = 30;
+  EXPECT_EQ(ChoosePlanner(points).name(), "roadmap");
+  PlanRequest travel = On(Solid());
+  travel.objective = Objective::kTravel;
+  EXPECT_EQ(ChoosePlanner(travel).name(), "general");
+}
+
+TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
+  PlanRequest request = On(Planar());
+  request.objective = Objective::kRegions;
+  request.explain = true;
+  EXPECT_THAT([&] { (void)ChoosePlanner(request); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--optimize regions (contour)"),
+                                              HasSubstr("--explain (general)"))));
+  request = On(Solid());
+  request.objective = Objective::kRegions;
+  EXPECT_THAT([&] { (void)ChoosePlanner(request); },
+              ThrowsMessage<InputError>(HasSubstr("--optimize regions (no planner) for a solid")));
+}
+
+TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
+  PlanRequest request = On(Planar());
+  request.effort = 5;
+  EXPECT_EQ(PlannerFor("general", request).name(), "general");
+  EXPECT_THAT(
+      [&] { (void)PlannerFor("polygon", request); },
+      ThrowsMessage<InputError>(AllOf(
+          StartsWith("--effort: the planner polygon has no such option"), HasSubstr("general"))));
+  EXPECT_THAT([&] { (void)PlannerFor("roadmap", On(Planar())); },
+              ThrowsMessage<InputError>(StartsWith(
+                  "file.obj: a planar object, and the planner roadmap works on solids only")));
+  EXPECT_THAT([&] { (void)PlannerFor("genral", On(Planar())); },
+              ThrowsMessage<InputError>(HasSubstr("there are auto, general, contour")));
+}
+
+TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
+  PlanRequest request = On(Solid());
+  request.hand.fingers = 4;
+  EXPECT_THAT([&] { (void)PlannerFor("polyhedron", request); },
+              ThrowsMessage<InputError>(HasSubstr("needs a hand of 5 fingers")));
+  request.hand.fingers = 5;
+  EXPECT_EQ(PlannerFor("polyhedron", request).name(), "polyhedron");
+}
+
+TEST(Registry, EveryPlannerPlansBetweenRandomGraspsOfWhatItServes) {
+  int plans = 0;
+  for (const Planner* planner : AllPlanners()) {
+    for (const Object* object : {&Planar(), &Solid()}) {
+      if (!planner->ScopeIn(object->dimension())) continue;
+      const PlanResult result = PlanWith(*planner, *object, Random(), Random(), RequestAt(20, 1));
+      ASSERT_TRUE(result.plan) << planner->name() << ": " << result.message;
+      EXPECT_EQ(result.plan->planner, planner->name());
+      EXPECT_EQ(result.plan->fingers, planner->ScopeIn(object->dimension())->fingers);
+      ++plans;
+    }
+  }
+  EXPECT_EQ(plans, 6);
+}
+
+}  // namespace
+}  // namespace regrasp
