@@ -19,7 +19,7 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
-#include "planner/registry/choose_planner.h"
+#include "planner/registry/registry.h"
 #include "planner/tree/tree_planner.h"
 
 namespace {

@@ -8,18 +8,14 @@ set(regrasp_public_headers
   planner/base/error.h
   # Objects.
   planner/object/mass_properties.h
-  planner/object/mesh_defect.h
   planner/object/object.h
   planner/object/polygon.h
-  planner/object/polygon_soup.h
-  planner/object/polyhedron.h
   planner/object/reading.h
   planner/object/wrench_frame.h
   # Grasps.
   planner/grasp/contact.h
   planner/grasp/finger_friction.h
   planner/grasp/force_closure.h
-  planner/grasp/grasp_forces.h
   planner/grasp/quality.h
   planner/grasp/required_half_angle.h
   # Plans: reading, writing, the analytic check.
@@ -34,6 +30,16 @@ set(regrasp_public_headers
   planner/plan/reason.h
   planner/plan/snapshot.h
   planner/plan/switch_region.h
+  # Planning: a request, a result, and the planners by their names.
+  planner/criteria/grasp_criteria.h
+  planner/hand/hand.h
+  planner/planning/plan_request.h
+  planner/planning/plan_result.h
+  planner/planning/planner.h
+  planner/planning/solve.h
+  planner/planning/spanning.h
+  planner/registry/registry.h
+  planner/sampling/contact_limits.h
   # Replay and report.
   sim/scene/measured.h
   sim/scene/settings.h

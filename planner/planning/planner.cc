@@ -2,7 +2,13 @@
 
 #include <algorithm>
 
+#include "planner/base/memory.h"
+
 namespace regrasp {
+
+std::optional<MemoryNeed> Planner::EstimateMemory(const PlanRequest& /*request*/) const {
+  return std::nullopt;
+}
 
 std::string OptionName(PlanOption option) {
   switch (option) {

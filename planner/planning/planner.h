@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/memory.h"
 #include "planner/planning/plan_request.h"
 #include "planner/planning/plan_result.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/contact_limits.h"
 
 namespace regrasp {
+
+struct MemoryNeed;
 
 /// Options of a PlanRequest that only some planners have.
 enum class PlanOption {
@@ -65,10 +66,7 @@ class Planner {
   }
 
   /// What it is about to build for a request that it serves; nullopt: nothing large.
-  [[nodiscard]] virtual std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const {
-    (void)request;
-    return std::nullopt;
-  }
+  [[nodiscard]] virtual std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const;
 
   /// @param request  that it serves; its hand has a number of fingers, start and goal are grasps
   ///                 that the planner takes, or kRandom where it has grasps of its own.

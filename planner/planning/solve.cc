@@ -6,6 +6,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"

@@ -1,4 +1,4 @@
-#include "planner/registry/choose_planner.h"
+// What `--planner auto` takes: the one place where that is decided.
 
 #include <algorithm>
 

@@ -16,4 +16,17 @@ namespace regrasp {
 /// @returns nullptr where no planner has that name.
 [[nodiscard]] const Planner* FindPlanner(const std::string& name);
 
+/// The planner that `--planner auto` takes: the first of AllPlanners that serves the request, with
+/// every option that it asks for. So that is `general`, which joins at least as many pairs of
+/// grasps as any other and faster (bench/planners), unless an option asks for what only another
+/// gives: contact regions (contour), uniform spanning (polygon, polyhedron), contact points or
+/// clusters (roadmap).
+/// @throws InputError  none does; the message says for which option.
+[[nodiscard]] const Planner& ChoosePlanner(const PlanRequest& request);
+
+/// The planner of a name, or ChoosePlanner's for "auto".
+/// @throws InputError  there is none of that name, or it does not serve the request; the message
+///                     names a planner that does, where there is one.
+[[nodiscard]] const Planner& PlannerFor(const std::string& name, const PlanRequest& request);
+
 }  // namespace regrasp

@@ -1,5 +1,6 @@
 #include "planner/roadmap/roadmap_planner.h"
 
+#include "planner/base/memory.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/cluster_search.h"
 #include "planner/roadmap/contact_point_search.h"

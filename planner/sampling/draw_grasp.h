@@ -8,6 +8,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
+#include "planner/sampling/contact_limits.h"
 #include "planner/sampling/no_grasp.h"
 
 namespace regrasp {
@@ -17,12 +18,6 @@ namespace regrasp {
 /// @returns nullopt where none of `kMaxSurfaceDraws` draws is accepted.
 [[nodiscard]] std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw,
                                                  const GraspEvaluator& evaluator);
-
-/// How many contacts a grasp has.
-struct ContactLimits {
-  int least = 0;
-  int most = 0;
-};
 
 /// A grasp that the evaluator accepts, of contacts spread evenly over an object's surface. In the
 /// plane the random numbers say how many contacts are tried first; where the object has no such

@@ -39,13 +39,15 @@ struct SwitchEnds {
 /// is written once over it (set_planner.h).
 ///
 /// A set is a vertex of the switching graph; a Place is a grasp in a set, in the model's own terms.
-/// All functions may throw TimeUp.
+/// All functions may throw TimeUp. A model may also have
+///   std::optional<double> Refine(SetSwitch<Place>& change, const GraspEvaluator& evaluator)
+/// which changes a chosen switch to what the objective asks for, and says how far its contacts may
+/// be off.
 template <typename Model>
 concept GraspSetModel = requires(Model model, const typename Model::Place& place,
                                  const Grasp& grasp, const GraspEvaluator& evaluator,
                                  RandomStream& random,
-                                 const SwitchEnds<typename Model::Place>& ends,
-                                 SetSwitch<typename Model::Place>& change) {
+                                 const SwitchEnds<typename Model::Place>& ends) {
   { model.graph() } -> std::convertible_to<const SwitchingGraph&>;
   { model.components() } -> std::same_as<Components>;
   /// For messages: "focus cells".
@@ -68,9 +70,6 @@ concept GraspSetModel = requires(Model model, const typename Model::Place& place
   {
     model.FindSwitch(0, 0, ends, evaluator)
     } -> std::same_as<std::optional<SetSwitch<typename Model::Place>>>;
-  /// Changes a chosen switch to what the objective asks for, and says how far its contacts may be
-  /// off; nullopt where the model does not know.
-  { model.Refine(change, evaluator) } -> std::same_as<std::optional<double>>;
   /// The grasps that an align inside a set passes, both ends included: between two of them contacts
   /// move straight, or one goes from a face to the next; empty where none is found.
   { model.FindRoute(place, place) } -> std::same_as<std::vector<typename Model::Place>>;

@@ -93,8 +93,10 @@ class SequenceBuilder {
       at = found->after;
       switches.push_back({*found, edge, std::nullopt});
     }
-    for (ChosenSwitch& chosen : switches) {
-      chosen.region = model_.Refine(chosen.change, evaluator_);
+    if constexpr (requires(Switch & change) { model_.Refine(change, evaluator_); }) {
+      for (ChosenSwitch& chosen : switches) {
+        chosen.region = model_.Refine(chosen.change, evaluator_);
+      }
     }
     return switches;
   }

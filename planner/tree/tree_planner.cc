@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/base/angle.h"
+#include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/planning/candidate_result.h"
 #include "planner/tree/bidirectional_tree.h"

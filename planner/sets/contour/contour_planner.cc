@@ -1,5 +1,6 @@
 #include "planner/sets/contour/contour_planner.h"
 
+#include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/contour_model.h"
 #include "planner/sets/contour/graph_memory.h"

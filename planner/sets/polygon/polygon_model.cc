@@ -96,11 +96,6 @@ std::optional<SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(int from, int to
   return SetSwitch<Place>{{from, best->before}, {to, best->after}};
 }
 
-std::optional<double> PolygonModel::Refine(const SetSwitch<Place>& /*change*/,
-                                           const GraspEvaluator& /*evaluator*/) {
-  return std::nullopt;
-}
-
 std::vector<PolygonPlace> PolygonModel::FindRoute(const Place& from, const Place& to) {
   std::vector<Place> route;
   for (VectorXd& parameters : FindAlignPath(cells_.of(from.set), from.parameters, to.parameters)) {

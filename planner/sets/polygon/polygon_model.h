@@ -37,8 +37,6 @@ class PolygonModel {
   [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(int from, int to,
                                                            const SwitchEnds<Place>& ends,
                                                            const GraspEvaluator& evaluator);
-  [[nodiscard]] static std::optional<double> Refine(const SetSwitch<Place>& change,
-                                                    const GraspEvaluator& evaluator);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:

@@ -1,5 +1,6 @@
 #include "planner/sets/polygon/polygon_planner.h"
 
+#include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/graph_memory.h"
 #include "planner/sets/polygon/polygon_model.h"

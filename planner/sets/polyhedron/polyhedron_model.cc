@@ -33,11 +33,6 @@ std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindSwitch(
   return geometry_.FindSwitch(from, to);
 }
 
-std::optional<double> PolyhedronModel::Refine(const SetSwitch<Place>& /*change*/,
-                                              const GraspEvaluator& /*evaluator*/) {
-  return std::nullopt;
-}
-
 std::vector<FocusGrasp> PolyhedronModel::FindRoute(const Place& from, const Place& to) {
   return geometry_.FindRoute(from, to);
 }

@@ -1,5 +1,6 @@
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 
+#include "planner/base/memory.h"
 #include "planner/object/polyhedron.h"
 #include "planner/sets/polyhedron/graph_memory.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"

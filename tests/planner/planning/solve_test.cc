@@ -8,6 +8,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/memory.h"
 #include "planner/sampling/no_grasp.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"

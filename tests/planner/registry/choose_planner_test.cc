@@ -1,5 +1,3 @@
-#include "planner/registry/choose_planner.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

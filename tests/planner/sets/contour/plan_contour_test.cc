@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/base/error.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
