@@ -112,7 +112,7 @@ struct GraphProgram {
     request.last_resort = !no_lazy;
     const std::string name =
         common.planner != "auto" ? common.planner : (planar ? "polygon" : "roadmap");
-    const bool clusters = name == "roadmap" && !planar && SizeOf(request).clusters > 0;
+    const bool clusters = name == "roadmap" && !planar && roadmap::SizeOf(request).clusters > 0;
     if (queries > 0 && !clusters) {
       throw InputError("--queries: needs a roadmap of clusters (--clusters)");
     }
@@ -123,7 +123,7 @@ struct GraphProgram {
     // A graph of contour alone takes less than planning on it.
     const auto* polygon = dynamic_cast<const Polygon*>(object.object.get());
     common.CheckMemory(name == "contour"
-                           ? EstimateContourGraph(*polygon, request.criteria.half_angle)
+                           ? contour::EstimateContourGraph(*polygon, request.criteria.half_angle)
                            : planner.EstimateMemory(request).value());
     request.progress("building the switching graph");
     summary = SummarizeGraph(name, request, {sampling, queries});

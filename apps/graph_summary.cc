@@ -32,12 +32,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count, const PlanRequest& request) {
+QuerySummary RunQueries(const roadmap::ClusteredRoadmap& roadmap, int count,
+                        const PlanRequest& request) {
   request.progress(std::to_string(count) + " random queries");
   QuerySummary summary;
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
-  for (const RandomQuery& query : RunRandomQueries(roadmap, kSamePoint * request.object->diameter(),
-                                                   count, request.seed, request.last_resort)) {
+  for (const roadmap::RandomQuery& query :
+       roadmap::RunRandomQueries(roadmap, kSamePoint * request.object->diameter(), count,
+                                 request.seed, request.last_resort)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
     summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);
@@ -50,7 +52,7 @@ QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count, const PlanRe
 }
 
 /// The part of a roadmap's summary that does not depend on its contact points' clusters.
-GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const PlanRequest& request,
+GraphSummary SummarizeRoadmap(const roadmap::Roadmap& roadmap, const PlanRequest& request,
                               Stopwatch& stopwatch) {
   GraphSummary summary;
   summary.planner = "roadmap";
@@ -69,29 +71,30 @@ GraphSummary SummarizeRoadmap(const Roadmap& roadmap, const PlanRequest& request
 
 GraphSummary SummarizePolygon(const PlanRequest& request) {
   const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
-  const PolygonGraph graph(polygon, request.criteria.half_angle, request.spanning);
-  const auto name = [](GraspType type) {
+  const polygon::PolygonGraph graph(polygon, request.criteria.half_angle, request.spanning);
+  const auto name = [](polygon::GraspType type) {
     constexpr std::array kNames = {"concurrent", "two_finger", "parallel"};
     return std::string(kNames[static_cast<int>(type)]);
   };
   GraphSummary summary;
   summary.planner = "polygon";
   summary.faces = polygon.face_count();
-  for (const auto type : {GraspType::kConcurrent, GraspType::kTwoFinger, GraspType::kParallel}) {
-    const GraspTypeCounts& counts = graph.counts(type);
+  for (const auto type : {polygon::GraspType::kConcurrent, polygon::GraspType::kTwoFinger,
+                          polygon::GraspType::kParallel}) {
+    const polygon::GraspTypeCounts& counts = graph.counts(type);
     summary.types.push_back(
         {name(type), counts.candidates, counts.combinations, counts.vertices, counts.components});
   }
-  const auto add_edges = [&](GraspType a, GraspType b) {
+  const auto add_edges = [&](polygon::GraspType a, polygon::GraspType b) {
     summary.edges.emplace_back(name(a) + "-" + name(b), graph.edge_count(a, b));
   };
-  add_edges(GraspType::kConcurrent, GraspType::kConcurrent);
-  add_edges(GraspType::kTwoFinger, GraspType::kConcurrent);
-  add_edges(GraspType::kParallel, GraspType::kParallel);
-  add_edges(GraspType::kTwoFinger, GraspType::kParallel);
-  add_edges(GraspType::kTwoFinger, GraspType::kTwoFinger);
+  add_edges(polygon::GraspType::kConcurrent, polygon::GraspType::kConcurrent);
+  add_edges(polygon::GraspType::kTwoFinger, polygon::GraspType::kConcurrent);
+  add_edges(polygon::GraspType::kParallel, polygon::GraspType::kParallel);
+  add_edges(polygon::GraspType::kTwoFinger, polygon::GraspType::kParallel);
+  add_edges(polygon::GraspType::kTwoFinger, polygon::GraspType::kTwoFinger);
   if (request.spanning == Spanning::kAdaptive)
-    add_edges(GraspType::kConcurrent, GraspType::kParallel);
+    add_edges(polygon::GraspType::kConcurrent, polygon::GraspType::kParallel);
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
   summary.vertex_seconds = graph.vertex_seconds();
@@ -101,7 +104,7 @@ GraphSummary SummarizePolygon(const PlanRequest& request) {
 
 GraphSummary SummarizeContour(const PlanRequest& request) {
   const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
-  const ContourGraph graph(polygon, request.criteria.half_angle);
+  const contour::ContourGraph graph(polygon, request.criteria.half_angle);
   GraphSummary summary;
   summary.planner = "contour";
   summary.faces = polygon.face_count();
@@ -118,22 +121,22 @@ GraphSummary SummarizeContour(const PlanRequest& request) {
 GraphSummary SummarizePolyhedron(const PlanRequest& request, int sampling) {
   const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
   const double half_angle = request.criteria.half_angle;
-  PolyhedronGraph graph(solid, half_angle, request.spanning);
+  polyhedron::PolyhedronGraph graph(solid, half_angle, request.spanning);
   GraphSummary summary;
   summary.planner = "polyhedron";
   summary.faces = solid.face_count();
   if (sampling > 0) {
-    const auto region = FindSamplingRegion(solid, graph);
+    const auto region = polyhedron::FindSamplingRegion(solid, graph);
     Stopwatch stopwatch;
-    const SampledGraph sampled =
-        SamplePolyhedron(solid, half_angle, request.spanning, region, sampling, request.seed);
+    const polyhedron::SampledGraph sampled = polyhedron::SamplePolyhedron(
+        solid, half_angle, request.spanning, region, sampling, request.seed);
     const auto found = std::ssize(sampled.quadruples);
     summary.vertex_seconds = stopwatch.Lap();
     summary.vertices = found;
     summary.components = sampled.components;
     summary.edges = {{"concurrent-concurrent", std::ssize(sampled.links)}};
     summary.types = {{"concurrent", graph.candidate_count(), found, found, summary.components}};
-    summary.sampling_share = CompareSampling(sampled, graph);
+    summary.sampling_share = polyhedron::CompareSampling(sampled, graph);
     return summary;
   }
   summary.vertices = graph.vertex_count();
@@ -149,10 +152,11 @@ GraphSummary SummarizePolyhedron(const PlanRequest& request, int sampling) {
 
 GraphSummary SummarizeRoadmap(const PlanRequest& request, int queries) {
   Stopwatch stopwatch;
-  if (SizeOf(request).clusters == 0) {
-    return SummarizeRoadmap(BuildRoadmap(request, SpreadContacts(request)), request, stopwatch);
+  if (roadmap::SizeOf(request).clusters == 0) {
+    return SummarizeRoadmap(roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request)),
+                            request, stopwatch);
   }
-  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(request);
+  const roadmap::ClusteredRoadmap roadmap = roadmap::BuildClusteredRoadmap(request);
   GraphSummary summary = SummarizeRoadmap(roadmap.roadmap, request, stopwatch);
   summary.faces = roadmap.clusters.clustered_count();
   summary.clusters = roadmap.clusters.cluster_count();

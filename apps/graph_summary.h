@@ -40,7 +40,7 @@ struct GraphSummary {
   double vertex_seconds = 0;
   double edge_seconds = 0;
   std::int64_t unclear = 0;  ///< decisions too close to call
-  std::optional<SamplingShare> sampling_share;
+  std::optional<polyhedron::SamplingShare> sampling_share;
   int clusters = 0;  ///< of the contact points of a roadmap
   std::optional<QuerySummary> queries;
 };

@@ -72,7 +72,7 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
                        {"mean_seconds", summary.queries->mean_seconds}};
   }
   if (summary.sampling_share) {
-    const SamplingShare& share = *summary.sampling_share;
+    const polyhedron::SamplingShare& share = *summary.sampling_share;
     json["compare"] = {{"combinations", share.quadruples},
                        {"found_combinations", share.found_quadruples},
                        {"links", share.links},
@@ -106,7 +106,7 @@ std::string FacesName(const std::string& planner) {
   return planner == "polyhedron" ? " faces, " : " edges, ";
 }
 
-std::string ShareText(const SamplingShare& share) {
+std::string ShareText(const polyhedron::SamplingShare& share) {
   const auto part = [](std::int64_t found, std::int64_t all) {
     const double percent =
         all == 0 ? 100 : 100.0 * static_cast<double>(found) / static_cast<double>(all);

@@ -17,6 +17,6 @@ namespace regrasp {
 [[nodiscard]] std::string FacesName(const std::string& planner);
 
 /// How many of the direct graph's sets sampling found, and of its links.
-[[nodiscard]] std::string ShareText(const SamplingShare& share);
+[[nodiscard]] std::string ShareText(const polyhedron::SamplingShare& share);
 
 }  // namespace regrasp

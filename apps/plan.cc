@@ -93,7 +93,7 @@ struct PlanProgram {
     app.add_option("--effort", effort,
                    "The planner general: force-closure tests, some microseconds each, after which "
                    "it gives up (default " +
-                       std::to_string(TreePlanner::kDefaultEffort) + ")")
+                       std::to_string(tree::TreePlanner::kDefaultEffort) + ")")
         ->check(CLI::Range(std::int64_t{1}, kMostEffort))
         ->type_name("N");
     AddNumber(

@@ -49,13 +49,13 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
          "the friction's half-angle; of polygon and polyhedron (default adaptive)")
       ->type_name("NAME")
       ->check(CheckSpanning);
-  AddInteger(app, "--contacts", contacts, kFewestClusters, kMaxClusteredContacts,
+  AddInteger(app, "--contacts", contacts, roadmap::kFewestClusters, roadmap::kMaxClusteredContacts,
              "Contact points of the roadmap: spread evenly over the surface, on a mesh at the "
              "centres of its facets (default 60, in clusters 1000)");
-  AddInteger(app, "--clusters", clusters, kFewestClusters, kMostClusters,
+  AddInteger(app, "--clusters", clusters, roadmap::kFewestClusters, roadmap::kMostClusters,
              "The roadmap sorts its contact points into so many clusters and looks at all grasps "
              "of their representatives only (default: 50 where there are more than " +
-                 std::to_string(kMaxRoadmapContacts) +
+                 std::to_string(roadmap::kMaxRoadmapContacts) +
                  " contact points to choose or faces, otherwise none)");
   AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
   app.add_flag("--force", force,

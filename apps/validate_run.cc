@@ -194,7 +194,7 @@ render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task&
     throw InputError("--show-clusters: " + options.InputPath() +
                      " was not made on a roadmap of clustered contact points");
   }
-  frame.clusters = DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
+  frame.clusters = roadmap::DescribeClusters(*solid, task.plan.half_angle, *task.plan.roadmap);
   return frame;
 }
 

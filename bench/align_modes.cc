@@ -211,8 +211,8 @@ std::vector<AlignCase> PolyhedronAligns(const Bodies& bodies, double half_angle,
   std::vector<AlignCase> cases;
   for (const ObjectFile& file : bodies.files) {
     const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
-    PolyhedronGraph graph(solid, half_angle, Spanning::kAdaptive);
-    const PolyhedronPlanner planner(&graph);
+    polyhedron::PolyhedronGraph graph(solid, half_angle, Spanning::kAdaptive);
+    const polyhedron::PolyhedronPlanner planner(&graph);
     CollectAligns(file, PlansOf(planner, file, half_angle), each, cases);
   }
   return cases;
@@ -252,9 +252,9 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   }
   for (const double degrees : kPlanarFrictions) {
     table.Add(at("polygon", degrees),
-              PlanarAligns(PolygonPlanner(), polygons, Radians(degrees), wanted));
+              PlanarAligns(polygon::PolygonPlanner(), polygons, Radians(degrees), wanted));
     table.Add(at("contour", degrees),
-              PlanarAligns(ContourPlanner(), contours, Radians(degrees), wanted));
+              PlanarAligns(contour::ContourPlanner(), contours, Radians(degrees), wanted));
   }
   const int tight = (each + 3) / 4;
   const double spatial = kSpatialFrictions.front(), planar = kPlanarFrictions.front();

@@ -71,14 +71,14 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
-    SearchSpace space(object, {setting.half_angle, setting.min_quality});
-    space.SetLimits({.most_tests = TreePlanner::kDefaultEffort});
+    tree::SearchSpace space(object, {setting.half_angle, setting.min_quality});
+    space.SetLimits({.most_tests = tree::TreePlanner::kDefaultEffort});
     const ContactSet from = space.Add(pair.start);
     const ContactSet to = space.Add(pair.goal);
     space.Accept(from);
     space.Accept(to);
-    auto path = SearchOwnSubsets(from, to, space);
-    if (!path) path = BidirectionalTree(from, to, *source, random, space).Join();
+    auto path = tree::SearchOwnSubsets(from, to, space);
+    if (!path) path = tree::BidirectionalTree(from, to, *source, random, space).Join();
     Answer answer;
     answer.seconds = ProcessorSeconds() - begin;
     answer.result.status = PlanResult::Status::kNoSequence;
@@ -86,7 +86,7 @@ Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
       PlanRequest request = RequestFor(object, setting, pair, seed);
       request.hand.fingers = space.fingers();
       const GraspEvaluator evaluator(object, request.criteria);
-      answer.result = ResultOf(MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
+      answer.result = ResultOf(tree::MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
                                request, pair.goal);
     }
     return answer;
@@ -100,7 +100,7 @@ Contender OnPolyhedron(const Polyhedron& solid, const ContestSetting& setting) {
   }
   const bool uniform = setting.half_angle <= kMostUniform;
   const double begin = ProcessorSeconds();
-  const auto graph = std::make_shared<PolyhedronGraph>(
+  const auto graph = std::make_shared<polyhedron::PolyhedronGraph>(
       solid, setting.half_angle, uniform ? Spanning::kUniform : Spanning::kAdaptive);
   const double seconds = ProcessorSeconds() - begin;
   if (graph->vertex_count() == 0) {
@@ -110,7 +110,7 @@ Contender OnPolyhedron(const Polyhedron& solid, const ContestSetting& setting) {
     PlanRequest request = RequestFor(solid, setting, pair, seed);
     request.spanning =
         setting.half_angle <= kMostUniform ? Spanning::kUniform : Spanning::kAdaptive;
-    return Timed([&] { return Solve(PolyhedronPlanner(graph.get()), request); });
+    return Timed([&] { return Solve(polyhedron::PolyhedronPlanner(graph.get()), request); });
   };
   return {"polyhedron", "", seconds, ask};
 }

@@ -74,7 +74,7 @@ Timed TimeGraph(const Polygon& polygon, double degrees, int runs) {
   constexpr double kMilliseconds = 1e3;
   Timed timed;
   for (int run = 0; run < runs; ++run) {
-    const ContourGraph graph(polygon, Radians(degrees));
+    const contour::ContourGraph graph(polygon, Radians(degrees));
     timed.vertex_ms = std::min(timed.vertex_ms, kMilliseconds * graph.vertex_seconds());
     timed.edge_ms = std::min(timed.edge_ms, kMilliseconds * graph.edge_seconds());
     timed.vertices = graph.vertex_count();
@@ -88,10 +88,10 @@ Timed TimeGraph(const Polygon& polygon, double degrees, int runs) {
 
 /// The L-infinity Voronoi diagrams of all sets, one run.
 double TimeDiagrams(const Polygon& polygon, double degrees) {
-  const ContourGraph graph(polygon, Radians(degrees));
+  const contour::ContourGraph graph(polygon, Radians(degrees));
   const auto start = std::chrono::steady_clock::now();
   for (int set = 0; set < graph.vertex_count(); ++set) {
-    benchmark::DoNotOptimize(RegionMetric(graph, set).MakeDiagram());
+    benchmark::DoNotOptimize(contour::RegionMetric(graph, set).MakeDiagram());
   }
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   return time.count();
@@ -128,7 +128,7 @@ void PrintModels() {
 
 void CompareWithUnion(const Polygon& polygon, double degrees) {
   const Timed timed = TimeGraph(polygon, degrees, kGraphRuns);
-  const ContourGraph graph(polygon, Radians(degrees));
+  const contour::ContourGraph graph(polygon, Radians(degrees));
   const PieceOutlines outlines = MakePieceOutlines(graph);
   std::vector<UnionComponent> components;
   std::chrono::duration<double, std::milli> time{std::numeric_limits<double>::infinity()};
@@ -163,7 +163,7 @@ void PrintGrowth(double degrees) {
 void TimeWholeGraph(benchmark::State& state) {
   const Polygon polygon = LobedOutline(kOutlineEdges);
   const double half_angle = Radians(static_cast<double>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(ContourGraph(polygon, half_angle));
+  for (auto _ : state) benchmark::DoNotOptimize(contour::ContourGraph(polygon, half_angle));
 }
 BENCHMARK(TimeWholeGraph)
     ->Name("graph, 300 edges")

@@ -46,13 +46,14 @@ int ComponentOf(const UnionPolygon& outline, const std::vector<UnionComponent>& 
 
 }  // namespace
 
-PieceOutlines MakePieceOutlines(const ContourGraph& graph) {
-  const Boundary& boundary = graph.boundary();
+PieceOutlines MakePieceOutlines(const contour::ContourGraph& graph) {
+  const contour::Boundary& boundary = graph.boundary();
   PieceOutlines result;
   for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p) {
     const auto& edges = graph.pieces()[p].edges;
     if (boundary.ring_of(edges[0]) != 0 || boundary.ring_of(edges[1]) != 0) continue;
-    UnionPolygon outline = MakeOutline(PieceOutline(graph, p), kSameCorner * boundary.perimeter(0));
+    UnionPolygon outline =
+        MakeOutline(contour::PieceOutline(graph, p), kSameCorner * boundary.perimeter(0));
     if (outline.size() < 3 || outline.orientation() != CGAL::COUNTERCLOCKWISE) continue;
     result.pieces.push_back(p);
     result.outlines.push_back(std::move(outline));
@@ -68,15 +69,15 @@ std::vector<UnionComponent> Unite(const std::vector<UnionPolygon>& outlines) {
   return components;
 }
 
-int CountGlued(const ContourGraph& graph, const PieceOutlines& outlines,
+int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines,
                const std::vector<UnionComponent>& components) {
   std::map<int, int> index_of;
   for (std::size_t i = 0; i < outlines.pieces.size(); ++i) {
     index_of[outlines.pieces[i]] = static_cast<int>(i);
   }
-  const Boundary& boundary = graph.boundary();
+  const contour::Boundary& boundary = graph.boundary();
   std::vector<std::array<int, 2>> glued;
-  for (const PiecePassage& passage : graph.passages()) {
+  for (const contour::PiecePassage& passage : graph.passages()) {
     if (boundary.next(passage.edge) > passage.edge) continue;  // not the start of a ring
     const auto before = index_of.find(passage.pieces[0]);
     const auto after = index_of.find(passage.pieces[1]);

@@ -21,14 +21,14 @@ struct PieceOutlines {
   std::vector<int> pieces;
   std::vector<UnionPolygon> outlines;
 };
-[[nodiscard]] PieceOutlines MakePieceOutlines(const ContourGraph& graph);
+[[nodiscard]] PieceOutlines MakePieceOutlines(const contour::ContourGraph& graph);
 
 /// Their union, components one by one.
 [[nodiscard]] std::vector<UnionComponent> Unite(const std::vector<UnionPolygon>& outlines);
 
 /// How many sets the components are, once those are joined that meet at the start of the ring,
 /// where [0, L]² is cut: a passage of the graph leads from the one to the other.
-[[nodiscard]] int CountGlued(const ContourGraph& graph, const PieceOutlines& outlines,
+[[nodiscard]] int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines,
                              const std::vector<UnionComponent>& components);
 
 }  // namespace regrasp

@@ -37,17 +37,19 @@ const Polyhedron& Body(std::int64_t index) {
   return dynamic_cast<const Polyhedron&>(*entry->second.object);
 }
 
-ClusteredRoadmapOptions Options(int clusters) {
-  ClusteredRoadmapOptions options;
+roadmap::ClusteredRoadmapOptions Options(int clusters) {
+  roadmap::ClusteredRoadmapOptions options;
   options.half_angle = Radians(kDegrees);
   options.clusters = clusters;
   return options;
 }
 
-const ClusteredRoadmap& RoadmapOf(std::int64_t index, int clusters) {
-  static std::map<std::pair<std::int64_t, int>, std::unique_ptr<ClusteredRoadmap>> roadmaps;
-  std::unique_ptr<ClusteredRoadmap>& roadmap = roadmaps[{index, clusters}];
-  if (!roadmap) roadmap = std::make_unique<ClusteredRoadmap>(Body(index), Options(clusters));
+const roadmap::ClusteredRoadmap& RoadmapOf(std::int64_t index, int clusters) {
+  static std::map<std::pair<std::int64_t, int>, std::unique_ptr<roadmap::ClusteredRoadmap>>
+      roadmaps;
+  std::unique_ptr<roadmap::ClusteredRoadmap>& roadmap = roadmaps[{index, clusters}];
+  if (!roadmap)
+    roadmap = std::make_unique<roadmap::ClusteredRoadmap>(Body(index), Options(clusters));
   return *roadmap;
 }
 
@@ -58,7 +60,7 @@ void BM_Cluster(benchmark::State& state) {
   const std::vector<Contact> contacts = RoadmapOf(state.range(0), clusters).clusters.contacts();
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        ContactClusters(contacts, solid.wrench_frame(), Radians(kDegrees), clusters, 0));
+        roadmap::ContactClusters(contacts, solid.wrench_frame(), Radians(kDegrees), clusters, 0));
   }
   state.SetLabel(kBodies.at(state.range(0)));
   state.counters["contacts"] = static_cast<double>(contacts.size());
@@ -66,7 +68,8 @@ void BM_Cluster(benchmark::State& state) {
 
 /// All subsets of four of the representatives.
 void BM_Subsets(benchmark::State& state) {
-  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  const roadmap::ClusteredRoadmap& roadmap =
+      RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
   SubsetCounts counts;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
@@ -83,7 +86,8 @@ void BM_Subsets(benchmark::State& state) {
 
 /// A linear program for each of a sample of the same subsets.
 void BM_SubsetsByGlpk(benchmark::State& state) {
-  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  const roadmap::ClusteredRoadmap& roadmap =
+      RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
   const std::vector<Contact>& points = roadmap.roadmap.points();
   RandomStream random(kSeed, RandomUse::kStart);
   std::int64_t asked = 0;
@@ -104,7 +108,8 @@ void BM_SubsetsByGlpk(benchmark::State& state) {
 
 /// Thirty queries between random force-closure grasps of all contact points.
 void BM_Queries(benchmark::State& state) {
-  const ClusteredRoadmap& roadmap = RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
+  const roadmap::ClusteredRoadmap& roadmap =
+      RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
   const double same_point = kSamePoint * Body(state.range(0)).diameter();
   double seconds = 0;
   double longest = 0;
@@ -112,8 +117,8 @@ void BM_Queries(benchmark::State& state) {
   double asked = 0;
   std::uint64_t seed = kSeed;
   for (auto _ : state) {
-    for (const RandomQuery& query :
-         RunRandomQueries(roadmap, same_point, kQueries, seed++, /*last_resort=*/true)) {
+    for (const roadmap::RandomQuery& query :
+         roadmap::RunRandomQueries(roadmap, same_point, kQueries, seed++, /*last_resort=*/true)) {
       seconds += query.seconds;
       longest = std::max(longest, query.seconds);
       joined += query.chain.grasps.empty() ? 0 : 1;
@@ -130,7 +135,7 @@ void BM_Queries(benchmark::State& state) {
 void BM_LargeRoadmap(benchmark::State& state) {
   const Polyhedron& solid = Body(state.range(0));
   for (auto _ : state) {
-    const ClusteredRoadmap roadmap(solid, Options(static_cast<int>(state.range(1))));
+    const roadmap::ClusteredRoadmap roadmap(solid, Options(static_cast<int>(state.range(1))));
     state.counters["vertices"] = roadmap.roadmap.vertex_count();
     state.counters["edges"] = static_cast<double>(roadmap.roadmap.edge_count());
   }

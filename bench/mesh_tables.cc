@@ -44,13 +44,14 @@ struct Setting {
 };
 
 /// One row of tables 6.1 to 6.6.
-std::vector<std::string> QueryRow(const Setting& setting, const ClusteredRoadmap& roadmap,
-                                  double seconds, const std::vector<RandomQuery>& queries) {
+std::vector<std::string> QueryRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
+                                  double seconds,
+                                  const std::vector<roadmap::RandomQuery>& queries) {
   double shortest = std::numeric_limits<double>::infinity();
   double longest = 0;
   double sum = 0;
   int connected = 0;
-  for (const RandomQuery& query : queries) {
+  for (const roadmap::RandomQuery& query : queries) {
     shortest = std::min(shortest, query.seconds);
     longest = std::max(longest, query.seconds);
     sum += query.seconds;
@@ -69,28 +70,29 @@ std::vector<std::string> QueryRow(const Setting& setting, const ClusteredRoadmap
 /// One row of tables 6.7 to 6.12: the share of random force-closure grasps that Algorithms 1 and 2
 /// take, how many of the first 30 that they take they link, and Algorithm 3 of the first 30 that
 /// neither takes.
-std::vector<std::string> LocalRow(const Setting& setting, const ClusteredRoadmap& roadmap,
+std::vector<std::string> LocalRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
                                   double same_point) {
-  GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
-                     {roadmap.half_angle, 0});
-  LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
+  roadmap::GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
+                              {roadmap.half_angle, 0});
+  roadmap::LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
   RandomStream random(kSeed, RandomUse::kStart);
   struct Count {
     int taken = 0;
     int linked = 0;
-    void Add(const std::vector<Quadruple>& way) {
+    void Add(const std::vector<roadmap::Quadruple>& way) {
       if (++taken <= kQueries) linked += way.empty() ? 0 : 1;
     }
   };
   Count first, second, third;
   int samples = 0;
   for (; samples < kSamples; ++samples) {
-    const std::optional<Quadruple> grasp = DrawContactGrasp(roadmap, same_point, random);
+    const std::optional<roadmap::Quadruple> grasp =
+        roadmap::DrawContactGrasp(roadmap, same_point, random);
     if (!grasp) break;
     const bool takes_first = local.OwnRepresentatives(*grasp).has_value();
     const bool takes_second = local.FindNearestCluster(*grasp).has_value();
     const auto add = [&](Count& count, auto run) {
-      count.Add(count.taken < kQueries ? run() : std::vector<Quadruple>());
+      count.Add(count.taken < kQueries ? run() : std::vector<roadmap::Quadruple>());
     };
     if (takes_first) add(first, [&] { return local.RunAlgorithm1(*grasp); });
     if (takes_second) add(second, [&] { return local.RunAlgorithm2(*grasp); });
@@ -159,20 +161,20 @@ class Tables {
     const ObjectFile file = ReadObject(models_ / name);
     const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
     const double same_point = kSamePoint * solid.diameter();
-    ClusteredRoadmapOptions options;
+    roadmap::ClusteredRoadmapOptions options;
     options.half_angle = Radians(kDegrees);
     options.clusters = setting.clusters;
     const auto begin = std::chrono::steady_clock::now();
-    const ClusteredRoadmap roadmap(solid, options);
+    const roadmap::ClusteredRoadmap roadmap(solid, options);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    queries_[table].rows.push_back(
-        QueryRow(setting, roadmap, time.count(),
-                 RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/false)));
+    queries_[table].rows.push_back(QueryRow(
+        setting, roadmap, time.count(),
+        roadmap::RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/false)));
     local_[table].rows.push_back(LocalRow(setting, roadmap, same_point));
     int answered = 0;
     int exhausted = 0;
-    for (const RandomQuery& query :
-         RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/true)) {
+    for (const roadmap::RandomQuery& query :
+         roadmap::RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/true)) {
       exhausted += query.chain.exhausted && query.chain.grasps.empty() ? 1 : 0;
       answered += query.chain.grasps.empty() ? 0 : 1;
     }

@@ -48,15 +48,18 @@ double FastestMilliseconds(int runs, const Work& work) {
   return fastest;
 }
 
-PolygonGraph Graph(const Polygon& polygon, Spanning spanning) {
-  return PolygonGraph(polygon, Radians(kDegrees), spanning);
+polygon::PolygonGraph Graph(const Polygon& polygon, Spanning spanning) {
+  return polygon::PolygonGraph(polygon, Radians(kDegrees), spanning);
 }
 
-std::int64_t EdgeCount(const PolygonGraph& graph) {
+std::int64_t EdgeCount(const polygon::PolygonGraph& graph) {
   std::int64_t count = 0;
-  for (const GraspType a : {GraspType::kConcurrent, GraspType::kTwoFinger, GraspType::kParallel}) {
-    for (const GraspType b :
-         {GraspType::kConcurrent, GraspType::kTwoFinger, GraspType::kParallel}) {
+  for (const polygon::GraspType a :
+       {polygon::GraspType::kConcurrent, polygon::GraspType::kTwoFinger,
+        polygon::GraspType::kParallel}) {
+    for (const polygon::GraspType b :
+         {polygon::GraspType::kConcurrent, polygon::GraspType::kTwoFinger,
+          polygon::GraspType::kParallel}) {
       if (a <= b) count += graph.edge_count(a, b);
     }
   }
@@ -71,7 +74,7 @@ void CompareWithSetOperations(Spanning spanning) {
   std::size_t cells = 0;
   const double baseline = FastestMilliseconds(
       kCellRuns, [&] { cells = FindSetCells(Model(), candidates, reach).size(); });
-  const PolygonGraph graph = Graph(Model(), spanning);
+  const polygon::PolygonGraph graph = Graph(Model(), spanning);
   const double ours =
       FastestMilliseconds(kGraphRuns, [&] { benchmark::DoNotOptimize(Graph(Model(), spanning)); });
   std::printf(
@@ -79,7 +82,8 @@ void CompareWithSetOperations(Spanning spanning) {
       "%.1f ms (%zu cells, graph has %lld); %.0f times\n",
       uniform ? "uniform " : "adaptive", ours, graph.vertex_count(),
       static_cast<long long>(EdgeCount(graph)), baseline, cells,
-      static_cast<long long>(graph.counts(GraspType::kConcurrent).vertices), baseline / ours);
+      static_cast<long long>(graph.counts(polygon::GraspType::kConcurrent).vertices),
+      baseline / ours);
 }
 
 /// A simple polygon about the origin: shaken angles, radii anywhere between 0.6 and 1.
@@ -107,7 +111,7 @@ void PrintGrowth(Spanning spanning) {
     int vertex_count = 0;
     std::int64_t edge_count = 0;
     for (int run = 0; run < (edges > 60 ? 1 : kGraphRuns); ++run) {
-      const PolygonGraph graph = Graph(polygon, spanning);
+      const polygon::PolygonGraph graph = Graph(polygon, spanning);
       vertices = std::min(vertices, graph.vertex_seconds());
       switches = std::min(switches, graph.edge_seconds());
       vertex_count = graph.vertex_count();

@@ -87,7 +87,7 @@ Timed TimeGraph(const Polyhedron& solid, double degrees, Spanning spanning, int 
   Timed timed;
   for (int run = 0; run < runs; ++run) {
     const double before = Mebibytes();
-    const PolyhedronGraph graph(solid, Radians(degrees), spanning);
+    const polyhedron::PolyhedronGraph graph(solid, Radians(degrees), spanning);
     timed.mebibytes = Mebibytes() - before;
     timed.cell_ms = std::min(timed.cell_ms, kMillisecondsPerSecond * graph.vertex_seconds());
     timed.link_ms = std::min(timed.link_ms, kMillisecondsPerSecond * graph.edge_seconds());
@@ -138,11 +138,11 @@ void PrintBodies(const std::vector<NamedSolid>& bodies) {
 }
 
 /// Candidates of a body, some of them by the seed.
-std::vector<QuadrupleCandidate> SampleCandidates(const Polyhedron& solid, int most) {
+std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const Polyhedron& solid, int most) {
   std::vector<Vector3d> normals;
   for (int f = 0; f < solid.face_count(); ++f) normals.push_back(solid.inward_normal(f));
   auto candidates =
-      FindQuadrupleCandidates(normals, std::tan(Radians(kDegrees)), Spanning::kUniform);
+      polyhedron::FindQuadrupleCandidates(normals, std::tan(Radians(kDegrees)), Spanning::kUniform);
   std::mt19937_64 engine(kSeed);
   for (std::size_t i = candidates.size(); i > 1; --i) {
     std::swap(candidates[i - 1], candidates[engine() % i]);
@@ -160,11 +160,11 @@ double MillisecondsOf(const std::function<void()>& work) {
 
 /// Our own time for some candidates, a new finder each run: what it remembers of pairs is paid
 /// here.
-double TimeFinder(const Polyhedron& solid, const std::vector<QuadrupleCandidate>& candidates,
-                  int& cells) {
+double TimeFinder(const Polyhedron& solid,
+                  const std::vector<polyhedron::QuadrupleCandidate>& candidates, int& cells) {
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
-    FocusCellFinder finder(solid, std::tan(Radians(kDegrees)));
+    polyhedron::FocusCellFinder finder(solid, std::tan(Radians(kDegrees)));
     cells = 0;
     least = std::min(least, MillisecondsOf([&] {
                        for (const auto& candidate : candidates) {
@@ -176,7 +176,8 @@ double TimeFinder(const Polyhedron& solid, const std::vector<QuadrupleCandidate>
 }
 
 /// Sixteen programs a combination: each face from its inner and its outer side.
-bool HasCellByPrograms(const FaceParts& parts, const QuadrupleCandidate& candidate) {
+bool HasCellByPrograms(const polyhedron::FaceParts& parts,
+                       const polyhedron::QuadrupleCandidate& candidate) {
   constexpr int kPatterns = 16;
   bool has = false;
   for (int pattern = 0; pattern < kPatterns; ++pattern) {
@@ -199,7 +200,7 @@ void PrintComparison(const char* baseline, int combinations, int cells, int by_b
 
 /// Bodies with non-convex faces are left out: the baselines take each face as one part.
 void CompareWithBaselines(const NamedSolid& body) {
-  const FaceParts parts = SplitFaces(body.solid);
+  const polyhedron::FaceParts parts = polyhedron::SplitFaces(body.solid);
   if (std::ssize(parts.parts) != body.solid.face_count()) return;
   std::printf("%s\n", body.name.c_str());
   int cells = 0, by_baseline = 0;
@@ -255,7 +256,8 @@ void PrintQueries(const std::string& model) {
 void TimeWholeGraph(benchmark::State& state, const Vector3d& stretch) {
   const Polyhedron solid = MakeStone(kFaces, stretch, kSeed);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(PolyhedronGraph(solid, Radians(kDegrees), Spanning::kUniform));
+    benchmark::DoNotOptimize(
+        polyhedron::PolyhedronGraph(solid, Radians(kDegrees), Spanning::kUniform));
   }
 }
 BENCHMARK_CAPTURE(TimeWholeGraph, round, kRound)->Unit(benchmark::kMillisecond);

@@ -24,7 +24,8 @@ constexpr int kSides = 8;
 constexpr double kHeight = 3;  // diameters
 
 /// The points of a part and those that see them from one side, up to a height.
-Nef MakeHalf(const FacePart& part, const Vector3d& axis, double tangent, double height) {
+Nef MakeHalf(const polyhedron::FacePart& part, const Vector3d& axis, double tangent,
+             double height) {
   std::vector<Kernel::Point_3> points;
   const auto add = [&](const Vector3d& p) { points.emplace_back(p.x(), p.y(), p.z()); };
   for (const Vector2d& y : part.outline) {
@@ -47,13 +48,13 @@ struct NefVolumes::Volumes {
   std::map<int, Nef> of_face;
 };
 
-NefVolumes::NefVolumes(const Polyhedron& solid, const FaceParts& parts, std::span<const int> faces,
-                       double tangent)
+NefVolumes::NefVolumes(const Polyhedron& solid, const polyhedron::FaceParts& parts,
+                       std::span<const int> faces, double tangent)
     : volumes_(std::make_unique<Volumes>()) {
   const double height = kHeight * solid.diameter();
   for (const int face : faces) {
     if (volumes_->of_face.contains(face)) continue;
-    const FacePart& part = parts.parts[parts.first[face]];
+    const polyhedron::FacePart& part = parts.parts[parts.first[face]];
     volumes_->of_face.emplace(face, MakeHalf(part, part.normal, tangent, height) +
                                         MakeHalf(part, -part.normal, tangent, height));
   }

@@ -15,8 +15,8 @@ class NefVolumes {
  public:
   /// @param faces    whose volumes are made; each must be one part.
   /// @param tangent  of the friction half-angle.
-  NefVolumes(const Polyhedron& solid, const FaceParts& parts, std::span<const int> faces,
-             double tangent);
+  NefVolumes(const Polyhedron& solid, const polyhedron::FaceParts& parts,
+             std::span<const int> faces, double tangent);
   ~NefVolumes();
 
   /// Whether the volumes of four faces have an interior in common; that alone is what a benchmark

@@ -34,7 +34,7 @@ void SetContactTerm(Program& program, int contact, int row, const Vector2d& fact
 }
 
 /// The contact is on its part.
-void AddPart(Program& program, int contact, const FacePart& part, int& row) {
+void AddPart(Program& program, int contact, const polyhedron::FacePart& part, int& row) {
   const std::size_t n = part.outline.size();
   for (std::size_t i = 0; i < n; ++i, ++row) {
     const Vector2d along = part.outline[(i + 1) % n] - part.outline[i];
@@ -46,8 +46,8 @@ void AddPart(Program& program, int contact, const FacePart& part, int& row) {
 
 /// The focus point is in the contact's pyramid: of its foot, a · (foot − contact) + margin ≤ r ·
 /// height for the normals a of the pyramid's sides.
-void AddPyramid(Program& program, int contact, const FacePart& part, bool inner, double tangent,
-                int& row) {
+void AddPyramid(Program& program, int contact, const polyhedron::FacePart& part, bool inner,
+                double tangent, int& row) {
   const double radius = tangent * std::cos(std::numbers::pi / kSides);
   const Vector3d axis = inner ? part.normal : Vector3d(-part.normal);
   for (int side = 0; side < kSides; ++side, ++row) {
@@ -63,11 +63,12 @@ void AddPyramid(Program& program, int contact, const FacePart& part, bool inner,
 
 }  // namespace
 
-bool HasPieceByProgram(const FaceParts& parts, const std::array<int, 4>& halves, double tangent) {
+bool HasPieceByProgram(const polyhedron::FaceParts& parts, const std::array<int, 4>& halves,
+                       double tangent) {
   Program program(CGAL::SMALLER, false, 0, false, 0);
   int row = 0;
   for (int contact = 0; contact < 4; ++contact) {
-    const FacePart& part = parts.parts[halves[contact] / 2];
+    const polyhedron::FacePart& part = parts.parts[halves[contact] / 2];
     AddPart(program, contact, part, row);
     AddPyramid(program, contact, part, halves[contact] % 2 == 0, tangent, row);
   }

@@ -15,7 +15,7 @@ namespace regrasp {
 ///
 /// @param halves   2 · part, or 2 · part + 1 for the outer side, as a FocusPiece has them.
 /// @param tangent  of the friction half-angle.
-[[nodiscard]] bool HasPieceByProgram(const FaceParts& parts, const std::array<int, 4>& halves,
-                                     double tangent);
+[[nodiscard]] bool HasPieceByProgram(const polyhedron::FaceParts& parts,
+                                     const std::array<int, 4>& halves, double tangent);
 
 }  // namespace regrasp

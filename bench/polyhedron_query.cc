@@ -26,7 +26,8 @@ constexpr double kMillisecondsPerSecond = 1e3;
 /// Draws starts from all cells of a graph and goals from a start's component.
 class QueryMaker {
  public:
-  QueryMaker(PolyhedronGraph& graph, FocusGeometry& geometry, const GraspEvaluator& evaluator)
+  QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::FocusGeometry& geometry,
+             const GraspEvaluator& evaluator)
       : graph_(graph),
         components_(graph.components()),
         geometry_(geometry),
@@ -37,7 +38,7 @@ class QueryMaker {
     RandomStream of_goal(seed, RandomUse::kGoal);
     const GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
     std::set<int> cells;
-    for (const FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
+    for (const polyhedron::FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
     return {start, Draw("goal", GoalPools(components_, cells), of_goal)};
   }
 
@@ -52,9 +53,9 @@ class QueryMaker {
     return choice;
   }
 
-  PolyhedronGraph& graph_;
+  polyhedron::PolyhedronGraph& graph_;
   Components components_;
-  FocusGeometry& geometry_;
+  polyhedron::FocusGeometry& geometry_;
   const GraspEvaluator& evaluator_;
 };
 
@@ -64,9 +65,9 @@ QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spannin
   PlanRequest request = {
       .object = &solid, .criteria = {.half_angle = Radians(degrees)}, .spanning = spanning};
   const GraspEvaluator evaluator(solid, request.criteria);
-  PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
-  const PolyhedronPlanner planner(&graph);
-  FocusGeometry geometry(solid, graph);
+  polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
+  const polyhedron::PolyhedronPlanner planner(&graph);
+  polyhedron::FocusGeometry geometry(solid, graph);
   QueryMaker maker(graph, geometry, evaluator);
   QueryTimes times;
   std::vector<double> milliseconds;

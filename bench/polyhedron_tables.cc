@@ -73,18 +73,19 @@ void AddBody(const std::filesystem::path& file, std::vector<Table>& tables) {
   const auto& solid = dynamic_cast<const Polyhedron&>(*model.object);
   const double half_angle = Radians(kDegrees);
   Row row{file.stem().string(), solid.face_count(), 0, 0, 0, 0};
-  PolyhedronGraph graph =
-      Fastest([&] { return PolyhedronGraph(solid, half_angle, Spanning::kUniform); }, row.seconds);
+  polyhedron::PolyhedronGraph graph =
+      Fastest([&] { return polyhedron::PolyhedronGraph(solid, half_angle, Spanning::kUniform); },
+              row.seconds);
   row.cells = graph.vertex_count();
   row.links = std::ssize(graph.links());
   row.components = graph.components().count();
   tables.front().rows.push_back(row);
-  const Eigen::AlignedBox3d region = FindSamplingRegion(solid, graph);
+  const Eigen::AlignedBox3d region = polyhedron::FindSamplingRegion(solid, graph);
   for (std::size_t t = 1; t < tables.size(); ++t) {
-    const SampledGraph sampled = Fastest(
+    const polyhedron::SampledGraph sampled = Fastest(
         [&] {
-          return SamplePolyhedron(solid, half_angle, Spanning::kUniform, region,
-                                  kSampleCounts[t - 1], kSeed);
+          return polyhedron::SamplePolyhedron(solid, half_angle, Spanning::kUniform, region,
+                                              kSampleCounts[t - 1], kSeed);
         },
         row.seconds);
     row.cells = std::ssize(sampled.quadruples);

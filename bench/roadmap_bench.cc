@@ -80,7 +80,8 @@ void BM_BuildRoadmap(benchmark::State& state) {
   std::int64_t subsets = 0;
   std::int64_t vertices = 0;
   for (auto _ : state) {
-    const Roadmap roadmap = BuildRoadmap(request, SpreadContacts(request));
+    const roadmap::Roadmap roadmap =
+        roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request));
     subsets = roadmap.candidate_count();
     vertices = roadmap.vertex_count();
   }
@@ -89,7 +90,7 @@ void BM_BuildRoadmap(benchmark::State& state) {
 
 void BM_CountEdgesAndComponents(benchmark::State& state) {
   const PlanRequest request = RequestFor(Model(state.range(0)), state.range(1));
-  const Roadmap roadmap = BuildRoadmap(request, SpreadContacts(request));
+  const roadmap::Roadmap roadmap = roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request));
   for (auto _ : state) {
     benchmark::DoNotOptimize(roadmap.edge_count());
     benchmark::DoNotOptimize(roadmap.components());
@@ -104,7 +105,7 @@ void BM_Plan(benchmark::State& state) {
   request.start = request.goal = {GraspChoice::Kind::kRandomAny, {}, "random-any"};
   double switches = 0;
   for (auto _ : state) {
-    const PlanResult result = Solve(RoadmapPlanner(), request);
+    const PlanResult result = Solve(roadmap::RoadmapPlanner(), request);
     ++request.seed;
     switches += result.plan ? static_cast<double>(result.plan->steps.size()) : 0;
   }

@@ -11,11 +11,11 @@
 namespace regrasp {
 
 const std::vector<const Planner*>& AllPlanners() {
-  static const TreePlanner tree;
-  static const ContourPlanner contour;
-  static const PolygonPlanner polygon;
-  static const PolyhedronPlanner polyhedron;
-  static const RoadmapPlanner roadmap;
+  static const tree::TreePlanner tree;
+  static const contour::ContourPlanner contour;
+  static const polygon::PolygonPlanner polygon;
+  static const polyhedron::PolyhedronPlanner polyhedron;
+  static const roadmap::RoadmapPlanner roadmap;
   static const std::vector<const Planner*> all = {&tree, &contour, &polygon, &polyhedron, &roadmap};
   return all;
 }

@@ -10,7 +10,7 @@
 #include "planner/roadmap/find_contact.h"
 #include "planner/sampling/contact_points.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -81,4 +81,4 @@ ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request) {
                                              .deadline = request.deadline});
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

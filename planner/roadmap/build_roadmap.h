@@ -6,7 +6,7 @@
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Contacts of a grasp of a roadmap, and fingers of the hand: the fifth switches.
 inline constexpr int kRoadmapContacts = 4;
@@ -38,4 +38,4 @@ struct RoadmapSize {
 /// @throws std::invalid_argument  there are to be fewer than four contact points or too many.
 [[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -14,7 +14,7 @@
 #include "planner/roadmap/find_contact.h"
 #include "planner/sampling/draw_grasp.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -158,4 +158,4 @@ class ClusterSearch {
 
 PlanResult SearchClusters(const PlanRequest& request) { return ClusterSearch(request).Plan(); }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

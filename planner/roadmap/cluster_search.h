@@ -3,7 +3,7 @@
 #include "planner/planning/plan_request.h"
 #include "planner/planning/plan_result.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Plans on a roadmap of clusters: FindContactChain looks for a sequence, and the contacts of the
 /// one that it finds are the contact points of a plain roadmap, which shortens and widens it. A
@@ -13,4 +13,4 @@ namespace regrasp {
 /// @throws NoGrasp, TimeUp
 [[nodiscard]] PlanResult SearchClusters(const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -12,7 +12,7 @@
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/sampling/surface_sampler.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -117,4 +117,4 @@ ClusterView DescribeClusters(const Polyhedron& solid, double half_angle, const R
   return view;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -6,7 +6,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Colours that neighbouring clusters are told apart by.
 inline constexpr int kClusterColors = 8;
@@ -26,4 +26,4 @@ struct ClusterView {
 [[nodiscard]] ClusterView DescribeClusters(const Polyhedron& solid, double half_angle,
                                            const RoadmapNote& note);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -8,7 +8,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/sampling/contact_points.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -49,4 +49,4 @@ ClusteredRoadmap::ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadm
       roadmap(BuildRepresentativeRoadmap(solid, clusters, options)),
       components(roadmap.components()) {}
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -10,7 +10,7 @@
 #include "planner/roadmap/roadmap.h"
 #include "planner/search/components.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Clusters of a roadmap's contact points: more representatives than this need more memory than a
 /// small machine has.
@@ -47,4 +47,4 @@ struct ClusteredRoadmap {
   Components components;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

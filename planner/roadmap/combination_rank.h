@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// n over K; 0 where n < K. A template, so that the divisions are by constants.
 template <int K>
@@ -23,4 +23,4 @@ template <int K>
   return Binomial<1>(ascending[0]) + Binomial<2>(ascending[1]) + Binomial<3>(ascending[2]);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -6,7 +6,7 @@
 
 #include "planner/roadmap/grasp_tree.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -122,4 +122,4 @@ ContactChain FindContactChain(const ClusteredRoadmap& roadmap, const ContactClus
   return chain;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

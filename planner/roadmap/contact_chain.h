@@ -7,7 +7,7 @@
 #include "planner/roadmap/grasp_oracle.h"
 #include "planner/roadmap/local_planners.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// How a query over a clustered roadmap went.
 struct ContactChain {
@@ -44,4 +44,4 @@ struct ContactChain {
 /// Replacements that the last resort looks at before it gives up.
 inline constexpr std::int64_t kMostLastResortSteps = 5'000'000;
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -5,7 +5,7 @@
 
 #include "planner/roadmap/k_means.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -66,4 +66,4 @@ int ContactClusters::Add(const Contact& contact) {
   return added;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

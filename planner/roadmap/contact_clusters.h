@@ -11,7 +11,7 @@
 #include "planner/roadmap/spectral_embedding.h"
 #include "planner/roadmap/wrench_affinity.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Contact points in clusters of those that act on the object alike (Phoka 2010, 6.2.2): affinities
 /// exp(−d / 2σ²) from WrenchDistance, σ the mean of all N² distances; the rows of their spectral
@@ -70,4 +70,4 @@ class ContactClusters {
   std::vector<int> representatives_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

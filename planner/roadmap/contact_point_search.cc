@@ -17,7 +17,7 @@
 #include "planner/search/fewest_switches.h"
 #include "planner/search/widest_path.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -172,4 +172,4 @@ PlanResult SearchContactPoints(const std::vector<Contact>& contacts, const PlanR
   return ContactPointSearch(contacts, request).Run();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

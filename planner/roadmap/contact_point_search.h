@@ -5,7 +5,7 @@
 #include "planner/planning/plan_request.h"
 #include "planner/planning/plan_result.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Plans a sequence of finger switches on the plain roadmap of contact points and those of start
 /// and goal: the fewest switches first, then the largest smallest margin to the required
@@ -16,4 +16,4 @@ namespace regrasp {
 [[nodiscard]] PlanResult SearchContactPoints(const std::vector<Contact>& contacts,
                                              const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

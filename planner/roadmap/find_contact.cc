@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 std::optional<int> FindContact(const std::vector<Contact>& points, const Contact& contact,
                                double tolerance) {
@@ -13,4 +13,4 @@ std::optional<int> FindContact(const std::vector<Contact>& points, const Contact
   return static_cast<int>(found - points.begin());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -5,10 +5,10 @@
 
 #include "planner/grasp/contact.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// The first of `points` that is the same contact: on the same face, no farther than `tolerance`.
 [[nodiscard]] std::optional<int> FindContact(const std::vector<Contact>& points,
                                              const Contact& contact, double tolerance);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 GraspOracle::GraspOracle(std::span<const Contact> contacts, const WrenchFrame& frame,
                          double same_point, const GraspCriteria& criteria, const Hand& hand,
@@ -27,4 +27,4 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
   return memory_.Admits(set);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

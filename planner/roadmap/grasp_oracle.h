@@ -9,7 +9,7 @@
 #include "planner/object/wrench_frame.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// One number for a grasp of four contact points, smaller than 2¹⁶ each.
 [[nodiscard]] constexpr std::uint64_t GraspKey(const Quadruple& ascending) {
@@ -45,4 +45,4 @@ class GraspOracle {
   Deadline deadline_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -122,4 +122,4 @@ Junction JoinGrasps(const Quadruple& from, const Quadruple& to, const Replacemen
   return junction;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -10,7 +10,7 @@
 #include "planner/roadmap/grasp_oracle.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Which contacts may take the place of which.
 struct Replacements {
@@ -92,4 +92,4 @@ struct Junction {
                                   const std::function<double(int, int)>& distance,
                                   std::int64_t most_steps, GraspOracle& oracle);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

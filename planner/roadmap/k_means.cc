@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -112,4 +112,4 @@ KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts,
   return best;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -5,7 +5,7 @@
 
 #include "planner/base/random.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Points in clusters, each nearest the centre of its own.
 struct KMeansClusters {
@@ -24,4 +24,4 @@ struct KMeansClusters {
 [[nodiscard]] KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts,
                                     RandomStream& random);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -7,7 +7,7 @@
 
 #include "planner/roadmap/grasp_tree.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -190,4 +190,4 @@ LocalPlanners::Way LocalPlanners::Link(const Quadruple& grasp) {
   return {};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

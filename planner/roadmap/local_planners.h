@@ -8,7 +8,7 @@
 #include "planner/roadmap/grasp_oracle.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// How a grasp came to the representative roadmap.
 enum class RoadmapLink {
@@ -74,4 +74,4 @@ class LocalPlanners {
 /// Replacements that one search looks at before it gives up.
 inline constexpr std::int64_t kMostLocalSteps = 2'000'000;
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

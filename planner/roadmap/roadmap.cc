@@ -8,7 +8,7 @@
 #include "planner/grasp/subset_force_closure.h"
 #include "planner/roadmap/combination_rank.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -174,4 +174,4 @@ std::int64_t Roadmap::EdgesWith(int triple) const {
   return edges;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

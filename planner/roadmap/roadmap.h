@@ -12,7 +12,7 @@
 #include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Four contact points, indices in ascending order.
 using Quadruple = std::array<int, 4>;
@@ -74,4 +74,4 @@ class Roadmap final : public SwitchingGraph {
   bool any_excluded_ = false;   ///< with points for fingers hardly ever
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -9,7 +9,7 @@
 #include "planner/roadmap/combination_rank.h"
 #include "planner/sampling/surface_sampler.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -65,4 +65,4 @@ MemoryNeed EstimateRoadmap(const PlanRequest& request) {
   return clustering.bytes() > grasps.bytes() ? clustering : grasps;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

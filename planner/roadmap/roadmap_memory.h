@@ -3,7 +3,7 @@
 #include "planner/base/memory.h"
 #include "planner/planning/plan_request.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// What a roadmap takes at most while it is built and searched, within a factor of two: the larger
 /// of the two that its options ask for, the clustering of its contact points, which goes with the
@@ -17,4 +17,4 @@ namespace regrasp {
 /// Law: the same solid and options give the same number.
 [[nodiscard]] MemoryNeed EstimateRoadmap(const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

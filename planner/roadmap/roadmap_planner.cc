@@ -6,7 +6,7 @@
 #include "planner/roadmap/contact_point_search.h"
 #include "planner/roadmap/roadmap_memory.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 RoadmapPlanner::RoadmapPlanner()
     : Planner({.name = "roadmap",
@@ -26,4 +26,4 @@ PlanResult RoadmapPlanner::Plan(const PlanRequest& request) const {
   return SearchContactPoints(SpreadContacts(request), request);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -2,7 +2,7 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Plans finger switches between grasps of four contact points of a solid (Phoka 2010, chapter VI),
 /// with a hand of kRoadmapFingers fingers: of these grasps it knows every one and every switch.
@@ -13,4 +13,4 @@ class RoadmapPlanner final : public Planner {
   [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

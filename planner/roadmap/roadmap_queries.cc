@@ -7,7 +7,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/sampling/draw_grasp.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap, double same_point,
                                           RandomStream& random) {
@@ -46,4 +46,4 @@ std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap, doubl
   return queries;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

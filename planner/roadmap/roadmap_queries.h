@@ -8,7 +8,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/contact_chain.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// A force-closure grasp of four of the contact points, all of them equally likely; nullopt where
 /// none of kMaxSurfaceDraws draws is one.
@@ -31,4 +31,4 @@ struct RandomQuery {
                                                         double same_point, int count,
                                                         std::uint64_t seed, bool last_resort);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -73,4 +73,4 @@ Eigen::RowVectorXd EmbedAnother(const SpectralEmbedding& embedding,
   return placed.normalized();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

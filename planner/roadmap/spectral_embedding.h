@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Points of a graph of affinities placed so that those that belong together lie close (Ng, Jordan
 /// and Weiss 2001).
@@ -25,4 +25,4 @@ struct SpectralEmbedding {
 [[nodiscard]] Eigen::RowVectorXd EmbedAnother(const SpectralEmbedding& embedding,
                                               const Eigen::VectorXd& affinity);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -5,7 +5,7 @@
 
 #include "planner/grasp/required_half_angle.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 VertexQuality::VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame,
                              const GraspCriteria& criteria)
@@ -35,4 +35,4 @@ double VertexQuality::Margin(int vertex) {
   return margin_[vertex];
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

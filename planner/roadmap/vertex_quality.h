@@ -6,7 +6,7 @@
 #include "planner/object/wrench_frame.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// What a search asks of a roadmap's grasps, which are force closure: worked out when first asked
 /// and then remembered by their vertices, of which there are millions.
@@ -40,4 +40,4 @@ class VertexQuality {
 /// Radians: differences of margin that a plan does not care for (6e-6 degrees).
 inline constexpr double kMarginTolerance = 1e-7;
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

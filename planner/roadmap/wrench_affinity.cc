@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 namespace {
 
@@ -80,4 +80,4 @@ Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids) {
   return distances;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// Sides of the pyramid that stands for a friction cone where wrenches are compared.
 inline constexpr int kPyramidSides = 8;
@@ -40,4 +40,4 @@ using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 /// All distances between pyramids, N × N.
 [[nodiscard]] Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids);
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -5,7 +5,7 @@
 #include "planner/tree/subset_search.h"
 #include "planner/tree/transition.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -290,4 +290,4 @@ int BidirectionalTree::AlignAlong(int side, int node, std::span<const Grasp> way
   return middle < 0 ? -1 : AlignAlong(side, middle, way.subspan(way.size() / 2));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -10,7 +10,7 @@
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/reached_grasps.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// Joins two grasps by a tree of grasps from each, grown in turn.
 ///
@@ -88,4 +88,4 @@ class BidirectionalTree {
   std::optional<GraspPath> found_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

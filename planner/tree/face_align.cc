@@ -10,7 +10,7 @@
 #include "planner/plan/plan_reach.h"
 #include "planner/tree/surface_route.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -307,4 +307,4 @@ std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& 
   return Prove(*std::move(pairs), std::move(waypoints), space);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

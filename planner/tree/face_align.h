@@ -8,7 +8,7 @@
 #include "planner/motion/motion_segment.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// A motion of all contacts of a grasp along the surface, proved to keep force closure: between two
 /// waypoints every contact moves straight on its face, or one keeps its point and turns to the next
@@ -67,4 +67,4 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 [[nodiscard]] std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& to,
                                                     SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 FaceAlign Reversed(FaceAlign align) {
   for (auto& [from, to] : align.contacts) std::swap(from, to);
@@ -37,4 +37,4 @@ void Append(const GraspPath& more, GraspPath& path) {
   path.steps.insert(path.steps.end(), more.steps.begin(), more.steps.end());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -5,7 +5,7 @@
 
 #include "planner/tree/face_align.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// A step between two grasps of a SearchSpace: a finger switch, or an align where there is one.
 struct PathStep {
@@ -30,4 +30,4 @@ struct GraspPath {
 /// Goes on with `more`, which begins where `path` ends.
 void Append(const GraspPath& more, GraspPath& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

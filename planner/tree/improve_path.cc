@@ -7,7 +7,7 @@
 #include "planner/tree/subpath.h"
 #include "planner/tree/subset_search.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -139,4 +139,4 @@ double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space) {
   return required;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -5,7 +5,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// The same path with its contacts numbered by another space.
 [[nodiscard]] GraspPath Renumber(const GraspPath& path, const SearchSpace& from, SearchSpace& to);
@@ -32,4 +32,4 @@ inline constexpr int kMoreSteps = 2;
 /// The largest required half-angle of the path's grasps at rest, the ends included, radians.
 [[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

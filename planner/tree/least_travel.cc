@@ -8,7 +8,7 @@
 #include "planner/tree/path_plan.h"
 #include "planner/tree/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::optional<GraspPath> SearchLeastTravel(const ContactSet& from, const Contact
   return TravelSearch(from, to, contacts, most_steps, bound, space).Search();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

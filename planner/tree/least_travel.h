@@ -6,7 +6,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// Joins two grasps over grasps of a few contacts, by switches and aligns, with the least travel
 /// (TravelOf, path_plan.h): Dijkstra's search, in which a subset is tested when its turn comes and
@@ -21,4 +21,4 @@ namespace regrasp {
                                                          int most_steps, double bound,
                                                          SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -5,7 +5,7 @@
 
 #include "planner/planning/switch_sequence.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -92,4 +92,4 @@ double TravelOf(const GraspPath& path, const SearchSpace& space) {
   return way;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -4,7 +4,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// What the hand does along a path: fingers 0, 1, … take the contacts of `start` in its order;
 /// aligns that follow each other are one step.
@@ -16,4 +16,4 @@ namespace regrasp {
 /// to where one comes in a switch.
 [[nodiscard]] double TravelOf(const GraspPath& path, const SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 ReachedGrasps::ReachedGrasps(const ContactSet& root, const SearchSpace& space) : space_(space) {
   Reach(root, -1);
@@ -36,4 +36,4 @@ GraspPath ReachedGrasps::PathTo(int node) const {
   return path;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

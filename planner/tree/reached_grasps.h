@@ -8,7 +8,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// A tree of the grasps that steps reach from one grasp.
 class ReachedGrasps {
@@ -44,4 +44,4 @@ class ReachedGrasps {
   std::map<FaceTuple, std::vector<int>> tuples_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -5,7 +5,7 @@
 #include "planner/tree/subpath.h"
 #include "planner/tree/subset_search.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -98,4 +98,4 @@ double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchS
   return QualityRepair(source, random, space, path).Run();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

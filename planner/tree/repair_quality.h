@@ -5,7 +5,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// Raises the quality of a path's weakest grasps, up to the one that the space asks for.
 ///
@@ -18,4 +18,4 @@ namespace regrasp {
 double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                      GraspPath& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

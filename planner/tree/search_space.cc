@@ -1,6 +1,6 @@
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -29,4 +29,4 @@ bool SearchSpace::IsSpent() {
   return out_of_time_ || tests() >= limits_.most_tests;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -7,7 +7,7 @@
 #include "planner/criteria/grasp_memory.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// When a search gives up.
 struct SearchLimits {
@@ -43,4 +43,4 @@ class SearchSpace : public GraspMemory {
   bool out_of_time_ = false;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -80,4 +80,4 @@ void ReplaceSubpath(const GraspPath& by, const Subpath& stretch, GraspPath& path
   path.steps.insert(place, by.steps.begin(), by.steps.end());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

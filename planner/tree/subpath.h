@@ -7,7 +7,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// A part of a path that may be replaced: from one of its grasps to a later one, by their numbers,
 /// the path's start being number 0.
@@ -42,4 +42,4 @@ void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, Random
 /// Replaces a stretch of a path by another way between its ends.
 void ReplaceSubpath(const GraspPath& by, const Subpath& stretch, GraspPath& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -120,4 +120,4 @@ std::optional<GraspPath> SubsetGraph::MakePath(const std::vector<Mask>& masks) {
   return path;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

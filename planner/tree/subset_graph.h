@@ -13,7 +13,7 @@
 #include "planner/tree/grasp_path.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// Whether aligns are looked for beside finger switches.
 enum class UseAligns { kNo, kYes };
@@ -163,4 +163,4 @@ class SubsetGraph {
   std::map<std::pair<Mask, Mask>, double> refused_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

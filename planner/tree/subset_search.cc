@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from, const ContactS
   return SearchSubsets(from, to, contacts, UseAligns::kNo, std::numeric_limits<int>::max(), space);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

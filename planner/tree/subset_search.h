@@ -7,7 +7,7 @@
 #include "planner/tree/search_space.h"
 #include "planner/tree/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// Joins two grasps over grasps of a few contacts, with the fewest steps: a breadth-first search
 /// from both ends, by steps of a SubsetGraph, in which a subset is tested when it is first reached.
@@ -38,4 +38,4 @@ namespace regrasp {
 [[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from,
                                                         const ContactSet& to, SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -8,7 +8,7 @@
 #include "planner/grasp/angle_between.h"
 #include "planner/motion/check_motion_proof.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 using Eigen::Vector3d;
 
@@ -147,4 +147,4 @@ double LengthOf(const SurfaceRoute& route) {
   return length;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

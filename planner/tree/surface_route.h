@@ -6,7 +6,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// The way of a contact along the surface. Of contacts that follow each other the first two, then
 /// every other two lie on one face, with a straight way inside it between them; the pairs between
@@ -35,4 +35,4 @@ inline constexpr double kFromCorner = 0.02;
 
 [[nodiscard]] double LengthOf(const SurfaceRoute& route);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

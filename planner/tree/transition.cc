@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::optional<Transition> FindTransition(const Grasp& before, int leaving, const
   return Descent(before, leaving, placed, source, random, space).Find();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -7,7 +7,7 @@
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// How a grasp gets to a place at which a finger can be switched.
 struct Transition {
@@ -33,4 +33,4 @@ struct Transition {
                                                        const SurfaceSampler& source,
                                                        RandomStream& random, SearchSpace& space);
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -14,7 +14,7 @@
 #include "planner/tree/repair_quality.h"
 #include "planner/tree/subset_search.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 namespace {
 
@@ -232,4 +232,4 @@ PlanResult TreePlanner::Plan(const PlanRequest& request) const {
   return TreeSearch(request).Plan(name());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -2,7 +2,7 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 /// The planner `general`: joins any two force-closure grasps that the hand can hold, on any body,
 /// in space (three to five contacts, a hand of five fingers) and in the plane (two to four
@@ -24,4 +24,4 @@ class TreePlanner final : public Planner {
   static constexpr std::int64_t kDefaultEffort = 1'000'000;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

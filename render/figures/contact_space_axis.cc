@@ -41,7 +41,8 @@ struct Vertex {
   bool begins;    ///< the ring begins here
 };
 
-std::vector<Vertex> ShownVertices(const Boundary& boundary, int ring, const PlaceRange& shown) {
+std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, int ring,
+                                  const contour::PlaceRange& shown) {
   const double perimeter = boundary.perimeter(ring);
   const double slack = kRounding * perimeter;
   std::vector<Vertex> vertices;
@@ -59,7 +60,8 @@ std::vector<Vertex> ShownVertices(const Boundary& boundary, int ring, const Plac
 std::string LengthLabel(double length) { return FormatShort(length, kVertexDigits); }
 
 /// The length that an axis shows where a ring begins: its end, where it shows one turn.
-std::string BeginLabel(const Boundary& boundary, int ring, const PlaceRange& shown, double place) {
+std::string BeginLabel(const contour::Boundary& boundary, int ring,
+                       const contour::PlaceRange& shown, double place) {
   const double perimeter = boundary.perimeter(ring);
   const double slack = kRounding * perimeter;
   const bool end = place > perimeter / 2 && shown.low >= -slack && shown.high <= perimeter + slack;
@@ -100,7 +102,7 @@ double RoundLengthAbove(double least) {
 }
 
 /// Round lengths on an axis, but near where the ring begins.
-std::vector<AxisTick> RoundTicks(double perimeter, const PlaceRange& shown, double gap) {
+std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& shown, double gap) {
   const double step = RoundLengthAbove(gap);
   // As many digits as tell the largest length from the one a step below.
   const int digits =
@@ -118,8 +120,9 @@ std::vector<AxisTick> RoundTicks(double perimeter, const PlaceRange& shown, doub
 
 }  // namespace
 
-std::vector<AxisTick> MakeTicks(const Boundary& boundary, int ring, const PlaceRange& shown,
-                                double points_per_unit, double label_gap) {
+std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, int ring,
+                                const contour::PlaceRange& shown, double points_per_unit,
+                                double label_gap) {
   assert(points_per_unit > 0 && shown.low < shown.high);
   const double gap = label_gap / points_per_unit;
   const std::vector<Vertex> vertices = ShownVertices(boundary, ring, shown);
@@ -139,13 +142,13 @@ std::vector<AxisTick> MakeTicks(const Boundary& boundary, int ring, const PlaceR
   return ticks;
 }
 
-std::string AxisTitle(const Boundary& boundary, const std::string& length, int ring) {
+std::string AxisTitle(const contour::Boundary& boundary, const std::string& length, int ring) {
   if (boundary.ring_count() == 1) return length;
   return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
 }
 
-void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
-                    const std::string& title) {
+void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+                    const PlotWindow& window, const std::string& title) {
   const double bottom = window.corner.y() + window.size().y();
   SetColor(cr, kInk);
   for (const AxisTick& tick :
@@ -160,8 +163,8 @@ void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotW
   DrawLabel(cr, title, middle, TextAlign::kCentre);
 }
 
-void DrawLeftAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
-                  const std::string& title) {
+void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+                  const PlotWindow& window, const std::string& title) {
   const double left = window.corner.x();
   SetColor(cr, kInk);
   for (const AxisTick& tick :

@@ -36,9 +36,9 @@ struct AxisTick {
 /// to the end has the perimeter.
 /// @param points_per_unit  > 0.
 /// @param label_gap        least distance of labels, points.
-[[nodiscard]] std::vector<AxisTick> MakeTicks(const Boundary& boundary, int ring,
-                                              const PlaceRange& shown, double points_per_unit,
-                                              double label_gap);
+[[nodiscard]] std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, int ring,
+                                              const contour::PlaceRange& shown,
+                                              double points_per_unit, double label_gap);
 
 /// Ticks nearer than this are not drawn apart, points.
 inline constexpr double kTickGap = 1.6;
@@ -48,13 +48,14 @@ inline constexpr double kLeftRoom = 44;
 inline constexpr double kBottomRoom = 27;
 
 /// "u", or where the polygon has holes "u, outer ring", "u, hole 1".
-[[nodiscard]] std::string AxisTitle(const Boundary& boundary, const std::string& length, int ring);
+[[nodiscard]] std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
+                                    int ring);
 
 /// Draw ticks, labels and a title below a plot, and to its left.
-void DrawBottomAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
-                    const std::string& title);
-void DrawLeftAxis(cairo_t* cr, const Boundary& boundary, int ring, const PlotWindow& window,
-                  const std::string& title);
+void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+                    const PlotWindow& window, const std::string& title);
+void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+                  const PlotWindow& window, const std::string& title);
 
 /// Draws the rectangle around a plot.
 void DrawFrame(cairo_t* cr, const PlotWindow& window);

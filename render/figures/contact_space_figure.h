@@ -33,8 +33,8 @@ class ContactSpaceFigures {
 
  private:
   const Plan& plan_;
-  ContourGraph graph_;
-  SetGeometry geometry_;
+  contour::ContourGraph graph_;
+  contour::SetGeometry geometry_;
   std::vector<TrackEntry> track_;
   std::map<int, int> names_;
 };

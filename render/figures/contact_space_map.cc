@@ -26,7 +26,7 @@ void AddBoth(const SpaceShape& shape, std::vector<SpaceShape>& shapes) {
   shapes.push_back(Mirrored(shape));
 }
 
-std::array<int, 2> RingsOf(const ContourGraph& graph, int set) {
+std::array<int, 2> RingsOf(const contour::ContourGraph& graph, int set) {
   const auto& edges = graph.pieces()[graph.pieces_of(set).front()].edges;
   return {graph.boundary().ring_of(edges[0]), graph.boundary().ring_of(edges[1])};
 }
@@ -37,17 +37,17 @@ struct LargestSquare {
   double size = 0;
 };
 
-LargestSquare FindLargest(const std::vector<DiagramEdge>& diagram) {
+LargestSquare FindLargest(const std::vector<contour::DiagramEdge>& diagram) {
   LargestSquare largest;
-  for (const DiagramEdge& edge : diagram) {
+  for (const contour::DiagramEdge& edge : diagram) {
     if (edge.from_size > largest.size) largest = {edge.from, edge.from_size};
     if (edge.to_size > largest.size) largest = {edge.to, edge.to_size};
   }
   return largest;
 }
 
-MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
-  const ContourGraph& graph = geometry.graph();
+MapSet MakeSet(contour::SetGeometry& geometry, int set, std::optional<int> name) {
+  const contour::ContourGraph& graph = geometry.graph();
   MapSet made;
   made.set = set;
   made.name = name;
@@ -57,7 +57,7 @@ MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
     const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
     if (!outline.empty()) AddBoth({rings, outline}, made.pieces);
   }
-  for (const BorderSegment& segment : SetBorder(graph, set)) {
+  for (const contour::BorderSegment& segment : contour::SetBorder(graph, set)) {
     AddBoth({rings, {segment.from, segment.to}}, made.border);
   }
   if (!name) return made;
@@ -69,7 +69,7 @@ MapSet MakeSet(SetGeometry& geometry, int set, std::optional<int> name) {
 
 /// The path of an align. Where a contact turns from the last edge of a ring to the first its place
 /// becomes zero; no edge is as long as half of its ring.
-void AddPath(const Boundary& boundary, const std::vector<AxisGrasp>& path,
+void AddPath(const contour::Boundary& boundary, const std::vector<AxisGrasp>& path,
              std::vector<SpaceShape>& paths) {
   SpaceShape shape;
   const auto finish = [&] {
@@ -99,7 +99,8 @@ std::string SetName(int k) {
   return letters;
 }
 
-std::map<int, int> NameSets(const SetGeometry& geometry, const std::vector<TrackEntry>& track) {
+std::map<int, int> NameSets(const contour::SetGeometry& geometry,
+                            const std::vector<TrackEntry>& track) {
   std::map<int, int> names;
   for (const TrackEntry& entry : track) {
     const auto at = geometry.Locate({entry.grasp[0].contact, entry.grasp[1].contact});
@@ -109,8 +110,9 @@ std::map<int, int> NameSets(const SetGeometry& geometry, const std::vector<Track
   return names;
 }
 
-ContactSpaceMap MapContactSpace(SetGeometry& geometry, const std::vector<TrackEntry>& track) {
-  const ContourGraph& graph = geometry.graph();
+ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
+                                const std::vector<TrackEntry>& track) {
+  const contour::ContourGraph& graph = geometry.graph();
   ContactSpaceMap map;
   map.set_count = graph.vertex_count();
   std::set<int> used;

@@ -48,13 +48,13 @@ struct ContactSpaceMap {
 
 /// The sets that a plan's grasps at rest lie in, in the order in which they come. Grasps in no set,
 /// at the very border of force closure, have none.
-[[nodiscard]] std::map<int, int> NameSets(const SetGeometry& geometry,
+[[nodiscard]] std::map<int, int> NameSets(const contour::SetGeometry& geometry,
                                           const std::vector<TrackEntry>& track);
 
 /// The name of the k-th of them: "A", "B", … "Z", "AA" …
 [[nodiscard]] std::string SetName(int k);
 
-[[nodiscard]] ContactSpaceMap MapContactSpace(SetGeometry& geometry,
+[[nodiscard]] ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
                                               const std::vector<TrackEntry>& track);
 
 }  // namespace regrasp::render

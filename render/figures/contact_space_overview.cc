@@ -48,7 +48,7 @@ struct RingSpan {
 
 class Overview {
  public:
-  Overview(const Boundary& boundary, const ContactSpaceMap& map);
+  Overview(const contour::Boundary& boundary, const ContactSpaceMap& map);
 
   [[nodiscard]] double width() const { return kLeftRoom + extent_ + kRightRoom; }
   [[nodiscard]] double height() const { return kTopRoom + extent_ + kBottomRoom; }
@@ -68,13 +68,13 @@ class Overview {
   [[nodiscard]] bool HasClearanceAt(const MapSet& set, const SpacePoint& place) const;
   void DrawMarks(cairo_t* cr) const;
 
-  const Boundary& boundary_;
+  const contour::Boundary& boundary_;
   const ContactSpaceMap& map_;
   std::vector<RingSpan> spans_;
   double extent_ = 0;  ///< of all rings and gaps
 };
 
-Overview::Overview(const Boundary& boundary, const ContactSpaceMap& map)
+Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map)
     : boundary_(boundary), map_(map) {
   std::vector<double> shares;
   int edges = 0;
@@ -223,7 +223,7 @@ void Overview::Draw(cairo_t* cr) const {
 
 }  // namespace
 
-std::string DrawContactSpace(const Boundary& boundary, const ContactSpaceMap& map,
+std::string DrawContactSpace(const contour::Boundary& boundary, const ContactSpaceMap& map,
                              const std::string& caption, FigureFormat format) {
   const Overview overview(boundary, map);
   const std::vector<std::string> lines = WrapCaption(caption, overview.width());

@@ -21,7 +21,8 @@ namespace regrasp::render {
 /// A column wide, two where there are several rings or many edges.
 /// Laws: the same plan gives the same bytes.
 /// @throws EnvironmentError  Cairo failed.
-[[nodiscard]] std::string DrawContactSpace(const Boundary& boundary, const ContactSpaceMap& map,
-                                           const std::string& caption, FigureFormat format);
+[[nodiscard]] std::string DrawContactSpace(const contour::Boundary& boundary,
+                                           const ContactSpaceMap& map, const std::string& caption,
+                                           FigureFormat format);
 
 }  // namespace regrasp::render

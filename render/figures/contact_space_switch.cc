@@ -9,14 +9,15 @@ using Eigen::Vector2d;
 
 namespace {
 
-std::optional<ContactSwitchSide> DescribeSide(SetGeometry& geometry, const AxisGrasp& grasp,
-                                              int shared_axis, const std::map<int, int>& names) {
+std::optional<ContactSwitchSide> DescribeSide(contour::SetGeometry& geometry,
+                                              const AxisGrasp& grasp, int shared_axis,
+                                              const std::map<int, int>& names) {
   const Contact& shared = grasp[shared_axis].contact;
   const Contact& other = grasp[1 - shared_axis].contact;
   const auto at = geometry.Locate({shared, other});
   if (!at) return std::nullopt;
-  const ContourGraph& graph = geometry.graph();
-  const GraspPiece& piece = graph.pieces()[at->piece];
+  const contour::ContourGraph& graph = geometry.graph();
+  const contour::GraspPiece& piece = graph.pieces()[at->piece];
   const int upright = piece.edges[0] == shared.face ? 0 : 1;
   ContactSwitchSide side;
   side.name = names.at(graph.set_of(at->piece));
@@ -38,7 +39,7 @@ std::optional<ContactSwitchSide> DescribeSide(SetGeometry& geometry, const AxisG
 
 }  // namespace
 
-std::optional<ContactSwitch> DescribeContactSwitch(SetGeometry& geometry,
+std::optional<ContactSwitch> DescribeContactSwitch(contour::SetGeometry& geometry,
                                                    const std::vector<TrackEntry>& track, int entry,
                                                    const std::map<int, int>& names) {
   const auto axis = track[entry].shared_axis;
@@ -52,8 +53,8 @@ std::optional<ContactSwitch> DescribeContactSwitch(SetGeometry& geometry,
     side->grasp_entry = entry - 1 + k;
     found.sides[k] = std::move(*side);
   }
-  const PlaceRange& before = found.sides[0].projection;
-  const PlaceRange& after = found.sides[1].projection;
+  const contour::PlaceRange& before = found.sides[0].projection;
+  const contour::PlaceRange& after = found.sides[1].projection;
   found.overlap = {std::max(before.low, after.low), std::min(before.high, after.high)};
   return found;
 }

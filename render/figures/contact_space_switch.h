@@ -21,8 +21,8 @@ struct ContactSwitchSide {
   int other_ring = 0;
   UnfoldedSet set;
   Eigen::Vector2d grasp = Eigen::Vector2d::Zero();
-  double size = 0;        ///< half-width of the largest square about the grasp
-  PlaceRange projection;  ///< of the set, on the length of the contact that stays
+  double size = 0;                 ///< half-width of the largest square about the grasp
+  contour::PlaceRange projection;  ///< of the set, on the length of the contact that stays
 };
 
 /// What the figure of a switch shows: both sets with that length in line.
@@ -30,14 +30,14 @@ struct ContactSwitch {
   int entry = 0;
   int shared_ring = 0;
   std::array<ContactSwitchSide, 2> sides;  ///< before and after
-  PlaceRange overlap;                      ///< of the two projections, about the contact that stays
+  contour::PlaceRange overlap;             ///< of the two projections, about the contact that stays
 };
 
 /// @param entry  of the track, a switch.
 /// @returns nullopt where no contact stays, or a grasp lies in no set: at the very border of force
 ///          closure.
 [[nodiscard]] std::optional<ContactSwitch> DescribeContactSwitch(
-    SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
+    contour::SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
     const std::map<int, int>& names);
 
 }  // namespace regrasp::render

@@ -89,8 +89,8 @@ void DrawGrasp(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& win
 }
 
 /// A stretch of the shared length, as a bar about `x`.
-void DrawBar(cairo_t* cr, const PlotWindow& window, const PlaceRange& range, double x, Color fill,
-             const std::string& name) {
+void DrawBar(cairo_t* cr, const PlotWindow& window, const contour::PlaceRange& range, double x,
+             Color fill, const std::string& name) {
   const double top = window.ToPage({window.low.x(), range.high}).y();
   const double bottom = window.ToPage({window.low.x(), range.low}).y();
   cairo_new_path(cr);
@@ -133,7 +133,7 @@ void DrawBand(cairo_t* cr, const ContactSwitch& step, const SwitchLayout& layout
   cairo_fill(cr);
 }
 
-void DrawSwitch(cairo_t* cr, const Boundary& boundary, const ContactSwitch& step,
+void DrawSwitch(cairo_t* cr, const contour::Boundary& boundary, const ContactSwitch& step,
                 const SwitchLayout& layout) {
   DrawBand(cr, step, layout);
   const auto [from, to] = Across(layout);
@@ -189,7 +189,7 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
   return layout;
 }
 
-std::string DrawContactSwitch(const Boundary& boundary, const ContactSwitch& step,
+std::string DrawContactSwitch(const contour::Boundary& boundary, const ContactSwitch& step,
                               const std::string& caption, FigureFormat format) {
   const SwitchLayout layout = LayOutSwitch(step);
   const std::vector<std::string> lines = WrapCaption(caption, kTwoColumnWidth);

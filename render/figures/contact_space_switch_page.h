@@ -27,7 +27,8 @@ struct SwitchLayout {
 ///
 /// Laws: the same plan gives the same bytes.
 /// @throws EnvironmentError  Cairo failed.
-[[nodiscard]] std::string DrawContactSwitch(const Boundary& boundary, const ContactSwitch& step,
-                                            const std::string& caption, FigureFormat format);
+[[nodiscard]] std::string DrawContactSwitch(const contour::Boundary& boundary,
+                                            const ContactSwitch& step, const std::string& caption,
+                                            FigureFormat format);
 
 }  // namespace regrasp::render

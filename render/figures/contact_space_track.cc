@@ -69,7 +69,7 @@ std::vector<TrackEntry> TrackPlan(const Plan& plan) {
   return track;
 }
 
-SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp) {
+SpacePoint PointOf(const contour::Boundary& boundary, const AxisGrasp& grasp) {
   SpacePoint point;
   for (int axis = 0; axis < 2; ++axis) {
     point.rings[axis] = boundary.ring_of(grasp[axis].contact.face);

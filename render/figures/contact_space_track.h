@@ -44,6 +44,6 @@ struct RestSize {
 /// @param plan  located; FindOtherThanTwoFingers finds none.
 [[nodiscard]] std::vector<TrackEntry> TrackPlan(const Plan& plan);
 
-[[nodiscard]] SpacePoint PointOf(const Boundary& boundary, const AxisGrasp& grasp);
+[[nodiscard]] SpacePoint PointOf(const contour::Boundary& boundary, const AxisGrasp& grasp);
 
 }  // namespace regrasp::render

@@ -28,9 +28,9 @@ struct Continuation {
   Placement placement;
 };
 
-Continuation Continue(const ContourGraph& graph, const PiecePassage& passage, int piece,
-                      const Placement& placement) {
-  const Boundary& boundary = graph.boundary();
+Continuation Continue(const contour::ContourGraph& graph, const contour::PiecePassage& passage,
+                      int piece, const Placement& placement) {
+  const contour::Boundary& boundary = graph.boundary();
   const bool forward = passage.pieces[0] == piece;
   const int beyond = passage.pieces[forward ? 1 : 0];
   const int next = boundary.next(passage.edge);
@@ -47,11 +47,12 @@ Continuation Continue(const ContourGraph& graph, const PiecePassage& passage, in
 }
 
 /// The passage as a line, at the border of one of its pieces.
-Segment PassageLine(const ContourGraph& graph, const PiecePassage& passage, int piece) {
-  const Boundary& boundary = graph.boundary();
+Segment PassageLine(const contour::ContourGraph& graph, const contour::PiecePassage& passage,
+                    int piece) {
+  const contour::Boundary& boundary = graph.boundary();
   const bool forward = passage.pieces[0] == piece;
   const int other = graph.pieces()[piece].edges[0] == passage.other ? 0 : 1;
-  const PlaceRange range = PassageRange(graph, passage);
+  const contour::PlaceRange range = contour::PassageRange(graph, passage);
   Segment line;
   line[0][1 - other] = line[1][1 - other] =
       forward ? boundary.end(passage.edge) : boundary.begin(boundary.next(passage.edge));
@@ -62,7 +63,8 @@ Segment PassageLine(const ContourGraph& graph, const PiecePassage& passage, int 
 
 class Unfolder {
  public:
-  Unfolder(const ContourGraph& graph, int root, const Placement& placement) : graph_(graph) {
+  Unfolder(const contour::ContourGraph& graph, int root, const Placement& placement)
+      : graph_(graph) {
     placements_.emplace(root, placement);
     queue_.push(root);
     while (!queue_.empty()) {
@@ -77,7 +79,7 @@ class Unfolder {
     std::vector<Segment> cuts;
     for (const auto& [piece, placement] : placements_) {
       for (const int i : graph_.passages_at(piece)) {
-        const PiecePassage& passage = graph_.passages()[i];
+        const contour::PiecePassage& passage = graph_.passages()[i];
         const Continuation next = Continue(graph_, passage, piece, placement);
         if (placements_.at(next.piece) == next.placement) continue;
         const Segment line = PassageLine(graph_, passage, piece);
@@ -96,17 +98,17 @@ class Unfolder {
     }
   }
 
-  const ContourGraph& graph_;
+  const contour::ContourGraph& graph_;
   std::map<int, Placement> placements_;
   std::queue<int> queue_;
 };
 
 }  // namespace
 
-std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set) {
-  const Boundary& boundary = graph.boundary();
-  std::vector<BorderSegment> parts;
-  for (const BorderSegment& segment : SetBorder(graph, set)) {
+std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& graph, int set) {
+  const contour::Boundary& boundary = graph.boundary();
+  std::vector<contour::BorderSegment> parts;
+  for (const contour::BorderSegment& segment : contour::SetBorder(graph, set)) {
     const bool upright = segment.from.x() == segment.to.x();
     if (!upright && segment.from.y() != segment.to.y()) {  // it cuts one piece
       parts.push_back(segment);
@@ -116,7 +118,7 @@ std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set) {
     const auto& edges = graph.pieces()[segment.piece].edges;
     const int ring = boundary.ring_of(edges[along]);
     for (int edge = boundary.first_edge(ring); edge < boundary.first_edge(ring + 1); ++edge) {
-      BorderSegment part = segment;
+      contour::BorderSegment part = segment;
       part.from[along] = std::max(segment.from[along], boundary.begin(edge));
       part.to[along] = std::min(segment.to[along], boundary.end(edge));
       if (part.from[along] >= part.to[along] || edge == edges[1 - along]) continue;
@@ -130,9 +132,10 @@ std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set) {
   return parts;
 }
 
-UnfoldedSet UnfoldSet(SetGeometry& geometry, const PlacedGrasp& root, int upright) {
+UnfoldedSet UnfoldSet(contour::SetGeometry& geometry, const contour::PlacedGrasp& root,
+                      int upright) {
   assert(upright == 0 || upright == 1);
-  const ContourGraph& graph = geometry.graph();
+  const contour::ContourGraph& graph = geometry.graph();
   const int set = graph.set_of(root.piece);
   const Unfolder unfolder(graph, root.piece, {.swapped = upright == 0});
   UnfoldedSet unfolded;
@@ -146,10 +149,10 @@ UnfoldedSet UnfoldSet(SetGeometry& geometry, const PlacedGrasp& root, int uprigh
     const Placement& placement = unfolder.placements().at(piece);
     return Segment{placement(a), placement(b)};
   };
-  for (const BorderSegment& part : SplitBorder(graph, set)) {
+  for (const contour::BorderSegment& part : SplitBorder(graph, set)) {
     unfolded.border.push_back(place(part.piece, part.from, part.to));
   }
-  for (const DiagramEdge& edge : geometry.DiagramOf(set)) {
+  for (const contour::DiagramEdge& edge : geometry.DiagramOf(set)) {
     unfolded.diagram.push_back(place(edge.piece, edge.from, edge.to));
   }
   unfolded.cuts = unfolder.FindCuts();

@@ -28,9 +28,11 @@ struct UnfoldedSet {
 /// Laws: the grasp lies at its own places (Phoka 2010, section 4.2.2: in the first period); pieces
 /// don't overlap and have the area that the set has.
 /// @param upright  which of the grasp's two places the second coordinate is, 0 or 1.
-[[nodiscard]] UnfoldedSet UnfoldSet(SetGeometry& geometry, const PlacedGrasp& root, int upright);
+[[nodiscard]] UnfoldedSet UnfoldSet(contour::SetGeometry& geometry,
+                                    const contour::PlacedGrasp& root, int upright);
 
 /// The parts of a set's border, none longer than an edge, each with the piece that it bounds.
-[[nodiscard]] std::vector<BorderSegment> SplitBorder(const ContourGraph& graph, int set);
+[[nodiscard]] std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& graph,
+                                                              int set);
 
 }  // namespace regrasp::render

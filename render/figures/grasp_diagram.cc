@@ -16,8 +16,8 @@ namespace regrasp::render {
 namespace {
 
 using Eigen::Vector2d;
-using Region = ConvexRegion<double>;
-using Frame = EdgeFrame<double>;
+using Region = polygon::ConvexRegion<double>;
+using Frame = polygon::EdgeFrame<double>;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -31,8 +31,8 @@ constexpr double kLeastArea = kPointTolerance * kPointTolerance;
 constexpr double kNarrower = 1 - 1e-9;
 
 Vector2d Head(const Eigen::Vector3d& v) { return v.head<2>(); }
-Vector2d ToEigen(const Vector2<double>& v) { return {v.x, v.y}; }
-Vector2<double> FromEigen(const Vector2d& v) { return {v.x(), v.y()}; }
+Vector2d ToEigen(const polygon::Vector2<double>& v) { return {v.x, v.y}; }
+polygon::Vector2<double> FromEigen(const Vector2d& v) { return {v.x(), v.y()}; }
 
 double AngleOf(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -82,10 +82,10 @@ class CommonPoints {
 
  private:
   [[nodiscard]] Region Page() const {
-    const double reach = kFarthestFocus * diameter_;
+    const double reach = polygon::kFarthestFocus * diameter_;
     const double x = centre_.x();
     const double y = centre_.y();
-    return Region({HalfPlane<double>{0, 1, reach - y},
+    return Region({polygon::HalfPlane<double>{0, 1, reach - y},
                    {-1, 0, reach + x},
                    {0, -1, reach + y},
                    {1, 0, reach - x}},
@@ -94,10 +94,10 @@ class CommonPoints {
 
   /// Cuts a region to one side of a double-sided cone.
   static void Clip(const Vector2d& apex, const Vector2d& axis, double half_angle, Region& region) {
-    const Vector2<double> p = FromEigen(apex);
+    const polygon::Vector2<double> p = FromEigen(apex);
     const double middle = AngleOf(axis);
-    region.Clip(LeftOf(FromEigen(Direction(middle - half_angle)), p));
-    region.Clip(LeftOf(FromEigen(-Direction(middle + half_angle)), p));
+    region.Clip(polygon::LeftOf(FromEigen(Direction(middle - half_angle)), p));
+    region.Clip(polygon::LeftOf(FromEigen(-Direction(middle + half_angle)), p));
   }
 
   static Outline ToOutline(const Region& region) {
@@ -114,17 +114,18 @@ class CommonPoints {
 
 /// The focus cell of three edges, all its parts.
 std::vector<Outline> CellOf(const Polygon& polygon, const Grasp& grasp, double half_angle) {
-  GraspSet set;
+  polygon::GraspSet set;
   set.tangent = std::tan(half_angle);
   for (const Contact& contact : grasp) set.edges.push_back(contact.face);
   std::sort(set.edges.begin(), set.edges.end());
   set.parts = {0, 1, 2, 3, 4, 5, 6, 7};
-  return FocusCell(polygon, set);
+  return polygon::FocusCell(polygon, set);
 }
 
 Frame FrameOf(const Polygon& polygon, int face, double half_angle) {
   const auto [a, b] = polygon.edge(face);
-  return MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))}, std::tan(half_angle));
+  return polygon::MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))},
+                                        std::tan(half_angle));
 }
 
 /// φ* of some normals; not positive where they do not positively span the plane.
@@ -179,8 +180,9 @@ std::optional<GraspDiagram> TryConcurrent(const Polygon& polygon, const Grasp& g
 
 /// The middle of the widest range of directions in a cone whose lines through `a` separate `b` from
 /// `c`; nullopt where there are none. All of a cone's directions are within π of its right border.
-std::optional<Vector2d> SeparatingDirection(const DirectionCone<double>& cone, const Vector2d& a,
-                                            const Vector2d& b, const Vector2d& c) {
+std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>& cone,
+                                            const Vector2d& a, const Vector2d& b,
+                                            const Vector2d& c) {
   const Vector2d right = ToEigen(cone.right);
   const Vector2d left = ToEigen(cone.left);
   const double start = AngleOf(right);
@@ -212,9 +214,9 @@ std::optional<GraspDiagram> TryParallel(const Polygon& polygon, const Grasp& gra
     const Contact& centre = grasp[a];
     const Contact& b = grasp[(a + 1) % 3];
     const Contact& c = grasp[(a + 2) % 3];
-    const auto cone =
-        CommonCone(FrameOf(polygon, centre.face, half_angle), FrameOf(polygon, b.face, half_angle),
-                   FrameOf(polygon, c.face, half_angle));
+    const auto cone = polygon::CommonCone(FrameOf(polygon, centre.face, half_angle),
+                                          FrameOf(polygon, b.face, half_angle),
+                                          FrameOf(polygon, c.face, half_angle));
     if (!cone) continue;
     const auto direction = SeparatingDirection(*cone, Head(centre.p), Head(b.p), Head(c.p));
     if (!direction) continue;

@@ -79,8 +79,9 @@ void CheckOptions(const FrameOptions& options) {
 }
 
 /// The surface's triangles, those of one colour a mesh.
-std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface, const ClusterView& clusters) {
-  std::vector<FacetMesh> meshes(kClusterColors);
+std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface,
+                                         const roadmap::ClusterView& clusters) {
+  std::vector<FacetMesh> meshes(roadmap::kClusterColors);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     FacetMesh& mesh = meshes[clusters.color_of_triangle[i]];
     mesh.triangles.push_back(surface.triangles[i]);
@@ -90,7 +91,7 @@ std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface, const Cluster
 }
 
 std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
-                                  const std::optional<ClusterView>& clusters) {
+                                  const std::optional<roadmap::ClusterView>& clusters) {
   std::vector<FacetMesh> meshes = {
       body.surface, TurnInsideOut(body.surface),
       planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
@@ -167,7 +168,7 @@ class FrameRenderer::Impl {
     if (!options_.clusters) {
       shapes.push_back({MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside});
     } else {
-      for (int color = 0; color < kClusterColors; ++color) {
+      for (int color = 0; color < roadmap::kClusterColors; ++color) {
         shapes.push_back({MeshInstance{kClusterMesh + color, pose}, kClusterPalette[color]});
       }
     }
@@ -221,7 +222,7 @@ class FrameRenderer::Impl {
     const auto* solid = dynamic_cast<const Polyhedron*>(&object_);
     if (solid == nullptr) return;
     const Grasp grasp = HeldGrasp(snapshot);
-    const auto view = DescribeFocus(*solid, grasp, half_angle_);
+    const auto view = polyhedron::DescribeFocus(*solid, grasp, half_angle_);
     if (!view) return;
     const auto place = [&](const Vector3d& p) {
       return frame_.FromWorld(snapshot.X_WO * (scale_ * p));

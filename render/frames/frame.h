@@ -29,7 +29,7 @@ struct FrameOptions {
   /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
   bool show_focus = false;
   /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
-  std::optional<ClusterView> clusters = std::nullopt;
+  std::optional<roadmap::ClusterView> clusters = std::nullopt;
 };
 
 /// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a

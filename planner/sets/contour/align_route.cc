@@ -8,7 +8,7 @@
 #include <queue>
 #include <tuple>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -212,4 +212,4 @@ std::vector<PlacedGrasp> FindAlignRoute(SetGeometry& geometry, const PlacedGrasp
   return Router(geometry, from, to).Find();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -4,7 +4,7 @@
 
 #include "planner/sets/contour/set_geometry.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// The way of an align inside a set, both ends included: straight in contact space inside one
 /// piece, and where a contact goes around a vertex of the polygon two grasps that differ in the
@@ -19,4 +19,4 @@ namespace regrasp {
                                                       const PlacedGrasp& from,
                                                       const PlacedGrasp& to);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 Boundary::Boundary(const Polygon& polygon) : polygon_(polygon) {
   int edge = 0;
@@ -37,4 +37,4 @@ Contact Boundary::ContactAt(int edge, double place) const {
   return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -5,7 +5,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// The boundary of a polygon by its length: a place on a ring is the length of the ring from its
 /// first vertex to there, along its edges (material on the left), periodic in the ring's perimeter.
@@ -49,4 +49,4 @@ class Boundary {
   std::vector<double> ends_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

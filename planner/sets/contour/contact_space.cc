@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -263,4 +263,4 @@ PlaceRange PassageRange(const ContourGraph& graph, const PiecePassage& passage) 
   return {(low + high) / 2, (low + high) / 2};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -5,7 +5,7 @@
 
 #include "planner/sets/contour/contour_graph.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Geometry of graspable sets in contact space, in doubles: x is the place of the contact on the
 /// first edge of a piece (the lower number), y that on the second, both as Boundary has them. The
@@ -35,4 +35,4 @@ struct PlaceRange {
 };
 [[nodiscard]] PlaceRange PassageRange(const ContourGraph& graph, const PiecePassage& passage);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -9,7 +9,7 @@
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/projection_sweep.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 namespace {
 
@@ -49,10 +49,10 @@ ContourGraph::ContourGraph(const Polygon& polygon, double half_angle, const Dead
   if (!(half_angle > 0 && half_angle < std::numbers::pi / 2)) {
     throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
   }
-  const IntervalScope scope;
+  const polygon::IntervalScope scope;
   const auto begin = std::chrono::steady_clock::now();
-  const EdgeTable edges(polygon, tangent_);
-  const auto candidates = FindTwoFingerCandidates(edges, deadline);
+  const polygon::EdgeTable edges(polygon, tangent_);
+  const auto candidates = polygon::FindTwoFingerCandidates(edges, deadline);
   candidates_ = std::ssize(candidates);
   pieces_ = FindPieces(edges, candidates, deadline);
   combinations_ = CountCombinations(pieces_);
@@ -109,4 +109,4 @@ void ContourGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const
   neighbours = neighbours_[vertex];
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

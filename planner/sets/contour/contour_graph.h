@@ -11,7 +11,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/sets/contour/boundary.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Fingers of the hand: two hold, one more is placed in a switch.
 inline constexpr int kContourFingers = 3;
@@ -115,4 +115,4 @@ class ContourGraph final : public SwitchingGraph {
   double edge_seconds_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -4,7 +4,7 @@
 
 #include "planner/sets/contour/align_route.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 namespace {
 
@@ -85,4 +85,4 @@ bool ContourModel::IsGood(const SetSwitch<Place>& change, const GraspEvaluator& 
   return evaluator.IsGood(GraspOf(change.before)) && evaluator.IsGood(GraspOf(change.after));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

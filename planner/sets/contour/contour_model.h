@@ -10,7 +10,7 @@
 #include "planner/sets/contour/contour_switch.h"
 #include "planner/sets/grasp_set_model.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// The sets of 2-finger grasps of a contour's switching graph, as planning over sets sees them.
 class ContourModel {
@@ -54,4 +54,4 @@ class ContourModel {
   std::map<std::pair<int, int>, std::optional<SetSwitch<Place>>> largest_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -6,7 +6,7 @@
 #include "planner/sets/contour/graph_memory.h"
 #include "planner/sets/set_planner.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 ContourPlanner::ContourPlanner()
     : Planner({.name = "contour",
@@ -27,4 +27,4 @@ PlanResult ContourPlanner::Plan(const PlanRequest& request) const {
   return PlanOverSets(model, request, name());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -2,7 +2,7 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Plans between 2-finger grasps on the switching graph of a polygon's whole boundary (Phoka 2010,
 /// chapter IV), with a hand of kContourFingers fingers: of these grasps it finds every one and
@@ -18,4 +18,4 @@ class ContourPlanner final : public Planner {
   [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

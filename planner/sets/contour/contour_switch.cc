@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -262,4 +262,4 @@ std::optional<ContourSwitch> FindLargestSwitch(
   return largest.Best(accepts);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

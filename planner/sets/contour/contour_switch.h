@@ -6,7 +6,7 @@
 
 #include "planner/sets/contour/set_geometry.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Two grasps of two sets that have a contact in common: the one on `edge`.
 struct ContourSwitch {
@@ -50,4 +50,4 @@ using PlacedScore = std::function<double(const PlacedGrasp&)>;
       return true;
     });
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -10,7 +10,7 @@
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/projection_sweep.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 namespace {
 
@@ -53,8 +53,10 @@ struct Joins {
   double joins = 0;
 };
 
-Joins CountJoins(const EdgeTable& edges, const Boundary& boundary, const std::vector<int>& drawn) {
-  std::vector<TwoFingerCandidate> candidates = FindTwoFingerCandidates(edges.Of(drawn));
+Joins CountJoins(const polygon::EdgeTable& edges, const Boundary& boundary,
+                 const std::vector<int>& drawn) {
+  std::vector<polygon::TwoFingerCandidate> candidates =
+      polygon::FindTwoFingerCandidates(edges.Of(drawn));
   for (auto& [a, b] : candidates) {
     a = drawn[a];
     b = drawn[b];
@@ -75,10 +77,11 @@ Joins CountJoins(const EdgeTable& edges, const Boundary& boundary, const std::ve
 
 MemoryNeed Estimate(const Polygon& polygon, double half_angle, double bytes_of_piece) {
   const double tangent = std::tan(half_angle);  // before the processor rounds upward
-  const IntervalScope scope;
-  const EdgeTable edges(polygon, tangent);
+  const polygon::IntervalScope scope;
+  const polygon::EdgeTable edges(polygon, tangent);
   RandomStream random(0, RandomUse::kCountedEdges);
-  const CandidateSample sample = DrawTwoFingerCandidates(edges, kTestedCandidates, random);
+  const polygon::CandidateSample sample =
+      polygon::DrawTwoFingerCandidates(edges, kTestedCandidates, random);
   const auto candidates = static_cast<double>(sample.total);
   const double pieces =
       candidates * static_cast<double>(FindPieces(edges, sample.drawn).size()) / kTestedCandidates;
@@ -107,4 +110,4 @@ MemoryNeed EstimateContourPlan(const Polygon& polygon, double half_angle) {
   return Estimate(polygon, half_angle, kBytesOfPiece + kBytesOfOutline);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

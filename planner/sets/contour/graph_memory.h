@@ -3,7 +3,7 @@
 #include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// What a ContourGraph takes at most while it is built, within a factor of two.
 ///
@@ -18,4 +18,4 @@ namespace regrasp {
 /// The same for what PlanOnContour takes: also the geometry of the sets that it looks at.
 [[nodiscard]] MemoryNeed EstimateContourPlan(const Polygon& polygon, double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -7,7 +7,7 @@
 #include "planner/sets/polygon/common_cone.h"
 #include "planner/sets/polygon/two_finger.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 namespace {
 
@@ -18,11 +18,12 @@ enum class Verdict { kNone, kAll, kUnknown };
 /// parallelogram of differences, where doubles are sure of them.
 class CornerFilter {
  public:
-  explicit CornerFilter(const EdgeTable& edges) {
-    Vector2<double> low = edges.ends(0).a;
-    Vector2<double> high = low;
+  explicit CornerFilter(const polygon::EdgeTable& edges) {
+    polygon::Vector2<double> low = edges.ends(0).a;
+    polygon::Vector2<double> high = low;
     for (int e = 0; e < edges.size(); ++e) {
-      const EdgeFrame<double> frame = MakeEdgeFrame<double>(edges.ends(e), edges.tangent());
+      const polygon::EdgeFrame<double> frame =
+          polygon::MakeEdgeFrame<double>(edges.ends(e), edges.tangent());
       frames_.push_back(frame);
       low = {std::min(low.x, frame.a.x), std::min(low.y, frame.a.y)};
       high = {std::max(high.x, frame.a.x), std::max(high.y, frame.a.y)};
@@ -37,19 +38,19 @@ class CornerFilter {
 
   /// For squeezing and for stretching.
   [[nodiscard]] std::array<Verdict, 2> Classify(int a, int b) const {
-    const EdgeFrame<double>& from = frames_[a];
-    const EdgeFrame<double>& to = frames_[b];
-    const std::array<Vector2<double>, 4> corners = {to.a - from.a, to.b - from.a, to.a - from.b,
-                                                    to.b - from.b};
+    const polygon::EdgeFrame<double>& from = frames_[a];
+    const polygon::EdgeFrame<double>& to = frames_[b];
+    const std::array<polygon::Vector2<double>, 4> corners = {to.a - from.a, to.b - from.a,
+                                                             to.a - from.b, to.b - from.b};
     bool all_positive = true;
     bool all_negative = true;
     bool positive_excluded = false;
     bool negative_excluded = false;
-    for (const Vector2<double>& border : {from.right, -from.left, -to.right, to.left}) {
+    for (const polygon::Vector2<double>& border : {from.right, -from.left, -to.right, to.left}) {
       double least = std::numeric_limits<double>::infinity();
       double largest = -least;
-      for (const Vector2<double>& corner : corners) {
-        const double value = Cross(border, corner);
+      for (const polygon::Vector2<double>& corner : corners) {
+        const double value = polygon::Cross(border, corner);
         least = std::min(least, value);
         largest = std::max(largest, value);
       }
@@ -65,45 +66,49 @@ class CornerFilter {
   }
 
  private:
-  std::vector<EdgeFrame<double>> frames_;
+  std::vector<polygon::EdgeFrame<double>> frames_;
   double bound_ = 0;
 };
 
 /// The directions from a point to an edge; nullopt where it is on the edge's line.
 template <class NT>
-std::optional<DirectionCone<NT>> ViewOf(const Vector2<NT>& point, const EdgeFrame<NT>& edge) {
-  const Vector2<NT> a = edge.a - point;
-  const Vector2<NT> b = edge.b - point;
-  const int turn = Sign(Cross(a, b));
+std::optional<polygon::DirectionCone<NT>> ViewOf(const polygon::Vector2<NT>& point,
+                                                 const polygon::EdgeFrame<NT>& edge) {
+  const polygon::Vector2<NT> a = edge.a - point;
+  const polygon::Vector2<NT> b = edge.b - point;
+  const int turn = polygon::Sign(polygon::Cross(a, b));
   if (turn == 0) return std::nullopt;
-  if (turn > 0) return DirectionCone<NT>{a, b};
-  return DirectionCone<NT>{b, a};
+  if (turn > 0) return polygon::DirectionCone<NT>{a, b};
+  return polygon::DirectionCone<NT>{b, a};
 }
 
 /// The directions from a contact on one edge to a contact on another that make a grasp.
 template <class NT>
-std::optional<DirectionCone<NT>> GraspCone(const EdgeFrame<NT>& from, const EdgeFrame<NT>& to,
-                                           bool stretching) {
-  const auto squeezing = Intersect(ConeOf(from), -ConeOf(to));
+std::optional<polygon::DirectionCone<NT>> GraspCone(const polygon::EdgeFrame<NT>& from,
+                                                    const polygon::EdgeFrame<NT>& to,
+                                                    bool stretching) {
+  const auto squeezing = polygon::Intersect(polygon::ConeOf(from), -polygon::ConeOf(to));
   return squeezing && stretching ? -*squeezing : squeezing;
 }
 
 /// Whether the contacts on `other` that make a grasp with the end of `edge` are more than a point.
 template <class NT>
-bool Reaches(const EdgeFrame<NT>& edge, bool at_end, const EdgeFrame<NT>& other, bool stretching) {
+bool Reaches(const polygon::EdgeFrame<NT>& edge, bool at_end, const polygon::EdgeFrame<NT>& other,
+             bool stretching) {
   const auto cone = GraspCone(edge, other, stretching);
   if (!cone) return false;
   const auto view = ViewOf(at_end ? edge.b : edge.a, other);
-  return view && Intersect(*cone, *view);
+  return view && polygon::Intersect(*cone, *view);
 }
 
 /// The sides that a piece reaches, as GraspPiece::reaches.
-std::array<bool, 4> FindReachedSides(const EdgeTable& edges, int a, int b, bool stretching) {
+std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, int a, int b,
+                                     bool stretching) {
   std::array<bool, 4> reaches;
   for (int side = 0; side < 4; ++side) {
     const int edge = side < 2 ? a : b;
     const int other = side < 2 ? b : a;
-    reaches[side] = DecideFiltered([&](auto zero) {
+    reaches[side] = polygon::DecideFiltered([&](auto zero) {
       using NT = decltype(zero);
       return Reaches(edges.frame<NT>(edge), side % 2 == 1, edges.frame<NT>(other), stretching);
     });
@@ -121,22 +126,22 @@ bool ReachesEnd(const GraspPiece& piece, int edge, bool at_end) {
 }
 
 /// Whether two pieces meet in more than a point where `edge` ends and `next` begins.
-bool Meet(const EdgeTable& edges, const GraspPiece& before, int edge, const GraspPiece& after,
-          int next) {
+bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, int edge,
+          const GraspPiece& after, int next) {
   if (!ReachesEnd(before, edge, true) || !ReachesEnd(after, next, false)) return false;
   if (before.full || after.full) return true;
   const int other = OtherEdge(before, edge);
-  return DecideFiltered([&](auto zero) {
+  return polygon::DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
-    const EdgeFrame<NT> to = edges.frame<NT>(other);
-    const EdgeFrame<NT> from = edges.frame<NT>(edge);
+    const polygon::EdgeFrame<NT> to = edges.frame<NT>(other);
+    const polygon::EdgeFrame<NT> from = edges.frame<NT>(edge);
     const auto first = GraspCone(from, to, before.stretching);
     const auto second = GraspCone(edges.frame<NT>(next), to, before.stretching);
     if (!first || !second) return false;
-    const auto both = Intersect(*first, *second);
+    const auto both = polygon::Intersect(*first, *second);
     if (!both) return false;
     const auto view = ViewOf(from.b, to);
-    return view && Intersect(*both, *view);
+    return view && polygon::Intersect(*both, *view);
   });
 }
 
@@ -167,12 +172,12 @@ class PieceIndex {
 
 }  // namespace
 
-std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
-                                   const std::vector<TwoFingerCandidate>& candidates,
+std::vector<GraspPiece> FindPieces(const polygon::EdgeTable& edges,
+                                   const std::vector<polygon::TwoFingerCandidate>& candidates,
                                    const Deadline& deadline) {
   const CornerFilter filter(edges);
   std::vector<GraspPiece> pieces;
-  for (const TwoFingerCandidate& pair : candidates) {
+  for (const polygon::TwoFingerCandidate& pair : candidates) {
     deadline.Check();
     const auto verdicts = filter.Classify(pair[0], pair[1]);
     for (const bool stretching : {false, true}) {
@@ -189,7 +194,7 @@ std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
   return pieces;
 }
 
-std::vector<PiecePassage> FindPassages(const EdgeTable& edges, const Boundary& boundary,
+std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges, const Boundary& boundary,
                                        const std::vector<GraspPiece>& pieces,
                                        const Deadline& deadline) {
   const PieceIndex index(pieces, edges.size());
@@ -209,13 +214,13 @@ std::vector<PiecePassage> FindPassages(const EdgeTable& edges, const Boundary& b
   return passages;
 }
 
-FilteredRange PieceRange(const EdgeTable& edges, const GraspPiece& piece, int k) {
-  return FilteredRange([&edges, piece, k](auto zero) {
+polygon::FilteredRange PieceRange(const polygon::EdgeTable& edges, const GraspPiece& piece, int k) {
+  return polygon::FilteredRange([&edges, piece, k](auto zero) {
     using NT = decltype(zero);
-    const ConvexRegion<NT> region = MakeTwoFingerRegion<NT>(
+    const polygon::ConvexRegion<NT> region = polygon::MakeTwoFingerRegion<NT>(
         edges.frame<NT>(piece.edges[0]), edges.frame<NT>(piece.edges[1]), piece.stretching);
-    return TwoFingerRange(region, k);
+    return polygon::TwoFingerRange(region, k);
   });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

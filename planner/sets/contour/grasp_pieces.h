@@ -7,7 +7,7 @@
 #include "planner/sets/polygon/candidates.h"
 #include "planner/sets/polygon/contact_range.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// The pieces of the candidate pairs, in the order of the candidates, squeezing before stretching.
 ///
@@ -18,20 +18,21 @@ namespace regrasp {
 /// doubles and an error bound for pairs that are full or that one border of a cone excludes,
 /// otherwise by intervals, then exactly. Inside an IntervalScope.
 /// @throws TimeUp  the deadline came.
-[[nodiscard]] std::vector<GraspPiece> FindPieces(const EdgeTable& edges,
-                                                 const std::vector<TwoFingerCandidate>& candidates,
-                                                 const Deadline& deadline = {});
+[[nodiscard]] std::vector<GraspPiece> FindPieces(
+    const polygon::EdgeTable& edges, const std::vector<polygon::TwoFingerCandidate>& candidates,
+    const Deadline& deadline = {});
 
 /// The passages between pieces, which are in ascending order of their edges. Inside an
 /// IntervalScope.
 /// @throws TimeUp  the deadline came.
-[[nodiscard]] std::vector<PiecePassage> FindPassages(const EdgeTable& edges,
+[[nodiscard]] std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges,
                                                      const Boundary& boundary,
                                                      const std::vector<GraspPiece>& pieces,
                                                      const Deadline& deadline = {});
 
 /// The contacts of a piece on its k-th edge. `edges` must outlive the result; inside an
 /// IntervalScope.
-[[nodiscard]] FilteredRange PieceRange(const EdgeTable& edges, const GraspPiece& piece, int k);
+[[nodiscard]] polygon::FilteredRange PieceRange(const polygon::EdgeTable& edges,
+                                                const GraspPiece& piece, int k);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

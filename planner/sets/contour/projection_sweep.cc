@@ -5,7 +5,7 @@
 
 #include "planner/sets/contour/grasp_pieces.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 namespace {
 
@@ -16,7 +16,7 @@ struct Event {
 
   int edge = 0;
   Where where = Where::kBegin;
-  const FilteredRange* range = nullptr;  ///< inside: this is one end of it
+  const polygon::FilteredRange* range = nullptr;  ///< inside: this is one end of it
   bool opens = false;
   int set = 0;
 };
@@ -32,7 +32,7 @@ int CompareInside(const Event& a, const Event& b) {
     return compare(a.range->by_intervals(), b.range->by_intervals());
   } catch (const CGAL::Uncertain_conversion_exception&) {
   }
-  const ExactScope scope;
+  const polygon::ExactScope scope;
   return compare(a.range->exact(), b.range->exact());
 }
 
@@ -50,7 +50,8 @@ bool IsBefore(const Event& a, const Event& b) {
 
 class Sweep {
  public:
-  Sweep(const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces)
+  Sweep(const polygon::EdgeTable& edges, const Boundary& boundary,
+        const std::vector<GraspPiece>& pieces)
       : edges_(edges), boundary_(boundary), pieces_(pieces), covered_(edges.size()) {}
 
   void AddSet(int set, std::span<const int> pieces) {
@@ -115,7 +116,8 @@ class Sweep {
     const int edge = pieces_[piece].edges[k];
     if (covered_[edge] != 0) return;
     const auto& reaches = pieces_[piece].reaches;
-    const FilteredRange* range = &ranges_.emplace_back(PieceRange(edges_, pieces_[piece], k));
+    const polygon::FilteredRange* range =
+        &ranges_.emplace_back(PieceRange(edges_, pieces_[piece], k));
     const auto where = [](bool at_border, Event::Where border) {
       return at_border ? border : Event::Where::kInside;
     };
@@ -123,21 +125,21 @@ class Sweep {
     events_.push_back({edge, where(reaches[2 * k + 1], Event::Where::kEnd), range, false, set});
   }
 
-  const EdgeTable& edges_;
+  const polygon::EdgeTable& edges_;
   const Boundary& boundary_;
   const std::vector<GraspPiece>& pieces_;
   std::vector<char> covered_;  ///< edges of the set at hand
   std::vector<int> covered_edges_;
-  std::deque<FilteredRange> ranges_;
+  std::deque<polygon::FilteredRange> ranges_;
   std::vector<Event> events_;
 };
 
 }  // namespace
 
 std::vector<std::array<int, 2>> FindOverlaps(
-    const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces,
-    int set_count, const std::function<std::span<const int>(int set)>& pieces_of,
-    const Deadline& deadline) {
+    const polygon::EdgeTable& edges, const Boundary& boundary,
+    const std::vector<GraspPiece>& pieces, int set_count,
+    const std::function<std::span<const int>(int set)>& pieces_of, const Deadline& deadline) {
   Sweep sweep(edges, boundary, pieces);
   for (int set = 0; set < set_count; ++set) {
     deadline.Check();
@@ -146,4 +148,4 @@ std::vector<std::array<int, 2>> FindOverlaps(
   return sweep.Run(set_count, deadline);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

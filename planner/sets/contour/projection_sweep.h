@@ -9,7 +9,7 @@
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/polygon/edge_table.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Pairs of sets whose projections on the boundary overlap (Phoka 2010, section 4.5), ascending.
 ///
@@ -19,8 +19,8 @@ namespace regrasp {
 /// @param pieces_of  the pieces of a set.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<std::array<int, 2>> FindOverlaps(
-    const EdgeTable& edges, const Boundary& boundary, const std::vector<GraspPiece>& pieces,
-    int set_count, const std::function<std::span<const int>(int set)>& pieces_of,
-    const Deadline& deadline = {});
+    const polygon::EdgeTable& edges, const Boundary& boundary,
+    const std::vector<GraspPiece>& pieces, int set_count,
+    const std::function<std::span<const int>(int set)>& pieces_of, const Deadline& deadline = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -358,4 +358,4 @@ std::vector<DiagramEdge> RegionMetric::MakeDiagram(const Deadline& deadline) con
   return DiagramMaker(graph_, sites_, rounding_, deadline).Make(graph_.pieces_of(set_));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -6,7 +6,7 @@
 #include "planner/base/deadline.h"
 #include "planner/sets/contour/contact_space.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// A part of an edge of the L-infinity Voronoi diagram of a set's border, inside one piece. The
 /// half-width of the largest square about a point of it that lies in the set changes evenly from
@@ -54,4 +54,4 @@ class RegionMetric {
   double rounding_ = 0;  ///< lengths this close are equal
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -5,7 +5,7 @@
 
 #include "planner/grasp/angle_between.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -135,4 +135,4 @@ Grasp SetGeometry::GraspOf(const PlacedGrasp& grasp) const {
   return {boundary.ContactAt(a, grasp.places[0]), boundary.ContactAt(b, grasp.places[1])};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

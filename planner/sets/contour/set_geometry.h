@@ -9,7 +9,7 @@
 #include "planner/base/random.h"
 #include "planner/sets/contour/region_diagram.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// A grasp of two contacts as a point of contact space.
 struct PlacedGrasp {
@@ -70,4 +70,4 @@ class SetGeometry {
   std::map<int, Diagram> diagrams_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <deque>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 using Eigen::VectorXd;
 
@@ -59,4 +59,4 @@ std::vector<VectorXd> FindAlignPath(const SetCells& set, const VectorXd& from, c
   return {};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

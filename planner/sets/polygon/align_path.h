@@ -4,7 +4,7 @@
 
 #include "planner/sets/polygon/set_cells.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The contacts' parameters that an align passes from one grasp of a set to another, both ends
 /// included: straight lines inside cells, through passages where it leaves one. Fewest passages
@@ -15,4 +15,4 @@ namespace regrasp {
                                                          const Eigen::VectorXd& from,
                                                          const Eigen::VectorXd& to);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

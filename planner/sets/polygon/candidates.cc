@@ -5,7 +5,7 @@
 
 #include "planner/sets/polygon/common_cone.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -260,4 +260,4 @@ std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
   return candidates;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -9,7 +9,7 @@
 #include "planner/sets/polygon/edge_table.h"
 #include "planner/sets/polygon/grasp_set.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Three edges, ascending, whose normals let them hold concurrent grasps.
 struct ConcurrentCandidate {
@@ -56,4 +56,4 @@ struct CandidateSample {
 [[nodiscard]] std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
                                                                     const Deadline& deadline = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 
 #include "planner/sets/polygon/plane.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A convex cone of directions, less than π wide: those left of `right` and right of `left`.
 template <class NT>
@@ -53,4 +53,4 @@ std::optional<DirectionCone<NT>> CommonCone(const EdgeFrame<NT>& centre, const E
   return outer ? Intersect(*outer, -ConeOf(centre)) : std::nullopt;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -279,4 +279,4 @@ std::vector<FilteredRegion> FocusContactPairs(const EdgeTable& edges,
   return pairs;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

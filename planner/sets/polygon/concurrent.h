@@ -11,7 +11,7 @@
 #include "planner/sets/polygon/filtered_region.h"
 #include "planner/sets/polygon/grasp_set.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The focus points of one part of a concurrent set: those on fixed sides of its edges' lines.
 struct FocusPart {
@@ -69,4 +69,4 @@ class ConcurrentCellFinder {
                                                             const FocusComponent& component, int k,
                                                             int l);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -7,7 +7,7 @@
 
 #include "planner/sets/polygon/number_type.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A quotient, known as an interval or exactly.
 template <class NT>
@@ -110,4 +110,4 @@ class FilteredRange {
   std::function<ContactRange<Exact>()> exactly_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -8,7 +8,7 @@
 
 #include "planner/sets/polygon/plane.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// What is known of a half-plane without computing.
 struct SideTag {
@@ -125,4 +125,4 @@ class ConvexRegion {
   std::vector<Side> sides_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

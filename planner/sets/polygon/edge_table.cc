@@ -1,6 +1,6 @@
 #include "planner/sets/polygon/edge_table.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 EdgeTable::EdgeTable(const Polygon& polygon, double tangent) : tangent_(tangent) {
   int first = 0;
@@ -27,4 +27,4 @@ EdgeTable EdgeTable::Of(const std::vector<int>& edges) const {
   return table;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

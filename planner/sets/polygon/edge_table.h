@@ -6,7 +6,7 @@
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/plane.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The edges of a polygon as exact predicates see them. Made inside an IntervalScope.
 class EdgeTable {
@@ -46,4 +46,4 @@ class EdgeTable {
   std::vector<EdgeFrame<Interval>> frames_;  ///< at tangent_
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -1,6 +1,6 @@
 #include "planner/sets/polygon/filtered_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -61,12 +61,12 @@ bool FilteredRegion::Overlap(const FilteredRegion& a, const FilteredRegion& b) {
       a.box_.max_y <= b.box_.min_y || b.box_.max_y <= a.box_.min_y) {
     return false;
   }
-  const Answer answer = regrasp::Overlap(a.region_, b.region_);
+  const Answer answer = polygon::Overlap(a.region_, b.region_);
   if (answer != Answer::kUncertain) return answer == Answer::kYes;
   const ConvexRegion<Exact>& exact_a = a.exact();
   const ConvexRegion<Exact>& exact_b = b.exact();
   const ExactScope scope;
-  return regrasp::Overlap(exact_a, exact_b) == Answer::kYes;
+  return polygon::Overlap(exact_a, exact_b) == Answer::kYes;
 }
 
 std::optional<FilteredRegion> FilteredRegion::Round(ConvexRegion<Exact> region) {
@@ -94,4 +94,4 @@ void FilteredRegion::FindBox() {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

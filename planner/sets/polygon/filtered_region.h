@@ -8,7 +8,7 @@
 
 #include "planner/sets/polygon/convex_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A convex region whose combinatorics are exact and whose coordinates are intervals; its exact
 /// coordinates are computed when a decision needs them. Everything here inside an IntervalScope.
@@ -63,4 +63,4 @@ class FilteredRegion {
   mutable std::shared_ptr<const ConvexRegion<Exact>> exact_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 
 #include "planner/sets/polygon/concurrent.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::vector<std::vector<Eigen::Vector2d>> FocusCell(const Polygon& polygon, cons
   return parts;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -6,7 +6,7 @@
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/grasp_set.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The focus cell of a concurrent set, rounded to doubles for drawing: a convex counter-clockwise
 /// polygon for each of the set's parts, in their order.
@@ -18,4 +18,4 @@ namespace regrasp {
 
 inline constexpr double kFarthestFocus = 100;  ///< over D
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 using Eigen::VectorXd;
 
@@ -171,4 +171,4 @@ Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
   return grasp;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

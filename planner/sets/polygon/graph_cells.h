@@ -8,7 +8,7 @@
 #include "planner/sets/polygon/polygon_graph.h"
 #include "planner/sets/polygon/set_cells.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A grasp of a set, by the parameters of its contacts in the order of the set's edges.
 struct PolygonPlace {
@@ -52,4 +52,4 @@ class GraphCells {
   std::vector<std::optional<double>> widths_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

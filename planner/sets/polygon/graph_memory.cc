@@ -9,7 +9,7 @@
 #include "planner/sets/polygon/parallel.h"
 #include "planner/sets/polygon/two_finger.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -83,4 +83,4 @@ MemoryNeed EstimatePolygonGraph(const Polygon& polygon, double half_angle, Spann
   return {"the graph of the planner polygon", polygon.face_count(), "edges", bytes_for};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -4,7 +4,7 @@
 #include "planner/object/polygon.h"
 #include "planner/planning/spanning.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// What a PolygonGraph takes at most while it is built, within a factor of two.
 ///
@@ -17,4 +17,4 @@ namespace regrasp {
 [[nodiscard]] MemoryNeed EstimatePolygonGraph(const Polygon& polygon, double half_angle,
                                               Spanning spanning);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

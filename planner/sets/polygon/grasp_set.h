@@ -4,7 +4,7 @@
 
 #include "planner/planning/spanning.h"  // IWYU pragma: export
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The kinds of force-closure grasps of a polygon (Phoka 2010, section 3.2).
 enum class GraspType {
@@ -32,4 +32,4 @@ struct GraspSet {
   std::vector<int> parts;  ///< ascending
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -4,7 +4,7 @@
 #include <CGAL/Mpzf.h>
 #include <CGAL/number_utils.h>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Predicates are written once, as templates over the number type, and evaluated with intervals of
 /// doubles first. Where an interval cannot tell the sign, CGAL throws, and the exact type decides.
@@ -45,4 +45,4 @@ auto DecideFiltered(const Predicate& predicate) {
   return predicate(Exact());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

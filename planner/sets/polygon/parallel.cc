@@ -5,7 +5,7 @@
 
 #include "planner/sets/polygon/common_cone.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -344,4 +344,4 @@ bool SharesGrasps(const EdgeTable& edges, const std::array<int, 3>& triple, int 
   return true;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

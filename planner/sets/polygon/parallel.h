@@ -7,7 +7,7 @@
 #include "planner/sets/polygon/contact_range.h"
 #include "planner/sets/polygon/filtered_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Parallel grasps of three edges with one centre contact a, the others being b and c.
 ///
@@ -60,4 +60,4 @@ using PairProjections = std::array<std::array<std::vector<FilteredRegion>, 3>, 3
 [[nodiscard]] bool SharesGrasps(const EdgeTable& edges, const std::array<int, 3>& triple,
                                 int centre, const PairProjections& other);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -2,7 +2,7 @@
 
 #include "planner/sets/polygon/number_type.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A vector of the plane over any number type.
 template <class NT>
@@ -97,4 +97,4 @@ EdgeFrame<NT> MakeEdgeFrame(const EdgeEnds& ends, double tangent) {
   return frame;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

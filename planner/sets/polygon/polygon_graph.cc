@@ -13,7 +13,7 @@
 #include "planner/sets/polygon/parallel.h"
 #include "planner/sets/polygon/two_finger.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -393,4 +393,4 @@ void PolygonGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const
   std::sort(neighbours.begin(), neighbours.end());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

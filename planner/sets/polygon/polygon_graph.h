@@ -10,7 +10,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/sets/polygon/grasp_set.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Fingers of the hand: at most three hold, and between 2-finger grasps two are placed at once.
 inline constexpr int kPolygonFingers = 4;
@@ -78,4 +78,4 @@ class PolygonGraph final : public SwitchingGraph {
   double edge_seconds_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

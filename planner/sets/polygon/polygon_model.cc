@@ -6,7 +6,7 @@
 #include "planner/sets/polygon/align_path.h"
 #include "planner/sets/sequence_builder.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 using Eigen::VectorXd;
 
@@ -104,4 +104,4 @@ std::vector<PolygonPlace> PolygonModel::FindRoute(const Place& from, const Place
   return route;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

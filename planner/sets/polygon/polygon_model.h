@@ -8,7 +8,7 @@
 #include "planner/sets/polygon/graph_cells.h"
 #include "planner/sets/polygon/switch_point.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The grasp sets of a polygon's switching graph, as planning over sets sees them.
 class PolygonModel {
@@ -45,4 +45,4 @@ class PolygonModel {
   GraphCells cells_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

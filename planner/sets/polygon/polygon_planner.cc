@@ -6,7 +6,7 @@
 #include "planner/sets/polygon/polygon_model.h"
 #include "planner/sets/set_planner.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -34,4 +34,4 @@ PlanResult PolygonPlanner::Plan(const PlanRequest& request) const {
   return PlanOverSets(model, request, name());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -2,7 +2,7 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Plans on the switching graph of a polygon (Phoka 2010, section 3.4), with a hand of
 /// kPolygonFingers fingers: over all its concurrent, 2-finger and parallel grasps, on edges that
@@ -18,4 +18,4 @@ class PolygonPlanner final : public Planner {
   [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -292,4 +292,4 @@ bool IsInSet(const SetCells& set, const VectorXd& parameters, double slack) {
                      [&](const GraspCell& cell) { return SlackInCell(cell, parameters) > slack; });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -10,7 +10,7 @@
 #include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/slack_program.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A convex set of grasps, given by linear inequalities. The variables are the contacts' parameters
 /// (0 to 1 along their edges), one for each edge of the set in its order, and after them, of a
@@ -66,4 +66,4 @@ inline constexpr double kNoSlack = 1e-12;
 [[nodiscard]] bool IsInSet(const SetCells& set, const Eigen::VectorXd& parameters,
                            double slack = kNoSlack);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

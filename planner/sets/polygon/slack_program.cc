@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 namespace {
 
@@ -71,4 +71,4 @@ SlackSolution MaximizeSlack(const Inequalities& set, double enough) {
   return solution;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The inequalities rows · z + offsets > 0 of a convex set.
 struct Inequalities {
@@ -25,4 +25,4 @@ struct SlackSolution {
 /// @throws std::runtime_error  the solver fails.
 [[nodiscard]] SlackSolution MaximizeSlack(const Inequalities& set, double enough = 1);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

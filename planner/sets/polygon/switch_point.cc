@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -277,4 +277,4 @@ SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to, const Sw
   return search.Improve(point);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -6,7 +6,7 @@
 
 #include "planner/sets/polygon/set_cells.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// A set with its cells, as a search for a switch sees it.
 struct SwitchSide {
@@ -43,4 +43,4 @@ using GraspScore = std::function<double(const GraspSet& set, const Eigen::Vector
 [[nodiscard]] SwitchPoint ImproveSwitch(const SwitchSide& from, const SwitchSide& to,
                                         const SwitchPoint& point, const GraspScore& score);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -1,6 +1,6 @@
 #include "planner/sets/polygon/two_finger.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 std::vector<TwoFingerPart> FindTwoFingerSets(const EdgeTable& edges,
                                              const TwoFingerCandidate& candidate) {
@@ -26,4 +26,4 @@ FilteredRange TwoFingerContactRange(const TwoFingerPart& part, int k) {
   });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

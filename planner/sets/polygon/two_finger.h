@@ -6,7 +6,7 @@
 #include "planner/sets/polygon/contact_range.h"
 #include "planner/sets/polygon/filtered_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// The grasps on two edges, in their contact parameters; it may be empty.
 template <class NT>
@@ -60,4 +60,4 @@ struct TwoFingerPart {
 /// The contacts on the k-th edge. `part` must outlive the result.
 [[nodiscard]] FilteredRange TwoFingerContactRange(const TwoFingerPart& part, int k);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -172,4 +172,4 @@ FaceParts SplitFaces(const Polyhedron& solid) {
   return parts;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

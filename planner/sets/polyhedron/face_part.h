@@ -6,7 +6,7 @@
 
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A convex part of a face, in coordinates of the face's plane: x = origin + y_0 u + y_1 v.
 struct FacePart {
@@ -40,4 +40,4 @@ struct FaceParts {
 /// as many as needed, one where the face is convex.
 [[nodiscard]] FaceParts SplitFaces(const Polyhedron& solid);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 
@@ -345,4 +345,4 @@ bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
   return false;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -9,7 +9,7 @@
 #include "planner/sets/polyhedron/min_max.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A convex piece of a focus cell: focus points on a fixed side of each face that see a contact of
 /// a fixed convex part of it.
@@ -106,4 +106,4 @@ class FocusCellFinder {
   std::int64_t unclear_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

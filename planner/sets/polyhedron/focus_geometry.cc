@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -360,4 +360,4 @@ std::optional<FocusGrasp> FocusGeometry::Draw(int cell, RandomStream& random) {
   return grasp;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

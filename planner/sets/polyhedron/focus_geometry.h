@@ -9,7 +9,7 @@
 #include "planner/sets/grasp_set_model.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A concurrent grasp of a cell.
 struct FocusGrasp {
@@ -70,4 +70,4 @@ class FocusGeometry {
   std::map<int, double> widths_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -7,7 +7,7 @@
 #include "planner/sets/polyhedron/focus_cells.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -90,4 +90,4 @@ std::optional<FocusView> DescribeFocus(const Polyhedron& solid, const Grasp& gra
   return view;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

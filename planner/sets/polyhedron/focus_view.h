@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// What a picture shows of a concurrent grasp: a focus point and the contact regions that it gives.
 struct FocusView {
@@ -25,4 +25,4 @@ struct FocusView {
 [[nodiscard]] std::optional<FocusView> DescribeFocus(const Polyhedron& solid, const Grasp& grasp,
                                                      double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -7,7 +7,7 @@
 #include "planner/base/random.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 namespace {
 
@@ -56,4 +56,4 @@ MemoryNeed EstimatePolyhedronGraph(const Polyhedron& solid, double half_angle, S
   return {"the graph of the planner polyhedron", solid.face_count(), "faces", bytes_for};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

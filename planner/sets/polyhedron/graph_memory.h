@@ -4,7 +4,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/planning/spanning.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// What a PolyhedronGraph takes at most while it is built, within a factor of two.
 ///
@@ -17,4 +17,4 @@ namespace regrasp {
 [[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const Polyhedron& solid, double half_angle,
                                                  Spanning spanning);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 using Eigen::Vector4d;
@@ -110,4 +110,4 @@ MinMaxResult MinMax::Solve(const LargestCut& largest_cut, Until until) {
   return SolveWith(largest_cut, until);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -8,7 +8,7 @@
 #include "planner/lp/simplex.h"
 #include "planner/sets/polyhedron/union_volume.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// Whether some convex sets, each { x : g_i(x) < 0 }, have common points.
 enum class Overlap {
@@ -88,4 +88,4 @@ class MinMax {
   Program program_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

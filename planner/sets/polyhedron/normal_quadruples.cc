@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 
@@ -155,4 +155,4 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid,
   return candidates;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

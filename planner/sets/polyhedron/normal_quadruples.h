@@ -8,7 +8,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/planning/spanning.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// Four faces, ascending, whose normals let them hold concurrent grasps.
 struct QuadrupleCandidate {
@@ -35,4 +35,4 @@ struct QuadrupleCandidate {
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
     const Polyhedron& solid, double tangent, Spanning spanning, const Deadline& deadline = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 namespace {
 
@@ -92,4 +92,4 @@ void PolyhedronGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) co
   neighbours = neighbours_[vertex];
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -10,7 +10,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/sets/polyhedron/focus_cells.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// Fingers of the hand: four hold, the fifth switches.
 inline constexpr int kPolyhedronFingers = 5;
@@ -65,4 +65,4 @@ class PolyhedronGraph final : public SwitchingGraph {
   double edge_seconds_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

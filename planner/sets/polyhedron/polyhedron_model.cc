@@ -1,6 +1,6 @@
 #include "planner/sets/polyhedron/polyhedron_model.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 Grasp PolyhedronModel::Draw(int cell, RandomStream& random) {
   const auto place = geometry_.Draw(cell, random);
@@ -37,4 +37,4 @@ std::vector<FocusGrasp> PolyhedronModel::FindRoute(const Place& from, const Plac
   return geometry_.FindRoute(from, to);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -7,7 +7,7 @@
 #include "planner/sets/grasp_set_model.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// The focus cells of a solid's switching graph, as planning over sets sees them.
 class PolyhedronModel {
@@ -39,4 +39,4 @@ class PolyhedronModel {
   FocusGeometry geometry_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

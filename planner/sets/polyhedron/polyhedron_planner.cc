@@ -6,7 +6,7 @@
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/set_planner.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
     : Planner({.name = "polyhedron",
@@ -31,4 +31,4 @@ PlanResult PolyhedronPlanner::Plan(const PlanRequest& request) const {
   return PlanOverSets(model, request, name());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

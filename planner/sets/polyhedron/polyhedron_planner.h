@@ -3,7 +3,7 @@
 #include "planner/planning/planner.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// Plans between concurrent grasps of four fingers on four faces of a solid, on its switching graph
 /// (Phoka 2010, chapter V), with a hand of kPolyhedronFingers fingers: of these grasps it knows
@@ -20,4 +20,4 @@ class PolyhedronPlanner final : public Planner {
   PolyhedronGraph* graph_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -8,7 +8,7 @@
 #include "planner/base/random.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
@@ -199,4 +199,4 @@ SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph
   return share;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

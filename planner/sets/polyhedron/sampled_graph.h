@@ -7,7 +7,7 @@
 
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A box that contains the focus points of all cells of a graph. Its sides are bounds by cutting
 /// planes of the cells' own intersections, within a thousandth of its size; empty where the graph
@@ -41,4 +41,4 @@ struct SamplingShare {
 [[nodiscard]] SamplingShare CompareSampling(const SampledGraph& sampled,
                                             const PolyhedronGraph& graph);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

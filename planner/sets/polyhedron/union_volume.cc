@@ -1,6 +1,6 @@
 #include "planner/sets/polyhedron/union_volume.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -62,4 +62,4 @@ Cut UnionVolume::CutAt(const Vector3d& x) const {
   return cut;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

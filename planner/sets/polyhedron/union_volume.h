@@ -6,7 +6,7 @@
 
 #include "planner/sets/polyhedron/face_part.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A linear function gradient · x + offset.
 struct Cut {
@@ -67,4 +67,4 @@ class UnionVolume {
   double sin_;  ///< negative on the outer side
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

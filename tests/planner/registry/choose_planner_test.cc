@@ -17,12 +17,12 @@ using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
 const Object& Solid() {
-  static const ObjectFile file = ReadModel("stone.obj");
+  static const ObjectFile file = tree::ReadModel("stone.obj");
   return *file.object;
 }
 
 const Object& Planar() {
-  static const ObjectFile file = ReadModel("polygon15.wkt");
+  static const ObjectFile file = tree::ReadModel("polygon15.wkt");
   return *file.object;
 }
 

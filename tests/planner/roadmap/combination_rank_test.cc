@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 TEST(Binomial, KnowsPascalsTriangle) {
@@ -30,4 +30,4 @@ TEST(CombinationRank, IsABijectionOntoTheFirstNumbers) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -10,7 +10,7 @@
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 using By = ContactChain::By;
@@ -222,4 +222,4 @@ TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

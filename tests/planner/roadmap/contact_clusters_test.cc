@@ -10,7 +10,7 @@
 #include "planner/base/angle.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 ContactClusters ClustersOf(const Polyhedron& solid, int clusters, std::uint64_t seed = 0) {
@@ -165,4 +165,4 @@ TEST(ContactClusters, RefuseAsManyClustersAsContacts) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

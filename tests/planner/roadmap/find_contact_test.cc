@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
@@ -21,4 +21,4 @@ TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

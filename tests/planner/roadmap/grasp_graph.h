@@ -12,7 +12,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/roadmap/roadmap.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 /// An explicit graph of grasps, two of which are joined where they share three contacts: what
 /// searches that look at grasps when they are reached are compared with.
@@ -119,4 +119,4 @@ inline std::optional<std::string> FaultOf(const std::vector<Quadruple>& way, con
   return std::nullopt;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -11,7 +11,7 @@
 #include "planner/grasp/quality.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 constexpr double kNear = 1e-7;
@@ -133,4 +133,4 @@ TEST(GraspOracle, RefusesMoreContactsThanSetsHaveNumbers) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

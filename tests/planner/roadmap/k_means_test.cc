@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 KMeansClusters Cluster(const Eigen::MatrixXd& points, int count, int restarts = 5,
@@ -139,4 +139,4 @@ TEST(KMeans, RefusesNumbersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

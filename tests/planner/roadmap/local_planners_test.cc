@@ -10,7 +10,7 @@
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 constexpr double kNear = 1e-9;
@@ -280,4 +280,4 @@ TEST(RoadmapLinkName, NamesAllLinks) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

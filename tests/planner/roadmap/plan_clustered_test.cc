@@ -16,7 +16,7 @@
 #include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 using testing::ContainsRegex;
@@ -118,7 +118,7 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
     ASSERT_EQ(here.status, Status::kFound) << here.message;
     for (const double unit : {1.0, 1000.0}) {
       const Eigen::Affine3d motion = MotionAndUnit(unit);
-      const Polyhedron moved = regrasp::Moved(solid, motion);
+      const Polyhedron moved = roadmap::Moved(solid, motion);
       const PlanResult there =
           PlanWith(RoadmapPlanner(), moved, Given(Moved(ContactsOf(here.plan->initial), motion)),
                    Given(Moved(here.plan->goal, motion)), Options(2));
@@ -305,4 +305,4 @@ TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -18,7 +18,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 using testing::HasSubstr;
@@ -297,4 +297,4 @@ TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

@@ -11,7 +11,7 @@
 #include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 using ::testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

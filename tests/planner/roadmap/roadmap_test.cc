@@ -13,7 +13,7 @@
 #include "planner/search/fewest_switches.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 constexpr double kSamePoint = 1e-7;
@@ -196,4 +196,4 @@ TEST(Roadmap, FindsOnlyFours) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

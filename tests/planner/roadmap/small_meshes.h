@@ -8,7 +8,7 @@
 #include "planner/base/random.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 
 inline Eigen::Vector3d DrawDirection(RandomStream& random) {
   const double z = 2 * random.Uniform() - 1;
@@ -76,4 +76,4 @@ inline Eigen::Affine3d MotionAndUnit(double unit) {
          Eigen::Scaling(unit);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

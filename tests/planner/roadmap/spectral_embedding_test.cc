@@ -9,7 +9,7 @@
 
 #include "planner/base/random.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 /// exp(−|x − y|) of points in a cube: symmetric, in (0, 1].
@@ -117,4 +117,4 @@ TEST(EmbedAffinity, RefusesDimensionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

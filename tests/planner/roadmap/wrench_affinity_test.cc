@@ -11,7 +11,7 @@
 #include "planner/base/angle.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
-namespace regrasp {
+namespace regrasp::roadmap {
 namespace {
 
 /// What the header promises of angles.
@@ -157,4 +157,4 @@ TEST(WrenchDistance, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::roadmap

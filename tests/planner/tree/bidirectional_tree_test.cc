@@ -9,7 +9,7 @@
 #include "planner/tree/subset_search.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 constexpr std::int64_t kEffort = 300'000;
@@ -123,4 +123,4 @@ TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

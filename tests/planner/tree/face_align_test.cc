@@ -14,7 +14,7 @@
 #include "planner/tree/surface_route.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 using Eigen::Vector3d;
@@ -269,4 +269,4 @@ TEST(FaceAlignTest, ThickFingersDoNotTurnWhereTheyWouldMeet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -11,7 +11,7 @@
 #include "planner/tree/subset_search.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 /// Force closure of all grasps, every step a switch of the hand or a proved align, no grasp twice.
@@ -156,4 +156,4 @@ TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -9,7 +9,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 using testing::ElementsAre;
@@ -220,4 +220,4 @@ TEST(PlanGeneralTest, RefusesGraspsThatAHandCannotHold) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

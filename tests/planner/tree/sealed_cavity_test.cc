@@ -15,7 +15,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/soups.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 using Eigen::Vector3d;
@@ -101,7 +101,7 @@ TEST(SealedCavityOfATetrahedron, HasNoFocusCells) {
     const Polyhedron hollow = Polyhedron::FromSoup(
         cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
     const auto candidates =
-        FindQuadrupleCandidates(hollow, std::tan(Radians(10)), Spanning::kAdaptive);
+        polyhedron::FindQuadrupleCandidates(hollow, std::tan(Radians(10)), Spanning::kAdaptive);
     ASSERT_EQ(candidates.size(), 1u);
     const std::array<int, 4> expected =
         cavity_first ? std::array{4, 5, 6, 7} : std::array{0, 1, 2, 3};
@@ -128,4 +128,4 @@ TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -8,7 +8,7 @@
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/search_space.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 
 [[nodiscard]] inline ObjectFile ReadModel(const std::string& file) {
   return ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
@@ -36,4 +36,4 @@ namespace regrasp {
   return set;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -10,7 +10,7 @@
 #include "planner/grasp/required_half_angle.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 constexpr int kAnySteps = std::numeric_limits<int>::max();
@@ -222,4 +222,4 @@ TEST(SubsetSearch, ContactsAtOnePointAreNotHeldAtOnce) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -6,7 +6,7 @@
 #include "planner/plan/motion_fault.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 using Eigen::Vector3d;
@@ -132,4 +132,4 @@ TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

@@ -5,7 +5,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::tree {
 namespace {
 
 constexpr std::int64_t kEffort = 20'000;
@@ -108,4 +108,4 @@ TEST(FindTransition, IsTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::tree

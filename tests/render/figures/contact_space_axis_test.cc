@@ -21,14 +21,14 @@ std::vector<std::string> LabelsOf(const std::vector<AxisTick>& ticks) {
 
 TEST(ContactSpaceAxisTest, FewVerticesHaveTheirLengths) {
   const Polygon square = MakeSquare();
-  const std::vector<AxisTick> ticks = MakeTicks(Boundary(square), 0, {0, 8}, 25, 28);
+  const std::vector<AxisTick> ticks = MakeTicks(contour::Boundary(square), 0, {0, 8}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "2", "4", "6", "8"));
   EXPECT_THAT(ticks, SizeIs(5));
 }
 
 TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
   const Polygon disc = MakeDisc(60);
-  const Boundary boundary(disc);
+  const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);  // 6.28
   const auto ticks = MakeTicks(boundary, 0, {0, perimeter}, 200 / perimeter, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "1", "2", "3", "4", "5", "6.28"));
@@ -37,7 +37,7 @@ TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
 
 TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
   const Polygon disc = MakeDisc(300);
-  const Boundary boundary(disc);
+  const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);
   const double points_per_unit = 200 / perimeter;
   double last = -1;
@@ -55,19 +55,19 @@ TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
 
 TEST(ContactSpaceAxisTest, BeyondTheEndTheRingBeginsAgain) {
   const Polygon square = MakeSquare();
-  const auto ticks = MakeTicks(Boundary(square), 0, {-3, 3}, 25, 28);
+  const auto ticks = MakeTicks(contour::Boundary(square), 0, {-3, 3}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("6", "0", "2"));
   EXPECT_EQ(ticks.front().place, -2);
 }
 
 TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
   const Polygon disc = MakeDisc(60);
-  const Boundary boundary(disc);
+  const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);
   int checked = 0;
   for (const double width : {0.002, 0.03, 0.5, 1.0}) {
     for (const double from : {-0.3, 0.2, 0.9}) {
-      const PlaceRange shown = {from * perimeter, (from + width) * perimeter};
+      const contour::PlaceRange shown = {from * perimeter, (from + width) * perimeter};
       const double points_per_unit = 300 / (width * perimeter);
       double last = -std::numeric_limits<double>::infinity();
       std::string last_label;
@@ -88,10 +88,10 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
 
 TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
   const Polygon square = MakeSquare();
-  EXPECT_EQ(AxisTitle(Boundary(square), "u", 0), "u");
+  EXPECT_EQ(AxisTitle(contour::Boundary(square), "u", 0), "u");
   const Polygon ring = MakeRing(8);
-  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 0), "u, outer ring");
-  EXPECT_EQ(AxisTitle(Boundary(ring), "u", 1), "u, hole 1");
+  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 0), "u, outer ring");
+  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 1), "u, hole 1");
 }
 
 TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {

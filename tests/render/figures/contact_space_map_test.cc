@@ -28,8 +28,8 @@ struct Scene {
   }
 
   Polygon polygon;
-  ContourGraph graph;
-  SetGeometry geometry;
+  contour::ContourGraph graph;
+  contour::SetGeometry geometry;
   std::vector<TrackEntry> track;
   ContactSpaceMap map;
 };
@@ -115,7 +115,7 @@ TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
   for (int name = 0; name < 3; ++name) {
     const MapSet& set = fork.SetNamed(name);
     ASSERT_THAT(set.label_places, SizeIs(2));
-    const RegionMetric& metric = fork.geometry.MetricOf(set.set);
+    const contour::RegionMetric& metric = fork.geometry.MetricOf(set.set);
     const double best = metric.SizeAt(set.label_places[0].places);
     std::uniform_real_distribution<double> place(0, fork.graph.boundary().perimeter(0));
     for (int i = 0; i < 20000; ++i) {

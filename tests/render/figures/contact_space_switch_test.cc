@@ -17,8 +17,8 @@ using testing::SizeIs;
 
 /// All switches of a plan.
 std::vector<ContactSwitch> SwitchesOf(const Polygon& polygon, const Plan& plan) {
-  const ContourGraph graph(polygon, plan.half_angle);
-  SetGeometry geometry(graph);
+  const contour::ContourGraph graph(polygon, plan.half_angle);
+  contour::SetGeometry geometry(graph);
   const std::vector<TrackEntry> track = TrackPlan(plan);
   std::vector<ContactSwitch> switches;
   for (int entry = 1; entry < static_cast<int>(track.size()); ++entry) {
@@ -38,7 +38,8 @@ std::vector<ContactSwitch> ManySwitches() {
       options.criteria.half_angle = 0.45;
       options.seed = seed;
       if (seed % 2 == 0) options.objective = Objective::kRegions;
-      const PlanResult result = PlanWith(ContourPlanner(), polygon, random, random, options);
+      const PlanResult result =
+          PlanWith(contour::ContourPlanner(), polygon, random, random, options);
       if (!result.plan) continue;
       for (ContactSwitch& step : SwitchesOf(polygon, *result.plan)) all.push_back(std::move(step));
     }

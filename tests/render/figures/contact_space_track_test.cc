@@ -12,7 +12,7 @@ using testing::SizeIs;
 
 TEST(ContactSpaceTrackTest, AContactThatStaysKeepsItsAxisAndAPlacedOneTakesTheOther) {
   const Polygon fork = MakeFork();
-  const Boundary boundary(fork);
+  const contour::Boundary boundary(fork);
   const std::vector<TrackEntry> track = TrackPlan(MakeForkPlan());
   ASSERT_THAT(track, SizeIs(3));
   const Eigen::Vector2d expected[] = {{18, 46}, {18, 25}, {39, 25}};

@@ -33,7 +33,7 @@ std::vector<Case> Cases() {
 }
 
 /// Any grasp of a set, and the set unfolded from there.
-UnfoldedSet Unfold(SetGeometry& geometry, int set, int upright) {
+UnfoldedSet Unfold(contour::SetGeometry& geometry, int set, int upright) {
   const int piece = geometry.graph().pieces_of(set).front();
   const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
   const Vector2d sum = std::accumulate(outline.begin(), outline.end(), Vector2d(0, 0));
@@ -80,8 +80,8 @@ TEST(ContactSpaceUnfoldingTest, ASideOfAPieceIsBorderOrAnotherPieceFollows) {
   int checked = 0;
   for (const Case& c : Cases()) {
     for (const double degrees : {12.0, 31.0}) {
-      const ContourGraph graph(c.polygon, Radians(degrees));
-      SetGeometry geometry(graph);
+      const contour::ContourGraph graph(c.polygon, Radians(degrees));
+      contour::SetGeometry geometry(graph);
       for (int set = 0; set < graph.vertex_count(); ++set) {
         const Sides sides = CountOpenSides(Unfold(geometry, set, set % 2));
         EXPECT_EQ(sides.open, 0) << c.name << " " << degrees << "°, set " << set;
@@ -94,20 +94,21 @@ TEST(ContactSpaceUnfoldingTest, ASideOfAPieceIsBorderOrAnotherPieceFollows) {
 
 TEST(ContactSpaceUnfoldingTest, WithoutUnfoldingASetEndsAtTheFrameWhereItHasNoBorder) {
   const Polygon disc = MakeDisc(24);
-  const ContourGraph graph(disc, Radians(20));
-  SetGeometry geometry(graph);
+  const contour::ContourGraph graph(disc, Radians(20));
+  contour::SetGeometry geometry(graph);
   ASSERT_EQ(graph.vertex_count(), 1);
   UnfoldedSet raw;
   for (const int piece : graph.pieces_of(0)) raw.pieces.push_back(geometry.OutlineOf(piece));
-  for (const BorderSegment& part : SetBorder(graph, 0)) raw.border.push_back({part.from, part.to});
+  for (const contour::BorderSegment& part : contour::SetBorder(graph, 0))
+    raw.border.push_back({part.from, part.to});
   EXPECT_GT(CountOpenSides(raw).open, 0);
 }
 
 TEST(ContactSpaceUnfoldingTest, BorderHasTheSetOnOneSideOnly) {
   int checked = 0;
   for (const Case& c : Cases()) {
-    const ContourGraph graph(c.polygon, Radians(20));
-    SetGeometry geometry(graph);
+    const contour::ContourGraph graph(c.polygon, Radians(20));
+    contour::SetGeometry geometry(graph);
     for (int set = 0; set < graph.vertex_count(); ++set) {
       const UnfoldedSet unfolded = Unfold(geometry, set, 1);
       for (const Segment& segment : unfolded.border) {
@@ -129,8 +130,8 @@ TEST(ContactSpaceUnfoldingTest, BorderHasTheSetOnOneSideOnly) {
 TEST(ContactSpaceUnfoldingTest, PiecesKeepTheirAreaAndDoNotOverlap) {
   int checked = 0;
   for (const Case& c : Cases()) {
-    const ContourGraph graph(c.polygon, Radians(25));
-    SetGeometry geometry(graph);
+    const contour::ContourGraph graph(c.polygon, Radians(25));
+    contour::SetGeometry geometry(graph);
     for (int set = 0; set < graph.vertex_count(); ++set) {
       const UnfoldedSet unfolded = Unfold(geometry, set, 0);
       std::vector<Outline> listed;
@@ -149,11 +150,11 @@ TEST(ContactSpaceUnfoldingTest, PiecesKeepTheirAreaAndDoNotOverlap) {
 
 TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
   const Polygon disc = MakeDisc(24);
-  const ContourGraph graph(disc, Radians(20));
-  SetGeometry geometry(graph);
+  const contour::ContourGraph graph(disc, Radians(20));
+  contour::SetGeometry geometry(graph);
   const int piece = graph.PiecesOn(3, 15).front();
   const double edge = graph.boundary().end(0);
-  const PlacedGrasp grasp = {piece, {3.5 * edge, 15.5 * edge}};
+  const contour::PlacedGrasp grasp = {piece, {3.5 * edge, 15.5 * edge}};
   EXPECT_EQ(CountContaining(UnfoldSet(geometry, grasp, 1).pieces, grasp.places), 1);
   const Vector2d swapped(grasp.places.y(), grasp.places.x());
   EXPECT_EQ(CountContaining(UnfoldSet(geometry, grasp, 0).pieces, swapped), 1);
@@ -162,8 +163,8 @@ TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
 
 TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
   const Polygon square = MakeSquare();
-  const ContourGraph simple(square, Radians(20));
-  SetGeometry simple_geometry(simple);
+  const contour::ContourGraph simple(square, Radians(20));
+  contour::SetGeometry simple_geometry(simple);
   ASSERT_EQ(simple.vertex_count(), 2);
   for (const int set : {0, 1}) {
     const UnfoldedSet unfolded = Unfold(simple_geometry, set, 1);
@@ -171,8 +172,8 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
     EXPECT_THAT(unfolded.pieces, SizeIs(1));
   }
   const Polygon disc = MakeDisc(24);
-  const ContourGraph round(disc, Radians(20));
-  SetGeometry round_geometry(round);
+  const contour::ContourGraph round(disc, Radians(20));
+  contour::SetGeometry round_geometry(round);
   const UnfoldedSet unfolded = Unfold(round_geometry, 0, 1);
   EXPECT_THAT(unfolded.cuts, Not(IsEmpty()));
   for (const Segment& cut : unfolded.cuts) {
@@ -188,8 +189,8 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
 
 TEST(ContactSpaceUnfoldingTest, TheDiagramIsInsideTheSet) {
   const Polygon fork = MakeFork();
-  const ContourGraph graph(fork, Radians(20));
-  SetGeometry geometry(graph);
+  const contour::ContourGraph graph(fork, Radians(20));
+  contour::SetGeometry geometry(graph);
   int checked = 0;
   for (int set = 0; set < graph.vertex_count(); ++set) {
     const UnfoldedSet unfolded = Unfold(geometry, set, 1);

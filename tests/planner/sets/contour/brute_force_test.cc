@@ -10,7 +10,7 @@
 #include "tests/planner/sets/contour/contact_grid.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -202,4 +202,4 @@ TEST(ContourBruteForce, WitnessesRefuseLessFriction) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

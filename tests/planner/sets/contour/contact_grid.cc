@@ -14,7 +14,7 @@
 #include "planner/search/components.h"
 #include "planner/sets/contour/contact_space.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -213,4 +213,4 @@ GridComparison CompareWithGrid(const Polygon& polygon, const ContourGraph& graph
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

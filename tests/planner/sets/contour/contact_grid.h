@@ -7,7 +7,7 @@
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/contour_graph.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 enum class Sense { kNone, kSqueezing, kStretching, kTooClose };
 
@@ -66,4 +66,4 @@ struct GridComparison {
 [[nodiscard]] GridComparison CompareWithGrid(const Polygon& polygon, const ContourGraph& graph,
                                              const ContactGrid& grid);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -10,7 +10,7 @@
 #include "tests/planner/sets/contour/contact_grid.h"
 #include "tests/planner/sets/contour/region_cases.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -172,4 +172,4 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -9,7 +9,7 @@
 #include "planner/sets/contour/align_route.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -212,4 +212,4 @@ TEST(AlignRoute, TakesTheShortWayAroundADisc) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

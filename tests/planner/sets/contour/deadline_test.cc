@@ -9,7 +9,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
@@ -25,11 +25,11 @@ TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
 TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough) {
   const Polygon polygon = IrregularOutline(40, 0.8, 3);
   const double tangent = std::tan(Radians(20));
-  const IntervalScope scope;
-  const EdgeTable edges(polygon, tangent);
+  const polygon::IntervalScope scope;
+  const polygon::EdgeTable edges(polygon, tangent);
   const Boundary boundary(polygon);
   const CountedDeadline of_candidates, of_pieces, of_passages, of_overlaps;
-  const auto candidates = FindTwoFingerCandidates(edges, of_candidates.deadline());
+  const auto candidates = polygon::FindTwoFingerCandidates(edges, of_candidates.deadline());
   EXPECT_EQ(of_candidates.looks(), 2 * edges.size());  // by angle, and in order
   const auto pieces = FindPieces(edges, candidates, of_pieces.deadline());
   EXPECT_EQ(of_pieces.looks(), std::ssize(candidates));
@@ -57,4 +57,4 @@ TEST(ContourDeadline, EndsAPlanWhereverItComes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -14,7 +14,7 @@
 
 #include "tests/planner/sets/exact_region.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Number = CGAL::Gmpq;
@@ -276,4 +276,4 @@ OracleCounts CompareWithRationals(const Polygon& polygon, const ContourGraph& gr
   return counts;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

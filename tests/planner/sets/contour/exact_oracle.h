@@ -5,7 +5,7 @@
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/contour_graph.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// What was compared.
 struct OracleCounts {
@@ -29,4 +29,4 @@ struct OracleCounts {
 [[nodiscard]] OracleCounts CompareWithRationals(const Polygon& polygon, const ContourGraph& graph,
                                                 double half_angle, std::string& difference);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -13,7 +13,7 @@
 #include "tests/fixtures/roundings.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 constexpr std::uint64_t kSeed = 5;
@@ -88,4 +88,4 @@ TEST(ContourOracle, NoticesAGraphOfLessFrictionAndOfAnotherPolygon) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

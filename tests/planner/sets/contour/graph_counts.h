@@ -7,7 +7,7 @@
 #include "planner/search/components.h"
 #include "planner/sets/contour/contour_graph.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// What a contour graph is counted by.
 struct Counts {
@@ -31,4 +31,4 @@ inline Counts CountsOf(const Polygon& polygon, double degrees) {
           graph.switch_count(), graph.components().count()};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

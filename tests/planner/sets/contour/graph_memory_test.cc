@@ -13,7 +13,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using ::testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::contour {
 
 using Eigen::Vector2d;
 
@@ -72,4 +72,4 @@ double HeldContact::ByDiagram() const {
   return best;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -4,7 +4,7 @@
 
 #include "planner/sets/contour/set_geometry.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// An open interval of places.
 struct Section {
@@ -44,4 +44,4 @@ class HeldContact {
   double at_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/graph_counts.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -181,4 +181,4 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

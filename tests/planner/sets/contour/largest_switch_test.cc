@@ -10,7 +10,7 @@
 #include "tests/planner/sets/contour/region_cases.h"
 #include "tests/planner/sets/contour/square_oracle.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 /// The largest smaller size of a switch between two sets, by samples along all edges.
@@ -117,4 +117,4 @@ TEST(LargestSwitch, IsTheSameBothWays) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -13,7 +13,7 @@
 #include "tests/planner/sets/contour/graph_counts.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -209,4 +209,4 @@ TEST(ContourLaws, FrictionOutsideItsRangeIsRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 Ring RegularRing(int n, double radius) {
@@ -101,4 +101,4 @@ Polygon Renumbered(const Polygon& polygon, int by) {
   return Polygon::FromRings(std::move(rings), "renumbered");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -8,7 +8,7 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/roundings.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// x in [0, width], y in [0, height], first vertex at the origin; exact.
 [[nodiscard]] Polygon Rectangle(double width, double height);
@@ -35,4 +35,4 @@ namespace regrasp {
 /// The polygon with its rings started from the `by`-th vertex (of each, modulo their number).
 [[nodiscard]] Polygon Renumbered(const Polygon& polygon, int by);
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

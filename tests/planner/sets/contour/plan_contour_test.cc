@@ -15,7 +15,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using testing::HasSubstr;
@@ -332,4 +332,4 @@ TEST(PlanOnContour, RandomGraspsAreAsGoodAsAsked) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

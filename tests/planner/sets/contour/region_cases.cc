@@ -2,7 +2,7 @@
 
 #include <random>
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 constexpr std::uint64_t kSeed = 8;
@@ -35,4 +35,4 @@ const std::vector<NamedPolygon>& RegionPolygons() {
   return polygons;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -8,7 +8,7 @@
 #include "planner/sets/contour/contour_graph.h"
 #include "tests/planner/sets/contour/outlines.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Lengths of contact space agree to this, 1e-9 of the boundary: bisection ends at 1e-12 of it, and
 /// the force-closure test leaves out what is within 1e-12 of its border.
@@ -30,4 +30,4 @@ void ForEachRegionGraph(const Work& work) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

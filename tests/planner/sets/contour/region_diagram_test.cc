@@ -14,7 +14,7 @@
 #include "tests/planner/sets/contour/region_cases.h"
 #include "tests/planner/sets/contour/square_oracle.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 using Eigen::Vector2d;
@@ -204,4 +204,4 @@ TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::contour

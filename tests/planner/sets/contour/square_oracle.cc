@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::contour {
 namespace {
 
 /// Halvings of the largest possible square: to some 1e-12 of the perimeter.
@@ -78,4 +78,4 @@ double SquareOracle::SizeAt(const ContourGraph& graph, int piece,
                 places.y());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

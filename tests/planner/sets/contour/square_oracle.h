@@ -5,7 +5,7 @@
 #include "planner/sets/contour/contour_graph.h"
 #include "tests/planner/sets/contour/contact_grid.h"
 
-namespace regrasp {
+namespace regrasp::contour {
 
 /// Largest squares of contact space by asking the general force-closure test of their corners:
 /// shares the meaning of a place with the planner, and nothing else.
@@ -35,4 +35,4 @@ class SquareOracle {
   std::vector<double> perimeter_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::contour

@@ -8,7 +8,7 @@
 #include "planner/sets/polygon/graph_cells.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 Grasp GraspAt(const Polygon& polygon, const GraspSet& set, const Eigen::VectorXd& parameters) {
@@ -94,4 +94,4 @@ TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

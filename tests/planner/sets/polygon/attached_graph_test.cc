@@ -10,7 +10,7 @@
 #include "planner/sets/polygon/graph_cells.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 std::vector<int> Neighbours(const SwitchingGraph& graph, int vertex) {
@@ -101,4 +101,4 @@ TEST_F(AttachedBlob, ASetIsTheOnlyOneOfAnEndWhereNoOtherIsJoinedToIt) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -9,7 +9,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/sets/polygon/focus_cell.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr std::size_t kMostFailures = 20;  // more say nothing new
@@ -308,4 +308,4 @@ void BruteForce::CompareTwoFingerSwitches() {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -11,7 +11,7 @@
 #include "planner/sets/polygon/polygon_graph.h"
 #include "tests/planner/sets/polygon/direct_conditions.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// Random grasps of a polygon held against its graph.
 class BruteForce {
@@ -76,4 +76,4 @@ class BruteForce {
   std::map<std::pair<int, int>, std::pair<double, double>> range_;  ///< by vertex and edge
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

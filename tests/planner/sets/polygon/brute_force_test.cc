@@ -8,7 +8,7 @@
 
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr int kPairs = 150;    // draws of two contacts for every two edges
@@ -90,4 +90,4 @@ TEST(BruteForce, NoticesAGraphOfLessFrictionOfAnotherSpanningAndOfAnotherPolygon
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -10,7 +10,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -164,4 +164,4 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
 INSTANTIATE_TEST_SUITE_P(HalfAngles, CandidatesTest, testing::Values(10, 20, 35, 50, 65, 80));
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

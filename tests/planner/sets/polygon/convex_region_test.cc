@@ -7,7 +7,7 @@
 
 #include "planner/sets/polygon/filtered_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 template <class NT>
@@ -131,4 +131,4 @@ TEST_F(ConvexRegionTest, OverlapIsDecidedAsByCuttingOneWithTheOther) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -9,7 +9,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 /// Looks while the candidates of all types are listed.
@@ -58,4 +58,4 @@ TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

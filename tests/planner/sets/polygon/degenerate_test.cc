@@ -15,7 +15,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr std::uint64_t kSeed = 3;
@@ -82,4 +82,4 @@ TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

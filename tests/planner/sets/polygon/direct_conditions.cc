@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using Eigen::Vector2d;
@@ -153,4 +153,4 @@ std::vector<DirectKind> KindsOfThree(std::span<const Contact> contacts, double h
   return kinds;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

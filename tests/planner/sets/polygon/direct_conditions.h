@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/sets/polygon/grasp_set.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 // What makes a planar grasp concurrent, 2-finger or parallel, written down once more in doubles and
 // in the plainest way, contact by contact. Nothing of planner/sets/polygon but the names of the
@@ -42,4 +42,4 @@ inline constexpr double kDirectMargin = 1e-9;
                                                    double half_angle, Spanning spanning,
                                                    double size);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

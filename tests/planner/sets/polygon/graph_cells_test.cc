@@ -8,7 +8,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
@@ -90,4 +90,4 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

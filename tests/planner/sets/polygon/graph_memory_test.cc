@@ -9,7 +9,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using ::testing::HasSubstr;
@@ -64,4 +64,4 @@ TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -10,7 +10,7 @@
 
 #include "bench/polygon_set_cells.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using Region = CGAL::Polygon_2<CellKernel>;
@@ -193,4 +193,4 @@ OracleCount CompareWithSetOperations(const Polygon& polygon, const PolygonGraph&
   return count;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

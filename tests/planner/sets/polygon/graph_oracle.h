@@ -6,7 +6,7 @@
 #include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/polygon_graph.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// What was compared, so that tests can expect it positive.
 struct OracleCount {
@@ -27,4 +27,4 @@ struct OracleCount {
                                                    const PolygonGraph& graph, double half_angle,
                                                    Spanning spanning, std::string& difference);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -6,7 +6,7 @@
 
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 TEST(GraphOracle, CellsAndSwitchesOfSmallPolygonsAreThoseOfExactSetOperations) {
@@ -47,4 +47,4 @@ TEST(GraphOracle, NoticesAnotherFrictionAnotherSpanningAndAnotherPolygon) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

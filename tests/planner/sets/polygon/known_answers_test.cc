@@ -6,7 +6,7 @@
 
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr GraspType kC = GraspType::kConcurrent;
@@ -221,4 +221,4 @@ TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

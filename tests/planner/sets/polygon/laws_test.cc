@@ -7,7 +7,7 @@
 
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr GraspType kTypes[] = {GraspType::kConcurrent, GraspType::kTwoFinger,
@@ -96,4 +96,4 @@ TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

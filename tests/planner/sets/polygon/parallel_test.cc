@@ -10,7 +10,7 @@
 #include "planner/base/angle.h"
 #include "planner/sets/polygon/common_cone.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using Triple = std::array<int, 3>;
@@ -252,4 +252,4 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
 INSTANTIATE_TEST_SUITE_P(HalfAngles, ParallelTest, testing::Values(20, 35, 50, 70));
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

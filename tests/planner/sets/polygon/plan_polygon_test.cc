@@ -17,7 +17,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using testing::AllOf;
@@ -457,4 +457,4 @@ TEST(PlanOnPolygon, RefusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -8,7 +8,7 @@
 #include "tests/planner/sets/polygon/direct_conditions.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 /// Contacts drawn on distinct edges, in the order of the edges.
@@ -153,4 +153,4 @@ TEST(SetCells, ContactAndParameterAreInverse) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -4,7 +4,7 @@
 #include "planner/sets/polygon/polygon_graph.h"
 #include "tests/fixtures/polygons.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 inline PolygonGraph MakeGraph(const Polygon& polygon, double degrees, Spanning spanning) {
   return PolygonGraph(polygon, Radians(degrees), spanning);
@@ -16,4 +16,4 @@ inline PolygonGraph MakeGraph(const Polygon& polygon, double degrees, Spanning s
 
 inline constexpr Spanning kSpannings[] = {Spanning::kUniform, Spanning::kAdaptive};
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

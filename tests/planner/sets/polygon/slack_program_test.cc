@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using Eigen::MatrixXd;
@@ -88,4 +88,4 @@ TEST(SlackProgram, NoRandomPointHasMoreSlack) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

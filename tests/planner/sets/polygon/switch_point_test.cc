@@ -10,7 +10,7 @@
 #include "planner/sets/polygon/polygon_graph.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 std::vector<int> CommonEdges(const GraspSet& a, const GraspSet& b) {
@@ -187,4 +187,4 @@ TEST_F(AcrossTheSquare, ImprovingNeverLowersTheScoreAndEnds) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

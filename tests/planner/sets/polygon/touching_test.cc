@@ -11,7 +11,7 @@
 #include "tests/planner/sets/polygon/shapes.h"
 #include "tests/planner/sets/polygon/two_finger_oracle.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 constexpr double kTangent = 0.25;
@@ -135,4 +135,4 @@ TEST(Touching, ContactsThatTouchDoNotJoinAParallelAndATwoFingerSet) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -11,7 +11,7 @@
 #include "bench/polygon_set_cells.h"
 #include "tests/planner/sets/exact_region.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 using Number = CellKernel::FT;
@@ -128,4 +128,4 @@ TwoFingerCount CompareTwoFingerSets(const Polygon& polygon, const PolygonGraph& 
   return count;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/polygon_graph.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 
 /// What was compared.
 struct TwoFingerCount {
@@ -21,4 +21,4 @@ struct TwoFingerCount {
 [[nodiscard]] TwoFingerCount CompareTwoFingerSets(const Polygon& polygon, const PolygonGraph& graph,
                                                   double half_angle, std::string& difference);
 
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -6,7 +6,7 @@
 
 #include "tests/planner/sets/polygon/shapes.h"
 
-namespace regrasp {
+namespace regrasp::polygon {
 namespace {
 
 TEST(TwoFingerOracle, SetsAndSwitchesOfSmallPolygonsAreThoseOfExactClipping) {
@@ -41,4 +41,4 @@ TEST(TwoFingerOracle, NoticesAnotherFriction) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polygon

@@ -5,7 +5,7 @@
 #include "bench/polyhedron_stone.h"
 #include "planner/object/polygon_triangulation.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -132,4 +132,4 @@ PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -11,7 +11,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// A solid with a name for messages.
 struct NamedBody {
@@ -69,4 +69,4 @@ void ForEachSmallBody(std::span<const double> angles, const Check& check) {
 /// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.
 [[nodiscard]] PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

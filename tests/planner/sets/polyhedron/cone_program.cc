@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 
@@ -129,4 +129,4 @@ Verdict DecideByPyramids(std::span<const SeenFrom> sets, double scale) {
   return most > kLeastMargin ? Verdict::kBetween : Verdict::kTouch;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 
 /// Focus points that see one of some points inside a cone: the convex hull of the corners, and from
 /// each of its points the cone of half-angle φ about `axis`. With a zero axis the hull alone.
@@ -44,4 +44,4 @@ enum class Verdict {
 
 [[nodiscard]] Verdict DecideByPyramids(std::span<const SeenFrom> sets, double scale);
 
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

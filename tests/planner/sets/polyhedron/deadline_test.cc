@@ -8,7 +8,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
@@ -39,4 +39,4 @@ TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

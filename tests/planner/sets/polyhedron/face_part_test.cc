@@ -10,7 +10,7 @@
 
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector2d;
@@ -226,4 +226,4 @@ TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

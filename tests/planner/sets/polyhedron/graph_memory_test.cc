@@ -10,7 +10,7 @@
 #include "tests/fixtures/peak_memory.h"
 #include "tests/fixtures/plan_with.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using ::testing::HasSubstr;
@@ -57,4 +57,4 @@ TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -12,7 +12,7 @@
 #include "tests/planner/sets/polyhedron/bodies.h"
 #include "tests/planner/sets/polyhedron/cone_program.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector3d;
@@ -309,4 +309,4 @@ TEST(GraphProgram, PyramidsTellConesThatMeetFromConesThatTouchAndThatPart) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -9,7 +9,7 @@
 #include "bench/polyhedron_stone.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector3d;
@@ -184,4 +184,4 @@ TEST(Stone, HasAsManyFacesAsAskedFor) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

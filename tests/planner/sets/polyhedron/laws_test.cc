@@ -13,7 +13,7 @@
 #include "bench/polyhedron_stone.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Affine3d;
@@ -218,4 +218,4 @@ TEST(PolyhedronLaws, NeighboursAreMutualAndTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -17,7 +17,7 @@
 
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector3d;
@@ -242,4 +242,4 @@ TEST(MinMax, OfUnionVolumesIsNotBeatenByWalksDown) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

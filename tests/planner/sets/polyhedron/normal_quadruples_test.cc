@@ -11,7 +11,7 @@
 
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector3d;
@@ -186,4 +186,4 @@ TEST(NormalQuadruples, OfBoxesDoNotSpanAndOfAnOctahedronTwoTetrahedraDo) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

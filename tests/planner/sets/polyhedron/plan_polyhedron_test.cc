@@ -13,7 +13,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using testing::HasSubstr;
@@ -232,4 +232,4 @@ TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

@@ -13,7 +13,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector2d;
@@ -266,4 +266,4 @@ TEST(RandomGrasps, AreFoundInEveryPieceOfEveryCell) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron

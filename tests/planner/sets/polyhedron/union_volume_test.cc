@@ -9,7 +9,7 @@
 
 #include "tests/planner/sets/polyhedron/bodies.h"
 
-namespace regrasp {
+namespace regrasp::polyhedron {
 namespace {
 
 using Eigen::Vector2d;
@@ -166,4 +166,4 @@ TEST(UnionVolume, OfASingleContactIsItsCone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::polyhedron
