@@ -54,8 +54,8 @@ struct GraphProgram {
                "A roadmap of clusters also answers so many queries between random force-closure "
                "grasps of its contact points");
     app.add_flag("--no-lazy", no_lazy,
-                 "With --queries: no search among the grasps of all contact points where the way "
-                 "over the representatives fails");
+                 "With --queries: no search among the grasps of all contact points where the "
+                 "representatives do not join start and goal");
   }
 
   int Run() const {

@@ -66,8 +66,8 @@ struct PlanProgram {
         ->type_name("FILE")
         ->required();
     AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
-              "Quality that random grasps have at least, and the sequence's grasps where there is "
-              "a way: the largest ball of wrenches resisted, normal forces summing to 1, torques "
+              "Quality that random grasps have at least; the sequence prefers such grasps and a "
+              "warning says where it must go below: the largest ball of wrenches resisted, normal forces summing to 1, torques "
               "over half the diameter (default 0.01)");
     AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
               "Radius of the fingers, in the object file's own unit of length: contacts that a "
@@ -76,12 +76,12 @@ struct PlanProgram {
         ->type_name("R");
     app.add_flag("--no-lazy", no_lazy,
                  "On a roadmap of clusters: no search among the grasps of all contact points where "
-                 "the way over the representatives fails");
+                 "the representatives do not join start and goal");
     app.add_option(
            "--optimize", optimize,
            "The planner general: steps (the fewest found, then margin; the default), margin "
            "(the weakest grasp's margin, with two steps more at most), travel (the fewest "
-           "found, then the least way of the fingers). The planner contour: regions (every switch "
+           "found, then the least travel of the fingers). The planner contour: regions (every switch "
            "where the smaller of "
            "its two grasps' contact regions is largest; default: well inside both sets)")
         ->check(CLI::IsMember({"steps", "margin", "travel", "regions"}))
