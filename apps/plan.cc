@@ -67,7 +67,8 @@ struct PlanProgram {
         ->required();
     AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
               "Quality that random grasps have at least; the sequence prefers such grasps and a "
-              "warning says where it must go below: the largest ball of wrenches resisted, normal forces summing to 1, torques "
+              "warning says where it must go below: the largest ball of wrenches resisted, normal "
+              "forces summing to 1, torques "
               "over half the diameter (default 0.01)");
     AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
               "Radius of the fingers, in the object file's own unit of length: contacts that a "
@@ -81,7 +82,8 @@ struct PlanProgram {
            "--optimize", optimize,
            "The planner general: steps (the fewest found, then margin; the default), margin "
            "(the weakest grasp's margin, with two steps more at most), travel (the fewest "
-           "found, then the least travel of the fingers). The planner contour: regions (every switch "
+           "found, then the least travel of the fingers). The planner contour: regions (every "
+           "switch "
            "where the smaller of "
            "its two grasps' contact regions is largest; default: well inside both sets)")
         ->check(CLI::IsMember({"steps", "margin", "travel", "regions"}))
