@@ -50,7 +50,7 @@ const Planner& PlannerFor(const std::string& name, const PlanRequest& request) {
   const std::string why = WhyNotServed(*planner, request);
   if (why.empty()) return *planner;
   const Planner* other = FirstThatServes(request);
-  throw InputError(why + (other == nullptr ? "" : "; " + other->name() + " serves"));
+  throw InputError(why + (other == nullptr ? "" : "; use --planner " + other->name()));
 }
 
 }  // namespace regrasp

@@ -29,16 +29,16 @@ std::vector<FingerGrasp> WaypointsFor(const FingerGrasp& holding, const FaceAlig
   return waypoints;
 }
 
-void AddAlign(const std::vector<FingerGrasp>& waypoints, CandidateSequence& draft) {
-  auto* last = draft.steps.empty() ? nullptr : std::get_if<Align>(&draft.steps.back());
+void AddAlign(const std::vector<FingerGrasp>& waypoints, CandidateSequence& candidate) {
+  auto* last = candidate.steps.empty() ? nullptr : std::get_if<Align>(&candidate.steps.back());
   const Grasp after = ContactsOf(waypoints.back());
   if (last != nullptr) {
     last->waypoints.insert(last->waypoints.end(), waypoints.begin() + 1, waypoints.end());
-    draft.rests.back().grasp = after;
+    candidate.rests.back().grasp = after;
     return;
   }
-  draft.steps.emplace_back(Align{waypoints});
-  draft.rests.push_back({after, std::nullopt});
+  candidate.steps.emplace_back(Align{waypoints});
+  candidate.rests.push_back({after, std::nullopt});
 }
 
 /// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
@@ -61,25 +61,21 @@ double PathOfSwitch(const ContactSet& from, const ContactSet& to, const SearchSp
 
 CandidateSequence MakeCandidate(const GraspPath& path, const Grasp& start,
                                 const SearchSpace& space) {
-  CandidateSequence draft;
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    draft.initial.push_back({static_cast<int>(i), start[i]});
-  }
-  draft.rests.push_back({start, std::nullopt});
-  FingerGrasp holding = draft.initial;
+  CandidateSequence candidate = StartOf(start);
+  FingerGrasp holding = candidate.initial;
   for (const PathStep& step : path.steps) {
     if (step.align) {
       const std::vector<FingerGrasp> waypoints = WaypointsFor(holding, *step.align, space);
-      AddAlign(waypoints, draft);
+      AddAlign(waypoints, candidate);
       holding = waypoints.back();
       continue;
     }
     const Switch change = MakeSwitch(holding, space.GraspOf(step.to), space.fingers());
     holding = GraspAfter(holding, change);
-    draft.steps.emplace_back(change);
-    draft.rests.push_back({ContactsOf(holding), std::nullopt});
+    candidate.steps.emplace_back(change);
+    candidate.rests.push_back({ContactsOf(holding), std::nullopt});
   }
-  return draft;
+  return candidate;
 }
 
 double TravelOf(const GraspPath& path, const SearchSpace& space) {
