@@ -9,7 +9,7 @@
 
 #include "planner/base/hexadecimal.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::string BuildId() {
   return id;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -2,11 +2,11 @@
 
 #include <string>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The linker's digest of the running program (the ELF note NT_GNU_BUILD_ID), hexadecimal: builds
 /// of other sources, by another compiler or with other options have another one. Empty where the
 /// linker wrote none.
 [[nodiscard]] std::string BuildId();
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

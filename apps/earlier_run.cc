@@ -16,7 +16,7 @@
 #include "planner/plan/plan_io.h"
 #include "report/report_seal.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -26,8 +26,8 @@ std::string DigestOfNow(const ValidateOptions& options) {
   const std::string plan = ReadFile(options.plan_path);
   std::error_code error;
   const bool named_by_plan = fs::is_directory(options.object_path, error);
-  const std::string object_path =
-      ObjectPathOf(options, named_by_plan ? ParsePlan(plan, options.plan_path).object_file : "");
+  const std::string object_path = ObjectPathOf(
+      options, named_by_plan ? plan::ParsePlan(plan, options.plan_path).object_file : "");
   const auto digest_of = [](const std::string& path) {
     return path.empty() ? "" : Sha256(ReadFile(path));
   };
@@ -148,4 +148,4 @@ void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own) {
   if (error) throw EnvironmentError(folder.path().string() + ": " + error.message());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

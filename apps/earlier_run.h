@@ -7,7 +7,7 @@
 #include "apps/held_folder.h"
 #include "apps/validate_options.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The summary of a batch, beside the folders of its plans.
 inline constexpr char kSummaryName[] = "summary.json";
@@ -34,4 +34,4 @@ void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
 /// @throws EnvironmentError  one of them cannot be removed.
 void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

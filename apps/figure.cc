@@ -27,6 +27,7 @@
 
 namespace {
 
+using namespace regrasp::apps;
 using namespace regrasp;
 
 constexpr char kProgram[] = "figure";
@@ -51,14 +52,14 @@ struct FigureProgram {
   int Run();
 
  private:
-  void CheckPlanFits(const Plan& plan, const ObjectFile& object) const;
+  void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const;
   void CheckOut() const;
-  [[nodiscard]] ObjectFile ReadTold() const;
-  [[nodiscard]] Plan Located(const Plan& plan, const Object& object) const;
-  void CheckHasContactSpace(const Plan& plan) const;
-  void WriteFigures(const Polygon& polygon, const Plan& plan) const;
-  void WriteContactSpace(const Polygon& polygon, const Plan& plan, render::FigureFormat file_format,
-                         std::set<std::string>& written) const;
+  [[nodiscard]] object::ObjectFile ReadTold() const;
+  [[nodiscard]] plan::Plan Located(const plan::Plan& plan, const object::Object& object) const;
+  void CheckHasContactSpace(const plan::Plan& plan) const;
+  void WriteFigures(const object::Polygon& polygon, const plan::Plan& plan) const;
+  void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
+                         render::FigureFormat file_format, std::set<std::string>& written) const;
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
@@ -78,22 +79,22 @@ void FigureProgram::AddTo(CLI::App& app) {
   AddQuiet(app, quiet);
 }
 
-void FigureProgram::CheckPlanFits(const Plan& plan, const ObjectFile& object) const {
+void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
   if (object.object->dimension() != 2) {
     throw InputError(object_path +
                      ": a solid, but figure draws planar objects (validate draws solids)");
   }
-  regrasp::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
+  apps::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
 }
 
-Plan FigureProgram::Located(const Plan& plan, const Object& object) const {
+plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& object) const {
   ProgressLine progress(quiet);
   progress.Report("checking the plan");
-  const PlanCheck check = CheckPlan(object, plan);
-  for (const StepCheck& step : check.steps) {
-    if (step.reason == Reason::kNone) continue;
+  const plan::PlanCheck check = plan::CheckPlan(object, plan);
+  for (const plan::StepCheck& step : check.steps) {
+    if (step.reason == plan::Reason::kNone) continue;
     throw InputError(plan_path + ": step " + std::to_string(step.index) + " (" + step.kind +
-                     "): " + std::string(ReasonName(step.reason)) + ": " + step.detail);
+                     "): " + std::string(plan::ReasonName(step.reason)) + ": " + step.detail);
   }
   return check.located;
 }
@@ -153,7 +154,7 @@ std::string FileName(int index, const std::string& kind, const std::string& form
   return Number(index) + "_" + kind + "." + format;
 }
 
-void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
+void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
   const auto rest = render::FindOtherThanTwoFingers(plan);
   if (!rest) return;
   const std::string entry = rest->entry == 0
@@ -163,7 +164,7 @@ void FigureProgram::CheckHasContactSpace(const Plan& plan) const {
                    " contacts, but --contact-space draws plans of 2-finger grasps");
 }
 
-void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
+void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
                                       render::FigureFormat file_format,
                                       std::set<std::string>& written) const {
   const std::filesystem::path folder = out;
@@ -183,7 +184,7 @@ void FigureProgram::WriteContactSpace(const Polygon& polygon, const Plan& plan,
   }
 }
 
-void FigureProgram::WriteFigures(const Polygon& polygon, const Plan& plan) const {
+void FigureProgram::WriteFigures(const object::Polygon& polygon, const plan::Plan& plan) const {
   static const std::map<std::string, render::FigureFormat> kFormats = {
       {"svg", render::FigureFormat::kSvg},
       {"pdf", render::FigureFormat::kPdf},
@@ -219,19 +220,19 @@ void FigureProgram::CheckOut() const {
   CheckOutputsWritable(outputs);
 }
 
-ObjectFile FigureProgram::ReadTold() const {
+object::ObjectFile FigureProgram::ReadTold() const {
   ProgressLine progress(quiet);
-  return ReadObject(object_path, {progress.reporter(), {}});
+  return object::ReadObject(object_path, {progress.reporter(), {}});
 }
 
 int FigureProgram::Run() {
   CheckOut();
-  const ObjectFile object = ReadTold();
-  const Plan plan = ReadPlan(plan_path);
+  const object::ObjectFile object = ReadTold();
+  const plan::Plan plan = plan::ReadPlan(plan_path);
   CheckPlanFits(plan, object);
   // Planar objects are polygons: ReadObject makes no other.
-  const auto& polygon = dynamic_cast<const Polygon&>(*object.object);
-  const Plan located = Located(plan, polygon);
+  const auto& polygon = dynamic_cast<const object::Polygon&>(*object.object);
+  const plan::Plan located = Located(plan, polygon);
   if (contact_space) CheckHasContactSpace(located);
   WriteFigures(polygon, located);
   return kExitDone;

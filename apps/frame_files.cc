@@ -10,7 +10,7 @@
 #include "render/picture/caption.h"
 #include "render/picture/webp.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -23,24 +23,24 @@ std::string FrameName(std::size_t index, const std::string& kind) {
   return std::string(zeros, '0') + number + "_" + kind + ".png";
 }
 
-std::string Caption(const Plan& plan, const report::ReportStep& step) {
+std::string Caption(const plan::Plan& plan, const report::ReportStep& step) {
   const std::string caption = render::FrameCaption(plan, step.check.index);
   const bool failed = step.verdict() == report::Verdict::kFail;
-  return failed ? caption + " — " + std::string(ReasonName(step.reason())) : caption;
+  return failed ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
 }
 
 render::SheetLabel MakeLabel(const report::ReportStep& step) {
   constexpr render::Color kGood = {29, 107, 60};
   constexpr render::Color kBad = {179, 38, 30};
   const bool failed = step.verdict() == report::Verdict::kFail;
-  const std::string verdict(failed ? ReasonName(step.reason())
+  const std::string verdict(failed ? plan::ReasonName(step.reason())
                                    : report::VerdictName(step.verdict()));
   return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
           failed ? kBad : kGood};
 }
 
-std::vector<Snapshot> RestsOf(const report::Report& report) {
-  std::vector<Snapshot> rests;
+std::vector<plan::Snapshot> RestsOf(const report::Report& report) {
+  std::vector<plan::Snapshot> rests;
   for (const report::ReportStep& step : report.steps) {
     if (step.replay) rests.push_back(step.replay->snapshot);
   }
@@ -57,14 +57,14 @@ report::PagePicture MakePicture(const render::Image& image, int width) {
 
 }  // namespace
 
-std::vector<std::string> ResultNames(const Plan& plan, bool frames, bool animation) {
+std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames, bool animation) {
   std::vector<std::string> names = {kReportName, kPageName};
   if (animation) names.emplace_back(kAnimationName);
   if (!frames) return names;
   names.emplace_back(kOverviewName);
   names.push_back(FrameName(0, "hold"));
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    names.push_back(FrameName(i + 1, StepKind(plan.steps[i])));
+    names.push_back(FrameName(i + 1, plan::StepKind(plan.steps[i])));
   }
   return names;
 }
@@ -82,12 +82,12 @@ bool IsValidationFile(const std::string& name) {
   return name == kReportName || name == kPageName || IsPictureName(name);
 }
 
-std::vector<report::PagePicture> WriteFrames(const Object& object, const Plan& plan,
+std::vector<report::PagePicture> WriteFrames(const object::Object& object, const plan::Plan& plan,
                                              const render::FrameOptions& options,
                                              const std::filesystem::path& folder,
                                              report::Report& report) {
   std::vector<report::PagePicture> pictures(report.steps.size());
-  const std::vector<Snapshot> snapshots = RestsOf(report);
+  const std::vector<plan::Snapshot> snapshots = RestsOf(report);
   if (snapshots.empty()) return pictures;
   render::FrameOptions frame = options;
   if (object.dimension() == 2) frame.thickness = RelativeThickness(report);
@@ -107,10 +107,10 @@ std::vector<report::PagePicture> WriteFrames(const Object& object, const Plan& p
   return pictures;
 }
 
-void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Snapshot>& samples,
-                    render::AnimationOptions options, const std::filesystem::path& folder,
-                    const report::Report& report) {
-  const std::vector<Snapshot> rests = RestsOf(report);
+void WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                    const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
+                    const std::filesystem::path& folder, const report::Report& report) {
+  const std::vector<plan::Snapshot> rests = RestsOf(report);
   if (rests.empty()) return;
   if (object.dimension() == 2) options.thickness = RelativeThickness(report);
   WriteFile(folder / kAnimationName,
@@ -118,4 +118,4 @@ void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Sn
             Durability::kCached);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

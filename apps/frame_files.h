@@ -11,7 +11,7 @@
 #include "report/page/report_page.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The files in the folder of a validation, besides a frame for each step.
 inline constexpr char kReportName[] = "report.json";
@@ -21,7 +21,8 @@ inline constexpr char kAnimationName[] = "replay.webp";
 
 /// The names of all files that a validation of the plan may write into its folder; fewer where
 /// steps are not replayed.
-[[nodiscard]] std::vector<std::string> ResultNames(const Plan& plan, bool frames, bool animation);
+[[nodiscard]] std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames,
+                                                   bool animation);
 
 /// Whether a file of this name is a picture that a validation writes (000_hold.png, 001_switch.png,
 /// …, the contact sheet, the animation).
@@ -36,7 +37,8 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// what the replay saw at its end.
 /// @returns the same pictures, smaller, one for each entry of the report.
 /// @throws EnvironmentError  no rendering context, or the folder cannot be written.
-[[nodiscard]] std::vector<report::PagePicture> WriteFrames(const Object& object, const Plan& plan,
+[[nodiscard]] std::vector<report::PagePicture> WriteFrames(const object::Object& object,
+                                                           const plan::Plan& plan,
                                                            const render::FrameOptions& options,
                                                            const std::filesystem::path& folder,
                                                            report::Report& report);
@@ -45,8 +47,8 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// was replayed.
 /// @param samples  states during the replay, ascending in time.
 /// @throws EnvironmentError  as WriteFrames.
-void WriteAnimation(const Object& object, const Plan& plan, const std::vector<Snapshot>& samples,
-                    render::AnimationOptions options, const std::filesystem::path& folder,
-                    const report::Report& report);
+void WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                    const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
+                    const std::filesystem::path& folder, const report::Report& report);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

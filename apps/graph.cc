@@ -21,6 +21,7 @@
 
 namespace {
 
+using namespace regrasp::apps;
 using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
@@ -78,7 +79,7 @@ struct GraphProgram {
       CheckOutputsDiffer({{"--object", common.object}}, outputs);
       CheckOutputsWritable(outputs);
     }
-    const ObjectFile object = common.ReadObjectFile();
+    const object::ObjectFile object = common.ReadObjectFile();
     const double half_angle = common.friction.required_half_angle();
     const GraphSummary summary = Summarize(object);
     const std::string text = FormatJson(GraphJson(summary, half_angle));
@@ -100,14 +101,14 @@ struct GraphProgram {
     return kExitDone;
   }
 
-  GraphSummary Summarize(const ObjectFile& object) const {
+  GraphSummary Summarize(const object::ObjectFile& object) const {
     ProgressLine progress(common.quiet);
     GraphSummary summary;
     const bool planar = object.object->dimension() == 2;
     if (queries > 0 && planar) {
       throw InputError("--queries: " + common.object + " is planar; only a roadmap answers them");
     }
-    PlanRequest request = common.RequestFor(*object.object);
+    planning::PlanRequest request = common.RequestFor(*object.object);
     request.progress = [&](std::string_view text) { progress.Report(text); };
     request.last_resort = !no_lazy;
     const std::string name =
@@ -116,12 +117,12 @@ struct GraphProgram {
     if (queries > 0 && !clusters) {
       throw InputError("--queries: needs a roadmap of clusters (--clusters)");
     }
-    const Planner& planner = *FindPlanner(name);
+    const planning::Planner& planner = *registry::FindPlanner(name);
     if (!planner.ScopeIn(object.object->dimension())) {
-      throw InputError(WhyNotServed(planner, request));
+      throw InputError(planning::WhyNotServed(planner, request));
     }
     // A graph of contour alone takes less than planning on it.
-    const auto* polygon = dynamic_cast<const Polygon*>(object.object.get());
+    const auto* polygon = dynamic_cast<const object::Polygon*>(object.object.get());
     common.CheckMemory(name == "contour"
                            ? contour::EstimateContourGraph(*polygon, request.criteria.half_angle)
                            : planner.EstimateMemory(request).value());

@@ -14,7 +14,7 @@
 #include "planner/sets/polygon/polygon_graph.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -33,12 +33,12 @@ class Stopwatch {
 };
 
 QuerySummary RunQueries(const roadmap::ClusteredRoadmap& roadmap, int count,
-                        const PlanRequest& request) {
+                        const planning::PlanRequest& request) {
   request.progress(std::to_string(count) + " random queries");
   QuerySummary summary;
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
   for (const roadmap::RandomQuery& query :
-       roadmap::RunRandomQueries(roadmap, kSamePoint * request.object->diameter(), count,
+       roadmap::RunRandomQueries(roadmap, criteria::kSamePoint * request.object->diameter(), count,
                                  request.seed, request.last_resort)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
@@ -52,7 +52,7 @@ QuerySummary RunQueries(const roadmap::ClusteredRoadmap& roadmap, int count,
 }
 
 /// The part of a roadmap's summary that does not depend on its contact points' clusters.
-GraphSummary SummarizeRoadmap(const roadmap::Roadmap& roadmap, const PlanRequest& request,
+GraphSummary SummarizeRoadmap(const roadmap::Roadmap& roadmap, const planning::PlanRequest& request,
                               Stopwatch& stopwatch) {
   GraphSummary summary;
   summary.planner = "roadmap";
@@ -69,8 +69,8 @@ GraphSummary SummarizeRoadmap(const roadmap::Roadmap& roadmap, const PlanRequest
   return summary;
 }
 
-GraphSummary SummarizePolygon(const PlanRequest& request) {
-  const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
+GraphSummary SummarizePolygon(const planning::PlanRequest& request) {
+  const auto& polygon = dynamic_cast<const object::Polygon&>(*request.object);
   const polygon::PolygonGraph graph(polygon, request.criteria.half_angle, request.spanning);
   const auto name = [](polygon::GraspType type) {
     constexpr std::array kNames = {"concurrent", "two_finger", "parallel"};
@@ -93,7 +93,7 @@ GraphSummary SummarizePolygon(const PlanRequest& request) {
   add_edges(polygon::GraspType::kParallel, polygon::GraspType::kParallel);
   add_edges(polygon::GraspType::kTwoFinger, polygon::GraspType::kParallel);
   add_edges(polygon::GraspType::kTwoFinger, polygon::GraspType::kTwoFinger);
-  if (request.spanning == Spanning::kAdaptive)
+  if (request.spanning == planning::Spanning::kAdaptive)
     add_edges(polygon::GraspType::kConcurrent, polygon::GraspType::kParallel);
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
@@ -102,8 +102,8 @@ GraphSummary SummarizePolygon(const PlanRequest& request) {
   return summary;
 }
 
-GraphSummary SummarizeContour(const PlanRequest& request) {
-  const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
+GraphSummary SummarizeContour(const planning::PlanRequest& request) {
+  const auto& polygon = dynamic_cast<const object::Polygon&>(*request.object);
   const contour::ContourGraph graph(polygon, request.criteria.half_angle);
   GraphSummary summary;
   summary.planner = "contour";
@@ -118,8 +118,8 @@ GraphSummary SummarizeContour(const PlanRequest& request) {
   return summary;
 }
 
-GraphSummary SummarizePolyhedron(const PlanRequest& request, int sampling) {
-  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+GraphSummary SummarizePolyhedron(const planning::PlanRequest& request, int sampling) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   const double half_angle = request.criteria.half_angle;
   polyhedron::PolyhedronGraph graph(solid, half_angle, request.spanning);
   GraphSummary summary;
@@ -150,7 +150,7 @@ GraphSummary SummarizePolyhedron(const PlanRequest& request, int sampling) {
   return summary;
 }
 
-GraphSummary SummarizeRoadmap(const PlanRequest& request, int queries) {
+GraphSummary SummarizeRoadmap(const planning::PlanRequest& request, int queries) {
   Stopwatch stopwatch;
   if (roadmap::SizeOf(request).clusters == 0) {
     return SummarizeRoadmap(roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request)),
@@ -166,7 +166,7 @@ GraphSummary SummarizeRoadmap(const PlanRequest& request, int queries) {
 
 }  // namespace
 
-GraphSummary SummarizeGraph(const std::string& planner, const PlanRequest& request,
+GraphSummary SummarizeGraph(const std::string& planner, const planning::PlanRequest& request,
                             const GraphTasks& tasks) {
   if (planner == "polygon") return SummarizePolygon(request);
   if (planner == "contour") return SummarizeContour(request);
@@ -174,4 +174,4 @@ GraphSummary SummarizeGraph(const std::string& planner, const PlanRequest& reque
   return SummarizeRoadmap(request, tasks.queries);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -9,7 +9,7 @@
 #include "planner/planning/plan_request.h"
 #include "planner/sets/polyhedron/sampled_graph.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// How many grasps of one type a graph has.
 struct TypeSummary {
@@ -54,7 +54,8 @@ struct GraphTasks {
 
 /// Builds the switching graph of a planner.
 /// @param planner  "polygon", "contour", "polyhedron" or "roadmap", which serves the object.
-[[nodiscard]] GraphSummary SummarizeGraph(const std::string& planner, const PlanRequest& request,
+[[nodiscard]] GraphSummary SummarizeGraph(const std::string& planner,
+                                          const planning::PlanRequest& request,
                                           const GraphTasks& tasks);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -9,7 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::string ShareText(const polyhedron::SamplingShare& share) {
          " combinations and " + part(share.found_links, share.links) + " links between them\n";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

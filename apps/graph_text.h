@@ -5,7 +5,7 @@
 #include "apps/graph_summary.h"
 #include "planner/base/json.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// A graph file's contents (docs/formats.md).
 [[nodiscard]] Json GraphJson(const GraphSummary& summary, double half_angle);
@@ -19,4 +19,4 @@ namespace regrasp {
 /// How many of the direct graph's sets sampling found, and of its links.
 [[nodiscard]] std::string ShareText(const polyhedron::SamplingShare& share);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -17,7 +17,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -159,4 +159,4 @@ void HeldFolder::Append(const std::string& lines) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

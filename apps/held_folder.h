@@ -8,7 +8,7 @@
 
 #include "planner/base/descriptor.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The file by which a process holds a folder.
 inline constexpr char kRunFileName[] = ".regrasp-run";
@@ -66,4 +66,4 @@ class HeldFolder {
   std::set<std::string> left_behind_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

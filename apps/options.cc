@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -154,4 +154,4 @@ double FrictionOptions::required_half_angle() const {
   return *angle;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

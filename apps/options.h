@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The values that a number on the command line may take.
 struct NumberRange {
@@ -59,4 +59,4 @@ class FrictionOptions {
   std::optional<double> mu_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

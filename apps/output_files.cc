@@ -12,7 +12,7 @@
 #include "planner/base/file.h"
 #include "planner/base/write_file.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::string ReadOutput(const fs::path& path) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// A file that the command line names, and the option that does.
 struct NamedFile {
@@ -48,4 +48,4 @@ void CheckOutputsWritable(const OutputFiles& outputs);
 /// @throws EnvironmentError  it is gone, or cannot be read any more: that is no bad input.
 [[nodiscard]] std::string ReadOutput(const std::filesystem::path& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -24,6 +24,7 @@
 
 namespace {
 
+using namespace regrasp::apps;
 using namespace regrasp;
 
 constexpr char kProgram[] = "plan";
@@ -42,7 +43,7 @@ struct PlanProgram {
   std::string start;
   std::string goal;
   std::string output;
-  double min_quality = GraspCriteria().min_quality;
+  double min_quality = criteria::GraspCriteria().min_quality;
   double finger_radius = 0;  ///< 0: points
   std::string optimize;
   bool no_lazy = false;
@@ -111,32 +112,33 @@ struct PlanProgram {
   int Run() const;
 
  private:
-  GraspChoice Choose(const std::string& option, const std::string& value,
-                     const Object& object) const;
-  PlanRequest RequestFor(const Object& object) const;
-  PlanResult Find(const ObjectFile& object) const;
+  planning::GraspChoice Choose(const std::string& option, const std::string& value,
+                               const object::Object& object) const;
+  planning::PlanRequest RequestFor(const object::Object& object) const;
+  planning::PlanResult Find(const object::ObjectFile& object) const;
   void CheckOutput() const;
   [[nodiscard]] Deadline deadline() const {
     return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
   }
-  void PrintSummary(const PlanResult& result, double seconds) const;
+  void PrintSummary(const planning::PlanResult& result, double seconds) const;
 };
 
-GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
-                                const Object& object) const {
-  using Kind = GraspChoice::Kind;
-  if (!IsRandom(value)) return {Kind::kGiven, ReadGrasp(value, object), value};
+planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
+                                          const object::Object& object) const {
+  using Kind = planning::GraspChoice::Kind;
+  if (!IsRandom(value)) return {Kind::kGiven, plan::ReadGrasp(value, object), value};
   const bool any = value == kRandomAny || common.planner == "auto";
   return {any ? Kind::kRandomAny : Kind::kRandom, {}, option + " " + value};
 }
 
-PlanRequest PlanProgram::RequestFor(const Object& object) const {
-  static const std::map<std::string, Objective> kObjectives = {{"", Objective::kSteps},
-                                                               {"steps", Objective::kSteps},
-                                                               {"margin", Objective::kMargin},
-                                                               {"travel", Objective::kTravel},
-                                                               {"regions", Objective::kRegions}};
-  PlanRequest request = common.RequestFor(object);
+planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) const {
+  static const std::map<std::string, planning::Objective> kObjectives = {
+      {"", planning::Objective::kSteps},
+      {"steps", planning::Objective::kSteps},
+      {"margin", planning::Objective::kMargin},
+      {"travel", planning::Objective::kTravel},
+      {"regions", planning::Objective::kRegions}};
+  planning::PlanRequest request = common.RequestFor(object);
   request.hand.fingertip_radius = finger_radius;
   request.criteria.min_quality = min_quality;
   request.objective = kObjectives.at(optimize);
@@ -147,15 +149,15 @@ PlanRequest PlanProgram::RequestFor(const Object& object) const {
   return request;
 }
 
-PlanResult PlanProgram::Find(const ObjectFile& object) const {
-  PlanRequest request = RequestFor(*object.object);
-  const Planner& planner = PlannerFor(common.planner, request);
+planning::PlanResult PlanProgram::Find(const object::ObjectFile& object) const {
+  planning::PlanRequest request = RequestFor(*object.object);
+  const planning::Planner& planner = registry::PlannerFor(common.planner, request);
   request.start = Choose("--start", start, *object.object);
   request.goal = Choose("--goal", goal, *object.object);
   if (const auto need = planner.EstimateMemory(request)) common.CheckMemory(*need);
   ProgressLine progress(common.quiet);
   request.progress = progress.reporter();
-  PlanResult result = Solve(planner, request);
+  planning::PlanResult result = planning::Solve(planner, request);
   progress.Clear();
   return result;
 }
@@ -173,9 +175,9 @@ void PlanProgram::CheckOutput() const {
 
 int PlanProgram::Run() const {
   CheckOutput();
-  const ObjectFile object = common.ReadObjectFile(deadline());
-  CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
-  PlanResult result = Find(object);
+  const object::ObjectFile object = common.ReadObjectFile(deadline());
+  criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
+  planning::PlanResult result = Find(object);
   if (!result.plan) {
     PrintMessage(kProgram, result.message);
     return kExitNegative;
@@ -183,8 +185,8 @@ int PlanProgram::Run() const {
   result.plan->object_file = object.file;
   result.plan->object_sha256 = object.sha256;
   result.plan->scale = common.scale;
-  AddCertificates(*object.object, *result.plan);
-  const std::string text = FormatPlan(*result.plan);
+  certificate::AddCertificates(*object.object, *result.plan);
+  const std::string text = plan::FormatPlan(*result.plan);
   if (output == "-") {
     std::cout << text;
   } else {
@@ -196,10 +198,11 @@ int PlanProgram::Run() const {
   return kExitDone;
 }
 
-void PlanProgram::PrintSummary(const PlanResult& result, double seconds) const {
+void PlanProgram::PrintSummary(const planning::PlanResult& result, double seconds) const {
   const auto count = [&](const std::string& kind, const std::string& several) {
-    const auto n = std::count_if(result.plan->steps.begin(), result.plan->steps.end(),
-                                 [&](const Step& step) { return StepKind(step) == kind; });
+    const auto n =
+        std::count_if(result.plan->steps.begin(), result.plan->steps.end(),
+                      [&](const plan::Step& step) { return plan::StepKind(step) == kind; });
     return std::to_string(n) + " " + (n == 1 ? kind : several);
   };
   const double given = Degrees(result.plan->half_angle);

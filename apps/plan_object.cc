@@ -3,9 +3,10 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
-void CheckPlanFits(const Plan& plan, const ObjectFile& object, const PlanAndObject& given) {
+void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
+                   const PlanAndObject& given) {
   if (plan.dimension != object.object->dimension()) {
     throw InputError(given.plan_path + ": /object/dimension: " + std::to_string(plan.dimension) +
                      ", but " + given.object_path + " has dimension " +
@@ -23,4 +24,4 @@ void CheckPlanFits(const Plan& plan, const ObjectFile& object, const PlanAndObje
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

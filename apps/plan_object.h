@@ -6,7 +6,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// How the programs that read a plan were given it and its object.
 struct PlanAndObject {
@@ -19,6 +19,7 @@ struct PlanAndObject {
 /// @throws InputError  the plan is for another dimension, another object (unless that is allowed),
 /// or
 ///                     another scale.
-void CheckPlanFits(const Plan& plan, const ObjectFile& object, const PlanAndObject& given);
+void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
+                   const PlanAndObject& given);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -8,20 +8,21 @@
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  if (name == "auto" || FindPlanner(name) != nullptr) return {};
-  return "the planner \"" + name + "\" does not exist in this version; there are " + PlannerNames();
+  if (name == "auto" || registry::FindPlanner(name) != nullptr) return {};
+  return "the planner \"" + name + "\" does not exist in this version; there are " +
+         registry::PlannerNames();
 }
 
 /// The planners, each with what it plans.
 std::string PlannersText() {
   std::string text = "auto";
-  for (const Planner* planner : AllPlanners()) {
+  for (const planning::Planner* planner : registry::AllPlanners()) {
     text += ", " + planner->name() + " (" + planner->traits().what + ")";
   }
   return text;
@@ -65,21 +66,22 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   AddQuiet(app, quiet);
 }
 
-PlanRequest PlannerOptions::RequestFor(const Object& of) const {
-  PlanRequest request;
+planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const {
+  planning::PlanRequest request;
   request.object = &of;
   request.object_name = object;
   request.criteria.half_angle = friction.required_half_angle();
   request.seed = seed;
-  request.spanning = spanning == "uniform" ? Spanning::kUniform : Spanning::kAdaptive;
+  request.spanning =
+      spanning == "uniform" ? planning::Spanning::kUniform : planning::Spanning::kAdaptive;
   request.contact_points = contacts;
   request.clusters = clusters;
   return request;
 }
 
-ObjectFile PlannerOptions::ReadObjectFile(const Deadline& deadline) const {
+object::ObjectFile PlannerOptions::ReadObjectFile(const Deadline& deadline) const {
   ProgressLine progress(quiet);
-  return ReadObject(object, {progress.reporter(), deadline});
+  return object::ReadObject(object, {progress.reporter(), deadline});
 }
 
 double PlannerOptions::memory() const {
@@ -91,4 +93,4 @@ void PlannerOptions::CheckMemory(const MemoryNeed& need) const {
   if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -10,7 +10,7 @@
 #include "planner/object/object.h"
 #include "planner/planning/plan_request.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The options that `plan` and `graph` have in common.
 struct PlannerOptions {
@@ -30,12 +30,12 @@ struct PlannerOptions {
 
   /// Reads the object and says so while it does.
   /// @throws TimeUp  the deadline came.
-  [[nodiscard]] ObjectFile ReadObjectFile(const Deadline& deadline = {}) const;
+  [[nodiscard]] object::ObjectFile ReadObjectFile(const Deadline& deadline = {}) const;
 
   /// What the options ask for, on an object; start and goal are left open.
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
   ///                     plain roadmap takes, and no clusters.
-  [[nodiscard]] PlanRequest RequestFor(const Object& object) const;
+  [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;
 
   /// Bytes that a graph may take: UsableMemory, or any number with --force.
   [[nodiscard]] double memory() const;
@@ -43,4 +43,4 @@ struct PlannerOptions {
   void CheckMemory(const MemoryNeed& need) const;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

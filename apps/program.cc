@@ -12,7 +12,7 @@
 #include "planner/base/error.h"
 #include "planner/base/text_table.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -97,4 +97,4 @@ int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::func
   });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

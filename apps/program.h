@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// What a program's exit says.
 enum ExitCode : int {
@@ -36,4 +36,4 @@ int RunGuarded(const std::string& program, const std::function<int()>& run);
 /// Prints "name: message" as exactly one line on standard error, whatever bytes the message has.
 void PrintMessage(const std::string& program, std::string_view message);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -9,7 +9,7 @@
 #include "apps/program.h"
 #include "planner/base/text_table.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -43,4 +43,4 @@ void ProgressLog::Report(std::string_view text) {
   last_ = now_();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

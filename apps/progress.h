@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// One line of progress on standard error that each report overwrites. Shown only when standard
 /// error is a terminal and the user did not ask for quiet; cleared at the end.
@@ -50,4 +50,4 @@ class ProgressLog {
   Clock::time_point last_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

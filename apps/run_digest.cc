@@ -10,7 +10,7 @@
 #include "planner/base/json.h"
 #include "sim/scene/engine.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
   return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

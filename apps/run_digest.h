@@ -5,7 +5,7 @@
 #include "apps/validate_options.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The object of a plan: `options.object_path`, or the file in that folder that the plan names.
 /// @throws InputError  the folder has no such file.
@@ -25,4 +25,4 @@ struct RunInputs {
 /// other option that is given. Two runs with the same digest write the same bytes.
 [[nodiscard]] std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -7,6 +7,7 @@
 #include "apps/validate_run.h"
 
 int main(int argc, char** argv) {
+  using namespace regrasp::apps;
   using namespace regrasp;
   CLI::App app(
       "Checks a regrasp plan, a library of plans or a single grasp analytically, replays it in "

@@ -23,7 +23,7 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -244,4 +244,4 @@ int RunBatch(const ValidateOptions& options) {
   return exit_code;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

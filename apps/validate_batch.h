@@ -2,7 +2,7 @@
 
 #include "apps/validate_options.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// Validates each of many plans in a process of its own, into a folder of its own, and writes and
 /// prints a summary of all. What goes wrong with one plan stops no other.
@@ -14,4 +14,4 @@ namespace regrasp {
 /// @throws EnvironmentError  no processes, a folder that cannot be written.
 [[nodiscard]] int RunBatch(const ValidateOptions& options);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

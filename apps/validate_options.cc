@@ -11,7 +11,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -287,4 +287,4 @@ std::filesystem::path ValidateOptions::Folder() const {
   return parent / (name.empty() ? fs::path("batch") : name);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

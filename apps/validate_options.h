@@ -13,7 +13,7 @@
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// The program's name, before its messages.
 inline constexpr char kValidateName[] = "validate";
@@ -66,4 +66,4 @@ struct ValidateOptions {
   [[nodiscard]] std::filesystem::path Folder() const;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

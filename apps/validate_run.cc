@@ -25,7 +25,7 @@
 #include "report/report.h"
 #include "sim/replay/trajectory.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -34,17 +34,17 @@ constexpr double kSampleInterval_s = 5e-4;
 
 /// What the files on the command line ask for.
 struct Task {
-  ObjectFile object;
+  object::ObjectFile object;
   std::string file_text;              ///< of the plan or of the grasp
-  Plan plan;                          ///< of a grasp: without steps
-  Grasp grasp;                        ///< empty for a plan
+  plan::Plan plan;                    ///< of a grasp: without steps
+  grasp::Grasp grasp;                 ///< empty for a plan
   std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
 };
 
 /// States of the replay, as far as someone asked for them.
 struct Samples {
-  std::vector<Snapshot> trajectory;
-  std::vector<Snapshot> animation;
+  std::vector<plan::Snapshot> trajectory;
+  std::vector<plan::Snapshot> animation;
 };
 
 OutputFiles OutputsOf(const ValidateOptions& options) {
@@ -68,16 +68,16 @@ void CheckOutputs(const ValidateOptions& options) {
 }
 
 /// The object is read first, where the plan is not needed to find it.
-void ReadPlanTask(const ValidateOptions& options, const Reading& reading, Task& task) {
+void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading, Task& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
-  if (!named_by_plan) task.object = ReadObject(options.object_path, reading);
+  if (!named_by_plan) task.object = object::ReadObject(options.object_path, reading);
   task.file_text = ReadFile(options.plan_path);
-  task.plan = ParsePlan(task.file_text, options.plan_path);
+  task.plan = plan::ParsePlan(task.file_text, options.plan_path);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
   if (named_by_plan) {
     CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
-    task.object = ReadObject(object_path, reading);
+    task.object = object::ReadObject(object_path, reading);
   }
   CheckPlanFits(task.plan, task.object,
                 {options.plan_path, object_path, options.allow_object_change, options.scale});
@@ -85,12 +85,12 @@ void ReadPlanTask(const ValidateOptions& options, const Reading& reading, Task& 
 
 Task ReadTask(const ValidateOptions& options) {
   ProgressLine progress(options.quiet);
-  const Reading reading = {progress.reporter(), {}};
+  const object::Reading reading = {progress.reporter(), {}};
   Task task;
   if (options.for_grasp()) {
-    task.object = ReadObject(options.object_path, reading);
+    task.object = object::ReadObject(options.object_path, reading);
     task.file_text = ReadFile(options.grasp_path);
-    task.grasp = ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
+    task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
     task.plan =
         report::MakeHoldPlan(*task.object.object, task.grasp,
                              options.friction.required_half_angle(), options.scale.value_or(1));
@@ -103,10 +103,11 @@ Task ReadTask(const ValidateOptions& options) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
   }
   if (options.replay.finger_radius) {
-    CheckFingerRadius(*task.object.object, *options.replay.finger_radius, "--finger-radius");
+    criteria::CheckFingerRadius(*task.object.object, *options.replay.finger_radius,
+                                "--finger-radius");
   } else if (task.plan.finger_radius) {
-    CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
-                      options.plan_path + ": /finger_radius");
+    criteria::CheckFingerRadius(*task.object.object, *task.plan.finger_radius,
+                                options.plan_path + ": /finger_radius");
   }
   return task;
 }
@@ -122,8 +123,8 @@ sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& p
   if (!trajectory && !animate) return observer;
   // How long a replay takes depends on the body: a moving picture is cut from all of its states.
   observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
-  observer.on_sample = [trajectory, animate, &samples](const Snapshot& snapshot) {
-    std::vector<Snapshot>& rows = samples.trajectory;
+  observer.on_sample = [trajectory, animate, &samples](const plan::Snapshot& snapshot) {
+    std::vector<plan::Snapshot>& rows = samples.trajectory;
     const bool due = rows.empty() || snapshot.time_s >= rows.back().time_s + kSampleInterval_s;
     if (trajectory && due) rows.push_back(snapshot);
     if (animate) samples.animation.push_back(snapshot);
@@ -134,29 +135,29 @@ sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& p
 /// What the analytic check is told besides the plan; it points to the grasps of the files.
 struct CheckTask {
   CheckTask(const ValidateOptions& options, const Task& task) {
-    const Object& object = *task.object.object;
+    const object::Object& object = *task.object.object;
     check.half_angle = options.friction.half_angle();
     check.finger_radius = options.replay.finger_radius;
     check.allow_undecided = options.allow_undecided;
     if (!options.start.empty()) {
-      start = ParseGrasp(task.start_text, options.start, object);
+      start = plan::ParseGrasp(task.start_text, options.start, object);
       check.start = &start;
     }
     if (!options.goal.empty()) {
-      goal = ParseGrasp(task.goal_text, options.goal, object);
+      goal = plan::ParseGrasp(task.goal_text, options.goal, object);
       check.goal = &goal;
     }
   }
   CheckTask(const CheckTask&) = delete;
   CheckTask& operator=(const CheckTask&) = delete;
 
-  Grasp start;
-  Grasp goal;
-  CheckOptions check;
+  grasp::Grasp start;
+  grasp::Grasp goal;
+  plan::CheckOptions check;
 };
 
 report::Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
-  const Object& object = *task.object.object;
+  const object::Object& object = *task.object.object;
   const CheckTask given(options, task);
   ProgressLine progress(options.quiet);
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
@@ -179,17 +180,17 @@ void AddTrials(const ValidateOptions& options, const Task& task, report::Report&
     progress.Report("trials: " + std::to_string(done) + " of " +
                     std::to_string(options.trials.count));
   };
-  const Object& object = *task.object.object;
+  const object::Object& object = *task.object.object;
   sim::ReplayOptions replay = options.replay;
   replay.half_angle = report.half_angle;
-  report.trials = sim::RunTrials(object, LocatePlan(object, task.plan), replay, options.trials,
-                                 report.settings->fingertip_radius_m, tell);
+  report.trials = sim::RunTrials(object, plan::LocatePlan(object, task.plan), replay,
+                                 options.trials, report.settings->fingertip_radius_m, tell);
 }
 
 render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const Task& task) {
   render::FrameOptions frame = options.frame;
   if (!options.show_clusters) return frame;
-  const auto* solid = dynamic_cast<const Polyhedron*>(task.object.object.get());
+  const auto* solid = dynamic_cast<const object::Polyhedron*>(task.object.object.get());
   if (solid == nullptr || !task.plan.roadmap) {
     throw InputError("--show-clusters: " + options.InputPath() +
                      " was not made on a roadmap of clustered contact points");
@@ -214,7 +215,7 @@ std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Ta
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
                    const Task& task, const Samples& samples, const std::filesystem::path& folder,
                    report::Report& report) {
-  const Object& object = *task.object.object;
+  const object::Object& object = *task.object.object;
   std::vector<report::PagePicture> pictures;
   if (!options.no_frames) {
     ProgressLine progress(options.quiet);
@@ -267,10 +268,10 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
     WriteFile(options.trajectory, sim::FormatTrajectory(samples.trajectory));
   }
   if (!options.mjcf.empty()) {
-    const Object& object = *task.object.object;
+    const object::Object& object = *task.object.object;
     sim::ReplayOptions replay = options.replay;
     replay.half_angle = options.friction.half_angle();
-    WriteFile(options.mjcf, sim::SceneMjcf(object, LocatePlan(object, task.plan), replay));
+    WriteFile(options.mjcf, sim::SceneMjcf(object, plan::LocatePlan(object, task.plan), replay));
   }
   CheckPictures(folder.path(), report);
   report.run->files = DigestFiles(folder.path(), names);
@@ -286,7 +287,7 @@ int RunValidation(const ValidateOptions& options) {
   const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
-  const Object& object = *task.object.object;
+  const object::Object& object = *task.object.object;
   Samples samples;
   report::Report report = Check(options, task, samples);
   report.object_file = task.object.file;
@@ -300,7 +301,7 @@ int RunValidation(const ValidateOptions& options) {
                                             options.goal.empty() ? "" : Sha256(task.goal_text)}),
                         {}};
   AddTrials(options, task, report);
-  if (options.certificates) report::AddProofs(LocatePlan(object, task.plan), report);
+  if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
@@ -309,4 +310,4 @@ int RunValidation(const ValidateOptions& options) {
   return report.passed() ? kExitDone : kExitNegative;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

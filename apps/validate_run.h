@@ -2,7 +2,7 @@
 
 #include "apps/validate_options.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// Validates one plan (`plan_path`) or grasp as the options say: reads, checks, replays, draws,
 /// writes the files, and prints the table.
@@ -13,4 +13,4 @@ namespace regrasp {
 /// @throws EnvironmentError  no rendering context, a folder that cannot be written.
 [[nodiscard]] int RunValidation(const ValidateOptions& options);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

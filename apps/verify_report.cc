@@ -10,47 +10,47 @@
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
-using Kind = ProofVerdict::Kind;
+using Kind = motion::ProofVerdict::Kind;
 
 /// Half-angles this near each other, radians, are one that was written in degrees and read again.
 constexpr double kSameFriction = 1e-12;
 
-void ExpectDigest(const JsonReader& json, const std::string& sha256, const char* what) {
-  const JsonReader digest = json.Member("sha256");
+void ExpectDigest(const plan::JsonReader& json, const std::string& sha256, const char* what) {
+  const plan::JsonReader digest = json.Member("sha256");
   if (digest.String() != sha256) {
     digest.Fail(std::string("the report is about another ") + what + ", " + digest.Quoted());
   }
 }
 
 /// The proofs of the first entries; what follows a failed one has none.
-std::vector<EntryProof> ReadProofs(const JsonReader& steps, int dimension) {
-  std::vector<EntryProof> proofs;
-  for (const JsonReader& step : steps.Elements()) {
+std::vector<certificate::EntryProof> ReadProofs(const plan::JsonReader& steps, int dimension) {
+  std::vector<certificate::EntryProof> proofs;
+  for (const plan::JsonReader& step : steps.Elements()) {
     if (!step.Has("proof")) break;
-    proofs.push_back(ReadEntryProof(step.Member("proof"), dimension));
+    proofs.push_back(certificate::ReadEntryProof(step.Member("proof"), dimension));
   }
   if (proofs.empty()) steps.Fail("holds no proofs; validate --certificates writes them");
   return proofs;
 }
 
-std::string Describe(const ProofVerdict& verdict) {
+std::string Describe(const motion::ProofVerdict& verdict) {
   if (verdict.kind == Kind::kForceClosure) return "proved";
   if (verdict.kind == Kind::kNotForceClosure) return "refuted";
   return "not proved: " + verdict.why;
 }
 
 /// What is not as docs/formats.md asks for, apart from force closure; empty where nothing is.
-std::string FaultOf(const StepCheck& check) {
+std::string FaultOf(const plan::StepCheck& check) {
   if (check.skipped) return "not checked: an entry before it is at fault";
-  if (check.reason == Reason::kNone) return "";
-  return "at fault: " + std::string(ReasonName(check.reason)) + ": " + check.detail;
+  if (check.reason == plan::Reason::kNone) return "";
+  return "at fault: " + std::string(plan::ReasonName(check.reason)) + ": " + check.detail;
 }
 
-std::string DescribeProofs(const EntryVerdict& entry) {
+std::string DescribeProofs(const certificate::EntryVerdict& entry) {
   std::string text = Describe(entry.rest);
   for (std::size_t k = 0; k < entry.ways.size(); ++k) {
     text += (k == 0 ? "; ways " : ", ") + Describe(entry.ways[k]);
@@ -59,7 +59,7 @@ std::string DescribeProofs(const EntryVerdict& entry) {
 }
 
 /// Proofs say nothing of another friction: with more of it they hold too often.
-void ExpectFriction(const JsonReader& json, double half_angle) {
+void ExpectFriction(const plan::JsonReader& json, double half_angle) {
   const double degrees = json.Number();
   if (std::abs(Radians(degrees) - half_angle) <= kSameFriction) return;
   json.Fail("the report is about the friction half-angle " + FormatShort(degrees) +
@@ -68,13 +68,14 @@ void ExpectFriction(const JsonReader& json, double half_angle) {
             "°; give --friction-angle where the report was made with it");
 }
 
-std::string Summary(const std::vector<StepCheck>& checks, std::size_t proved, double half_angle) {
+std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,
+                    double half_angle) {
   const std::string entries = std::to_string(checks.size());
   std::string text = std::to_string(proved) + " of " + entries +
                      " entries proved force closure in exact arithmetic, friction half-angle " +
                      FormatShort(Degrees(half_angle)) + "°\n";
   const auto fault = std::ranges::find_if(
-      checks, [](const StepCheck& check) { return check.reason != Reason::kNone; });
+      checks, [](const plan::StepCheck& check) { return check.reason != plan::Reason::kNone; });
   if (fault != checks.end()) {
     return text + "not proved: the plan is at fault in entry " + std::to_string(fault->index) +
            "\n";
@@ -89,32 +90,33 @@ std::string Summary(const std::vector<StepCheck>& checks, std::size_t proved, do
 
 ReportVerification VerifyReport(std::string_view text, const std::string& name,
                                 const ReportSubject& subject) {
-  const Plan& plan = subject.plan;
+  const plan::Plan& plan = subject.plan;
   const Json json = ParseJson(text, name);
-  const JsonReader root(json, name);
+  const plan::JsonReader root(json, name);
   root.ExpectFormat("regrasp-report");
   ExpectDigest(root.Member("object"), subject.object_sha256, "object");
   ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
   const double half_angle = subject.check.half_angle.value_or(plan.half_angle);
   ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), half_angle);
-  const JsonReader steps = root.Member("steps");
-  const std::vector<EntryProof> proofs = ReadProofs(steps, plan.dimension);
+  const plan::JsonReader steps = root.Member("steps");
+  const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
   const std::size_t entries = plan.steps.size() + 1;
   if (proofs.size() > entries) steps.Fail("has more entries than the plan");
 
-  CheckOptions options = subject.check;
+  plan::CheckOptions options = subject.check;
   options.judge_force_closure = false;
-  const PlanCheck check = CheckPlan(subject.object, plan, options);
+  const plan::PlanCheck check = plan::CheckPlan(subject.object, plan, options);
   ReportVerification verification;
   std::size_t proved = 0;
-  for (const EntryVerdict& entry : CheckPlanProofs(check.located, std::tan(half_angle), proofs)) {
+  for (const certificate::EntryVerdict& entry :
+       certificate::CheckPlanProofs(check.located, std::tan(half_angle), proofs)) {
     const std::string fault = FaultOf(check.steps[entry.index]);
     verification.text += std::to_string(entry.index) + " " + entry.kind + "  " +
                          (fault.empty() ? DescribeProofs(entry) : fault) + "\n";
     proved += fault.empty() && entry.proved() ? 1 : 0;
   }
   for (std::size_t i = proofs.size(); i < entries; ++i) {
-    const StepCheck& entry = check.steps[i];
+    const plan::StepCheck& entry = check.steps[i];
     const std::string fault = FaultOf(entry);
     verification.text += std::to_string(i) + " " + entry.kind + "  " +
                          (fault.empty() ? "not proved: the report holds no proof of it" : fault) +
@@ -125,4 +127,4 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   return verification;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -7,7 +7,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// A plan, checked as CheckPlan does in all but force closure, and the proofs of that in a report,
 /// checked in exact rational arithmetic against plan and object.
@@ -18,11 +18,12 @@ struct ReportVerification {
 
 /// What a report must be about.
 struct ReportSubject {
-  const Object& object;
+  const object::Object& object;
   std::string object_sha256;  ///< of the object file's bytes
-  const Plan& plan;
+  const plan::Plan& plan;
   std::string plan_sha256;  ///< of the plan file's bytes
-  CheckOptions check = {};  ///< friction, fingers, start and goal where they are not the plan's
+  plan::CheckOptions check =
+      {};  ///< friction, fingers, start and goal where they are not the plan's
 };
 
 /// @param text  of the report.
@@ -32,4 +33,4 @@ struct ReportSubject {
 [[nodiscard]] ReportVerification VerifyReport(std::string_view text, const std::string& name,
                                               const ReportSubject& subject);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -40,13 +40,13 @@ constexpr double kBadFriction = 0.9;
 constexpr std::array kSpatialFrictions = {20.0, 40.0};  // degrees
 constexpr std::array kPlanarFrictions = {15.0, 35.0};
 
-using PlanFinder = std::function<PlanResult(std::uint64_t seed)>;
+using PlanFinder = std::function<planning::PlanResult(std::uint64_t seed)>;
 
 /// One align as a plan of its own.
 struct AlignCase {
-  const Object* object;
+  const object::Object* object;
   std::string body;
-  Plan plan;
+  plan::Plan plan;
   double required = 0;  ///< half-angle, radians
 };
 
@@ -54,7 +54,7 @@ struct Outcome {
   std::string body;
   bool passed = false;
   bool held = false;  ///< the hold before the align passed
-  Reason reason = Reason::kNone;
+  plan::Reason reason = plan::Reason::kNone;
   double drift = 0;  ///< over D, as slip
   double slip = 0;
   double milliseconds = 0;
@@ -62,35 +62,35 @@ struct Outcome {
 };
 
 /// Adds the aligns of a plan in which a finger moves.
-void AddAligns(const Object& object, const std::string& body, const Plan& plan,
+void AddAligns(const object::Object& object, const std::string& body, const plan::Plan& plan,
                std::vector<AlignCase>& cases) {
-  const PlanCheck check = CheckPlan(object, plan);
-  FingerGrasp before = check.located.initial;
+  const plan::PlanCheck check = plan::CheckPlan(object, plan);
+  plan::FingerGrasp before = check.located.initial;
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    const Step& step = check.located.steps[i];
-    if (const auto* align = std::get_if<Align>(&step); align && check.steps[i + 1].required) {
+    const plan::Step& step = check.located.steps[i];
+    if (const auto* align = std::get_if<plan::Align>(&step); align && check.steps[i + 1].required) {
       AlignCase found{&object, body, check.located, check.steps[i + 1].required->upper};
       found.plan.initial = before;
       found.plan.steps = {*align};
       cases.push_back(std::move(found));
     }
-    before = GraspAfter(before, step);
+    before = plan::GraspAfter(before, step);
   }
 }
 
 /// Aligns of plans between random grasps, from the seeds 0, 1, … on.
-void CollectAligns(const ObjectFile& file, const PlanFinder& find, std::size_t count,
+void CollectAligns(const object::ObjectFile& file, const PlanFinder& find, std::size_t count,
                    std::vector<AlignCase>& cases) {
   constexpr std::uint64_t kMostSeeds = 1000;
   const std::size_t wanted = cases.size() + count;
   for (std::uint64_t seed = 0; seed < kMostSeeds && cases.size() < wanted; ++seed) {
-    const PlanResult result = find(seed);
+    const planning::PlanResult result = find(seed);
     if (result.plan) AddAligns(*file.object, file.file, *result.plan, cases);
   }
   cases.resize(std::min(cases.size(), wanted));
 }
 
-const GraspChoice kAny = {GraspChoice::Kind::kRandom, {}, "random"};
+const planning::GraspChoice kAny = {planning::GraspChoice::Kind::kRandom, {}, "random"};
 
 Outcome Replay(const AlignCase& align, sim::AlignChoice choice, double half_angle) {
   sim::ReplayOptions options;
@@ -103,7 +103,7 @@ Outcome Replay(const AlignCase& align, sim::AlignChoice choice, double half_angl
   Outcome outcome;
   outcome.body = align.body;
   outcome.held = result.steps.size() == 2;
-  outcome.passed = outcome.held && last.reason == Reason::kNone;
+  outcome.passed = outcome.held && last.reason == plan::Reason::kNone;
   outcome.reason = last.reason;
   outcome.drift = last.drift_m / result.settings.diameter_m;
   outcome.slip = last.slip_m / result.settings.diameter_m;
@@ -179,7 +179,7 @@ struct Table {
                   const std::vector<Outcome>& outcomes) {
     for (const Outcome& o : outcomes) {
       samples += name + "," + o.body + "," + friction + "," + (o.passed ? "pass" : "fail") + "," +
-                 std::string(ReasonName(o.reason)) + "," + FormatShort(o.drift, 3) + "," +
+                 std::string(plan::ReasonName(o.reason)) + "," + FormatShort(o.drift, 3) + "," +
                  FormatShort(o.slip, 3) + "," + FormatFixed(o.milliseconds, 1) + "," +
                  FormatFixed(o.shares.slid, 3) + "\n";
     }
@@ -188,40 +188,41 @@ struct Table {
 
 /// Some of the models.
 struct Bodies {
-  std::vector<ObjectFile> files;
+  std::vector<object::ObjectFile> files;
 
   Bodies(const std::filesystem::path& folder, const std::vector<const char*>& names) {
-    for (const char* name : names) files.push_back(ReadObject(folder / name));
+    for (const char* name : names) files.push_back(object::ReadObject(folder / name));
   }
 };
 
 /// Plans between random grasps by a planner, one for each seed. Both outlive what is returned.
-std::function<PlanResult(std::uint64_t)> PlansOf(const Planner& planner, const ObjectFile& file,
-                                                 double half_angle) {
+std::function<planning::PlanResult(std::uint64_t)> PlansOf(const planning::Planner& planner,
+                                                           const object::ObjectFile& file,
+                                                           double half_angle) {
   return [&planner, &file, half_angle](std::uint64_t seed) {
-    return Solve(planner, {.object = file.object.get(),
-                           .start = kAny,
-                           .goal = kAny,
-                           .criteria = {.half_angle = half_angle},
-                           .seed = seed});
+    return planning::Solve(planner, {.object = file.object.get(),
+                                     .start = kAny,
+                                     .goal = kAny,
+                                     .criteria = {.half_angle = half_angle},
+                                     .seed = seed});
   };
 }
 
 std::vector<AlignCase> PolyhedronAligns(const Bodies& bodies, double half_angle, std::size_t each) {
   std::vector<AlignCase> cases;
-  for (const ObjectFile& file : bodies.files) {
-    const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
-    polyhedron::PolyhedronGraph graph(solid, half_angle, Spanning::kAdaptive);
+  for (const object::ObjectFile& file : bodies.files) {
+    const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
+    polyhedron::PolyhedronGraph graph(solid, half_angle, planning::Spanning::kAdaptive);
     const polyhedron::PolyhedronPlanner planner(&graph);
     CollectAligns(file, PlansOf(planner, file, half_angle), each, cases);
   }
   return cases;
 }
 
-std::vector<AlignCase> PlanarAligns(const Planner& planner, const Bodies& bodies, double half_angle,
-                                    std::size_t each) {
+std::vector<AlignCase> PlanarAligns(const planning::Planner& planner, const Bodies& bodies,
+                                    double half_angle, std::size_t each) {
   std::vector<AlignCase> cases;
-  for (const ObjectFile& file : bodies.files) {
+  for (const object::ObjectFile& file : bodies.files) {
     CollectAligns(file, PlansOf(planner, file, half_angle), each, cases);
   }
   return cases;
@@ -229,8 +230,8 @@ std::vector<AlignCase> PlanarAligns(const Planner& planner, const Bodies& bodies
 
 std::vector<AlignCase> TightAligns(const Bodies& bodies, double half_angle, int each) {
   std::vector<AlignCase> cases;
-  for (const ObjectFile& file : bodies.files) {
-    for (const Plan& plan : DrawTightAligns(*file.object, half_angle, each, 2026)) {
+  for (const object::ObjectFile& file : bodies.files) {
+    for (const plan::Plan& plan : DrawTightAligns(*file.object, half_angle, each, 2026)) {
       AddAligns(*file.object, file.file, plan, cases);
     }
   }

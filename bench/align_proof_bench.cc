@@ -46,9 +46,9 @@ double ProcessorMicroseconds() {
 /// Points spread evenly over the surface, or over a face.
 class SurfaceDraw {
  public:
-  explicit SurfaceDraw(const Polyhedron& solid) : solid_(solid) {
+  explicit SurfaceDraw(const object::Polyhedron& solid) : solid_(solid) {
     std::vector<double> areas;
-    for (const Polyhedron::Face& face : solid.faces()) {
+    for (const object::Polyhedron::Face& face : solid.faces()) {
       areas.push_back(face.area);
       std::vector<double> parts;
       for (const int triangle : face.triangles) parts.push_back(Doubled(triangle).norm());
@@ -57,8 +57,8 @@ class SurfaceDraw {
     faces_ = std::discrete_distribution<int>(areas.begin(), areas.end());
   }
 
-  Contact Draw() { return DrawOn(faces_(engine_)); }
-  Contact DrawOn(int face) {
+  grasp::Contact Draw() { return DrawOn(faces_(engine_)); }
+  grasp::Contact DrawOn(int face) {
     const int triangle = solid_.faces()[face].triangles[triangles_[face](engine_)];
     std::uniform_real_distribution<double> uniform(0, 1);
     double a = uniform(engine_);
@@ -81,39 +81,40 @@ class SurfaceDraw {
         .cross(Corner(triangle, 2) - Corner(triangle, 0));
   }
 
-  const Polyhedron& solid_;
+  const object::Polyhedron& solid_;
   std::mt19937_64 engine_{2026};
   std::discrete_distribution<int> faces_;
   std::vector<std::discrete_distribution<int>> triangles_;
 };
 
 struct Segment {
-  Grasp from;
-  Grasp to;
-  GraspMotion motion;
+  grasp::Grasp from;
+  grasp::Grasp to;
+  motion::GraspMotion motion;
 };
 
-std::optional<Segment> SegmentBetween(const Polyhedron& solid, const Grasp& from, const Grasp& to) {
+std::optional<Segment> SegmentBetween(const object::Polyhedron& solid, const grasp::Grasp& from,
+                                      const grasp::Grasp& to) {
   Segment segment{from, to, {}};
   for (int i = 0; i < kContacts; ++i) {
-    if (FindMotionFault(solid, from[i], to[i])) return std::nullopt;
+    if (plan::FindMotionFault(solid, from[i], to[i])) return std::nullopt;
     segment.motion.emplace_back(from[i], to[i]);
   }
   return segment;
 }
 
-std::vector<Segment> DrawSegments(const Polyhedron& solid, double half_angle) {
+std::vector<Segment> DrawSegments(const object::Polyhedron& solid, double half_angle) {
   SurfaceDraw draw(solid);
-  const WrenchFrame frame = solid.wrench_frame();
+  const object::WrenchFrame frame = solid.wrench_frame();
   std::vector<Segment> segments;
   while (segments.size() < kSegments) {
-    Grasp from;
+    grasp::Grasp from;
     for (int i = 0; i < kContacts; ++i) from.push_back(draw.Draw());
-    if (!IsForceClosure(from, frame, half_angle)) continue;
+    if (!grasp::IsForceClosure(from, frame, half_angle)) continue;
     for (int tries = 0; tries < kPartnerDraws; ++tries) {
-      Grasp to;
-      for (const Contact& contact : from) to.push_back(draw.DrawOn(contact.face));
-      if (!IsForceClosure(to, frame, half_angle)) continue;
+      grasp::Grasp to;
+      for (const grasp::Contact& contact : from) to.push_back(draw.DrawOn(contact.face));
+      if (!grasp::IsForceClosure(to, frame, half_angle)) continue;
       auto segment = SegmentBetween(solid, from, to);
       if (!segment) continue;
       segments.push_back(std::move(*segment));
@@ -124,7 +125,7 @@ std::vector<Segment> DrawSegments(const Polyhedron& solid, double half_angle) {
 }
 
 /// The contacts of a whole segment in a frame that moves with their centre.
-MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
+motion::MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
   Vector3d start = Vector3d::Zero();
   Vector3d end = Vector3d::Zero();
   for (int i = 0; i < kContacts; ++i) {
@@ -135,7 +136,7 @@ MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
   for (int i = 0; i < kContacts; ++i) {
     radius = std::max({radius, (segment.from[i].p - start).norm(), (segment.to[i].p - end).norm()});
   }
-  MovingContacts contacts;
+  motion::MovingContacts contacts;
   for (int i = 0; i < kContacts; ++i) {
     const Eigen::Vector3d from = (segment.from[i].p - start) / radius;
     const Eigen::Vector3d to = (segment.to[i].p - end) / radius;
@@ -171,8 +172,9 @@ Outcome Measure(const std::vector<Segment>& segments, const Prove& prove) {
 template <int kDegree>
 Outcome MeasureOnePiece(const std::vector<Segment>& segments, double half_angle) {
   return Measure(segments, [&](const Segment& segment) {
-    MovingForces<kDegree> forces;
-    return FindMovingForces<3, kDegree>(MovingContactsOf(segment, half_angle), forces) ? 1 : 0;
+    motion::MovingForces<kDegree> forces;
+    return motion::FindMovingForces<3, kDegree>(MovingContactsOf(segment, half_angle), forces) ? 1
+                                                                                               : 0;
   });
 }
 
@@ -180,10 +182,10 @@ Outcome MeasureOnePiece(const std::vector<Segment>& segments, double half_angle)
 int CountRefused(const std::vector<Segment>& segments, double half_angle) {
   int refused = 0;
   for (const Segment& segment : segments) {
-    const auto pieces = FindMotionProof(segment.motion, 3, half_angle);
+    const auto pieces = motion::FindMotionProof(segment.motion, 3, half_angle);
     if (!pieces) continue;
     const double mu = std::tan(half_angle);
-    refused += CheckMotionProof(segment.from, segment.to, 3, mu, *pieces).proves() ? 0 : 1;
+    refused += motion::CheckMotionProof(segment.from, segment.to, 3, mu, *pieces).proves() ? 0 : 1;
   }
   return refused;
 }
@@ -191,18 +193,19 @@ int CountRefused(const std::vector<Segment>& segments, double half_angle) {
 double Each(double sum, int count) { return count > 0 ? sum / count : 0; }
 
 void PrintRow(const std::string& body, double degrees) {
-  const ObjectFile file = ReadObject(std::string(REGRASP_MODELS "/") + body + ".obj");
-  const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
-  const WrenchFrame frame = solid.wrench_frame();
+  const object::ObjectFile file =
+      object::ReadObject(std::string(REGRASP_MODELS "/") + body + ".obj");
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
+  const object::WrenchFrame frame = solid.wrench_frame();
   const double half_angle = Radians(degrees);
   const std::vector<Segment> segments = DrawSegments(solid, half_angle);
   const Outcome truth = Measure(segments, [&](const Segment& segment) {
-    return DecidePathForceClosure(segment.motion, frame, half_angle).holds() ? 1 : 0;
+    return motion::DecidePathForceClosure(segment.motion, frame, half_angle).holds() ? 1 : 0;
   });
   const Outcome first = MeasureOnePiece<1>(segments, half_angle);
   const Outcome second = MeasureOnePiece<2>(segments, half_angle);
   const Outcome halved = Measure(segments, [&](const Segment& segment) {
-    const auto pieces = FindMotionProof(segment.motion, 3, half_angle);
+    const auto pieces = motion::FindMotionProof(segment.motion, 3, half_angle);
     return pieces ? static_cast<int>(pieces->size()) : 0;
   });
   const auto share = [&](const Outcome& outcome) {

@@ -28,11 +28,11 @@ namespace {
 /// Of every grasp that the planner contour takes.
 constexpr int kContourContacts = 2;
 
-PlanRequest RequestFor(const Object& object, const ContestSetting& setting, const GraspPair& pair,
-                       std::uint64_t seed) {
+planning::PlanRequest RequestFor(const object::Object& object, const ContestSetting& setting,
+                                 const GraspPair& pair, std::uint64_t seed) {
   return {.object = &object,
-          .start = {GraspChoice::Kind::kGiven, pair.start, "start"},
-          .goal = {GraspChoice::Kind::kGiven, pair.goal, "goal"},
+          .start = {planning::GraspChoice::Kind::kGiven, pair.start, "start"},
+          .goal = {planning::GraspChoice::Kind::kGiven, pair.goal, "goal"},
           .criteria = {setting.half_angle, setting.min_quality},
           .seed = seed};
 }
@@ -45,7 +45,7 @@ Answer Timed(const Ask& ask) {
   try {
     answer.result = ask();
   } catch (const InputError& error) {
-    answer.result.status = PlanResult::Status::kNoGrasp;
+    answer.result.status = planning::PlanResult::Status::kNoGrasp;
     answer.result.message = error.what();
   }
   answer.seconds = ProcessorSeconds() - begin;
@@ -53,9 +53,10 @@ Answer Timed(const Ask& ask) {
 }
 
 /// By a planner of the registry, which builds what it needs for each query.
-Contender Whole(const Planner& planner, const Object& object, const ContestSetting& setting) {
+Contender Whole(const planning::Planner& planner, const object::Object& object,
+                const ContestSetting& setting) {
   const auto ask = [&planner, &object, setting](const GraspPair& pair, std::uint64_t seed) {
-    return Timed([&] { return Solve(planner, RequestFor(object, setting, pair, seed)); });
+    return Timed([&] { return planning::Solve(planner, RequestFor(object, setting, pair, seed)); });
   };
   return {planner.name(), "", 0, ask};
 }
@@ -66,51 +67,53 @@ Contender Absent(std::string planner, std::string why) {
 
 /// The stages of TreePlanner up to the first sequence. What the plan is worth is found out after
 /// the clock has stopped.
-Contender GeneralSearch(const Object& object, const ContestSetting& setting) {
-  const auto source = std::make_shared<const SurfaceSampler>(object);
+Contender GeneralSearch(const object::Object& object, const ContestSetting& setting) {
+  const auto source = std::make_shared<const sampling::SurfaceSampler>(object);
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
     tree::SearchSpace space(object, {setting.half_angle, setting.min_quality});
     space.SetLimits({.most_tests = tree::TreePlanner::kDefaultEffort});
-    const ContactSet from = space.Add(pair.start);
-    const ContactSet to = space.Add(pair.goal);
+    const criteria::ContactSet from = space.Add(pair.start);
+    const criteria::ContactSet to = space.Add(pair.goal);
     space.Accept(from);
     space.Accept(to);
     auto path = tree::SearchOwnSubsets(from, to, space);
     if (!path) path = tree::BidirectionalTree(from, to, *source, random, space).Join();
     Answer answer;
     answer.seconds = ProcessorSeconds() - begin;
-    answer.result.status = PlanResult::Status::kNoSequence;
+    answer.result.status = planning::PlanResult::Status::kNoSequence;
     if (path) {
-      PlanRequest request = RequestFor(object, setting, pair, seed);
+      planning::PlanRequest request = RequestFor(object, setting, pair, seed);
       request.hand.fingers = space.fingers();
-      const GraspEvaluator evaluator(object, request.criteria);
-      answer.result = ResultOf(tree::MakeCandidate(*path, pair.start, space), evaluator, kGeneral,
-                               request, pair.goal);
+      const criteria::GraspEvaluator evaluator(object, request.criteria);
+      answer.result = planning::ResultOf(tree::MakeCandidate(*path, pair.start, space), evaluator,
+                                         kGeneral, request, pair.goal);
     }
     return answer;
   };
   return {"general (search only)", "", 0, ask};
 }
 
-Contender OnPolyhedron(const Polyhedron& solid, const ContestSetting& setting) {
+Contender OnPolyhedron(const object::Polyhedron& solid, const ContestSetting& setting) {
   if (solid.face_count() > kMostGraphFaces) {
     return Absent("polyhedron", std::to_string(solid.face_count()) + " faces");
   }
   const bool uniform = setting.half_angle <= kMostUniform;
   const double begin = ProcessorSeconds();
   const auto graph = std::make_shared<polyhedron::PolyhedronGraph>(
-      solid, setting.half_angle, uniform ? Spanning::kUniform : Spanning::kAdaptive);
+      solid, setting.half_angle,
+      uniform ? planning::Spanning::kUniform : planning::Spanning::kAdaptive);
   const double seconds = ProcessorSeconds() - begin;
   if (graph->vertex_count() == 0) {
     return Absent("polyhedron", uniform ? "no focus cell (uniform)" : "no focus cell (adaptive)");
   }
   const auto ask = [&solid, setting, graph](const GraspPair& pair, std::uint64_t seed) {
-    PlanRequest request = RequestFor(solid, setting, pair, seed);
-    request.spanning =
-        setting.half_angle <= kMostUniform ? Spanning::kUniform : Spanning::kAdaptive;
-    return Timed([&] { return Solve(polyhedron::PolyhedronPlanner(graph.get()), request); });
+    planning::PlanRequest request = RequestFor(solid, setting, pair, seed);
+    request.spanning = setting.half_angle <= kMostUniform ? planning::Spanning::kUniform
+                                                          : planning::Spanning::kAdaptive;
+    return Timed(
+        [&] { return planning::Solve(polyhedron::PolyhedronPlanner(graph.get()), request); });
   };
   return {"polyhedron", "", seconds, ask};
 }
@@ -124,10 +127,12 @@ double ProcessorSeconds() {
   return static_cast<double>(now.tv_sec) + kNanosecond * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<Contender> MakeContenders(const Object& object, const ContestSetting& setting) {
-  const auto whole = [&](const char* name) { return Whole(*FindPlanner(name), object, setting); };
+std::vector<Contender> MakeContenders(const object::Object& object, const ContestSetting& setting) {
+  const auto whole = [&](const char* name) {
+    return Whole(*registry::FindPlanner(name), object, setting);
+  };
   std::vector<Contender> contenders = {whole(kGeneral), GeneralSearch(object, setting)};
-  if (const auto* solid = dynamic_cast<const Polyhedron*>(&object)) {
+  if (const auto* solid = dynamic_cast<const object::Polyhedron*>(&object)) {
     contenders.push_back(OnPolyhedron(*solid, setting));
     contenders.push_back(whole("roadmap"));
   } else {

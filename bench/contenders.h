@@ -12,8 +12,8 @@
 namespace regrasp {
 
 struct GraspPair {
-  Grasp start;
-  Grasp goal;
+  grasp::Grasp start;
+  grasp::Grasp goal;
 };
 
 /// What planners are compared at.
@@ -29,7 +29,7 @@ struct ContestSetting {
 [[nodiscard]] double ProcessorSeconds();
 
 struct Answer {
-  PlanResult result;
+  planning::PlanResult result;
   double seconds = 0;  ///< processor time
 };
 
@@ -50,7 +50,7 @@ inline constexpr char kGeneral[] = "general";
 /// up to kMostUniform and adaptive above, and roadmap in the size that it chooses itself; in the
 /// plane polygon, and contour where all grasps have two contacts.
 /// @param object  outlives what is returned.
-[[nodiscard]] std::vector<Contender> MakeContenders(const Object& object,
+[[nodiscard]] std::vector<Contender> MakeContenders(const object::Object& object,
                                                     const ContestSetting& setting);
 
 inline constexpr int kMostGraphFaces = 50;

@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::uint64_t kDrawSeed = 1;
 
-std::optional<Grasp> Draw(const Object& object, const ContestSetting& setting,
-                          const GraspEvaluator& evaluator, RandomStream& random) {
-  const ContactLimits contacts = {setting.fewest_contacts, setting.most_contacts};
+std::optional<grasp::Grasp> Draw(const object::Object& object, const ContestSetting& setting,
+                                 const criteria::GraspEvaluator& evaluator, RandomStream& random) {
+  const sampling::ContactLimits contacts = {setting.fewest_contacts, setting.most_contacts};
   try {
-    return DrawOnSurface(object, contacts, evaluator, random, "");
-  } catch (const NoGrasp&) {
+    return sampling::DrawOnSurface(object, contacts, evaluator, random, "");
+  } catch (const sampling::NoGrasp&) {
     return std::nullopt;
   }
 }
@@ -26,7 +26,7 @@ std::optional<Grasp> Draw(const Object& object, const ContestSetting& setting,
 PairAnswer AnswerOf(const Answer& answer, double diameter) {
   PairAnswer of_pair;
   of_pair.seconds = answer.seconds;
-  const std::optional<Plan>& plan = answer.result.plan;
+  const std::optional<plan::Plan>& plan = answer.result.plan;
   if (!plan) return of_pair;
   of_pair.joined = true;
   of_pair.steps = static_cast<int>(plan->steps.size());
@@ -45,9 +45,9 @@ int Standing::JoinedOf(std::size_t pairs) const {
       std::count_if(answers.begin(), end, [](const PairAnswer& answer) { return answer.joined; }));
 }
 
-std::vector<GraspPair> DrawPairs(const Object& object, const ContestSetting& setting,
+std::vector<GraspPair> DrawPairs(const object::Object& object, const ContestSetting& setting,
                                  const ContestLimits& limits) {
-  const GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
+  const criteria::GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
   RandomStream of_start(kDrawSeed, RandomUse::kStart);
   RandomStream of_goal(kDrawSeed, RandomUse::kGoal);
   std::vector<GraspPair> pairs;
@@ -62,7 +62,7 @@ std::vector<GraspPair> DrawPairs(const Object& object, const ContestSetting& set
   return pairs;
 }
 
-Contest RunContest(const Object& object, const std::vector<GraspPair>& pairs,
+Contest RunContest(const object::Object& object, const std::vector<GraspPair>& pairs,
                    const std::vector<Contender>& contenders, double seconds) {
   Contest contest;
   contest.pairs = static_cast<int>(pairs.size());

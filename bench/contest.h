@@ -45,11 +45,12 @@ struct Contest {
 
 /// Random force-closure grasps, evenly over the surface: as many pairs as there are and time
 /// allows.
-[[nodiscard]] std::vector<GraspPair> DrawPairs(const Object& object, const ContestSetting& setting,
+[[nodiscard]] std::vector<GraspPair> DrawPairs(const object::Object& object,
+                                               const ContestSetting& setting,
                                                const ContestLimits& limits);
 
 /// Puts the same pairs to contenders. Pair i has the seed i.
-[[nodiscard]] Contest RunContest(const Object& object, const std::vector<GraspPair>& pairs,
+[[nodiscard]] Contest RunContest(const object::Object& object, const std::vector<GraspPair>& pairs,
                                  const std::vector<Contender>& contenders, double seconds);
 
 /// The first planner that joins more pairs than general, of those that both were asked.

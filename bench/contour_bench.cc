@@ -36,7 +36,7 @@ constexpr std::uint64_t kSeed = 1;
 
 /// A smooth simple outline about the origin: seven waves of seeded heights and phases, five to
 /// eleven around, between them no more than 0.45 of the radius.
-Polygon LobedOutline(int edges) {
+object::Polygon LobedOutline(int edges) {
   constexpr int kWaves = 7;
   constexpr int kFirstWave = 5;
   constexpr double kHeight = 0.45;
@@ -56,7 +56,7 @@ Polygon LobedOutline(int edges) {
     }
     ring.emplace_back(r * std::cos(angle), r * std::sin(angle));
   }
-  return Polygon::FromRings({ring}, "lobed outline");
+  return object::Polygon::FromRings({ring}, "lobed outline");
 }
 
 /// Graphs of one polygon: what was found, and the fastest times.
@@ -70,7 +70,7 @@ struct Timed {
   double edge_ms = std::numeric_limits<double>::infinity();
 };
 
-Timed TimeGraph(const Polygon& polygon, double degrees, int runs) {
+Timed TimeGraph(const object::Polygon& polygon, double degrees, int runs) {
   constexpr double kMilliseconds = 1e3;
   Timed timed;
   for (int run = 0; run < runs; ++run) {
@@ -87,7 +87,7 @@ Timed TimeGraph(const Polygon& polygon, double degrees, int runs) {
 }
 
 /// The L-infinity Voronoi diagrams of all sets, one run.
-double TimeDiagrams(const Polygon& polygon, double degrees) {
+double TimeDiagrams(const object::Polygon& polygon, double degrees) {
   const contour::ContourGraph graph(polygon, Radians(degrees));
   const auto start = std::chrono::steady_clock::now();
   for (int set = 0; set < graph.vertex_count(); ++set) {
@@ -97,7 +97,7 @@ double TimeDiagrams(const Polygon& polygon, double degrees) {
   return time.count();
 }
 
-void PrintModel(const std::string& name, const Polygon& polygon) {
+void PrintModel(const std::string& name, const object::Polygon& polygon) {
   for (const double degrees : kDegrees) {
     const Timed t = TimeGraph(polygon, degrees, kGraphRuns);
     std::printf("%-18s %5d %4g %10lld %10lld %7d %7lld %5d %10.2f %10.2f %12.0f\n", name.c_str(),
@@ -120,13 +120,13 @@ void PrintModels() {
   }
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) {
-    const ObjectFile model = ReadObject(file);
+    const object::ObjectFile model = object::ReadObject(file);
     if (model.object->face_count() < kManyEdges) continue;
-    PrintModel(file.stem().string(), dynamic_cast<const Polygon&>(*model.object));
+    PrintModel(file.stem().string(), dynamic_cast<const object::Polygon&>(*model.object));
   }
 }
 
-void CompareWithUnion(const Polygon& polygon, double degrees) {
+void CompareWithUnion(const object::Polygon& polygon, double degrees) {
   const Timed timed = TimeGraph(polygon, degrees, kGraphRuns);
   const contour::ContourGraph graph(polygon, Radians(degrees));
   const PieceOutlines outlines = MakePieceOutlines(graph);
@@ -161,7 +161,7 @@ void PrintGrowth(double degrees) {
 }
 
 void TimeWholeGraph(benchmark::State& state) {
-  const Polygon polygon = LobedOutline(kOutlineEdges);
+  const object::Polygon polygon = LobedOutline(kOutlineEdges);
   const double half_angle = Radians(static_cast<double>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(contour::ContourGraph(polygon, half_angle));
 }

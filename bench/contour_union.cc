@@ -86,8 +86,8 @@ int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines
     const int b = ComponentOf(outlines.outlines[after->second], components);
     if (a >= 0 && b >= 0) glued.push_back({a, b});
   }
-  return FindComponents(static_cast<int>(components.size()), static_cast<int>(glued.size()),
-                        [&](int group) { return std::span<const int>(glued[group]); })
+  return search::FindComponents(static_cast<int>(components.size()), static_cast<int>(glued.size()),
+                                [&](int group) { return std::span<const int>(glued[group]); })
       .count();
 }
 

@@ -48,31 +48,32 @@ constexpr double kFirstQuality = 0.03;
 class Body {
  public:
   explicit Body(const std::filesystem::path& path)
-      : name_(path.stem().string()), file_(ReadObject(path)), source_(*file_.object) {}
+      : name_(path.stem().string()), file_(object::ReadObject(path)), source_(*file_.object) {}
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const Object& object() const { return *file_.object; }
+  [[nodiscard]] const object::Object& object() const { return *file_.object; }
   /// Contacts drawn evenly over the surface where a fingertip has room.
-  [[nodiscard]] const SurfaceSampler& source() const { return source_; }
+  [[nodiscard]] const sampling::SurfaceSampler& source() const { return source_; }
   [[nodiscard]] bool planar() const { return object().dimension() == 2; }
   [[nodiscard]] int hold() const { return planar() ? 3 : 4; }
 
-  [[nodiscard]] Grasp DrawGrasp(RandomStream& random) const {
-    Grasp grasp;
+  [[nodiscard]] grasp::Grasp DrawGrasp(RandomStream& random) const {
+    grasp::Grasp grasp;
     for (int i = 0; i < hold(); ++i) grasp.push_back(source_.Draw(random));
     return grasp;
   }
 
  private:
   std::string name_;
-  ObjectFile file_;
-  SurfaceSampler source_;
+  object::ObjectFile file_;
+  sampling::SurfaceSampler source_;
 };
 
 /// The smallest μ at which a grasp is force closure, where it is one that is worth a replay.
-std::optional<double> CriticalFriction(const Body& body, const Grasp& grasp) {
-  if (!IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical)) return std::nullopt;
-  const auto required = ComputeRequiredHalfAngle(grasp, body.object().wrench_frame());
+std::optional<double> CriticalFriction(const Body& body, const grasp::Grasp& grasp) {
+  if (!grasp::IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical))
+    return std::nullopt;
+  const auto required = grasp::ComputeRequiredHalfAngle(grasp, body.object().wrench_frame());
   if (!required || required->upper > kMostCritical || required->upper < kLeastCritical) {
     return std::nullopt;
   }
@@ -80,32 +81,33 @@ std::optional<double> CriticalFriction(const Body& body, const Grasp& grasp) {
 }
 
 /// A plan that holds the grasp.
-Plan PlanOf(const Body& body, const Grasp& initial, double half_angle) {
-  Plan plan;
+plan::Plan PlanOf(const Body& body, const grasp::Grasp& initial, double half_angle) {
+  plan::Plan plan;
   plan.dimension = body.object().dimension();
   plan.half_angle = half_angle;
   plan.fingers = body.hold() + 1;
-  for (const Contact& contact : initial) {
+  for (const grasp::Contact& contact : initial) {
     plan.initial.push_back({static_cast<int>(plan.initial.size()), contact});
   }
   plan.goal = initial;
   return plan;
 }
 
-Sample ExamineGrasp(const Body& body, const Plan& plan, const Grasp& judged, double ratio,
-                    const sim::ReplayOptions& options) {
+Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp& judged,
+                    double ratio, const sim::ReplayOptions& options) {
   const sim::ReplayResult result = sim::ReplayPlan(body.object(), plan, options);
   const sim::StepReplay& last = result.steps.back();
   Sample sample;
   sample.body = body.name();
   sample.ratio = ratio;
-  sample.quality = ComputeQuality(judged, body.object().wrench_frame(), plan.half_angle).lower;
+  sample.quality =
+      grasp::ComputeQuality(judged, body.object().wrench_frame(), plan.half_angle).lower;
   const bool complete = result.steps.size() == plan.steps.size() + 1;
-  sample.passed = complete && last.reason == Reason::kNone;
-  sample.reason = ReasonName(last.reason);
+  sample.passed = complete && last.reason == plan::Reason::kNone;
+  sample.reason = plan::ReasonName(last.reason);
   if (last.fixed) {
-    sample.passed_fixed = complete && last.fixed->reason == Reason::kNone;
-    sample.reason_fixed = ReasonName(last.fixed->reason);
+    sample.passed_fixed = complete && last.fixed->reason == plan::Reason::kNone;
+    sample.reason_fixed = plan::ReasonName(last.fixed->reason);
     sample.give = last.fixed->give_m / result.settings.diameter_m;
   }
   sample.displacement =
@@ -122,11 +124,11 @@ std::vector<Sample> ExamineHolds(const Body& body, int count, std::uint64_t seed
   RandomStream random(seed, RandomUse::kStart);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
-    const Grasp grasp = body.DrawGrasp(random);
+    const grasp::Grasp grasp = body.DrawGrasp(random);
     const auto critical = CriticalFriction(body, grasp);
     if (!critical) continue;
     const double ratio = DrawRatio(random);
-    const Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
+    const plan::Plan plan = PlanOf(body, grasp, std::atan(ratio * *critical));
     samples.push_back(ExamineGrasp(body, plan, grasp, ratio, options));
   }
   return samples;
@@ -138,17 +140,18 @@ std::vector<Sample> ExamineSwitches(const Body& body, int count, std::uint64_t s
   RandomStream random(seed, RandomUse::kGoal);
   std::vector<Sample> samples;
   while (static_cast<int>(samples.size()) < count) {
-    const Grasp first = body.DrawGrasp(random);
-    Grasp second = first;
+    const grasp::Grasp first = body.DrawGrasp(random);
+    grasp::Grasp second = first;
     second.erase(second.begin());
     second.push_back(body.source().Draw(random));
     const auto critical = CriticalFriction(body, second);
     if (!critical) continue;
     const double ratio = DrawRatio(random);
     const double half_angle = std::atan(ratio * *critical);
-    if (!QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality)) continue;
-    Plan plan = PlanOf(body, first, half_angle);
-    plan.steps.push_back(Switch{{{body.hold(), second.back()}}, {0}});
+    if (!grasp::QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality))
+      continue;
+    plan::Plan plan = PlanOf(body, first, half_angle);
+    plan.steps.push_back(plan::Switch{{{body.hold(), second.back()}}, {0}});
     plan.goal = second;
     samples.push_back(ExamineGrasp(body, plan, second, ratio, options));
   }

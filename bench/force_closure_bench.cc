@@ -27,10 +27,10 @@ constexpr int kContacts = 4;
 constexpr int kGrasps = 2000;
 constexpr int kHullGrasps = 100;  // Qhull takes milliseconds each
 constexpr std::array kDegrees{10.0, 20.0};
-const WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
+const object::WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
 
 /// Half of the points on a ball with normals up to 17° off, half on a box.
-Contact RandomContact(std::mt19937_64& engine, bool box) {
+grasp::Contact RandomContact(std::mt19937_64& engine, bool box) {
   std::normal_distribution<double> normal;
   const auto direction = [&] {
     return Eigen::Vector3d(normal(engine), normal(engine), normal(engine)).normalized();
@@ -40,7 +40,7 @@ Contact RandomContact(std::mt19937_64& engine, bool box) {
     return {p, (-p + 0.3 * direction()).normalized()};
   }
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Contact contact{{uniform(engine), uniform(engine), uniform(engine)}, {0, 0, 0}};
+  grasp::Contact contact{{uniform(engine), uniform(engine), uniform(engine)}, {0, 0, 0}};
   const int axis = std::uniform_int_distribution<int>(0, 2)(engine);
   const double side = uniform(engine) < 0 ? -1 : 1;
   contact.p[axis] = side;
@@ -48,10 +48,10 @@ Contact RandomContact(std::mt19937_64& engine, bool box) {
   return contact;
 }
 
-const std::vector<Grasp>& Grasps() {
-  static const std::vector<Grasp> grasps = [] {
+const std::vector<grasp::Grasp>& Grasps() {
+  static const std::vector<grasp::Grasp> grasps = [] {
     std::mt19937_64 engine(2026);
-    std::vector<Grasp> result(kGrasps);
+    std::vector<grasp::Grasp> result(kGrasps);
     for (int g = 0; g < kGrasps; ++g) {
       for (int i = 0; i < kContacts; ++i) result[g].push_back(RandomContact(engine, g % 2 == 0));
     }
@@ -60,23 +60,23 @@ const std::vector<Grasp>& Grasps() {
   return grasps;
 }
 
-bool GlpkForceClosure(const Grasp& grasp, double half_angle) {
+bool GlpkForceClosure(const grasp::Grasp& grasp, double half_angle) {
   return PyramidForceClosure(grasp, half_angle);
 }
 
-bool QhullForceClosure(const Grasp& grasp, double half_angle) {
-  const ConvexHull hull = ComputeConvexHull(WrenchesOfPyramids(grasp, half_angle));
-  for (const HullFacet& facet : hull.facets) {
+bool QhullForceClosure(const grasp::Grasp& grasp, double half_angle) {
+  const grasp::ConvexHull hull = grasp::ComputeConvexHull(WrenchesOfPyramids(grasp, half_angle));
+  for (const grasp::HullFacet& facet : hull.facets) {
     if (facet.offset <= hull.joggle) return false;
   }
   return true;
 }
 
-bool ExactForceClosure(const Grasp& grasp, double half_angle) {
-  return IsForceClosure(grasp, kFrame, half_angle);
+bool ExactForceClosure(const grasp::Grasp& grasp, double half_angle) {
+  return grasp::IsForceClosure(grasp, kFrame, half_angle);
 }
 
-template <bool (*kTest)(const Grasp&, double), int kCount>
+template <bool (*kTest)(const grasp::Grasp&, double), int kCount>
 void Time(benchmark::State& state) {
   const double half_angle = Radians(kDegrees[state.range(0)]);
   const auto& grasps = Grasps();
@@ -91,7 +91,7 @@ void Time(benchmark::State& state) {
 void TimeRequired(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(ComputeRequiredHalfAngle(Grasps()[next], kFrame));
+    benchmark::DoNotOptimize(grasp::ComputeRequiredHalfAngle(Grasps()[next], kFrame));
     next = (next + 1) % kGrasps;
   }
 }
@@ -99,11 +99,11 @@ void TimeRequired(benchmark::State& state) {
 /// All 4-subsets of `range(0)` points on a ball.
 void TimeSubsets(benchmark::State& state) {
   std::mt19937_64 engine(7);
-  Grasp points;
+  grasp::Grasp points;
   for (int i = 0; i < state.range(0); ++i) points.push_back(RandomContact(engine, false));
-  SubsetCounts counts;
+  grasp::SubsetCounts counts;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(ForceClosureSubsets(points, kFrame, Radians(10), &counts));
+    benchmark::DoNotOptimize(grasp::ForceClosureSubsets(points, kFrame, Radians(10), &counts));
   }
   state.counters["subsets"] = static_cast<double>(counts.subsets);
   state.counters["by_simplex"] = static_cast<double>(counts.by_simplex);
@@ -133,7 +133,7 @@ void CompareVerdicts(double degrees) {
   int neither = 0;
   int only_cone = 0;
   int only_pyramid = 0;
-  for (const Grasp& grasp : Grasps()) {
+  for (const grasp::Grasp& grasp : Grasps()) {
     const bool cone = ExactForceClosure(grasp, half_angle);
     const bool pyramid = GlpkForceClosure(grasp, half_angle);
     ++(cone ? (pyramid ? both : only_cone) : (pyramid ? only_pyramid : neither));
@@ -147,12 +147,12 @@ void CompareVerdicts(double degrees) {
       "%g degrees, %d grasps: both yes %d, both no %d, cone only %d (the inscribed pyramid is "
       "smaller), pyramid only %d (must be 0); Qhull differs from GLPK on %d of %d\n",
       degrees, kGrasps, both, neither, only_cone, only_pyramid, hull_differs, kHullGrasps);
-  const double exact =
-      MicrosecondsEach(kGrasps, [&](const Grasp& g) { return ExactForceClosure(g, half_angle); });
-  const double glpk =
-      MicrosecondsEach(kGrasps, [&](const Grasp& g) { return GlpkForceClosure(g, half_angle); });
+  const double exact = MicrosecondsEach(
+      kGrasps, [&](const grasp::Grasp& g) { return ExactForceClosure(g, half_angle); });
+  const double glpk = MicrosecondsEach(
+      kGrasps, [&](const grasp::Grasp& g) { return GlpkForceClosure(g, half_angle); });
   const double qhull = MicrosecondsEach(
-      kHullGrasps, [&](const Grasp& g) { return QhullForceClosure(g, half_angle); });
+      kHullGrasps, [&](const grasp::Grasp& g) { return QhullForceClosure(g, half_angle); });
   std::printf("  exact cones %.3f us; GLPK %.1f us, %.0f times; Qhull %.0f us, %.0f times\n", exact,
               glpk, glpk / exact, qhull, qhull / exact);
 }

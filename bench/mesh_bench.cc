@@ -27,14 +27,14 @@ constexpr std::uint64_t kSeed = 1;
 constexpr std::array kBodies = {"ellipsoid1000", "flask1000", "mug1000",
                                 "spanner1000",   "star1000",  "duck1000"};
 
-const Polyhedron& Body(std::int64_t index) {
-  static std::map<std::int64_t, ObjectFile> files;
+const object::Polyhedron& Body(std::int64_t index) {
+  static std::map<std::int64_t, object::ObjectFile> files;
   const auto [entry, is_new] = files.try_emplace(index);
   if (is_new) {
-    entry->second = ReadObject(std::filesystem::path(REGRASP_MODELS) /
-                               (kBodies.at(index) + std::string(".obj")));
+    entry->second = object::ReadObject(std::filesystem::path(REGRASP_MODELS) /
+                                       (kBodies.at(index) + std::string(".obj")));
   }
-  return dynamic_cast<const Polyhedron&>(*entry->second.object);
+  return dynamic_cast<const object::Polyhedron&>(*entry->second.object);
 }
 
 roadmap::ClusteredRoadmapOptions Options(int clusters) {
@@ -55,9 +55,10 @@ const roadmap::ClusteredRoadmap& RoadmapOf(std::int64_t index, int clusters) {
 
 /// Affinities, embedding, k-means and representatives of a thousand contact points.
 void BM_Cluster(benchmark::State& state) {
-  const Polyhedron& solid = Body(state.range(0));
+  const object::Polyhedron& solid = Body(state.range(0));
   const int clusters = static_cast<int>(state.range(1));
-  const std::vector<Contact> contacts = RoadmapOf(state.range(0), clusters).clusters.contacts();
+  const std::vector<grasp::Contact> contacts =
+      RoadmapOf(state.range(0), clusters).clusters.contacts();
   for (auto _ : state) {
     benchmark::DoNotOptimize(
         roadmap::ContactClusters(contacts, solid.wrench_frame(), Radians(kDegrees), clusters, 0));
@@ -70,10 +71,10 @@ void BM_Cluster(benchmark::State& state) {
 void BM_Subsets(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
-  SubsetCounts counts;
+  grasp::SubsetCounts counts;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        ForceClosureSubsets(roadmap.roadmap.points(), roadmap.frame, roadmap.half_angle, &counts));
+    benchmark::DoNotOptimize(grasp::ForceClosureSubsets(roadmap.roadmap.points(), roadmap.frame,
+                                                        roadmap.half_angle, &counts));
   }
   state.SetLabel(kBodies.at(state.range(0)));
   state.counters["subsets"] = static_cast<double>(counts.subsets);
@@ -88,13 +89,13 @@ void BM_Subsets(benchmark::State& state) {
 void BM_SubsetsByGlpk(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
-  const std::vector<Contact>& points = roadmap.roadmap.points();
+  const std::vector<grasp::Contact>& points = roadmap.roadmap.points();
   RandomStream random(kSeed, RandomUse::kStart);
   std::int64_t asked = 0;
   for (auto _ : state) {
-    Grasp grasp;
+    grasp::Grasp grasp;
     for (int i = 0; i < 4; ++i) {
-      Contact contact = points[random.Index(points.size())];
+      grasp::Contact contact = points[random.Index(points.size())];
       contact.p = (contact.p - roadmap.frame.origin) / roadmap.frame.radius;
       grasp.push_back(contact);
     }
@@ -110,7 +111,7 @@ void BM_SubsetsByGlpk(benchmark::State& state) {
 void BM_Queries(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
-  const double same_point = kSamePoint * Body(state.range(0)).diameter();
+  const double same_point = criteria::kSamePoint * Body(state.range(0)).diameter();
   double seconds = 0;
   double longest = 0;
   double joined = 0;
@@ -133,7 +134,7 @@ void BM_Queries(benchmark::State& state) {
 
 /// A large roadmap, and the most memory that the program has had in use by then.
 void BM_LargeRoadmap(benchmark::State& state) {
-  const Polyhedron& solid = Body(state.range(0));
+  const object::Polyhedron& solid = Body(state.range(0));
   for (auto _ : state) {
     const roadmap::ClusteredRoadmap roadmap(solid, Options(static_cast<int>(state.range(1))));
     state.counters["vertices"] = roadmap.roadmap.vertex_count();

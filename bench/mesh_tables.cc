@@ -158,9 +158,9 @@ class Tables {
 
   bool Fill(const Setting& setting, int table) {
     const std::string name = setting.body + std::to_string(setting.triangles) + ".obj";
-    const ObjectFile file = ReadObject(models_ / name);
-    const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
-    const double same_point = kSamePoint * solid.diameter();
+    const object::ObjectFile file = object::ReadObject(models_ / name);
+    const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
+    const double same_point = criteria::kSamePoint * solid.diameter();
     roadmap::ClusteredRoadmapOptions options;
     options.half_angle = Radians(kDegrees);
     options.clusters = setting.clusters;

@@ -8,19 +8,19 @@ namespace regrasp {
 
 namespace {
 
-const FingerContact& ContactOf(int finger, const FingerGrasp& grasp) {
-  const auto found = std::ranges::find(grasp, finger, &FingerContact::finger);
+const plan::FingerContact& ContactOf(int finger, const plan::FingerGrasp& grasp) {
+  const auto found = std::ranges::find(grasp, finger, &plan::FingerContact::finger);
   assert(found != grasp.end());
   return *found;
 }
 
-double TravelOf(const Switch& step, const FingerGrasp& before) {
+double TravelOf(const plan::Switch& step, const plan::FingerGrasp& before) {
   if (step.release.empty()) return 0;
   double way = 0;
-  for (const FingerContact& placed : step.place) {
+  for (const plan::FingerContact& placed : step.place) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const int finger : step.release) {
-      const Contact& left = ContactOf(finger, before).contact;
+      const grasp::Contact& left = ContactOf(finger, before).contact;
       nearest = std::min(nearest, (left.p - placed.contact.p).norm());
     }
     way += nearest;
@@ -28,10 +28,10 @@ double TravelOf(const Switch& step, const FingerGrasp& before) {
   return way;
 }
 
-double TravelOf(const Align& step) {
+double TravelOf(const plan::Align& step) {
   double way = 0;
   for (std::size_t i = 1; i < step.waypoints.size(); ++i) {
-    for (const FingerContact& to : step.waypoints[i]) {
+    for (const plan::FingerContact& to : step.waypoints[i]) {
       way += (ContactOf(to.finger, step.waypoints[i - 1]).contact.p - to.contact.p).norm();
     }
   }
@@ -40,18 +40,19 @@ double TravelOf(const Align& step) {
 
 }  // namespace
 
-int CountAligns(const Plan& plan) {
-  return static_cast<int>(std::ranges::count_if(
-      plan.steps, [](const Step& step) { return std::holds_alternative<Align>(step); }));
+int CountAligns(const plan::Plan& plan) {
+  return static_cast<int>(std::ranges::count_if(plan.steps, [](const plan::Step& step) {
+    return std::holds_alternative<plan::Align>(step);
+  }));
 }
 
-double TravelOf(const Plan& plan) {
+double TravelOf(const plan::Plan& plan) {
   double way = 0;
-  FingerGrasp holding = plan.initial;
-  for (const Step& step : plan.steps) {
-    const auto* change = std::get_if<Switch>(&step);
-    way += change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<Align>(step));
-    holding = GraspAfter(holding, step);
+  plan::FingerGrasp holding = plan.initial;
+  for (const plan::Step& step : plan.steps) {
+    const auto* change = std::get_if<plan::Switch>(&step);
+    way += change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<plan::Align>(step));
+    holding = plan::GraspAfter(holding, step);
   }
   return way;
 }

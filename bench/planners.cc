@@ -116,7 +116,7 @@ class Tables {
  public:
   explicit Tables(const ContestLimits& limits) : limits_(limits) {}
 
-  void Fill(const std::string& name, const Object& object) {
+  void Fill(const std::string& name, const object::Object& object) {
     for (const double degrees : kFrictions) {
       if (object.dimension() == 3) {
         Add(name, object, {Radians(degrees), 0, 4, 4}, space_);
@@ -139,7 +139,7 @@ class Tables {
   [[nodiscard]] int better_count() const { return better_; }
 
  private:
-  void Add(const std::string& name, const Object& object, const ContestSetting& setting,
+  void Add(const std::string& name, const object::Object& object, const ContestSetting& setting,
            TableFile& table) {
     const std::vector<GraspPair> pairs = DrawPairs(object, setting, limits_);
     std::vector<Contender> contenders = MakeContenders(object, setting);
@@ -193,7 +193,7 @@ int Run(const Arguments& arguments) {
   if (names.empty()) names.assign(kModels.begin(), kModels.end());
   Tables tables(arguments.limits);
   for (const std::string& name : names) {
-    tables.Fill(name, *ReadObject(arguments.models / name).object);
+    tables.Fill(name, *object::ReadObject(arguments.models / name).object);
     tables.Write(arguments.folder);
   }
   std::printf("in %d of %d comparisons a planner joins more than general\n", tables.better_count(),

@@ -30,10 +30,10 @@ constexpr int kCellRuns = 3;
 /// Diameters of a few edges: no uniform cell of the model reaches it, so the count is the same.
 constexpr double kBenchReach = 0x1p10;
 
-const Polygon& Model() {
-  static const ObjectFile file =
-      ReadObject(std::filesystem::path(REGRASP_MODELS) / "polygon40.wkt");
-  return dynamic_cast<const Polygon&>(*file.object);
+const object::Polygon& Model() {
+  static const object::ObjectFile file =
+      object::ReadObject(std::filesystem::path(REGRASP_MODELS) / "polygon40.wkt");
+  return dynamic_cast<const object::Polygon&>(*file.object);
 }
 
 template <typename Work>
@@ -48,7 +48,7 @@ double FastestMilliseconds(int runs, const Work& work) {
   return fastest;
 }
 
-polygon::PolygonGraph Graph(const Polygon& polygon, Spanning spanning) {
+polygon::PolygonGraph Graph(const object::Polygon& polygon, planning::Spanning spanning) {
   return polygon::PolygonGraph(polygon, Radians(kDegrees), spanning);
 }
 
@@ -66,8 +66,8 @@ std::int64_t EdgeCount(const polygon::PolygonGraph& graph) {
   return count;
 }
 
-void CompareWithSetOperations(Spanning spanning) {
-  const bool uniform = spanning == Spanning::kUniform;
+void CompareWithSetOperations(planning::Spanning spanning) {
+  const bool uniform = spanning == planning::Spanning::kUniform;
   const auto candidates = uniform ? FindUniformCandidates(Model(), Radians(kDegrees))
                                   : FindAdaptiveCandidates(Model(), Radians(kDegrees));
   const double reach = uniform ? kBenchReach : kCellReach;
@@ -87,7 +87,7 @@ void CompareWithSetOperations(Spanning spanning) {
 }
 
 /// A simple polygon about the origin: shaken angles, radii anywhere between 0.6 and 1.
-Polygon IrregularPolygon(int edges) {
+object::Polygon IrregularPolygon(int edges) {
   std::mt19937_64 engine(edges);
   std::uniform_real_distribution<double> shake(-0.4, 0.4);
   std::uniform_real_distribution<double> radius(0.6, 1);
@@ -97,15 +97,15 @@ Polygon IrregularPolygon(int edges) {
     const double r = radius(engine);
     ring.emplace_back(r * std::cos(angle), r * std::sin(angle));
   }
-  return Polygon::FromRings({ring}, "irregular polygon");
+  return object::Polygon::FromRings({ring}, "irregular polygon");
 }
 
-void PrintGrowth(Spanning spanning) {
+void PrintGrowth(planning::Spanning spanning) {
   std::printf("%s\n%6s %10s %12s %12s %12s %12s %10s\n",
-              spanning == Spanning::kUniform ? "uniform" : "adaptive", "edges", "vertices",
-              "switches", "vertices ms", "switches ms", "us/vertex", "ns/switch");
+              spanning == planning::Spanning::kUniform ? "uniform" : "adaptive", "edges",
+              "vertices", "switches", "vertices ms", "switches ms", "us/vertex", "ns/switch");
   for (const int edges : {15, 20, 30, 40, 60, 80, 100, 150, 200}) {
-    const Polygon polygon = IrregularPolygon(edges);
+    const object::Polygon polygon = IrregularPolygon(edges);
     double vertices = std::numeric_limits<double>::infinity();
     double switches = vertices;
     int vertex_count = 0;
@@ -123,22 +123,26 @@ void PrintGrowth(Spanning spanning) {
   }
 }
 
-template <Spanning kSpanning>
+template <planning::Spanning kSpanning>
 void TimeGraph(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(Graph(Model(), kSpanning));
 }
-BENCHMARK(TimeGraph<Spanning::kUniform>)->Name("graph, uniform")->Unit(benchmark::kMillisecond);
-BENCHMARK(TimeGraph<Spanning::kAdaptive>)->Name("graph, adaptive")->Unit(benchmark::kMillisecond);
+BENCHMARK(TimeGraph<planning::Spanning::kUniform>)
+    ->Name("graph, uniform")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(TimeGraph<planning::Spanning::kAdaptive>)
+    ->Name("graph, adaptive")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::printf("polygon40.wkt at %g degrees\n", kDegrees);
-  CompareWithSetOperations(Spanning::kUniform);
-  CompareWithSetOperations(Spanning::kAdaptive);
+  CompareWithSetOperations(planning::Spanning::kUniform);
+  CompareWithSetOperations(planning::Spanning::kAdaptive);
   benchmark::RunSpecifiedBenchmarks();
-  PrintGrowth(Spanning::kUniform);
-  PrintGrowth(Spanning::kAdaptive);
+  PrintGrowth(planning::Spanning::kUniform);
+  PrintGrowth(planning::Spanning::kAdaptive);
   return 0;
 }

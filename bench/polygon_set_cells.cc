@@ -25,7 +25,7 @@ struct ExactEdge {
   ExactVector normal;  ///< inward, as long as `along`
 };
 
-ExactEdge MakeExactEdge(const Polygon& polygon, int edge) {
+ExactEdge MakeExactEdge(const object::Polygon& polygon, int edge) {
   const auto [a, b] = polygon.edge(edge);
   const ExactPoint pa(a.x(), a.y());
   const ExactPoint pb(b.x(), b.y());
@@ -46,7 +46,8 @@ bool GapIsSmall(const ExactVector& a, const ExactVector& b, const Number& tangen
 }
 
 /// A little below and above tan φ*, if doubles can tell.
-std::array<double, 2> GuessesOfLimit(const Polygon& polygon, const std::array<int, 3>& edges) {
+std::array<double, 2> GuessesOfLimit(const object::Polygon& polygon,
+                                     const std::array<int, 3>& edges) {
   std::array<double, 3> angles;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d n = polygon.inward_normal(edges[k]);
@@ -62,7 +63,8 @@ std::array<double, 2> GuessesOfLimit(const Polygon& polygon, const std::array<in
 
 /// tan φ*, rounded down to a double, of normals that positively span but not
 /// `too_large`-positively.
-double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges, double too_large) {
+double LimitTangent(const object::Polygon& polygon, const std::array<int, 3>& edges,
+                    double too_large) {
   // Positive doubles are ordered as their bits are.
   auto low = std::bit_cast<std::uint64_t>(0.0);
   auto high = std::bit_cast<std::uint64_t>(too_large);
@@ -79,7 +81,7 @@ double LimitTangent(const Polygon& polygon, const std::array<int, 3>& edges, dou
 }
 
 template <class Tangent>
-std::vector<SetCandidate> FindCandidates(const Polygon& polygon, const Tangent& tangent) {
+std::vector<SetCandidate> FindCandidates(const object::Polygon& polygon, const Tangent& tangent) {
   std::vector<SetCandidate> candidates;
   const int n = polygon.face_count();
   for (int i = 0; i < n; ++i) {
@@ -101,7 +103,7 @@ int CommonEdges(const std::array<int, 3>& a, const std::array<int, 3>& b) {
 
 }  // namespace
 
-bool NormalsSpan(const Polygon& polygon, const std::array<int, 3>& edges, double tangent,
+bool NormalsSpan(const object::Polygon& polygon, const std::array<int, 3>& edges, double tangent,
                  bool closed) {
   std::array<ExactVector, 3> n;
   for (int k = 0; k < 3; ++k) n[k] = MakeExactEdge(polygon, edges[k]).normal;
@@ -114,7 +116,7 @@ bool NormalsSpan(const Polygon& polygon, const std::array<int, 3>& edges, double
   return true;
 }
 
-std::vector<SetCandidate> FindUniformCandidates(const Polygon& polygon, double half_angle) {
+std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon, double half_angle) {
   const double tangent = std::tan(half_angle);
   return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
     if (!NormalsSpan(polygon, edges, tangent)) return std::nullopt;
@@ -122,7 +124,8 @@ std::vector<SetCandidate> FindUniformCandidates(const Polygon& polygon, double h
   });
 }
 
-std::vector<SetCandidate> FindAdaptiveCandidates(const Polygon& polygon, double half_angle) {
+std::vector<SetCandidate> FindAdaptiveCandidates(const object::Polygon& polygon,
+                                                 double half_angle) {
   const double tangent = std::tan(half_angle);
   return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
     if (!NormalsSpan(polygon, edges, 0)) return std::nullopt;
@@ -131,7 +134,7 @@ std::vector<SetCandidate> FindAdaptiveCandidates(const Polygon& polygon, double 
   });
 }
 
-CellSet SeeingEdge(const Polygon& polygon, int edge, double tangent, double reach) {
+CellSet SeeingEdge(const object::Polygon& polygon, int edge, double tangent, double reach) {
   const ExactEdge e = MakeExactEdge(polygon, edge);
   const Number t(tangent);
   const Number h(reach);
@@ -144,7 +147,7 @@ CellSet SeeingEdge(const Polygon& polygon, int edge, double tangent, double reac
   return CellSet(hexagon);
 }
 
-std::vector<SetCell> FindSetCells(const Polygon& polygon,
+std::vector<SetCell> FindSetCells(const object::Polygon& polygon,
                                   const std::vector<SetCandidate>& candidates, double reach) {
   std::map<std::pair<int, double>, CellSet> seeing;
   const auto see = [&](int edge, double t) -> const CellSet& {

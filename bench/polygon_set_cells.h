@@ -30,21 +30,22 @@ struct SetCandidate {
 
 /// The three inward normals φ-positively span the plane, tan φ = `tangent` >= 0: every gap between
 /// neighbouring normals is less than π − 2φ (for `closed`, at most). Exact.
-[[nodiscard]] bool NormalsSpan(const Polygon& polygon, const std::array<int, 3>& edges,
+[[nodiscard]] bool NormalsSpan(const object::Polygon& polygon, const std::array<int, 3>& edges,
                                double tangent, bool closed = false);
 
 /// The triples whose normals θ-positively span, with tan θ; in lexicographic order, as the next.
-[[nodiscard]] std::vector<SetCandidate> FindUniformCandidates(const Polygon& polygon,
+[[nodiscard]] std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon,
                                                               double half_angle);
 
 /// The triples whose normals positively span, with the smaller of tan θ and the largest double not
 /// above tan φ*.
-[[nodiscard]] std::vector<SetCandidate> FindAdaptiveCandidates(const Polygon& polygon,
+[[nodiscard]] std::vector<SetCandidate> FindAdaptiveCandidates(const object::Polygon& polygon,
                                                                double half_angle);
 
 /// What sees an edge inside its double-sided cones: a hexagon about the open edge. It ends at
 /// `reach` edge lengths from the edge's line.
-[[nodiscard]] CellSet SeeingEdge(const Polygon& polygon, int edge, double tangent, double reach);
+[[nodiscard]] CellSet SeeingEdge(const object::Polygon& polygon, int edge, double tangent,
+                                 double reach);
 
 /// How far is far enough for what the tests and the benchmark look at; over the length of an edge.
 inline constexpr double kCellReach = 0x1p40;
@@ -52,7 +53,7 @@ inline constexpr double kCellReach = 0x1p40;
 /// The components of the candidates' focus cells, in their order. What sees an edge is built once
 /// for each tangent, and what sees the first two edges of a triple is kept for the triples that
 /// follow.
-[[nodiscard]] std::vector<SetCell> FindSetCells(const Polygon& polygon,
+[[nodiscard]] std::vector<SetCell> FindSetCells(const object::Polygon& polygon,
                                                 const std::vector<SetCandidate>& candidates,
                                                 double reach = kCellReach);
 

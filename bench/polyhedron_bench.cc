@@ -44,7 +44,7 @@ constexpr double kNanosecondsPerMillisecond = 1e6;
 
 struct NamedSolid {
   std::string name;
-  Polyhedron solid;
+  object::Polyhedron solid;
 };
 
 /// Seeded bodies of 47 faces, and the models with as many or more.
@@ -57,9 +57,10 @@ std::vector<NamedSolid> Bodies() {
   }
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) {
-    const ObjectFile model = ReadObject(file);
+    const object::ObjectFile model = object::ReadObject(file);
     if (model.object->face_count() < kFaces) continue;
-    bodies.push_back({file.stem().string(), dynamic_cast<const Polyhedron&>(*model.object)});
+    bodies.push_back(
+        {file.stem().string(), dynamic_cast<const object::Polyhedron&>(*model.object)});
   }
   return bodies;
 }
@@ -83,7 +84,8 @@ double Mebibytes() {
   return static_cast<double>(info.uordblks + info.hblkhd) / kBytesPerMebibyte;
 }
 
-Timed TimeGraph(const Polyhedron& solid, double degrees, Spanning spanning, int runs) {
+Timed TimeGraph(const object::Polyhedron& solid, double degrees, planning::Spanning spanning,
+                int runs) {
   Timed timed;
   for (int run = 0; run < runs; ++run) {
     const double before = Mebibytes();
@@ -105,8 +107,8 @@ double NanosecondsPer(double milliseconds, std::int64_t count) {
          static_cast<double>(std::max<std::int64_t>(count, 1));
 }
 
-const char* NameOf(Spanning spanning) {
-  return spanning == Spanning::kUniform ? "uniform" : "adaptive";
+const char* NameOf(planning::Spanning spanning) {
+  return spanning == planning::Spanning::kUniform ? "uniform" : "adaptive";
 }
 
 void PrintHeader(const char* first) {
@@ -115,7 +117,7 @@ void PrintHeader(const char* first) {
               "ns/cand", "ns/cell", "ns/link");
 }
 
-void PrintGraph(const std::string& name, int faces, double degrees, Spanning spanning,
+void PrintGraph(const std::string& name, int faces, double degrees, planning::Spanning spanning,
                 const Timed& t) {
   std::printf("%-18s %5d %4g %-8s %10lld %8d %9lld %5d %7lld %9.2f %9.2f %9.0f %9.0f %9.0f",
               name.c_str(), faces, degrees, NameOf(spanning), static_cast<long long>(t.candidates),
@@ -129,7 +131,8 @@ void PrintBodies(const std::vector<NamedSolid>& bodies) {
   PrintHeader("body");
   std::printf("\n");
   for (const auto& [name, solid] : bodies) {
-    for (const Spanning spanning : {Spanning::kUniform, Spanning::kAdaptive}) {
+    for (const planning::Spanning spanning :
+         {planning::Spanning::kUniform, planning::Spanning::kAdaptive}) {
       PrintGraph(name, solid.face_count(), kDegrees, spanning,
                  TimeGraph(solid, kDegrees, spanning, kRuns));
       std::printf("\n");
@@ -138,11 +141,12 @@ void PrintBodies(const std::vector<NamedSolid>& bodies) {
 }
 
 /// Candidates of a body, some of them by the seed.
-std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const Polyhedron& solid, int most) {
+std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const object::Polyhedron& solid,
+                                                             int most) {
   std::vector<Vector3d> normals;
   for (int f = 0; f < solid.face_count(); ++f) normals.push_back(solid.inward_normal(f));
-  auto candidates =
-      polyhedron::FindQuadrupleCandidates(normals, std::tan(Radians(kDegrees)), Spanning::kUniform);
+  auto candidates = polyhedron::FindQuadrupleCandidates(normals, std::tan(Radians(kDegrees)),
+                                                        planning::Spanning::kUniform);
   std::mt19937_64 engine(kSeed);
   for (std::size_t i = candidates.size(); i > 1; --i) {
     std::swap(candidates[i - 1], candidates[engine() % i]);
@@ -160,7 +164,7 @@ double MillisecondsOf(const std::function<void()>& work) {
 
 /// Our own time for some candidates, a new finder each run: what it remembers of pairs is paid
 /// here.
-double TimeFinder(const Polyhedron& solid,
+double TimeFinder(const object::Polyhedron& solid,
                   const std::vector<polyhedron::QuadrupleCandidate>& candidates, int& cells) {
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
@@ -230,21 +234,22 @@ void PrintGrowth(double degrees, const Vector3d& stretch, const std::vector<int>
   PrintHeader(stretch == kRound ? "growth, round" : "growth, stretched");
   std::printf(" %9s\n", "MiB");
   for (const int faces : face_counts) {
-    const Polyhedron solid = MakeStone(faces, stretch, kSeed);
-    const Timed timed = TimeGraph(solid, degrees, Spanning::kUniform, kGrowthRuns);
-    PrintGraph("", faces, degrees, Spanning::kUniform, timed);
+    const object::Polyhedron solid = MakeStone(faces, stretch, kSeed);
+    const Timed timed = TimeGraph(solid, degrees, planning::Spanning::kUniform, kGrowthRuns);
+    PrintGraph("", faces, degrees, planning::Spanning::kUniform, timed);
     std::printf(" %9.1f\n", timed.mebibytes);
     std::fflush(stdout);
   }
 }
 
 void PrintQueries(const std::string& model) {
-  const ObjectFile file = ReadObject(std::filesystem::path(REGRASP_MODELS) / (model + ".obj"));
-  const auto& solid = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file =
+      object::ReadObject(std::filesystem::path(REGRASP_MODELS) / (model + ".obj"));
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
   std::printf("%-10s %4s %-8s %7s %8s %8s %8s %8s %9s %9s\n", "queries", "deg", "spanning",
               "queries", "no plan", "warning", "switches", "mean ms", "median ms", "most ms");
-  for (const auto& [degrees, spanning] :
-       {std::pair(10.0, Spanning::kUniform), std::pair(20.0, Spanning::kAdaptive)}) {
+  for (const auto& [degrees, spanning] : {std::pair(10.0, planning::Spanning::kUniform),
+                                          std::pair(20.0, planning::Spanning::kAdaptive)}) {
     const QueryTimes t = TimeQueries(solid, degrees, spanning, kQueries);
     std::printf("%-10s %4g %-8s %7d %8d %8d %8.1f %8.2f %9.2f %9.2f\n", model.c_str(), degrees,
                 NameOf(spanning), t.queries, t.without_plan, t.with_warning, t.mean_switches,
@@ -254,10 +259,10 @@ void PrintQueries(const std::string& model) {
 }
 
 void TimeWholeGraph(benchmark::State& state, const Vector3d& stretch) {
-  const Polyhedron solid = MakeStone(kFaces, stretch, kSeed);
+  const object::Polyhedron solid = MakeStone(kFaces, stretch, kSeed);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        polyhedron::PolyhedronGraph(solid, Radians(kDegrees), Spanning::kUniform));
+        polyhedron::PolyhedronGraph(solid, Radians(kDegrees), planning::Spanning::kUniform));
   }
 }
 BENCHMARK_CAPTURE(TimeWholeGraph, round, kRound)->Unit(benchmark::kMillisecond);

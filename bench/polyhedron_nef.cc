@@ -48,7 +48,7 @@ struct NefVolumes::Volumes {
   std::map<int, Nef> of_face;
 };
 
-NefVolumes::NefVolumes(const Polyhedron& solid, const polyhedron::FaceParts& parts,
+NefVolumes::NefVolumes(const object::Polyhedron& solid, const polyhedron::FaceParts& parts,
                        std::span<const int> faces, double tangent)
     : volumes_(std::make_unique<Volumes>()) {
   const double height = kHeight * solid.diameter();

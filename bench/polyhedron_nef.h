@@ -15,7 +15,7 @@ class NefVolumes {
  public:
   /// @param faces    whose volumes are made; each must be one part.
   /// @param tangent  of the friction half-angle.
-  NefVolumes(const Polyhedron& solid, const polyhedron::FaceParts& parts,
+  NefVolumes(const object::Polyhedron& solid, const polyhedron::FaceParts& parts,
              std::span<const int> faces, double tangent);
   ~NefVolumes();
 

@@ -19,7 +19,7 @@ namespace regrasp {
 
 namespace {
 
-using Kind = GraspChoice::Kind;
+using Kind = planning::GraspChoice::Kind;
 
 constexpr double kMillisecondsPerSecond = 1e3;
 
@@ -27,44 +27,46 @@ constexpr double kMillisecondsPerSecond = 1e3;
 class QueryMaker {
  public:
   QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::FocusGeometry& geometry,
-             const GraspEvaluator& evaluator)
+             const criteria::GraspEvaluator& evaluator)
       : graph_(graph),
         components_(graph.components()),
         geometry_(geometry),
         evaluator_(evaluator) {}
 
-  std::pair<GraspChoice, GraspChoice> Make(std::uint64_t seed) {
+  std::pair<planning::GraspChoice, planning::GraspChoice> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
-    const GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
+    const planning::GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
     std::set<int> cells;
     for (const polyhedron::FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
     return {start, Draw("goal", GoalPools(components_, cells), of_goal)};
   }
 
  private:
-  GraspChoice Draw(const std::string& name, const SamplingPools& pools, RandomStream& random) {
+  planning::GraspChoice Draw(const std::string& name, const SamplingPools& pools,
+                             RandomStream& random) {
     const auto draw = [&](int cell) {
       const auto grasp = geometry_.Draw(cell, random);
-      return grasp ? geometry_.GraspOf(*grasp) : Grasp();
+      return grasp ? geometry_.GraspOf(*grasp) : grasp::Grasp();
     };
-    GraspChoice choice{Kind::kGiven, {}, name};
+    planning::GraspChoice choice{Kind::kGiven, {}, name};
     choice.grasp = DrawFromSets(choice.name, pools, draw, evaluator_, random);
     return choice;
   }
 
   polyhedron::PolyhedronGraph& graph_;
-  Components components_;
+  search::Components components_;
   polyhedron::FocusGeometry& geometry_;
-  const GraspEvaluator& evaluator_;
+  const criteria::GraspEvaluator& evaluator_;
 };
 
 }  // namespace
 
-QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spanning, int queries) {
-  PlanRequest request = {
+QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees, planning::Spanning spanning,
+                       int queries) {
+  planning::PlanRequest request = {
       .object = &solid, .criteria = {.half_angle = Radians(degrees)}, .spanning = spanning};
-  const GraspEvaluator evaluator(solid, request.criteria);
+  const criteria::GraspEvaluator evaluator(solid, request.criteria);
   polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
   const polyhedron::PolyhedronPlanner planner(&graph);
   polyhedron::FocusGeometry geometry(solid, graph);
@@ -75,7 +77,7 @@ QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spannin
   for (int seed = 1; seed <= queries; ++seed) {
     std::tie(request.start, request.goal) = maker.Make(seed);
     const auto begin = std::chrono::steady_clock::now();
-    const PlanResult result = Solve(planner, request);
+    const planning::PlanResult result = planning::Solve(planner, request);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     milliseconds.push_back(kMillisecondsPerSecond * took.count());
     ++times.queries;
@@ -84,8 +86,10 @@ QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spannin
       continue;
     }
     if (!result.warnings.empty()) ++times.with_warning;
-    switches += static_cast<int>(std::ranges::count_if(
-        result.plan->steps, [](const Step& step) { return std::holds_alternative<Switch>(step); }));
+    switches +=
+        static_cast<int>(std::ranges::count_if(result.plan->steps, [](const plan::Step& step) {
+          return std::holds_alternative<plan::Switch>(step);
+        }));
   }
   std::ranges::sort(milliseconds);
   times.mean_switches = static_cast<double>(switches) / queries;

@@ -20,7 +20,7 @@ struct QueryTimes {
 };
 
 /// One query for each seed from 1 on: drawing start and goal is outside the time.
-[[nodiscard]] QueryTimes TimeQueries(const Polyhedron& solid, double degrees, Spanning spanning,
-                                     int queries);
+[[nodiscard]] QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees,
+                                     planning::Spanning spanning, int queries);
 
 }  // namespace regrasp

@@ -45,13 +45,13 @@ Vector3d ToEigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
-Polyhedron MakeStone(int faces, const Vector3d& stretch, unsigned seed) {
+object::Polyhedron MakeStone(int faces, const Vector3d& stretch, unsigned seed) {
   // Poles of the planes: the body's vertices are the facets of their hull, its faces the vertices.
   std::vector<Kernel::Point_3> poles;
   for (const Vector3d& n : SpreadNormals(faces, seed)) poles.emplace_back(n.x(), n.y(), n.z());
   Mesh hull;
   CGAL::convex_hull_3(poles.begin(), poles.end(), hull);
-  PolygonSoup soup;
+  object::PolygonSoup soup;
   std::vector<int> vertex_of(hull.number_of_faces());
   for (const Mesh::Face_index facet : hull.faces()) {
     Eigen::Matrix3d planes;
@@ -71,7 +71,7 @@ Polyhedron MakeStone(int faces, const Vector3d& stretch, unsigned seed) {
     std::ranges::reverse(corners);
     soup.facets.push_back(std::move(corners));
   }
-  return Polyhedron::FromSoup(soup, "stone");
+  return object::Polyhedron::FromSoup(soup, "stone");
 }
 
 }  // namespace regrasp

@@ -10,6 +10,7 @@ namespace regrasp {
 /// ball at points spread over it along a spiral and moved a little, by the seed; then stretched
 /// along the axes.
 /// @param faces  at least 6: fewer need not enclose anything.
-[[nodiscard]] Polyhedron MakeStone(int faces, const Eigen::Vector3d& stretch, unsigned seed);
+[[nodiscard]] object::Polyhedron MakeStone(int faces, const Eigen::Vector3d& stretch,
+                                           unsigned seed);
 
 }  // namespace regrasp

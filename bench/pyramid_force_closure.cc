@@ -10,10 +10,10 @@
 
 namespace regrasp {
 
-PyramidWrenches WrenchesOfPyramids(const Grasp& grasp, double half_angle) {
+PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double half_angle) {
   PyramidWrenches wrenches;
   int column = 0;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     const Eigen::Vector3d first = contact.n.unitOrthogonal();
     const Eigen::Vector3d second = contact.n.cross(first);
     for (int side = 0; side < kBenchSides; ++side) {
@@ -26,7 +26,7 @@ PyramidWrenches WrenchesOfPyramids(const Grasp& grasp, double half_angle) {
   return wrenches;
 }
 
-bool PyramidForceClosure(const Grasp& grasp, double half_angle) {
+bool PyramidForceClosure(const grasp::Grasp& grasp, double half_angle) {
   constexpr int kDimension = PyramidWrenches::RowsAtCompileTime;
   const PyramidWrenches wrenches = WrenchesOfPyramids(grasp, half_angle);
   const int columns = static_cast<int>(wrenches.cols());

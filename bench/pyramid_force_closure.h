@@ -11,9 +11,9 @@ inline constexpr int kBenchSides = 8;
 using PyramidWrenches = Eigen::Matrix<double, 6, 4 * kBenchSides>;
 
 /// The wrenches of the edges of a grasp of four contacts, about the origin.
-[[nodiscard]] PyramidWrenches WrenchesOfPyramids(const Grasp& grasp, double half_angle);
+[[nodiscard]] PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double half_angle);
 
 /// Whether a linear program of GLPK finds the pyramids' interiors to balance.
-[[nodiscard]] bool PyramidForceClosure(const Grasp& grasp, double half_angle);
+[[nodiscard]] bool PyramidForceClosure(const grasp::Grasp& grasp, double half_angle);
 
 }  // namespace regrasp

@@ -59,24 +59,25 @@ constexpr std::array<const char*, 4> kModels = {"cube.obj", "stone.obj", "l_bloc
                                                 "polygon15.wkt"};
 
 struct Case {
-  ObjectFile file;
-  Plan plan;  ///< located
+  object::ObjectFile file;
+  plan::Plan plan;  ///< located
 };
 
 Case MakeCase(const std::string& model) {
-  Case made{ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}};
-  const Object& object = *made.file.object;
-  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
+  Case made{object::ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}};
+  const object::Object& object = *made.file.object;
+  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
   const bool planar = object.dimension() == 2;
-  const PlanResult result = Solve(*FindPlanner(planar ? "polygon" : "roadmap"),
-                                  {.object = &object,
-                                   .start = random,
-                                   .goal = random,
-                                   .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
-                                   // in the plane a plan of three switches
-                                   .seed = planar ? 2ULL : 0ULL});
+  const planning::PlanResult result =
+      planning::Solve(*registry::FindPlanner(planar ? "polygon" : "roadmap"),
+                      {.object = &object,
+                       .start = random,
+                       .goal = random,
+                       .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+                       // in the plane a plan of three switches
+                       .seed = planar ? 2ULL : 0ULL});
   if (!result.plan) throw std::runtime_error(model + ": no plan to replay");
-  made.plan = CheckPlan(object, *result.plan).located;
+  made.plan = plan::CheckPlan(object, *result.plan).located;
   return made;
 }
 
@@ -95,7 +96,7 @@ void BM_Replay(benchmark::State& state) {
   const auto start = Clock::now();
   for (auto _ : state) {
     const sim::ReplayResult result = sim::ReplayPlan(*made.file.object, made.plan, {});
-    if (result.steps.back().reason != Reason::kNone) {
+    if (result.steps.back().reason != plan::Reason::kNone) {
       state.SkipWithError("the plan failed");
       return;
     }
@@ -146,7 +147,7 @@ void BM_BareSteps(benchmark::State& state) {
 /// What comes before the first step: the scene, its compilation, its first state.
 void BM_Setup(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
-  const Object& object = *made.file.object;
+  const object::Object& object = *made.file.object;
   const sim::ReplayObserver observer;
   for (auto _ : state) {
     const sim::ReplayWorld stage(

@@ -24,18 +24,18 @@ constexpr double kHalfAngleDegrees = 20;
 /// irregular faces, whose contacts hardly ever do.
 constexpr std::array<const char*, 2> kModels = {"cube.obj", "stone.obj"};
 
-const Polyhedron& Model(std::int64_t index) {
-  static std::array<ObjectFile, kModels.size()> files = [] {
-    std::array<ObjectFile, kModels.size()> read;
+const object::Polyhedron& Model(std::int64_t index) {
+  static std::array<object::ObjectFile, kModels.size()> files = [] {
+    std::array<object::ObjectFile, kModels.size()> read;
     for (std::size_t i = 0; i < kModels.size(); ++i) {
-      read[i] = ReadObject(std::filesystem::path(REGRASP_MODELS) / kModels[i]);
+      read[i] = object::ReadObject(std::filesystem::path(REGRASP_MODELS) / kModels[i]);
     }
     return read;
   }();
-  return dynamic_cast<const Polyhedron&>(*files.at(index).object);
+  return dynamic_cast<const object::Polyhedron&>(*files.at(index).object);
 }
 
-PlanRequest RequestFor(const Polyhedron& solid, std::int64_t contacts) {
+planning::PlanRequest RequestFor(const object::Polyhedron& solid, std::int64_t contacts) {
   return {.object = &solid,
           .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
           .contact_points = static_cast<int>(contacts)};
@@ -49,10 +49,11 @@ void Describe(benchmark::State& state, std::int64_t subsets, std::int64_t vertic
 
 /// What a roadmap costs when each of its subsets is tested alone.
 void BM_TestEverySubset(benchmark::State& state) {
-  const Polyhedron& solid = Model(state.range(0));
-  const PlanRequest request = RequestFor(solid, state.range(1));
-  const std::vector<Contact> p = SpreadContactPoints(solid, *request.contact_points, request.seed);
-  const WrenchFrame frame = solid.wrench_frame();
+  const object::Polyhedron& solid = Model(state.range(0));
+  const planning::PlanRequest request = RequestFor(solid, state.range(1));
+  const std::vector<grasp::Contact> p =
+      sampling::SpreadContactPoints(solid, *request.contact_points, request.seed);
+  const object::WrenchFrame frame = solid.wrench_frame();
   const int count = static_cast<int>(p.size());
   std::int64_t subsets = 0;
   std::int64_t vertices = 0;
@@ -62,9 +63,9 @@ void BM_TestEverySubset(benchmark::State& state) {
       for (int b = a + 1; b < count; ++b) {
         for (int c = b + 1; c < count; ++c) {
           for (int d = c + 1; d < count; ++d) {
-            const std::array<Contact, 4> grasp = {p[a], p[b], p[c], p[d]};
+            const std::array<grasp::Contact, 4> grasp = {p[a], p[b], p[c], p[d]};
             ++subsets;
-            vertices += IsForceClosure(grasp, frame, request.criteria.half_angle) ? 1 : 0;
+            vertices += grasp::IsForceClosure(grasp, frame, request.criteria.half_angle) ? 1 : 0;
           }
         }
       }
@@ -75,8 +76,8 @@ void BM_TestEverySubset(benchmark::State& state) {
 
 /// Spreading the points, finding all vertices, and listing them by their triples.
 void BM_BuildRoadmap(benchmark::State& state) {
-  const Polyhedron& solid = Model(state.range(0));
-  const PlanRequest request = RequestFor(solid, state.range(1));
+  const object::Polyhedron& solid = Model(state.range(0));
+  const planning::PlanRequest request = RequestFor(solid, state.range(1));
   std::int64_t subsets = 0;
   std::int64_t vertices = 0;
   for (auto _ : state) {
@@ -89,7 +90,7 @@ void BM_BuildRoadmap(benchmark::State& state) {
 }
 
 void BM_CountEdgesAndComponents(benchmark::State& state) {
-  const PlanRequest request = RequestFor(Model(state.range(0)), state.range(1));
+  const planning::PlanRequest request = RequestFor(Model(state.range(0)), state.range(1));
   const roadmap::Roadmap roadmap = roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request));
   for (auto _ : state) {
     benchmark::DoNotOptimize(roadmap.edge_count());
@@ -100,12 +101,12 @@ void BM_CountEdgesAndComponents(benchmark::State& state) {
 
 /// A whole plan between two random grasps, the roadmap included; another seed in each iteration.
 void BM_Plan(benchmark::State& state) {
-  const Polyhedron& solid = Model(state.range(0));
-  PlanRequest request = RequestFor(solid, state.range(1));
-  request.start = request.goal = {GraspChoice::Kind::kRandomAny, {}, "random-any"};
+  const object::Polyhedron& solid = Model(state.range(0));
+  planning::PlanRequest request = RequestFor(solid, state.range(1));
+  request.start = request.goal = {planning::GraspChoice::Kind::kRandomAny, {}, "random-any"};
   double switches = 0;
   for (auto _ : state) {
-    const PlanResult result = Solve(roadmap::RoadmapPlanner(), request);
+    const planning::PlanResult result = planning::Solve(roadmap::RoadmapPlanner(), request);
     ++request.seed;
     switches += result.plan ? static_cast<double>(result.plan->steps.size()) : 0;
   }

@@ -13,8 +13,9 @@ namespace regrasp {
 /// Contacts are drawn evenly over the surface where a fingertip has room, five in space and three
 /// in the plane; each moves straight inside its face by up to kTightMove of the diameter.
 /// @param half_angle  friction, radians; both grasps at rest have kTightQuality at it.
-[[nodiscard]] std::vector<Plan> DrawTightAligns(const Object& object, double half_angle, int count,
-                                                std::uint64_t seed);
+[[nodiscard]] std::vector<plan::Plan> DrawTightAligns(const object::Object& object,
+                                                      double half_angle, int count,
+                                                      std::uint64_t seed);
 
 inline constexpr double kTightMove = 0.1;
 inline constexpr double kTightQuality = 0.015;  ///< above the shake, so that a fail is the align's

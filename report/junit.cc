@@ -60,7 +60,7 @@ JunitSuite MakeJunitSuite(const Report& report) {
   JunitSuite suite{report.plan_file, {}};
   for (const ReportStep& step : report.steps) {
     suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
-                           OutcomeOf(step.verdict()), std::string(ReasonName(step.reason())),
+                           OutcomeOf(step.verdict()), std::string(plan::ReasonName(step.reason())),
                            step.detail()});
   }
   return suite;

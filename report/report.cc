@@ -16,15 +16,16 @@ namespace regrasp::report {
 namespace {
 
 /// How many steps from the first on pass the analytic check.
-int CountPassing(const std::vector<StepCheck>& steps) {
-  const auto fails = [](const StepCheck& step) {
-    return step.skipped || step.reason != Reason::kNone;
+int CountPassing(const std::vector<plan::StepCheck>& steps) {
+  const auto fails = [](const plan::StepCheck& step) {
+    return step.skipped || step.reason != plan::Reason::kNone;
   };
   return static_cast<int>(std::find_if(steps.begin(), steps.end(), fails) - steps.begin());
 }
 
-void Replay(const Object& object, const Plan& located, const sim::ReplayOptions& options,
-            const sim::ReplayObserver& observer, int count, Report& report) {
+void Replay(const object::Object& object, const plan::Plan& located,
+            const sim::ReplayOptions& options, const sim::ReplayObserver& observer, int count,
+            Report& report) {
   sim::ReplayResult result = sim::ReplayPlan(object, located, options, observer, count);
   report.settings = result.settings;
   for (sim::StepReplay& step : result.steps) {
@@ -33,32 +34,34 @@ void Replay(const Object& object, const Plan& located, const sim::ReplayOptions&
 }
 
 /// Contact regions are measured for switches that are known to be right.
-void MeasureRegions(const Object& object, const Plan& located, int count, Report& report) {
-  const auto* polygon = dynamic_cast<const Polygon*>(&object);
+void MeasureRegions(const object::Object& object, const plan::Plan& located, int count,
+                    Report& report) {
+  const auto* polygon = dynamic_cast<const object::Polygon*>(&object);
   if (polygon == nullptr) return;
-  FingerGrasp before = located.initial;
+  plan::FingerGrasp before = located.initial;
   for (int index = 1; index < count; ++index) {
-    const Step& step = located.steps[index - 1];
-    if (const auto* change = std::get_if<Switch>(&step)) {
+    const plan::Step& step = located.steps[index - 1];
+    if (const auto* change = std::get_if<plan::Switch>(&step)) {
       report.steps[index].region =
-          MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
+          plan::MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
     }
-    before = GraspAfter(before, step);
+    before = plan::GraspAfter(before, step);
   }
 }
 
 /// Certificates are checked of aligns that are known to be right.
-void CheckCertificates(const Plan& located, int count, Report& report) {
+void CheckCertificates(const plan::Plan& located, int count, Report& report) {
   for (int index = 1; index < count; ++index) {
-    const auto* align = std::get_if<Align>(&located.steps[index - 1]);
+    const auto* align = std::get_if<plan::Align>(&located.steps[index - 1]);
     if (align == nullptr || !align->certificate) continue;
-    report.steps[index].certificate = CheckAlignCertificate(
+    report.steps[index].certificate = certificate::CheckAlignCertificate(
         *align, report.dimension, std::tan(report.half_angle), *align->certificate);
   }
 }
 
 /// What each finger needs, and why examinations disagree, of the steps that pass the analysis.
-void ExamineSteps(const Object& object, const Plan& located, int count, Report& report) {
+void ExamineSteps(const object::Object& object, const plan::Plan& located, int count,
+                  Report& report) {
   for (int index = 0; index < count; ++index) {
     ReportStep& step = report.steps[index];
     step.needs = sim::NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
@@ -73,7 +76,7 @@ void SkipAfterFailure(std::vector<ReportStep>& steps) {
   bool failed = false;
   for (ReportStep& step : steps) {
     step.skipped = failed || step.check.skipped;
-    failed = failed || step.reason() != Reason::kNone;
+    failed = failed || step.reason() != plan::Reason::kNone;
     // Nothing passes that was not replayed.
     if (!failed && !step.replay) throw std::logic_error("the replay left out a step");
   }
@@ -93,19 +96,19 @@ std::string_view VerdictName(Verdict verdict) {
   return "";
 }
 
-Reason ReportStep::reason() const {
-  if (skipped) return Reason::kNone;
-  if (check.reason != Reason::kNone) return check.reason;
-  return replay ? replay->reason : Reason::kNone;
+plan::Reason ReportStep::reason() const {
+  if (skipped) return plan::Reason::kNone;
+  if (check.reason != plan::Reason::kNone) return check.reason;
+  return replay ? replay->reason : plan::Reason::kNone;
 }
 
 const std::string& ReportStep::detail() const {
-  return replay && check.reason == Reason::kNone ? replay->detail : check.detail;
+  return replay && check.reason == plan::Reason::kNone ? replay->detail : check.detail;
 }
 
 Verdict ReportStep::verdict() const {
   if (skipped) return Verdict::kSkipped;
-  return reason() == Reason::kNone ? Verdict::kPass : Verdict::kFail;
+  return reason() == plan::Reason::kNone ? Verdict::kPass : Verdict::kFail;
 }
 
 bool Report::passed() const {
@@ -127,7 +130,7 @@ int Report::weakest_step() const {
 }
 
 int Report::weakest_finger_step() const {
-  std::vector<FingerFriction> weakest;
+  std::vector<grasp::FingerFriction> weakest;
   std::vector<int> index;
   for (const ReportStep& step : steps) {
     const int finger = step.skipped ? -1 : sim::WeakestOf(step.needs);
@@ -135,7 +138,7 @@ int Report::weakest_finger_step() const {
     weakest.push_back(step.needs[finger].friction);
     index.push_back(step.check.index);
   }
-  const int found = WeakestFinger(weakest);
+  const int found = grasp::WeakestFinger(weakest);
   return found < 0 ? -1 : index[found];
 }
 
@@ -155,16 +158,17 @@ std::vector<std::string> Report::warnings() const {
   return warnings;
 }
 
-Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
-                const sim::ReplayOptions& replay, const sim::ReplayObserver& observer) {
-  const PlanCheck checked = CheckPlan(object, plan, check);
+Report Validate(const object::Object& object, const plan::Plan& plan,
+                const plan::CheckOptions& check, const sim::ReplayOptions& replay,
+                const sim::ReplayObserver& observer) {
+  const plan::PlanCheck checked = plan::CheckPlan(object, plan, check);
   Report report;
   report.scale = plan.scale;
   report.dimension = plan.dimension;
   report.planner = plan.planner;
   report.half_angle = check.half_angle.value_or(plan.half_angle);
   report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;
-  for (const StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
+  for (const plan::StepCheck& step : checked.steps) report.steps.emplace_back().check = step;
   const int passing = CountPassing(checked.steps);
   MeasureRegions(object, checked.located, passing, report);
   CheckCertificates(checked.located, passing, report);
@@ -179,21 +183,23 @@ Report Validate(const Object& object, const Plan& plan, const CheckOptions& chec
   return report;
 }
 
-void AddProofs(const Plan& located, Report& report) {
+void AddProofs(const plan::Plan& located, Report& report) {
   int entries = 0;
   for (const ReportStep& step : report.steps) {
-    const Reason reason = step.check.reason;
-    const bool judged = reason == Reason::kNone || reason == Reason::kNotForceClosure ||
-                        reason == Reason::kNotProved;
+    const plan::Reason reason = step.check.reason;
+    const bool judged = reason == plan::Reason::kNone || reason == plan::Reason::kNotForceClosure ||
+                        reason == plan::Reason::kNotProved;
     if (step.check.skipped || !judged) break;
     ++entries;
   }
-  const std::vector<EntryProof> proofs = FindPlanProofs(located, report.half_angle, entries);
+  const std::vector<certificate::EntryProof> proofs =
+      certificate::FindPlanProofs(located, report.half_angle, entries);
   for (std::size_t i = 0; i < proofs.size(); ++i) report.steps[i].proof = proofs[i];
 }
 
-Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, double scale) {
-  Plan plan;
+plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp, double half_angle,
+                        double scale) {
+  plan::Plan plan;
   plan.scale = scale;
   plan.dimension = object.dimension();
   plan.half_angle = half_angle;
@@ -205,16 +211,17 @@ Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle, d
   return plan;
 }
 
-Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle, double scale,
-                     const sim::ReplayOptions& replay, const sim::ReplayObserver& observer) {
-  Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
+Report ValidateGrasp(const object::Object& object, const grasp::Grasp& grasp, double half_angle,
+                     double scale, const sim::ReplayOptions& replay,
+                     const sim::ReplayObserver& observer) {
+  plan::Plan plan = MakeHoldPlan(object, grasp, half_angle, scale);
   plan.finger_radius = replay.finger_radius;
   Report report = Validate(object, plan, {}, replay, observer);
-  const WrenchFrame frame = object.wrench_frame();
+  const object::WrenchFrame frame = object.wrench_frame();
   report.grasp.emplace();
-  report.grasp->fingers = MeasureFingerFriction(grasp, frame, half_angle);
+  report.grasp->fingers = grasp::MeasureFingerFriction(grasp, frame, half_angle);
   if (!report.grasp->fingers.empty()) {
-    report.grasp->quality = ComputeQuality(grasp, frame, half_angle);
+    report.grasp->quality = grasp::ComputeQuality(grasp, frame, half_angle);
   }
   return report;
 }

@@ -26,21 +26,21 @@ enum class Verdict { kPass, kFail, kSkipped };
 
 /// One entry of a report: the hold or a step, what the analysis and the replay say of it.
 struct ReportStep {
-  StepCheck check;
+  plan::StepCheck check;
   /// Of a switch between 2-finger grasps of a polygon that passes the analytic check.
-  std::optional<SwitchRegion> region;
+  std::optional<plan::SwitchRegion> region;
   /// What exact arithmetic says of the proof that the plan gives for an align, if it gives one and
   /// the align passes the analytic check.
-  std::optional<ProofVerdict> certificate;
+  std::optional<motion::ProofVerdict> certificate;
   std::optional<sim::StepReplay> replay;  ///< none where the analytic check failed, or when skipped
   bool skipped = false;                  ///< a step before it failed, in the analysis or the replay
   std::vector<sim::NeedOfFinger> needs;  ///< of a step that passes the analytic check
   std::optional<sim::Disagreement> disagreement;  ///< between the examinations of a step
-  std::optional<EntryProof> proof;                ///< where AddProofs was asked
+  std::optional<certificate::EntryProof> proof;   ///< where AddProofs was asked
   std::string frame;  ///< file name of the picture, empty where there is none
 
   /// The analytic reason, or else that of the replay; kNone for a skipped step.
-  [[nodiscard]] Reason reason() const;
+  [[nodiscard]] plan::Reason reason() const;
   [[nodiscard]] const std::string& detail() const;
   [[nodiscard]] Verdict verdict() const;
 };
@@ -48,10 +48,10 @@ struct ReportStep {
 /// What is said of a single grasp.
 struct GraspReport {
   /// Bounds on ε of the grasp (planner/grasp/quality.h); 0 where it is not force closure.
-  QualityBounds quality;
+  grasp::QualityBounds quality;
   /// What each finger needs of its own friction, in the order of the file; empty where the grasp is
   /// not force closure.
-  std::vector<FingerFriction> fingers;
+  std::vector<grasp::FingerFriction> fingers;
 };
 
 /// A file, told by its content.
@@ -103,8 +103,8 @@ struct Report {
 ///
 /// Files' names and digests, and frames, are left to the caller.
 /// @throws InputError  the plan's dimension is not the object's, or the body cannot be simulated.
-[[nodiscard]] Report Validate(const Object& object, const Plan& plan, const CheckOptions& check,
-                              const sim::ReplayOptions& replay,
+[[nodiscard]] Report Validate(const object::Object& object, const plan::Plan& plan,
+                              const plan::CheckOptions& check, const sim::ReplayOptions& replay,
                               const sim::ReplayObserver& observer = {});
 
 /// Holds one grasp: the report of a plan without steps whose hand has just the fingers of the
@@ -114,18 +114,19 @@ struct Report {
 /// @param scale       metres per unit of the object.
 /// @throws InputError             the body cannot be simulated.
 /// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
-[[nodiscard]] Report ValidateGrasp(const Object& object, const Grasp& grasp, double half_angle,
-                                   double scale, const sim::ReplayOptions& replay,
+[[nodiscard]] Report ValidateGrasp(const object::Object& object, const grasp::Grasp& grasp,
+                                   double half_angle, double scale,
+                                   const sim::ReplayOptions& replay,
                                    const sim::ReplayObserver& observer = {});
 
 /// Adds the proofs of force closure, or of its loss, of every entry that the analytic check came to
 /// and that has no fault but the loss.
 /// @param located  the plan that the report is about (LocatePlan).
-void AddProofs(const Plan& located, Report& report);
+void AddProofs(const plan::Plan& located, Report& report);
 
 /// The plan without steps that a grasp makes: fingers are numbered in its order.
-[[nodiscard]] Plan MakeHoldPlan(const Object& object, const Grasp& grasp, double half_angle,
-                                double scale);
+[[nodiscard]] plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
+                                      double half_angle, double scale);
 
 /// The text of report.json. Beside what docs/formats.md promises it has, for each step, `detail`
 /// for people, `undecided` and, for an align, how it was carried out. Bytes of file names that are

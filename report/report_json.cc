@@ -92,7 +92,7 @@ Json MakeAlignShares(const std::optional<sim::StepReplay>& replay) {
 }
 
 /// `step` gets its contact region, if it has one.
-void AddRegion(const std::optional<SwitchRegion>& region, Json& step) {
+void AddRegion(const std::optional<plan::SwitchRegion>& region, Json& step) {
   if (!region) return;
   Json claimed = nullptr;
   if (region->claimed) claimed = *region->claimed;
@@ -100,7 +100,7 @@ void AddRegion(const std::optional<SwitchRegion>& region, Json& step) {
       {"half_width", region->half_width}, {"claimed", claimed}, {"holds", region->holds}};
 }
 
-Json MakeCertificate(const std::optional<ProofVerdict>& certificate) {
+Json MakeCertificate(const std::optional<motion::ProofVerdict>& certificate) {
   if (!certificate) return nullptr;
   return certificate->proves() ? "holds" : "does-not-hold";
 }
@@ -121,7 +121,7 @@ Json MakeStep(const ReportStep& step, const Report& report) {
   Json json = {{"index", step.check.index},
                {"kind", step.check.kind},
                {"verdict", std::string(VerdictName(step.verdict()))},
-               {"reason", MakeText(ReasonName(step.reason()))},
+               {"reason", MakeText(plan::ReasonName(step.reason()))},
                {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
                {"force_closure", MakeForceClosure(step)},
                {"undecided", step.check.undecided},
@@ -134,7 +134,7 @@ Json MakeStep(const ReportStep& step, const Report& report) {
                {"frame", MakeText(step.frame)}};
   AddReplay(step, json);
   AddRegion(step.region, json);
-  if (step.proof) json["proof"] = EntryProofJson(*step.proof, report.dimension);
+  if (step.proof) json["proof"] = certificate::EntryProofJson(*step.proof, report.dimension);
   return json;
 }
 
@@ -149,7 +149,7 @@ Json MakeGrasp(const Report& report) {
   for (std::size_t i = 0; i < grasp.fingers.size(); ++i) {
     fingers.push_back(FingerNeedJson(static_cast<int>(i), grasp.fingers[i], report.half_angle));
   }
-  const int weakest = WeakestFinger(grasp.fingers);
+  const int weakest = grasp::WeakestFinger(grasp.fingers);
   return {{"file", report.plan_file},
           {"sha256", report.plan_sha256},
           {"quality", grasp.quality.lower},

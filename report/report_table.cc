@@ -43,8 +43,8 @@ Columns ColumnsOf(const Report& report) {
 
 std::string FixedVerdict(const ReportStep& step) {
   if (!step.replay || !step.replay->fixed || step.skipped) return kNothing;
-  const Reason reason = step.replay->fixed->reason;
-  return reason == Reason::kNone ? "pass" : "fail: " + std::string(ReasonName(reason));
+  const plan::Reason reason = step.replay->fixed->reason;
+  return reason == plan::Reason::kNone ? "pass" : "fail: " + std::string(plan::ReasonName(reason));
 }
 
 TextRow MakeRow(const ReportStep& step, const Columns& columns) {
@@ -52,7 +52,8 @@ TextRow MakeRow(const ReportStep& step, const Columns& columns) {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
   std::string verdict(VerdictName(step.verdict()));
-  if (step.verdict() == Verdict::kFail) verdict += ": " + std::string(ReasonName(step.reason()));
+  if (step.verdict() == Verdict::kFail)
+    verdict += ": " + std::string(plan::ReasonName(step.reason()));
   TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
                  length(&sim::StepReplay::displacement_m), length(&sim::StepReplay::slip_m)};
   if (columns.regions) {
@@ -74,12 +75,12 @@ std::string FormatWeakest(const Report& report) {
 
 /// Quality and weakest finger of a single grasp.
 std::string FormatGraspLines(const Report& report) {
-  const int weakest = WeakestFinger(report.grasp->fingers);
+  const int weakest = grasp::WeakestFinger(report.grasp->fingers);
   if (weakest < 0) return "";
   const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
-  const FingerFriction& finger = report.grasp->fingers[weakest];
-  std::string text = "quality: " + QualityText(report.grasp->quality) + "\nweakest: finger " +
-                     std::to_string(weakest);
+  const grasp::FingerFriction& finger = report.grasp->fingers[weakest];
+  std::string text = "quality: " + grasp::QualityText(report.grasp->quality) +
+                     "\nweakest: finger " + std::to_string(weakest);
   if (finger.needed) {
     text += ", which alone needs a friction half-angle of " + degrees(finger.required);
   } else {

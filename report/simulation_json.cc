@@ -38,9 +38,9 @@ Json FingersJson(const sim::StepReplay& replay) {
 }
 
 Json MotionJson(const sim::StepMotion& motion) {
-  const bool passes = motion.reason == Reason::kNone;
+  const bool passes = motion.reason == plan::Reason::kNone;
   return {{"verdict", passes ? "pass" : "fail"},
-          {"reason", TextOrNull(ReasonName(motion.reason))},
+          {"reason", TextOrNull(plan::ReasonName(motion.reason))},
           {"detail", TextOrNull(motion.detail)},
           {"displacement_m", motion.displacement_m},
           {"rotation_deg", motion.rotation_deg},
@@ -105,7 +105,7 @@ Json CauseJson(const std::optional<sim::Disagreement>& disagreement) {
           {"values", values}};
 }
 
-Json FingerNeedJson(int finger, const FingerFriction& friction, double half_angle) {
+Json FingerNeedJson(int finger, const grasp::FingerFriction& friction, double half_angle) {
   return {{"finger", finger},
           {"needed", friction.needed},
           {"required_half_angle_deg", Degrees(friction.required)},

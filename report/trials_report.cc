@@ -17,7 +17,7 @@ Json TrialsJson(const sim::TrialSummary& summary) {
   const ShareInterval interval = summary.interval();
   Json reasons = Json::object();
   for (const auto& [reason, count] : summary.reasons) {
-    reasons[std::string(ReasonName(reason))] = count;
+    reasons[std::string(plan::ReasonName(reason))] = count;
   }
   Json steps = Json::array();
   for (const auto& [index, count] : summary.steps) {
@@ -47,8 +47,8 @@ std::string TrialsShareText(const sim::TrialSummary& summary) {
 std::string TrialsFailureText(const sim::TrialSummary& summary) {
   std::string text;
   for (const auto& [reason, count] : summary.reasons) {
-    text +=
-        (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(ReasonName(reason));
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " +
+            std::string(plan::ReasonName(reason));
   }
   const char* before = "; first in ";
   for (const auto& [index, count] : summary.steps) {

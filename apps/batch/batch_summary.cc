@@ -6,7 +6,7 @@
 #include "planner/base/text_table.h"
 #include "report/junit.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -161,4 +161,4 @@ std::string FormatSummaryJunit(const BatchSummary& summary) {
   return report::FormatJunit(suites);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -8,7 +8,7 @@
 #include "apps/batch/plan_library.h"
 #include "apps/batch/report_summary.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// What became of a plan of a batch, worst last; the value is the exit code of its validation
 /// alone.
@@ -45,4 +45,4 @@ struct BatchSummary {
 /// JUnit XML: a suite a plan with a case for each entry of its report, or with one error.
 [[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -8,7 +8,7 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -91,4 +91,4 @@ PlanLibrary FindPlans(const std::vector<std::string>& paths) {
   return library;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

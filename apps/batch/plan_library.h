@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 struct LibraryPlan {
   std::string name;  ///< the file's, without .json: the folder of its results
@@ -31,4 +31,4 @@ struct PlanLibrary {
 /// A file larger than this is taken for a plan without looking; its own run may then refuse it.
 inline constexpr std::size_t kMostLookedAtBytes = std::size_t{1} << 24;
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -21,7 +21,7 @@
 #include "planner/base/descriptor.h"
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
@@ -266,4 +266,4 @@ int RunInChildren(int count, const PoolOptions& options, const std::function<int
   return Pool(options, work, on_exit).Run(count);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// How a child process of a pool ended.
 struct ChildExit {
@@ -45,4 +45,4 @@ struct PoolOptions {
                                 const std::function<int(int)>& work,
                                 const std::function<void(int, ChildExit)>& on_exit);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

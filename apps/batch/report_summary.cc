@@ -5,26 +5,26 @@
 #include "planner/base/file.h"
 #include "planner/plan/json_reader.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 namespace {
 
-std::string TextOrNothing(const JsonReader& parent, const char* key) {
+std::string TextOrNothing(const plan::JsonReader& parent, const char* key) {
   if (!parent.Has(key)) return "";
-  const JsonReader member = parent.Member(key);
+  const plan::JsonReader member = parent.Member(key);
   return member.IsNull() ? "" : member.String();
 }
 
-ReportSummary::Entry ReadEntry(const JsonReader& step) {
+ReportSummary::Entry ReadEntry(const plan::JsonReader& step) {
   return {step.Member("kind").OneOf({"hold", "switch", "align"}),
           step.Member("verdict").OneOf({"pass", "fail", "skipped"}), TextOrNothing(step, "reason"),
           TextOrNothing(step, "detail"), TextOrNothing(step, "frame")};
 }
 
-void ReadRun(const JsonReader& run, ReportSummary& summary) {
+void ReadRun(const plan::JsonReader& run, ReportSummary& summary) {
   summary.run = run.Member("sha256").String();
   if (!run.Has("files")) return;
-  for (const JsonReader& file : run.Member("files").Elements()) {
+  for (const plan::JsonReader& file : run.Member("files").Elements()) {
     summary.files.push_back({file.Member("file").String(), file.Member("sha256").String()});
   }
 }
@@ -38,21 +38,21 @@ std::optional<int> ReportSummary::failed_step() const {
 }
 
 ReportSummary SummarizeReport(const Json& json, const std::string& name) {
-  const JsonReader root(json, name);
+  const plan::JsonReader root(json, name);
   root.ExpectFormat("regrasp-report");
   ReportSummary summary;
   summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
-  const JsonReader list = root.Member("steps");
-  const std::vector<JsonReader> steps = list.Elements();
+  const plan::JsonReader list = root.Member("steps");
+  const std::vector<plan::JsonReader> steps = list.Elements();
   if (steps.empty()) list.Fail("is empty");
-  for (const JsonReader& step : steps) summary.entries.push_back(ReadEntry(step));
-  const JsonReader weakest = root.Member("weakest_step");
+  for (const plan::JsonReader& step : steps) summary.entries.push_back(ReadEntry(step));
+  const plan::JsonReader weakest = root.Member("weakest_step");
   if (weakest.IsNull()) return summary;
   summary.weakest_step = weakest.Integer(0, static_cast<int>(steps.size()) - 1);
-  const JsonReader closure = steps[*summary.weakest_step].Member("force_closure");
+  const plan::JsonReader closure = steps[*summary.weakest_step].Member("force_closure");
   if (closure.IsNull()) return summary;
-  const JsonReader required = closure.Member("required_half_angle_deg");
+  const plan::JsonReader required = closure.Member("required_half_angle_deg");
   if (!required.IsNull()) summary.required_half_angle_deg = required.Number();
   return summary;
 }
@@ -61,4 +61,4 @@ ReportSummary ReadReportSummary(const std::filesystem::path& path) {
   return SummarizeReport(ParseJson(ReadFile(path), path.string()), path.string());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

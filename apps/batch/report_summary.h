@@ -8,7 +8,7 @@
 #include "planner/base/json.h"
 #include "report/report.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 
 /// What a summary says of a report.json.
 struct ReportSummary {
@@ -35,4 +35,4 @@ struct ReportSummary {
 /// @throws InputError  the file cannot be read or is no report.
 [[nodiscard]] ReportSummary ReadReportSummary(const std::filesystem::path& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::apps

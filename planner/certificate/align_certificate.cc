@@ -6,34 +6,35 @@
 #include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
-Grasp ContactsInOrder(const FingerGrasp& grasp, const FingerGrasp& order) {
-  Grasp contacts;
-  for (const FingerContact& held : order) {
-    const auto found = std::ranges::find(grasp, held.finger, &FingerContact::finger);
+grasp::Grasp ContactsInOrder(const plan::FingerGrasp& grasp, const plan::FingerGrasp& order) {
+  grasp::Grasp contacts;
+  for (const plan::FingerContact& held : order) {
+    const auto found = std::ranges::find(grasp, held.finger, &plan::FingerContact::finger);
     if (found != grasp.end()) contacts.push_back(found->contact);
   }
   return contacts;
 }
 
-std::optional<MotionSegments> FindPathProof(const Grasp& from, const Grasp& to, int dimension,
-                                            double half_angle) {
+std::optional<motion::MotionSegments> FindPathProof(const grasp::Grasp& from,
+                                                    const grasp::Grasp& to, int dimension,
+                                                    double half_angle) {
   if (from.empty() || from.size() != to.size()) return std::nullopt;
-  GraspMotion motion;
+  motion::GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
   // Force closure does not depend on the frame.
-  const WrenchFrame frame{Eigen::Vector3d::Zero(), 1, dimension};
-  PathForceClosure path = DecidePathForceClosure(motion, frame, half_angle);
+  const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 1, dimension};
+  motion::PathForceClosure path = motion::DecidePathForceClosure(motion, frame, half_angle);
   if (!path.holds()) return std::nullopt;
   return std::move(path.pieces);
 }
 
-std::optional<AlignCertificate> FindAlignCertificate(const Align& located, int dimension,
-                                                     double half_angle) {
-  AlignCertificate certificate;
+std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& located,
+                                                           int dimension, double half_angle) {
+  plan::AlignCertificate certificate;
   for (std::size_t w = 0; w + 1 < located.waypoints.size(); ++w) {
-    auto pieces = FindPathProof(ContactsOf(located.waypoints[w]),
+    auto pieces = FindPathProof(plan::ContactsOf(located.waypoints[w]),
                                 ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]),
                                 dimension, half_angle);
     if (!pieces) return std::nullopt;
@@ -42,30 +43,30 @@ std::optional<AlignCertificate> FindAlignCertificate(const Align& located, int d
   return certificate;
 }
 
-ProofVerdict CheckAlignCertificate(const Align& located, int dimension, double mu,
-                                   const AlignCertificate& certificate) {
+motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimension, double mu,
+                                           const plan::AlignCertificate& certificate) {
   if (certificate.size() + 1 != located.waypoints.size()) {
-    return {ProofVerdict::Kind::kNothing, "not one proof for each pair of waypoints"};
+    return {motion::ProofVerdict::Kind::kNothing, "not one proof for each pair of waypoints"};
   }
   for (std::size_t w = 0; w < certificate.size(); ++w) {
-    const Grasp to = ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]);
-    const ProofVerdict verdict =
-        CheckMotionProof(ContactsOf(located.waypoints[w]), to, dimension, mu, certificate[w]);
+    const grasp::Grasp to = ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]);
+    const motion::ProofVerdict verdict = motion::CheckMotionProof(
+        plan::ContactsOf(located.waypoints[w]), to, dimension, mu, certificate[w]);
     if (!verdict.proves()) {
       return {verdict.kind, "from waypoint " + std::to_string(w) + " on, " + verdict.why};
     }
   }
-  return {ProofVerdict::Kind::kForceClosure, ""};
+  return {motion::ProofVerdict::Kind::kForceClosure, ""};
 }
 
-void AddCertificates(const Object& object, Plan& plan) {
-  const Plan located = LocatePlan(object, plan);
+void AddCertificates(const object::Object& object, plan::Plan& plan) {
+  const plan::Plan located = plan::LocatePlan(object, plan);
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
-    auto* align = std::get_if<Align>(&plan.steps[s]);
+    auto* align = std::get_if<plan::Align>(&plan.steps[s]);
     if (align == nullptr || align->certificate) continue;
-    align->certificate =
-        FindAlignCertificate(std::get<Align>(located.steps[s]), plan.dimension, plan.half_angle);
+    align->certificate = FindAlignCertificate(std::get<plan::Align>(located.steps[s]),
+                                              plan.dimension, plan.half_angle);
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

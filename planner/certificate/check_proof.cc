@@ -5,12 +5,12 @@
 
 #include "planner/motion/exact_balance.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 namespace {
 
-using namespace exact;
-using Kind = ProofVerdict::Kind;
+using namespace motion::exact;
+using Kind = motion::ProofVerdict::Kind;
 
 /// Whether contacts span: three not on one line, in the plane two not at one point.
 bool Span(const std::vector<ExactContact>& contacts, int dimension) {
@@ -25,10 +25,10 @@ bool Span(const std::vector<ExactContact>& contacts, int dimension) {
   return false;
 }
 
-ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
+motion::ProofVerdict Nothing(std::string why) { return {Kind::kNothing, std::move(why)}; }
 
-ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimension,
-                         const Rational& mu, const GraspProof& proof) {
+motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimension,
+                                 const Rational& mu, const GraspProof& proof) {
   if (proof.forces.size() != contacts.size()) return Nothing("not one force a contact");
   if (!AllFinite(proof.forces)) return Nothing("a force is not finite");
   if (!Span(contacts, dimension)) return Nothing("the contacts are on one line");
@@ -53,8 +53,8 @@ ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimensio
 }
 
 /// Whether velocities refute: all are in the polar cones.
-ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
-                             const std::vector<Vector>& velocities, const Rational& mu) {
+motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
+                                     const std::vector<Vector>& velocities, const Rational& mu) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vector& u = velocities[i];
     if (IsZero(u)) continue;
@@ -68,8 +68,8 @@ ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
   return {Kind::kNotForceClosure, ""};
 }
 
-ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rational& mu,
-                        const Vector& v, const Vector& omega) {
+motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rational& mu,
+                                const Vector& v, const Vector& omega) {
   if (IsZero(v) && IsZero(omega)) return Nothing("the twist is zero");
   std::vector<Vector> velocities;
   for (const ExactContact& contact : contacts) velocities.push_back(v + Cross(omega, contact.p));
@@ -77,8 +77,8 @@ ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rationa
 }
 
 /// The turn about the line through two contacts, one way or the other.
-ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational& mu,
-                       const std::array<int, 2>& line) {
+motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational& mu,
+                               const std::array<int, 2>& line) {
   const int count = static_cast<int>(contacts.size());
   if (line[0] < 0 || line[1] < 0 || line[0] >= count || line[1] >= count) {
     return Nothing("the line is through contacts that are none");
@@ -86,7 +86,7 @@ ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational
   const Vector& a = contacts[line[0]].p;
   for (const int way : {1, -1}) {
     const Vector omega = Rational(way) * (contacts[line[1]].p - a);
-    const ProofVerdict verdict = CheckTwist(contacts, mu, Cross(a, omega), omega);
+    const motion::ProofVerdict verdict = CheckTwist(contacts, mu, Cross(a, omega), omega);
     if (verdict.kind == Kind::kNotForceClosure) return verdict;
   }
   return Nothing("about the line of contacts " + std::to_string(line[0]) + " and " +
@@ -95,8 +95,8 @@ ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational
 
 }  // namespace
 
-ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension, double mu,
-                             const GraspProof& proof) {
+motion::ProofVerdict CheckGraspProof(std::span<const grasp::Contact> contacts, int dimension,
+                                     double mu, const GraspProof& proof) {
   const std::vector<ExactContact> exact = Exact(contacts);
   switch (proof.kind) {
     case GraspProof::Kind::kForces:
@@ -113,4 +113,4 @@ ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension, d
   return Nothing("there is no proof");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

@@ -6,7 +6,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/proof_verdict.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 /// Checks a proof in exact rational arithmetic, every double taken at its value: contacts, friction
 /// and forces. What decides force closure in floating point is not used.
@@ -23,7 +23,8 @@ namespace regrasp {
 /// work, and balanced ones do none; where all are 0, no force resists the twist.
 /// @param contacts   normals need not be exactly unit: their direction counts.
 /// @param dimension  3, or 2 for planar contacts and forces. @param mu  > 0.
-[[nodiscard]] ProofVerdict CheckGraspProof(std::span<const Contact> contacts, int dimension,
-                                           double mu, const GraspProof& proof);
+[[nodiscard]] motion::ProofVerdict CheckGraspProof(std::span<const grasp::Contact> contacts,
+                                                   int dimension, double mu,
+                                                   const GraspProof& proof);
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

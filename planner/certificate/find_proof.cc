@@ -9,7 +9,7 @@
 #include "planner/grasp/pair_line.h"
 #include "planner/grasp/unit_contacts.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 namespace {
 
@@ -26,12 +26,12 @@ bool IsInside(const Vector3d& force, const Vector3d& n, double half_angle) {
   return inside > kSlack * (1 + force.norm());
 }
 
-WrenchFrame OwnFrame(std::span<const Contact> contacts, int dimension) {
-  return ContactFrame(contacts, dimension);
+object::WrenchFrame OwnFrame(std::span<const grasp::Contact> contacts, int dimension) {
+  return grasp::ContactFrame(contacts, dimension);
 }
 
 /// The refutation that the pair lines give; kNone where they give none.
-GraspProof FindLine(const UnitContacts& contacts) {
+GraspProof FindLine(const grasp::UnitContacts& contacts) {
   const int count = static_cast<int>(contacts.size());
   GraspProof proof;
   for (int a = 0; a < count; ++a) {
@@ -41,10 +41,10 @@ GraspProof FindLine(const UnitContacts& contacts) {
       bool other = false;
       for (int c = 0; c < count; ++c) {
         if (c == a || c == b) continue;
-        const Turn turn = TurnAboutLine(contacts[a], contacts[b], contacts[c]);
-        positive = positive || turn == Turn::kPositive;
-        negative = negative || turn == Turn::kNegative;
-        other = other || turn == Turn::kBoth || turn == Turn::kUnclear;
+        const grasp::Turn turn = grasp::TurnAboutLine(contacts[a], contacts[b], contacts[c]);
+        positive = positive || turn == grasp::Turn::kPositive;
+        negative = negative || turn == grasp::Turn::kNegative;
+        other = other || turn == grasp::Turn::kBoth || turn == grasp::Turn::kUnclear;
       }
       if (other || (positive && negative)) continue;
       proof.kind = GraspProof::Kind::kLine;
@@ -57,7 +57,8 @@ GraspProof FindLine(const UnitContacts& contacts) {
 
 /// A twist of the contacts' own frame as one of the object's coordinates.
 template <int kDim>
-GraspProof TwistProof(const typename WrenchSimplex<kDim>::Vector& twist, const WrenchFrame& frame) {
+GraspProof TwistProof(const typename grasp::WrenchSimplex<kDim>::Vector& twist,
+                      const object::WrenchFrame& frame) {
   GraspProof proof;
   proof.kind = GraspProof::Kind::kTwist;
   if constexpr (kDim == 6) {
@@ -71,40 +72,42 @@ GraspProof TwistProof(const typename WrenchSimplex<kDim>::Vector& twist, const W
 }
 
 template <int kDim>
-GraspProof FindRefutation(std::span<const Contact> contacts, const WrenchFrame& frame,
-                          double half_angle) {
-  UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitForces(units, half_angle);
+GraspProof FindRefutation(std::span<const grasp::Contact> contacts,
+                          const object::WrenchFrame& frame, double half_angle) {
+  grasp::UnitContacts units = grasp::MakeUnitContacts(contacts, frame);
+  grasp::SetUnitForces(units, half_angle);
   if constexpr (kDim == 6) {
     const GraspProof line = FindLine(units);
     if (line.kind != GraspProof::Kind::kNone) return line;
   }
-  ForceClosureProof<kDim> found;
-  const ForceClosure answer = DecideForceClosure<kDim>(units, &found);
+  grasp::ForceClosureProof<kDim> found;
+  const grasp::ForceClosure answer = grasp::DecideForceClosure<kDim>(units, &found);
   const bool has_twist =
       std::any_of(found.twist.begin(), found.twist.end(), [](double x) { return x != 0; });
-  if (answer.decision != Decision::kNo || !has_twist) return {};
+  if (answer.decision != grasp::Decision::kNo || !has_twist) return {};
   return TwistProof<kDim>(found.twist, frame);
 }
 
 /// No forces resist a turn about the line that all contacts are on.
-bool AreOnOneLine(std::span<const Contact> contacts, const WrenchFrame& frame) {
+bool AreOnOneLine(std::span<const grasp::Contact> contacts, const object::WrenchFrame& frame) {
   double farthest = 0;
-  for (const Contact& a : contacts) {
-    for (const Contact& b : contacts) {
+  for (const grasp::Contact& a : contacts) {
+    for (const grasp::Contact& b : contacts) {
       farthest = std::max(farthest, (a.p - contacts[0].p).cross(b.p - contacts[0].p).norm());
     }
   }
-  return farthest <= kOnLine * frame.radius * frame.radius;
+  return farthest <= grasp::kOnLine * frame.radius * frame.radius;
 }
 
 }  // namespace
 
-GraspProof FindGraspProof(std::span<const Contact> contacts, int dimension, double half_angle) {
-  const WrenchFrame frame = OwnFrame(contacts, dimension);
-  CheckHalfAngle(half_angle);
+GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimension,
+                          double half_angle) {
+  const object::WrenchFrame frame = OwnFrame(contacts, dimension);
+  grasp::CheckHalfAngle(half_angle);
   if (!(frame.radius > 0)) return {};
-  const GraspForces internal = ComputeGraspForces(contacts, frame, half_angle, Wrench(), 1);
+  const grasp::GraspForces internal =
+      grasp::ComputeGraspForces(contacts, frame, half_angle, grasp::Wrench(), 1);
   bool inside = internal.balanced && internal.margin > 0 &&
                 !(dimension == 3 && AreOnOneLine(contacts, frame));
   for (std::size_t i = 0; inside && i < contacts.size(); ++i) {
@@ -120,4 +123,4 @@ GraspProof FindGraspProof(std::span<const Contact> contacts, int dimension, doub
                         : FindRefutation<3>(contacts, frame, half_angle);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

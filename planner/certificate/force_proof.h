@@ -6,7 +6,7 @@
 
 #include "planner/motion/motion_segment.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 /// Why a grasp is force closure, or why it is not: numbers that anyone can check with the contacts
 /// and the friction alone. Lengths and points are in the object's unit, about its origin.
@@ -29,7 +29,7 @@ struct GraspProof {
 struct EntryProof {
   GraspProof rest;
   /// By pair of waypoints that follow each other; empty where no proof was found.
-  std::vector<MotionSegments> ways;
+  std::vector<motion::MotionSegments> ways;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

@@ -11,7 +11,7 @@
 #include "planner/motion/check_motion_proof.h"
 #include "planner/plan/motion_segment_json.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 namespace {
 
@@ -19,27 +19,27 @@ using Kind = GraspProof::Kind;
 
 /// From one waypoint to the next, the contacts of each finger at the same place.
 struct Way {
-  Grasp from;
-  Grasp to;
+  grasp::Grasp from;
+  grasp::Grasp to;
 };
 
 /// One entry as the proofs see it: the grasp at its end, and the ways of an align.
 struct Entry {
   std::string kind;
-  Grasp rest;
+  grasp::Grasp rest;
   std::vector<Way> ways;
-  const AlignCertificate* certificate = nullptr;  ///< that the plan gives, if it does
+  const plan::AlignCertificate* certificate = nullptr;  ///< that the plan gives, if it does
 };
 
-std::vector<Entry> EntriesOf(const Plan& plan) {
-  FingerGrasp holding = plan.initial;
-  std::vector<Entry> entries = {{"hold", ContactsOf(holding), {}, nullptr}};
-  for (const Step& step : plan.steps) {
-    holding = GraspAfter(holding, step);
-    Entry entry{StepKind(step), ContactsOf(holding), {}, nullptr};
-    if (const auto* align = std::get_if<Align>(&step)) {
+std::vector<Entry> EntriesOf(const plan::Plan& plan) {
+  plan::FingerGrasp holding = plan.initial;
+  std::vector<Entry> entries = {{"hold", plan::ContactsOf(holding), {}, nullptr}};
+  for (const plan::Step& step : plan.steps) {
+    holding = plan::GraspAfter(holding, step);
+    Entry entry{plan::StepKind(step), plan::ContactsOf(holding), {}, nullptr};
+    if (const auto* align = std::get_if<plan::Align>(&step)) {
       for (std::size_t w = 0; w + 1 < align->waypoints.size(); ++w) {
-        entry.ways.push_back({ContactsOf(align->waypoints[w]),
+        entry.ways.push_back({plan::ContactsOf(align->waypoints[w]),
                               ContactsInOrder(align->waypoints[w + 1], align->waypoints[w])});
       }
       if (align->certificate) entry.certificate = &*align->certificate;
@@ -50,21 +50,24 @@ std::vector<Entry> EntriesOf(const Plan& plan) {
 }
 
 /// The plan's own proof of a way where it holds, otherwise one that is found; empty where none is.
-MotionSegments ProvePath(const Entry& entry, std::size_t way, int dimension, double half_angle) {
+motion::MotionSegments ProvePath(const Entry& entry, std::size_t way, int dimension,
+                                 double half_angle) {
   const auto& [from, to] = entry.ways[way];
   if (entry.certificate != nullptr && way < entry.certificate->size()) {
-    const MotionSegments& given = (*entry.certificate)[way];
-    if (CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves()) return given;
+    const motion::MotionSegments& given = (*entry.certificate)[way];
+    if (motion::CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves())
+      return given;
   }
-  return FindPathProof(from, to, dimension, half_angle).value_or(MotionSegments());
+  return FindPathProof(from, to, dimension, half_angle).value_or(motion::MotionSegments());
 }
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
   switch (proof.kind) {
     case Kind::kForces:
-      return {{"forces", ForcesJson(proof.forces, dimension)}};
+      return {{"forces", plan::ForcesJson(proof.forces, dimension)}};
     case Kind::kTwist:
-      return {{"twist", {{"v", VectorJson(proof.v, 3)}, {"omega", VectorJson(proof.omega, 3)}}}};
+      return {{"twist",
+               {{"v", plan::VectorJson(proof.v, 3)}, {"omega", plan::VectorJson(proof.omega, 3)}}}};
     case Kind::kLine:
       return {{"line", proof.line}};
     case Kind::kNone:
@@ -73,12 +76,12 @@ Json GraspProofJson(const GraspProof& proof, int dimension) {
   return nullptr;
 }
 
-GraspProof ReadGraspProof(const JsonReader& json, int dimension) {
+GraspProof ReadGraspProof(const plan::JsonReader& json, int dimension) {
   GraspProof proof;
   if (json.IsNull()) return proof;
   if (json.Has("forces")) {
     proof.kind = Kind::kForces;
-    proof.forces = ReadForces(json.Member("forces"), dimension);
+    proof.forces = plan::ReadForces(json.Member("forces"), dimension);
   } else if (json.Has("twist")) {
     proof.kind = Kind::kTwist;
     proof.v = json.Member("twist").Member("v").Vector(3);
@@ -97,10 +100,10 @@ GraspProof ReadGraspProof(const JsonReader& json, int dimension) {
 }  // namespace
 
 bool EntryVerdict::proved() const {
-  return rest.proves() && std::ranges::all_of(ways, &ProofVerdict::proves);
+  return rest.proves() && std::ranges::all_of(ways, &motion::ProofVerdict::proves);
 }
 
-std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle, int entries) {
+std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle, int entries) {
   std::vector<EntryProof> proofs;
   for (const Entry& entry : EntriesOf(located)) {
     if (static_cast<int>(proofs.size()) >= entries) break;
@@ -114,7 +117,7 @@ std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle, i
   return proofs;
 }
 
-std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
+std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
                                           std::span<const EntryProof> proofs) {
   const std::vector<Entry> entries = EntriesOf(located);
   if (proofs.size() > entries.size()) {
@@ -127,9 +130,9 @@ std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
     verdict.rest = CheckGraspProof(entry.rest, located.dimension, mu, proofs[i].rest);
     for (std::size_t way = 0; way < entry.ways.size(); ++way) {
       const bool has = way < proofs[i].ways.size();
-      verdict.ways.push_back(CheckMotionProof(entry.ways[way].from, entry.ways[way].to,
-                                              located.dimension, mu,
-                                              has ? proofs[i].ways[way] : MotionSegments()));
+      verdict.ways.push_back(
+          motion::CheckMotionProof(entry.ways[way].from, entry.ways[way].to, located.dimension, mu,
+                                   has ? proofs[i].ways[way] : motion::MotionSegments()));
     }
     verdicts.push_back(std::move(verdict));
   }
@@ -140,20 +143,20 @@ Json EntryProofJson(const EntryProof& proof, int dimension) {
   Json json = {{"rest", GraspProofJson(proof.rest, dimension)}};
   if (proof.ways.empty()) return json;
   json["ways"] = Json::array();
-  for (const MotionSegments& way : proof.ways) {
-    json["ways"].push_back(MotionSegmentsJson(way, dimension));
+  for (const motion::MotionSegments& way : proof.ways) {
+    json["ways"].push_back(plan::MotionSegmentsJson(way, dimension));
   }
   return json;
 }
 
-EntryProof ReadEntryProof(const JsonReader& json, int dimension) {
+EntryProof ReadEntryProof(const plan::JsonReader& json, int dimension) {
   EntryProof proof;
   proof.rest = ReadGraspProof(json.Member("rest"), dimension);
   if (!json.Has("ways")) return proof;
-  for (const JsonReader& way : json.Member("ways").Elements()) {
-    proof.ways.push_back(ReadMotionSegments(way, dimension));
+  for (const plan::JsonReader& way : json.Member("ways").Elements()) {
+    proof.ways.push_back(plan::ReadMotionSegments(way, dimension));
   }
   return proof;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

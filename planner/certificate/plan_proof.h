@@ -9,20 +9,20 @@
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 
 /// Proofs for the first `entries` entries of a plan, the hold of the initial grasp included. The
 /// plan's own certificates are taken where they hold.
 /// @param located  its contacts placed on the object (LocatePlan). @param half_angle  radians.
-[[nodiscard]] std::vector<EntryProof> FindPlanProofs(const Plan& located, double half_angle,
+[[nodiscard]] std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle,
                                                      int entries);
 
 /// What exact arithmetic says of the proofs of one entry.
 struct EntryVerdict {
   int index = 0;
   std::string kind;  ///< "hold", "switch" or "align"
-  ProofVerdict rest;
-  std::vector<ProofVerdict> ways;
+  motion::ProofVerdict rest;
+  std::vector<motion::ProofVerdict> ways;
 
   /// The grasp and all ways are proved.
   [[nodiscard]] bool proved() const;
@@ -30,11 +30,11 @@ struct EntryVerdict {
 
 /// Checks proofs against the plan, in order from the hold.
 /// @throws std::invalid_argument  more proofs than the plan has entries.
-[[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const Plan& located, double mu,
+[[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
                                                         std::span<const EntryProof> proofs);
 
 [[nodiscard]] Json EntryProofJson(const EntryProof& proof, int dimension);
 /// @throws InputError
-[[nodiscard]] EntryProof ReadEntryProof(const JsonReader& json, int dimension);
+[[nodiscard]] EntryProof ReadEntryProof(const plan::JsonReader& json, int dimension);
 
-}  // namespace regrasp
+}  // namespace regrasp::certificate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::criteria {
 namespace {
 
 /// A surface point counts as inside the ball only this much nearer than its radius: the contact
@@ -20,7 +20,7 @@ constexpr double kTouches = 1 - 1e-6;
 
 }  // namespace
 
-double ComputeClearance(const Object& object, const Contact& contact, double limit) {
+double ComputeClearance(const object::Object& object, const grasp::Contact& contact, double limit) {
   double radius = limit;
   for (int round = 0; round < kMostRounds; ++round) {
     const Eigen::Vector3d centre = contact.p - radius * contact.n;
@@ -38,10 +38,10 @@ double ComputeClearance(const Object& object, const Contact& contact, double lim
   return radius;
 }
 
-bool HasClearance(const Object& object, const Contact& contact) {
+bool HasClearance(const object::Object& object, const grasp::Contact& contact) {
   const double radius = kFingertipClearance * object.diameter();
   const auto near = object.FacesNear(contact.p - radius * contact.n, kTouches * radius);
   return std::ranges::all_of(near, [&](int face) { return face == contact.face; });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

@@ -3,7 +3,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 /// The radius of the largest ball that touches the object from outside at `contact` and nowhere
 /// enters it, at most `limit`: how thick a fingertip can be there. 0 on a concave edge.
@@ -12,7 +12,8 @@ namespace regrasp {
 /// contains a surface point q shrinks to the one through q, of radius |q − p|² / (−2 n·(q − p)).
 ///
 /// Lengths are the object's own units; `contact.face` is the face that it lies on.
-[[nodiscard]] double ComputeClearance(const Object& object, const Contact& contact, double limit);
+[[nodiscard]] double ComputeClearance(const object::Object& object, const grasp::Contact& contact,
+                                      double limit);
 
 /// The clearance that a fingertip needs: the radius of a ball, over the diameter, that touches at
 /// the contact. In a concave corner there is none; the smallest fingertips of the replay need half
@@ -21,6 +22,6 @@ inline constexpr double kFingertipClearance = 5e-4;
 
 /// True iff a ball of that radius touches the object from outside at the contact and nowhere else.
 /// @param contact  knows its face.
-[[nodiscard]] bool HasClearance(const Object& object, const Contact& contact);
+[[nodiscard]] bool HasClearance(const object::Object& object, const grasp::Contact& contact);
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

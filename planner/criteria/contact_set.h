@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 /// The contacts that a hand holds at once, by their numbers in a GraspMemory, in ascending order.
 class ContactSet {
@@ -69,4 +69,4 @@ struct ContactSetHash {
   }
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

@@ -4,9 +4,11 @@
 #include "planner/object/object.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
-
+namespace regrasp::grasp {
 class QualityFilter;
+}
+
+namespace regrasp::criteria {
 
 /// What is asked of a grasp that a hand is to rest in, beside what the hand itself asks
 /// (clearance.h, reach.h, CanMeet).
@@ -28,23 +30,25 @@ struct GraspCriteria {
 /// Whether a force-closure grasp meets what is asked for beyond force closure.
 /// @param filter  decides the quality quickly, at its own half-angle, and refuses a few grasps just
 ///                above the threshold too; null: exactly.
-[[nodiscard]] bool MeetsCriteria(const Grasp& grasp, const WrenchFrame& frame,
-                                 const GraspCriteria& criteria, QualityFilter* filter = nullptr);
+[[nodiscard]] bool MeetsCriteria(const grasp::Grasp& grasp, const object::WrenchFrame& frame,
+                                 const GraspCriteria& criteria,
+                                 grasp::QualityFilter* filter = nullptr);
 
 /// How far a force-closure grasp that does not meet the criteria is from them: in [−1, 0), the
 /// worse the lower.
-[[nodiscard]] double Shortfall(const Grasp& grasp, const WrenchFrame& frame,
+[[nodiscard]] double Shortfall(const grasp::Grasp& grasp, const object::WrenchFrame& frame,
                                const GraspCriteria& criteria);
 
 /// Contacts this close, relative to the diameter, are at the same point: twice the tolerance for
 /// reading, so that no checker takes them for coincident after rounding.
-inline constexpr double kSamePoint = 2 * kPointTolerance;
+inline constexpr double kSamePoint = 2 * object::kPointTolerance;
 
 /// Whether two fingers can be at two contacts at once: they are farther apart than `same_point`,
 /// and the fingertips do not overlap (KeepApart).
-[[nodiscard]] bool CanMeet(const Contact& a, const Contact& b, double same_point,
+[[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b, double same_point,
                            double fingertip_radius);
 /// Whether fingers can be at all contacts of a grasp at once.
-[[nodiscard]] bool CanAllMeet(const Grasp& grasp, double same_point, double fingertip_radius);
+[[nodiscard]] bool CanAllMeet(const grasp::Grasp& grasp, double same_point,
+                              double fingertip_radius);
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

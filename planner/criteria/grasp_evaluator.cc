@@ -8,16 +8,16 @@
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 namespace {
 
 /// Of required half-angles that are only compared, radians.
 constexpr double kScoreAccuracy = 1e-5;
 
-std::vector<double> NumbersOf(const Grasp& grasp) {
+std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
   std::vector<double> numbers;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     numbers.insert(numbers.end(), contact.p.begin(), contact.p.end());
     numbers.insert(numbers.end(), contact.n.begin(), contact.n.end());
     numbers.push_back(contact.face);
@@ -27,49 +27,49 @@ std::vector<double> NumbersOf(const Grasp& grasp) {
 
 }  // namespace
 
-GraspEvaluator::GraspEvaluator(const Object& object, const GraspCriteria& criteria,
-                               const Hand& hand)
+GraspEvaluator::GraspEvaluator(const object::Object& object, const GraspCriteria& criteria,
+                               const hand::Hand& hand)
     : object_(object),
       frame_(object.wrench_frame()),
       criteria_(criteria),
       hand_(hand),
       same_point_(kSamePoint * object.diameter()) {}
 
-bool GraspEvaluator::CanAllMeet(const Grasp& grasp) const {
-  return regrasp::CanAllMeet(grasp, same_point_, finger_radius());
+bool GraspEvaluator::CanAllMeet(const grasp::Grasp& grasp) const {
+  return criteria::CanAllMeet(grasp, same_point_, finger_radius());
 }
 
-bool GraspEvaluator::AreReachable(const Grasp& contacts) const {
-  return std::ranges::all_of(contacts, [&](const Contact& contact) {
+bool GraspEvaluator::AreReachable(const grasp::Grasp& contacts) const {
+  return std::ranges::all_of(contacts, [&](const grasp::Contact& contact) {
     return HasClearance(object_, contact) && CanReach(object_, contact, finger_radius());
   });
 }
 
-bool GraspEvaluator::IsReachable(const Grasp& grasp) const {
+bool GraspEvaluator::IsReachable(const grasp::Grasp& grasp) const {
   return CanAllMeet(grasp) && AreReachable(grasp);
 }
 
-bool GraspEvaluator::IsGood(const Grasp& grasp) const {
+bool GraspEvaluator::IsGood(const grasp::Grasp& grasp) const {
   // What takes least time and refuses most comes first.
-  return CanAllMeet(grasp) && IsForceClosure(grasp, frame_, half_angle()) &&
+  return CanAllMeet(grasp) && grasp::IsForceClosure(grasp, frame_, half_angle()) &&
          MeetsCriteria(grasp, frame_, criteria_) && AreReachable(grasp);
 }
 
-double GraspEvaluator::Score(const Grasp& grasp) const {
+double GraspEvaluator::Score(const grasp::Grasp& grasp) const {
   const auto [known, is_new] = scores_.try_emplace(NumbersOf(grasp), 0);
   if (is_new) known->second = ComputeScore(grasp);
   return known->second;
 }
 
-double GraspEvaluator::ComputeScore(const Grasp& grasp) const {
-  if (!IsReachable(grasp) || !IsForceClosure(grasp, frame_, half_angle())) return -1;
+double GraspEvaluator::ComputeScore(const grasp::Grasp& grasp) const {
+  if (!IsReachable(grasp) || !grasp::IsForceClosure(grasp, frame_, half_angle())) return -1;
   if (!MeetsCriteria(grasp, frame_, criteria_)) return Shortfall(grasp, frame_, criteria_);
-  const auto required = ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
+  const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
   return required ? std::max(half_angle() - required->upper, 0.0) : 0;
 }
 
-double GraspEvaluator::Quality(const Grasp& grasp) const {
-  return ComputeQuality(grasp, frame_, half_angle()).lower;
+double GraspEvaluator::Quality(const grasp::Grasp& grasp) const {
+  return grasp::ComputeQuality(grasp, frame_, half_angle()).lower;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

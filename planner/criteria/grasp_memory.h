@@ -14,7 +14,7 @@
 #include "planner/hand/hand.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 /// How the quality of grasps is decided: exactly (QualityAtLeast), or quickly, which refuses a few
 /// grasps just above the threshold too (QualityFilter).
@@ -29,8 +29,8 @@ class GraspMemory {
  public:
   /// @param same_point  contacts no farther apart than this are at the same point (kSamePoint).
   /// @throws std::invalid_argument  the half-angle is outside (0, π/2).
-  GraspMemory(const WrenchFrame& frame, double same_point, const GraspCriteria& criteria,
-              const Hand& hand = {}, QualityTest quality = QualityTest::kExact);
+  GraspMemory(const object::WrenchFrame& frame, double same_point, const GraspCriteria& criteria,
+              const hand::Hand& hand = {}, QualityTest quality = QualityTest::kExact);
 
   /// From now on force closure is asked for at this half-angle, radians; the quality stays that at
   /// the criteria's friction.
@@ -38,7 +38,7 @@ class GraspMemory {
   /// From now on grasps are asked to be of this quality.
   void SetMinQuality(double min_quality) { criteria_.min_quality = min_quality; }
 
-  [[nodiscard]] const WrenchFrame& frame() const { return frame_; }
+  [[nodiscard]] const object::WrenchFrame& frame() const { return frame_; }
   [[nodiscard]] int dimension() const { return frame_.dimension; }
   [[nodiscard]] const GraspCriteria& criteria() const { return criteria_; }
   [[nodiscard]] double min_quality() const { return criteria_.min_quality; }
@@ -49,22 +49,22 @@ class GraspMemory {
   [[nodiscard]] int fewest_contacts() const { return dimension() == 3 ? 3 : 2; }
 
   /// @param contact  knows its face. @returns its number, the old one where it is known.
-  int Add(const Contact& contact);
-  [[nodiscard]] ContactSet Add(const Grasp& grasp);
+  int Add(const grasp::Contact& contact);
+  [[nodiscard]] ContactSet Add(const grasp::Grasp& grasp);
   /// Adds contacts under the next numbers, whether they are known or not.
   /// @throws std::invalid_argument  there would be more than ContactSet::kMostNumbers.
-  void Append(std::span<const Contact> contacts);
+  void Append(std::span<const grasp::Contact> contacts);
   /// Whether another grasp's contacts can be added.
   [[nodiscard]] bool has_capacity() const {
     return count() + ContactSet::kMostHeld <= ContactSet::kMostNumbers;
   }
   [[nodiscard]] int count() const { return static_cast<int>(contacts_.size()); }
-  [[nodiscard]] const Contact& contact(int number) const { return contacts_[number]; }
-  [[nodiscard]] Grasp GraspOf(const ContactSet& set) const;
+  [[nodiscard]] const grasp::Contact& contact(int number) const { return contacts_[number]; }
+  [[nodiscard]] grasp::Grasp GraspOf(const ContactSet& set) const;
 
   /// Whether two fingers can be at two contacts at once.
-  [[nodiscard]] bool CanMeet(const Contact& a, const Contact& b) const {
-    return regrasp::CanMeet(a, b, same_point_, finger_radius_);
+  [[nodiscard]] bool CanMeet(const grasp::Contact& a, const grasp::Contact& b) const {
+    return criteria::CanMeet(a, b, same_point_, finger_radius_);
   }
   [[nodiscard]] bool CanMeet(int a, int b) const { return CanMeet(contacts_[a], contacts_[b]); }
   /// Whether a finger can come to `contact` while others hold `set`.
@@ -74,9 +74,9 @@ class GraspMemory {
   /// meets the criteria. Remembered.
   [[nodiscard]] bool Admits(const ContactSet& set);
   /// The same for contacts that have no numbers yet.
-  [[nodiscard]] bool IsAdmitted(const Grasp& grasp);
+  [[nodiscard]] bool IsAdmitted(const grasp::Grasp& grasp);
   /// Force closure alone, at any half-angle, radians.
-  [[nodiscard]] bool HoldsAt(const Grasp& grasp, double half_angle);
+  [[nodiscard]] bool HoldsAt(const grasp::Grasp& grasp, double half_angle);
   /// The half-angle at which it is force closure, to 1e-5, radians; π/2 where there is none.
   /// Remembered.
   [[nodiscard]] double RequiredHalfAngle(const ContactSet& set);
@@ -106,21 +106,21 @@ class GraspMemory {
   static constexpr Known kAccepted = {0, 0, kInfinity, kInfinity, kUnknown};
 
   /// Force closure of contacts in the object's frame with their rims set.
-  [[nodiscard]] bool Holds(UnitContacts contacts);
-  [[nodiscard]] bool CanAllMeet(const Grasp& grasp) const;
-  [[nodiscard]] bool IsGoodEnough(const Grasp& grasp);
+  [[nodiscard]] bool Holds(grasp::UnitContacts contacts);
+  [[nodiscard]] bool CanAllMeet(const grasp::Grasp& grasp) const;
+  [[nodiscard]] bool IsGoodEnough(const grasp::Grasp& grasp);
 
-  WrenchFrame frame_;
+  object::WrenchFrame frame_;
   double same_point_;
   GraspCriteria criteria_;
   double finger_radius_;
   QualityTest quality_;
   double half_angle_;
-  QualityFilter filter_;
-  std::vector<Contact> contacts_;
-  UnitContacts units_;  ///< of the contacts, in the object's frame
+  grasp::QualityFilter filter_;
+  std::vector<grasp::Contact> contacts_;
+  grasp::UnitContacts units_;  ///< of the contacts, in the object's frame
   std::unordered_map<ContactSet, Known, ContactSetHash> known_;
   Counts counts_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

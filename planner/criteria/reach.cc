@@ -6,7 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/criteria/clearance.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 using Eigen::Vector3d;
 
@@ -23,7 +23,8 @@ constexpr int kDistanceDigits = 3;
 
 /// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
 /// `way` before it rests.
-bool IsBlocked(const Object& object, const Contact& contact, double radius, double way) {
+bool IsBlocked(const object::Object& object, const grasp::Contact& contact, double radius,
+               double way) {
   const Vector3d rest = BallCentre(contact, radius);
   const double within = std::max(kTouches * radius - kRounding * object.diameter(), 0.0);
   const auto near = object.FacesNearSegment(rest, rest - way * contact.n, within);
@@ -31,22 +32,22 @@ bool IsBlocked(const Object& object, const Contact& contact, double radius, doub
 }
 
 /// In a sealed cavity.
-bool IsShutIn(const Object& object, const Contact& contact) {
+bool IsShutIn(const object::Object& object, const grasp::Contact& contact) {
   return contact.face >= 0 && object.IsEnclosed(contact.face);
 }
 
 }  // namespace
 
-Vector3d BallCentre(const Contact& contact, double radius) {
+Vector3d BallCentre(const grasp::Contact& contact, double radius) {
   return contact.p - radius * contact.n;
 }
 
-bool CanReach(const Object& object, const Contact& contact, double radius) {
+bool CanReach(const object::Object& object, const grasp::Contact& contact, double radius) {
   if (IsShutIn(object, contact)) return false;
   return radius <= 0 || !IsBlocked(object, contact, radius, object.diameter());
 }
 
-bool KeepApart(std::span<const Contact> contacts, double radius) {
+bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
   if (radius <= 0) return true;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
@@ -57,19 +58,19 @@ bool KeepApart(std::span<const Contact> contacts, double radius) {
   return true;
 }
 
-bool CanHold(const Object& object, std::span<const Contact> grasp, double radius) {
-  return KeepApart(grasp, radius) && std::ranges::all_of(grasp, [&](const Contact& contact) {
+bool CanHold(const object::Object& object, std::span<const grasp::Contact> grasp, double radius) {
+  return KeepApart(grasp, radius) && std::ranges::all_of(grasp, [&](const grasp::Contact& contact) {
            return CanReach(object, contact, radius);
          });
 }
 
-void CheckFingerRadius(const Object& object, double radius, const std::string& name) {
+void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
   if (radius <= object.diameter()) return;
   throw InputError(name + ": " + FormatShort(radius) + " is more than the object's diameter of " +
                    FormatShort(object.diameter()) + " (it is in the unit of the object's file)");
 }
 
-std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,
+std::optional<std::string> FindObstacle(const object::Object& object, const grasp::Contact& contact,
                                         double radius) {
   if (CanReach(object, contact, radius)) return std::nullopt;
   if (IsShutIn(object, contact)) {
@@ -90,4 +91,4 @@ std::optional<std::string> FindObstacle(const Object& object, const Contact& con
          FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free way there";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 
 /// A finger that is not a point: a straight rod of some radius with a round end, along the outward
 /// normal of its contact. Where it rests it is the ball that touches at the contact, with centre
@@ -23,26 +23,28 @@ namespace regrasp {
 /// capsule. Touching is allowed, up to rounding.
 /// Laws: independent of rigid motion and of the unit of length; a thicker finger reaches no contact
 /// that a thinner one (of positive radius) does not reach.
-[[nodiscard]] bool CanReach(const Object& object, const Contact& contact, double radius);
+[[nodiscard]] bool CanReach(const object::Object& object, const grasp::Contact& contact,
+                            double radius);
 
 /// True iff no two of the fingers overlap: the centres of their balls are 2 r apart or more, up to
 /// rounding. Law: independent of the order of the contacts.
-[[nodiscard]] bool KeepApart(std::span<const Contact> contacts, double radius);
+[[nodiscard]] bool KeepApart(std::span<const grasp::Contact> contacts, double radius);
 
 /// Both, for all contacts of a grasp.
-[[nodiscard]] bool CanHold(const Object& object, std::span<const Contact> grasp, double radius);
+[[nodiscard]] bool CanHold(const object::Object& object, std::span<const grasp::Contact> grasp,
+                           double radius);
 
 /// Fingers thicker than the object is long are a mistake in the unit of length.
 /// @param name  what gave the radius, for the message.
 /// @throws InputError  the radius is larger than the object's diameter.
-void CheckFingerRadius(const Object& object, double radius, const std::string& name);
+void CheckFingerRadius(const object::Object& object, double radius, const std::string& name);
 
 /// The centre of the ball at rest.
-[[nodiscard]] Eigen::Vector3d BallCentre(const Contact& contact, double radius);
+[[nodiscard]] Eigen::Vector3d BallCentre(const grasp::Contact& contact, double radius);
 
 /// Why a finger cannot reach a contact, for people: what fits there, or how far from the contact
 /// its way is blocked. Nullopt where it can.
-[[nodiscard]] std::optional<std::string> FindObstacle(const Object& object, const Contact& contact,
-                                                      double radius);
+[[nodiscard]] std::optional<std::string> FindObstacle(const object::Object& object,
+                                                      const grasp::Contact& contact, double radius);
 
-}  // namespace regrasp
+}  // namespace regrasp::criteria

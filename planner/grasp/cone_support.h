@@ -5,7 +5,7 @@
 
 #include "planner/grasp/unit_contacts.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 // Wrenches and twists of contacts in kDim numbers: (force, torque) and (v, omega) in space, kDim 6;
 // (force x, force y, torque z) and (v x, v y, omega z) in the plane, kDim 3. The power of a force g
@@ -79,4 +79,4 @@ template <int kDim>
   return contact.axial * contact.n + contact.tangential * SlidingDirection<kDim>(contact.n, u);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

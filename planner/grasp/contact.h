@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// A hard-finger contact with friction: a point and the unit normal that points into the object.
 /// Planar contacts have z = 0 in both.
@@ -16,4 +16,4 @@ struct Contact {
 /// The contacts of a hand at rest; the order carries no meaning.
 using Grasp = std::vector<Contact>;
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -8,7 +8,7 @@ extern "C" {
 #include <memory>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// Qhull's state, freed at the end, and where its messages go: nowhere.
@@ -59,4 +59,4 @@ ConvexHull ComputeConvexHull(const Eigen::MatrixXd& points) {
   return hull;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

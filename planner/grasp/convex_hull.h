@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// A facet of a convex hull: normal · x <= offset holds for all of it, |normal| = 1.
 struct HullFacet {
@@ -23,4 +23,4 @@ struct ConvexHull {
 /// @throws std::runtime_error  Qhull gives up (points that are not of full dimension).
 [[nodiscard]] ConvexHull ComputeConvexHull(const Eigen::MatrixXd& points);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -7,7 +7,7 @@
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_half_angle.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 namespace {
 
@@ -24,7 +24,7 @@ bool Decide(const UnitContacts& contacts, int dimension) {
 }
 
 std::optional<double> RequiredWithout(std::span<const Contact> contacts, std::size_t finger,
-                                      const WrenchFrame& frame) {
+                                      const object::WrenchFrame& frame) {
   Grasp rest(contacts.begin(), contacts.end());
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(finger));
   const auto required = ComputeRequiredHalfAngle(rest, frame, kTolerance);
@@ -56,7 +56,8 @@ double FindRequired(UnitContacts contacts, std::size_t finger, int dimension, do
 }  // namespace
 
 std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> contacts,
-                                                  const WrenchFrame& frame, double half_angle) {
+                                                  const object::WrenchFrame& frame,
+                                                  double half_angle) {
   if (!IsForceClosure(contacts, frame, half_angle)) return {};
   UnitContacts units = MakeUnitContacts(contacts, ContactFrame(contacts, frame.dimension));
   SetUnitForces(units, half_angle);
@@ -80,4 +81,4 @@ int WeakestFinger(const std::vector<FingerFriction>& fingers) {
   return weakest;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

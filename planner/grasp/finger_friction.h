@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// What one finger of a grasp needs of its own friction.
 struct FingerFriction {
@@ -27,7 +27,7 @@ struct FingerFriction {
 /// @returns empty where the grasp is not force closure at `half_angle`.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> contacts,
-                                                                const WrenchFrame& frame,
+                                                                const object::WrenchFrame& frame,
                                                                 double half_angle);
 
 /// The finger with the least of its own friction to spare; of equal ones, as where no finger is
@@ -35,4 +35,4 @@ struct FingerFriction {
 /// none.
 [[nodiscard]] int WeakestFinger(const std::vector<FingerFriction>& fingers);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

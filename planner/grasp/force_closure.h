@@ -5,7 +5,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// How a test with a margin ends.
 enum class Decision { kNo, kTooClose, kYes };
@@ -45,10 +45,10 @@ inline constexpr double kForceClosureEpsilon = 1e-12;
 /// @param half_angle  θ in radians, in (0, π/2).
 /// @throws std::invalid_argument  a value is not finite, a normal is not unit, θ out of range.
 [[nodiscard]] ForceClosure TestForceClosure(std::span<const Contact> contacts,
-                                            const WrenchFrame& frame, double half_angle);
+                                            const object::WrenchFrame& frame, double half_angle);
 
 /// True iff TestForceClosure says yes; what is too close to call is not force closure.
-[[nodiscard]] bool IsForceClosure(std::span<const Contact> contacts, const WrenchFrame& frame,
-                                  double half_angle);
+[[nodiscard]] bool IsForceClosure(std::span<const Contact> contacts,
+                                  const object::WrenchFrame& frame, double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

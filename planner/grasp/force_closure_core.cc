@@ -6,7 +6,7 @@
 
 #include "planner/grasp/pair_line.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -185,4 +185,4 @@ template ForceClosure DecideForceClosure<6>(const UnitContacts&, ForceClosurePro
 template ForceClosure DecideOpenForceClosure<6>(const UnitContacts&, ForceClosureProof<6>*);
 template Decision DecideOnly<6>(const UnitContacts&, WrenchSimplex<6>::Vector&);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

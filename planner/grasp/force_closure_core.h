@@ -4,7 +4,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// The proof that comes with a decision: for kNo the twist that separates (zero where a pair line
 /// or the rank decides), for kYes balanced forces inside the cones.
@@ -32,4 +32,4 @@ template <int kDim>
 [[nodiscard]] Decision DecideOnly(const UnitContacts& contacts,
                                   typename WrenchSimplex<kDim>::Vector& twist);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -7,7 +7,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// A wrench within this of zero, relative to the total normal force, is balanced: rounding of the
@@ -57,7 +57,7 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
 
 }  // namespace
 
-GraspForces ComputeGraspForces(std::span<const Contact> contacts, const WrenchFrame& frame,
+GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::WrenchFrame& frame,
                                double half_angle, const Wrench& load, double total_normal) {
   CheckGrasp(contacts, frame);
   CheckHalfAngle(half_angle);
@@ -76,4 +76,4 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const WrenchFr
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

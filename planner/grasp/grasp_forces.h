@@ -6,7 +6,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// A wrench in a WrenchFrame: force in newtons, torque about the frame's origin divided by its
 /// radius, so newtons as well.
@@ -34,7 +34,7 @@ struct GraspForces {
 /// @throws std::invalid_argument  as TestForceClosure; the load is not finite, total_normal not >
 /// 0.
 [[nodiscard]] GraspForces ComputeGraspForces(std::span<const Contact> contacts,
-                                             const WrenchFrame& frame, double half_angle,
+                                             const object::WrenchFrame& frame, double half_angle,
                                              const Wrench& load, double total_normal);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

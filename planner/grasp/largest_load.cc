@@ -6,7 +6,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// The largest load is found to this, over the total normal force.
@@ -41,7 +41,7 @@ std::optional<QualityBounds> Solve(const UnitContacts& contacts, const Wrench& l
 }  // namespace
 
 std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contacts,
-                                                const WrenchFrame& frame, double half_angle,
+                                                const object::WrenchFrame& frame, double half_angle,
                                                 const Wrench& load, const Wrench& direction,
                                                 double total_normal) {
   CheckGrasp(contacts, frame);
@@ -64,4 +64,4 @@ std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contact
                               : Solve<3>(units, unit_load, direction);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -8,7 +8,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// The largest s such that forces inside the friction cones with Σ n_i·f_i = total_normal balance
 /// `load` + s · total_normal · `direction`:
@@ -27,9 +27,9 @@ namespace regrasp {
 /// @returns nullopt where not even `load` is balanced.
 /// @throws std::invalid_argument  as ComputeGraspForces; direction zero or not finite.
 [[nodiscard]] std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contacts,
-                                                              const WrenchFrame& frame,
+                                                              const object::WrenchFrame& frame,
                                                               double half_angle, const Wrench& load,
                                                               const Wrench& direction,
                                                               double total_normal);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// Torques within this of zero (lengths and forces of the order of 1) may be rounding: a hundred
@@ -77,4 +77,4 @@ PairLineVerdict TestPairLines(std::span<const UnitContact> contacts) {
   return accepted ? PairLineVerdict::kYes : PairLineVerdict::kOpen;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -4,7 +4,7 @@
 
 #include "planner/grasp/unit_contacts.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Which way the forces inside a contact's cone turn the object about a line.
 enum class Turn : unsigned char {
@@ -43,4 +43,4 @@ inline constexpr double kOnLine = 1e-12;
 /// @param contacts  in space, rims set, of the order of 1 in size.
 [[nodiscard]] PairLineVerdict TestPairLines(std::span<const UnitContact> contacts);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -13,7 +13,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_set.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// Rim forces per contact that the hull starts from.
@@ -100,7 +100,7 @@ bool AtLeast(const UnitContacts& contacts, double threshold) {
   return bounds.lower >= threshold;
 }
 
-UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const WrenchFrame& frame,
+UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const object::WrenchFrame& frame,
                                 double half_angle) {
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, half_angle);
@@ -116,7 +116,7 @@ std::string QualityText(const QualityBounds& quality, int digits) {
   return "at least " + lower + ", at most " + FormatShort(quality.upper, digits);
 }
 
-QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFrame& frame,
+QualityBounds ComputeQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
                              double half_angle, double relative_gap) {
   if (!(relative_gap > 0)) throw std::invalid_argument("quality: relative gap not positive");
   if (!IsForceClosure(contacts, frame, half_angle)) return {};
@@ -124,8 +124,8 @@ QualityBounds ComputeQuality(std::span<const Contact> contacts, const WrenchFram
   return frame.dimension == 3 ? Quality<6>(units, relative_gap) : Quality<3>(units, relative_gap);
 }
 
-bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame, double half_angle,
-                    double threshold) {
+bool QualityAtLeast(std::span<const Contact> contacts, const object::WrenchFrame& frame,
+                    double half_angle, double threshold) {
   if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
   if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
   if (threshold <= 0) return true;
@@ -133,4 +133,4 @@ bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
   return frame.dimension == 3 ? AtLeast<6>(units, threshold) : AtLeast<3>(units, threshold);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

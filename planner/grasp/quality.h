@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Bounds on a quality; lower <= Q <= upper.
 struct QualityBounds {
@@ -39,12 +39,13 @@ inline constexpr std::int64_t kMostQualityFacets = 300'000;
 ///                      kQualityGap. They are farther apart where more than kMostQualityFacets
 ///                      would be needed, or where rounding keeps them apart.
 [[nodiscard]] QualityBounds ComputeQuality(std::span<const Contact> contacts,
-                                           const WrenchFrame& frame, double half_angle,
+                                           const object::WrenchFrame& frame, double half_angle,
                                            double relative_gap = 0.01);
 
 /// True iff ε ≥ threshold is certain after at most kMostQualityFacets; stops as soon as it is
 /// decided, so it is far cheaper than ComputeQuality for grasps that are clearly better or worse.
-[[nodiscard]] bool QualityAtLeast(std::span<const Contact> contacts, const WrenchFrame& frame,
-                                  double half_angle, double threshold);
+[[nodiscard]] bool QualityAtLeast(std::span<const Contact> contacts,
+                                  const object::WrenchFrame& frame, double half_angle,
+                                  double threshold);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -6,7 +6,7 @@
 #include "planner/grasp/cone_support.h"
 #include "planner/grasp/quality_rays.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr std::size_t kMostTwists = 64;
 
 }  // namespace
 
-QualityFilter::QualityFilter(const WrenchFrame& frame, double half_angle)
+QualityFilter::QualityFilter(const object::WrenchFrame& frame, double half_angle)
     : frame_(frame), half_angle_(half_angle) {
   CheckHalfAngle(half_angle);
 }
@@ -57,4 +57,4 @@ bool QualityFilter::IsRefuted(const UnitContacts& contacts, double threshold) {
   return false;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -9,7 +9,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Decides for many grasps of one object, cheaply, whether their quality at a half-angle reaches a
 /// threshold.
@@ -21,7 +21,7 @@ namespace regrasp {
 class QualityFilter {
  public:
   /// @param half_angle  friction, radians.
-  QualityFilter(const WrenchFrame& frame, double half_angle);
+  QualityFilter(const object::WrenchFrame& frame, double half_angle);
 
   /// True only if ε ≥ threshold is certain; false where it is not so, and for a few grasps just
   /// above the threshold too. Takes a fifth of a millisecond at most.
@@ -40,10 +40,10 @@ class QualityFilter {
   template <int kDim>
   [[nodiscard]] bool IsRefuted(const UnitContacts& contacts, double threshold);
 
-  WrenchFrame frame_;
+  object::WrenchFrame frame_;
   double half_angle_;
   std::vector<Twist> twists_;  ///< those that refuted something lately nearer to the front
   std::int64_t shot_count_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

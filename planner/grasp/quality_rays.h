@@ -8,7 +8,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/grasp/wrench_set.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Ray shooting ends at this part of the threshold, and where the set reaches this many times it:
 /// beyond, nothing that would change the decision is learned.
@@ -96,4 +96,4 @@ class RaySearch {
   QualityBounds bounds_{0, std::numeric_limits<double>::infinity()};
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

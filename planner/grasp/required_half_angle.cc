@@ -5,7 +5,7 @@
 
 #include "planner/grasp/force_closure_core.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// Friction beyond this is not looked for: the header's 1e-6 rad below π/2.
@@ -65,15 +65,15 @@ class Bracket {
 }  // namespace
 
 std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(std::span<const Contact> contacts,
-                                                          const WrenchFrame& frame,
+                                                          const object::WrenchFrame& frame,
                                                           double tolerance) {
   CheckGrasp(contacts, frame);
   if (!(tolerance > 0)) throw std::invalid_argument("required half-angle: tolerance not positive");
-  const WrenchFrame own = ContactFrame(contacts, frame.dimension);
+  const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) return std::nullopt;
   UnitContacts units = MakeUnitContacts(contacts, own);
   return frame.dimension == 3 ? Bracket<6>(units, tolerance).Find()
                               : Bracket<3>(units, tolerance).Find();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

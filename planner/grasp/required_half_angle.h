@@ -6,7 +6,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Certified bounds on the smallest friction half-angle at which a grasp is force closure, radians.
 /// At `upper` the grasp is force closure; at and below `lower` it is not.
@@ -21,6 +21,6 @@ struct RequiredHalfAngle {
 /// @returns nullopt where none below π/2 serves (to within 1e-6 rad).
 /// @throws std::invalid_argument  as TestForceClosure; tolerance not > 0.
 [[nodiscard]] std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(
-    std::span<const Contact> contacts, const WrenchFrame& frame, double tolerance = 1e-9);
+    std::span<const Contact> contacts, const object::WrenchFrame& frame, double tolerance = 1e-9);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -6,7 +6,7 @@
 
 #include "planner/grasp/cone_support.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 namespace {
 
@@ -88,4 +88,4 @@ SeparatorPool::Word SeparatorPool::LeftOpenByLast(int third, int word, Word cont
   return holds ? contacts & ~held_[static_cast<std::size_t>(last_) * words_ + word] : contacts;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

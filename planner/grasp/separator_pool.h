@@ -8,7 +8,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Twists that have separated some subset of contacts, for use on the others: a twist against which
 /// every wrench of some contacts works refutes force closure of all subsets of these.
@@ -56,4 +56,4 @@ class SeparatorPool {
   std::array<Word, kPoolWords> holding_pair_{};  ///< twists that hold off the pair
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

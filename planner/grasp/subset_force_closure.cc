@@ -7,12 +7,12 @@
 #include "planner/grasp/separator_pool.h"
 #include "planner/grasp/turn_table.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Word = TurnTable::Word;
 
-UnitContacts MakeRimmedContacts(std::span<const Contact> points, const WrenchFrame& frame,
+UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::WrenchFrame& frame,
                                 double half_angle) {
   UnitContacts units = MakeUnitContacts(points, frame);
   SetUnitForces(units, half_angle);
@@ -32,7 +32,7 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
 class SubsetSearch {
  public:
   /// @param deadline  outlives this object.
-  SubsetSearch(std::span<const Contact> points, const WrenchFrame& frame, double half_angle,
+  SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
                const Deadline& deadline)
       : count_(static_cast<int>(points.size())),
         deadline_(deadline),
@@ -190,13 +190,13 @@ class SubsetSearch {
 }  // namespace
 
 std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
-                                                    const WrenchFrame& frame, double half_angle,
-                                                    SubsetCounts* counts,
+                                                    const object::WrenchFrame& frame,
+                                                    double half_angle, SubsetCounts* counts,
                                                     const Deadline& deadline) {
   CheckGrasp(points, frame);
   CheckHalfAngle(half_angle);
   if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
-  const WrenchFrame own = ContactFrame(points, frame.dimension);
+  const object::WrenchFrame own = ContactFrame(points, frame.dimension);
   if (counts != nullptr) *counts = {};
   if (!(own.radius > 0)) return {};
   SubsetSearch search(points, own, half_angle, deadline);
@@ -205,4 +205,4 @@ std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> poi
   return found;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -9,7 +9,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// How the 4-subsets were settled. The first five sum to `subsets`.
 struct SubsetCounts {
@@ -33,9 +33,9 @@ struct SubsetCounts {
 /// @throws std::invalid_argument  as TestForceClosure; also for a frame in the plane.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
-                                                                  const WrenchFrame& frame,
+                                                                  const object::WrenchFrame& frame,
                                                                   double half_angle,
                                                                   SubsetCounts* counts = nullptr,
                                                                   const Deadline& deadline = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

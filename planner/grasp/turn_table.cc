@@ -1,6 +1,6 @@
 #include "planner/grasp/turn_table.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 TurnTable::TurnTable(std::span<const UnitContact> contacts)
     : count_(static_cast<int>(contacts.size())),
@@ -36,4 +36,4 @@ void TurnTable::Store(int a, int b, int c, Turn turn) {
   Set(&by_line_[Row(Pair(b, c) + kind)], a);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

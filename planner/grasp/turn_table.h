@@ -7,7 +7,7 @@
 #include "planner/grasp/pair_line.h"
 #include "planner/grasp/unit_contacts.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// The turns of all contacts about the lines through all pairs, as rows of bits.
 ///
@@ -59,4 +59,4 @@ class TurnTable {
   std::vector<Word> antipodal_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

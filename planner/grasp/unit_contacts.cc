@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 [[noreturn]] void Reject(const char* what) {
@@ -23,7 +23,7 @@ void CheckContact(const Contact& contact, int dimension) {
 
 }  // namespace
 
-void CheckGrasp(std::span<const Contact> contacts, const WrenchFrame& frame) {
+void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame) {
   if (contacts.empty()) Reject("no contact");
   if (frame.dimension != 2 && frame.dimension != 3) Reject("the dimension is neither 2 nor 3");
   if (!(frame.radius > 0) || !std::isfinite(frame.radius) || !frame.origin.allFinite()) {
@@ -38,7 +38,7 @@ void CheckHalfAngle(double half_angle) {
   }
 }
 
-UnitContacts MakeUnitContacts(std::span<const Contact> contacts, const WrenchFrame& frame) {
+UnitContacts MakeUnitContacts(std::span<const Contact> contacts, const object::WrenchFrame& frame) {
   UnitContacts result;
   result.reserve(contacts.size());
   const double scale = 1 / frame.radius;
@@ -48,8 +48,8 @@ UnitContacts MakeUnitContacts(std::span<const Contact> contacts, const WrenchFra
   return result;
 }
 
-WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension) {
-  WrenchFrame frame{Eigen::Vector3d::Zero(), 0, dimension};
+object::WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension) {
+  object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0, dimension};
   for (const Contact& contact : contacts) frame.origin += contact.p;
   frame.origin /= static_cast<double>(contacts.size());
   for (const Contact& contact : contacts) {
@@ -90,4 +90,4 @@ void SetUnitNormalForces(UnitContacts& contacts, double half_angle) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

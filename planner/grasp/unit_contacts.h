@@ -7,7 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// A contact as the mathematics of one grasp uses it: moved to a frame's origin, divided by its
 /// radius, with the rim of its friction cone as numbers.
@@ -36,18 +36,18 @@ inline constexpr double kUnitTolerance = 1e-6;
 ///
 /// @throws std::invalid_argument  no contact, a value not finite, a normal not unit, z ≠ 0 in the
 ///                                plane, a dimension other than 2 and 3, or a radius not positive.
-void CheckGrasp(std::span<const Contact> contacts, const WrenchFrame& frame);
+void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame);
 
 /// @throws std::invalid_argument  θ is outside (0, π/2).
 void CheckHalfAngle(double half_angle);
 
 /// Moves contacts to a frame of positive radius; the rims are still to be set.
 [[nodiscard]] UnitContacts MakeUnitContacts(std::span<const Contact> contacts,
-                                            const WrenchFrame& frame);
+                                            const object::WrenchFrame& frame);
 
 /// The frame in which the contacts themselves are centred and of radius 1; radius 0 where they all
 /// coincide. Force closure does not depend on the frame, and is decided most precisely in this one.
-[[nodiscard]] WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension);
+[[nodiscard]] object::WrenchFrame ContactFrame(std::span<const Contact> contacts, int dimension);
 
 /// How contacts were moved: q became (q − centre) · scale.
 struct Recentring {
@@ -65,4 +65,4 @@ void SetUnitForces(UnitContacts& contacts, double half_angle);
 /// Sets the rims of all contacts to half-angle θ with normal forces of 1.
 void SetUnitNormalForces(UnitContacts& contacts, double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -4,7 +4,7 @@
 
 #include "planner/grasp/cone_support.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 template <int kDim>
 WrenchSet<kDim>::WrenchSet(std::span<const UnitContact> contacts)
@@ -57,4 +57,4 @@ typename WrenchSet<kDim>::Vector WrenchSet<kDim>::RimWrench(int contact, double 
 template class WrenchSet<3>;
 template class WrenchSet<6>;
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -5,7 +5,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/grasp/wrench_simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// The wrenches that contact forces with Σ n_i·f_i <= 1 can apply: the convex hull of the origin
 /// and of the rim wrenches of all contacts (rims of unit normal force). The set whose largest ball
@@ -47,4 +47,4 @@ class WrenchSet {
 extern template class WrenchSet<3>;
 extern template class WrenchSet<6>;
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

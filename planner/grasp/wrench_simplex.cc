@@ -7,7 +7,7 @@
 #include "planner/grasp/cone_support.h"
 #include "planner/lp/uneven_weight.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -204,4 +204,4 @@ double WrenchSimplex<kDim>::unbalanced() const {
 template class WrenchSimplex<3>;
 template class WrenchSimplex<6>;
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -7,7 +7,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/lp/simplex.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// The simplex method (lp::Simplex) over the wrenches of friction cones, with the true circular
 /// cone as its pricing step: one linear program with infinitely many columns serves force closure,
@@ -120,4 +120,4 @@ class WrenchSimplex {
 extern template class WrenchSimplex<3>;
 extern template class WrenchSimplex<6>;
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace regrasp {
+namespace regrasp::hand {
 
 /// The hand that holds the object, as far as planners know it: fingers without joints.
 struct Hand {
@@ -11,4 +11,4 @@ struct Hand {
   double fingertip_radius = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::hand

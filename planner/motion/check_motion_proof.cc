@@ -9,7 +9,7 @@
 
 #include "planner/motion/exact_balance.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 namespace {
 
@@ -241,12 +241,13 @@ Eigen::Vector3d TurnedNormal(const Eigen::Vector3d& n, const Eigen::Vector3d& to
 }
 
 /// Whether a normal turns by more than kMostTurn, or is none.
-bool TurnsTooFar(const Contact& from, const Contact& to) {
+bool TurnsTooFar(const grasp::Contact& from, const grasp::Contact& to) {
   const double cosine = from.n.normalized().dot(to.n.normalized());
   return !(cosine > std::cos(kMostTurn));
 }
 
-std::vector<ExactContact> At(std::span<const Contact> from, std::span<const Contact> to, double t) {
+std::vector<ExactContact> At(std::span<const grasp::Contact> from,
+                             std::span<const grasp::Contact> to, double t) {
   std::vector<ExactContact> contacts;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vector p = Exact(from[i].p);
@@ -259,8 +260,9 @@ std::vector<ExactContact> At(std::span<const Contact> from, std::span<const Cont
 
 }  // namespace
 
-ProofVerdict CheckSegmentProof(std::span<const Contact> from, std::span<const Contact> to,
-                               int dimension, double mu, const MotionSegment& piece) {
+ProofVerdict CheckSegmentProof(std::span<const grasp::Contact> from,
+                               std::span<const grasp::Contact> to, int dimension, double mu,
+                               const MotionSegment& piece) {
   if (from.size() != to.size()) return Nothing("not as many contacts after as before");
   if (!(piece.from >= 0 && piece.to > piece.from && piece.to <= 1)) {
     return Nothing("a piece is not a part of the way");
@@ -276,8 +278,9 @@ ProofVerdict CheckSegmentProof(std::span<const Contact> from, std::span<const Co
                     piece);
 }
 
-ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Contact> to,
-                              int dimension, double mu, std::span<const MotionSegment> pieces) {
+ProofVerdict CheckMotionProof(std::span<const grasp::Contact> from,
+                              std::span<const grasp::Contact> to, int dimension, double mu,
+                              std::span<const MotionSegment> pieces) {
   double reached = 0;
   for (const MotionSegment& piece : pieces) {
     if (piece.from != reached) return Nothing("the pieces do not follow each other");
@@ -289,4 +292,4 @@ ProofVerdict CheckMotionProof(std::span<const Contact> from, std::span<const Con
   return {Kind::kForceClosure, ""};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

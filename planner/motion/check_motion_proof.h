@@ -7,7 +7,7 @@
 #include "planner/motion/motion_segment.h"
 #include "planner/motion/proof_verdict.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Checks in exact rational arithmetic, as CheckGraspProof, that a grasp is force closure all along
 /// a motion: contacts move straight from `from` to `to`, and normals turn evenly on great circles.
@@ -23,14 +23,14 @@ namespace regrasp {
 /// the piece. The directions within θ of a force are a convex part of the sphere for θ < π/2, so
 /// every normal between is within θ of it too. Normals between two faces are irrational: they are
 /// taken as doubles, and their cones kTurnedNormalBound narrower, which covers the rounding.
-[[nodiscard]] ProofVerdict CheckMotionProof(std::span<const Contact> from,
-                                            std::span<const Contact> to, int dimension, double mu,
-                                            std::span<const MotionSegment> pieces);
+[[nodiscard]] ProofVerdict CheckMotionProof(std::span<const grasp::Contact> from,
+                                            std::span<const grasp::Contact> to, int dimension,
+                                            double mu, std::span<const MotionSegment> pieces);
 
 /// The same of one piece, whose ends are anywhere in [0, 1].
-[[nodiscard]] ProofVerdict CheckSegmentProof(std::span<const Contact> from,
-                                             std::span<const Contact> to, int dimension, double mu,
-                                             const MotionSegment& piece);
+[[nodiscard]] ProofVerdict CheckSegmentProof(std::span<const grasp::Contact> from,
+                                             std::span<const grasp::Contact> to, int dimension,
+                                             double mu, const MotionSegment& piece);
 
 /// Radians. Normals that turn farther, almost to the opposite, have no great circle to speak of:
 /// nothing is proved of them.
@@ -40,4 +40,4 @@ inline constexpr double kMostTurn = std::numbers::pi - 1e-3;
 /// kMostTurn its rounding is some 1e3 roundings of a double at most, 1e-12.
 inline constexpr double kTurnedNormalBound = 1e-9;
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

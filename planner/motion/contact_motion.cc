@@ -4,24 +4,24 @@
 
 #include "planner/grasp/angle_between.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
-ContactMotion::ContactMotion(const Contact& from, const Contact& to)
-    : from_(from), to_(to), turn_(AngleBetween(from.n, to.n)) {
+ContactMotion::ContactMotion(const grasp::Contact& from, const grasp::Contact& to)
+    : from_(from), to_(to), turn_(grasp::AngleBetween(from.n, to.n)) {
   turn_direction_ = (to.n - to.n.dot(from.n) * from.n).stableNormalized();
 }
 
-Contact ContactMotion::At(double t) const {
+grasp::Contact ContactMotion::At(double t) const {
   const Eigen::Vector3d normal =
       std::cos(t * turn_) * from_.n + std::sin(t * turn_) * turn_direction_;
   return {(1 - t) * from_.p + t * to_.p, normal.normalized(), t < 1 ? from_.face : to_.face};
 }
 
-Grasp GraspAt(const GraspMotion& motion, double t) {
-  Grasp grasp;
+grasp::Grasp GraspAt(const GraspMotion& motion, double t) {
+  grasp::Grasp grasp;
   grasp.reserve(motion.size());
   for (const ContactMotion& contact : motion) grasp.push_back(contact.At(t));
   return grasp;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace regrasp::exact {
+namespace regrasp::motion::exact {
 
 namespace {
 
@@ -138,9 +138,10 @@ Rational RootAbove(const Rational& x) {
   return Shifted(Rational(std::sqrt(Shifted(x, -exponent).get_d()) * kAbove), exponent / 2);
 }
 
-std::vector<ExactContact> Exact(std::span<const Contact> contacts) {
+std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts) {
   std::vector<ExactContact> exact;
-  for (const Contact& contact : contacts) exact.push_back({Exact(contact.p), Exact(contact.n)});
+  for (const grasp::Contact& contact : contacts)
+    exact.push_back({Exact(contact.p), Exact(contact.n)});
   return exact;
 }
 
@@ -217,4 +218,4 @@ void Layout::Append(std::span<const Eigen::Vector3d> forces, std::vector<Rationa
   }
 }
 
-}  // namespace regrasp::exact
+}  // namespace regrasp::motion::exact

@@ -11,7 +11,7 @@
 #include "planner/grasp/contact.h"
 
 /// Vectors, cones and the balance of forces in rational arithmetic, without rounding.
-namespace regrasp::exact {
+namespace regrasp::motion::exact {
 
 using Rational = mpq_class;
 using Vector = std::array<Rational, 3>;
@@ -34,7 +34,7 @@ struct ExactContact {
   Vector p;
   Vector n;
 };
-[[nodiscard]] std::vector<ExactContact> Exact(std::span<const Contact> contacts);
+[[nodiscard]] std::vector<ExactContact> Exact(std::span<const grasp::Contact> contacts);
 
 [[nodiscard]] bool AllFinite(std::span<const Eigen::Vector3d> vectors);
 
@@ -79,4 +79,4 @@ struct Layout {
   void Append(std::span<const Eigen::Vector3d> forces, std::vector<Rational>& x) const;
 };
 
-}  // namespace regrasp::exact
+}  // namespace regrasp::motion::exact

@@ -10,7 +10,7 @@
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/moving_forces.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 namespace {
 
@@ -108,13 +108,13 @@ class MotionProofSearch {
   }
 
   [[nodiscard]] bool IsForceClosureAt(double t) const {
-    UnitContacts contacts;
+    grasp::UnitContacts contacts;
     for (const ContactMotion& contact : motion_) {
       contacts.push_back({PointAt(contact, t), NormalAt(contact, t), 0, 0});
     }
-    Recentre(contacts);
-    SetUnitForces(contacts, half_angle_);
-    return DecideForceClosure<kDim>(contacts).decision == Decision::kYes;
+    grasp::Recentre(contacts);
+    grasp::SetUnitForces(contacts, half_angle_);
+    return grasp::DecideForceClosure<kDim>(contacts).decision == grasp::Decision::kYes;
   }
 
   /// The contacts on a piece; empty where a normal turns too far on it for its cones to meet.
@@ -216,7 +216,7 @@ bool CanBeProved(const GraspMotion& motion) {
 
 std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion, int dimension,
                                               double half_angle, double from, double to) {
-  CheckHalfAngle(half_angle);
+  grasp::CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   const Piece piece{from, to};
   return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForChecks).Prove(piece)
@@ -225,10 +225,10 @@ std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion, int dim
 
 std::optional<std::vector<MotionSegment>> FindMotionProof(const GraspMotion& motion, int dimension,
                                                           double half_angle, double shortest) {
-  CheckHalfAngle(half_angle);
+  grasp::CheckHalfAngle(half_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForPlans).Find(shortest)
                         : MotionProofSearch<2>(motion, half_angle, kForPlans).Find(shortest);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -6,7 +6,7 @@
 #include "planner/motion/contact_motion.h"
 #include "planner/motion/motion_segment.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Of a motion of length 1: pieces are not halved below this.
 inline constexpr double kShortestProofPiece = 1.0 / 4096;
@@ -41,4 +41,4 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
     const GraspMotion& motion, int dimension, double half_angle,
     double shortest = kShortestProofPiece);
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

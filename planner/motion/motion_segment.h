@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Why a grasp is force closure everywhere on a piece of a motion of its contacts: forces that go
 /// linearly from `start` to `end`, one a contact, balanced all the way up to rounding and inside
@@ -19,4 +19,4 @@ struct MotionSegment {
 /// The pieces of one way between two waypoints, from 0 to 1.
 using MotionSegments = std::vector<MotionSegment>;
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -9,7 +9,7 @@
 #include "planner/lp/simplex.h"
 #include "planner/lp/uneven_weight.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 namespace {
 
@@ -116,7 +116,7 @@ class ForceProgram {
 
   /// A contact's coefficient as a family of columns.
   struct Source {
-    UnitContact contact;
+    grasp::UnitContact contact;
     int coefficient;
     std::array<Vector3d, kArms> arms;
   };
@@ -175,9 +175,9 @@ class ForceProgram {
   /// The column with the largest reduced cost; false where balance is reached or cannot be.
   bool FindBest(const Row& dual, Column& column) const {
     if (program_.unbalanced() <= kUnbalanced) return false;
-    boost::container::small_vector<double, kInlineContacts*(kDegree + 1)> supports;
+    boost::container::small_vector<double, grasp::kInlineContacts*(kDegree + 1)> supports;
     for (const Source& source : sources_) {
-      supports.push_back(ConeSupport(source.contact, VelocityOf(source, dual)));
+      supports.push_back(grasp::ConeSupport(source.contact, VelocityOf(source, dual)));
     }
     const auto best = std::max_element(supports.begin(), supports.end());
     if (!(*best > kImprovement * dual.template lpNorm<1>())) return false;
@@ -185,7 +185,8 @@ class ForceProgram {
     if (*best * largest_weight_ < program_.objective()) return false;
     constexpr int kDim = kSpace == 3 ? 6 : 3;
     column.source = &sources_[best - supports.begin()];
-    column.force = SupportForce<kDim>(column.source->contact, VelocityOf(*column.source, dual));
+    column.force =
+        grasp::SupportForce<kDim>(column.source->contact, VelocityOf(*column.source, dual));
     return true;
   }
 
@@ -200,7 +201,7 @@ class ForceProgram {
     forces.resize(contacts_.size());
     double largest = 0;
     for (std::size_t s = 0; s < sources_.size(); ++s) {
-      const UnitContact& contact = sources_[s].contact;
+      const grasp::UnitContact& contact = sources_[s].contact;
       forces[s / (kDegree + 1)][sources_[s].coefficient] =
           lp::UnevenWeight(static_cast<int>(s)) * contact.n;
     }
@@ -220,7 +221,7 @@ class ForceProgram {
 
   std::span<const MovingContact> contacts_;
   double largest_weight_;
-  boost::container::small_vector<Source, kInlineContacts*(kDegree + 1)> sources_;
+  boost::container::small_vector<Source, grasp::kInlineContacts*(kDegree + 1)> sources_;
   Row kept_ = Row::Ones();  ///< 0 for equations that are left out
   lp::Simplex<kRows, Column> program_;
 };
@@ -249,4 +250,4 @@ template bool FindMovingForcesWithoutRedundancy<2>(std::span<const MovingContact
 template bool FindMovingForcesWithoutRedundancy<3>(std::span<const MovingContact>, MovingForces<1>&,
                                                    double);
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -7,7 +7,7 @@
 
 #include "planner/grasp/unit_contacts.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// A contact on a straight piece of its way, in a frame in which the grasp is centred and of about
 /// radius 1 at both ends, with the friction cone that its forces keep to all along.
@@ -23,7 +23,7 @@ struct MovingContact {
   double tangential;
 };
 
-struct MovingContacts : boost::container::small_vector<MovingContact, kInlineContacts> {
+struct MovingContacts : boost::container::small_vector<MovingContact, grasp::kInlineContacts> {
   // Boost's iterators are not contiguous ones, so std::span does not take the container itself.
   operator std::span<const MovingContact>() const { return {data(), size()}; }  // NOLINT
 };
@@ -33,7 +33,8 @@ template <int kDegree>
 using ForceCoefficients = std::array<Eigen::Vector3d, kDegree + 1>;
 
 template <int kDegree>
-using MovingForces = boost::container::small_vector<ForceCoefficients<kDegree>, kInlineContacts>;
+using MovingForces =
+    boost::container::small_vector<ForceCoefficients<kDegree>, grasp::kInlineContacts>;
 
 /// Forces with more weight in all than this beside the fixed part of 1 to 1.5 along each normal are
 /// not looked for: hardly any motion needs them that is not close to the limit, and to rule them
@@ -77,4 +78,4 @@ template <int kSpace>
                                                      MovingForces<1>& forces,
                                                      double largest_weight = kLargestWeight);
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

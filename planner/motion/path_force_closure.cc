@@ -10,7 +10,7 @@
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/find_motion_proof.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 namespace {
 
@@ -48,13 +48,13 @@ class SegmentProofs {
  private:
   const GraspMotion& motion_;
   int dimension_;
-  Grasp from_;
-  Grasp to_;
+  grasp::Grasp from_;
+  grasp::Grasp to_;
 };
 
 class PathDecision {
  public:
-  PathDecision(const GraspMotion& motion, const WrenchFrame& frame, double half_angle,
+  PathDecision(const GraspMotion& motion, const object::WrenchFrame& frame, double half_angle,
                ProofBudget& budget)
       : motion_(motion),
         proofs_(motion, frame.dimension),
@@ -63,7 +63,7 @@ class PathDecision {
         budget_(budget) {}
 
   PathForceClosure Decide() {
-    result_.decision = Decision::kYes;
+    result_.decision = grasp::Decision::kYes;
     Decide(0, 1);
     return result_;
   }
@@ -92,21 +92,21 @@ class PathDecision {
   }
 
   [[nodiscard]] bool Ended() const {
-    return result_.decision == Decision::kNo || result_.ended_early;
+    return result_.decision == grasp::Decision::kNo || result_.ended_early;
   }
 
   [[nodiscard]] bool HoldsAt(double t) const {
-    return IsForceClosure(GraspAt(motion_, t), frame_, half_angle_);
+    return grasp::IsForceClosure(GraspAt(motion_, t), frame_, half_angle_);
   }
 
   void Lose(double t) {
-    result_.decision = Decision::kNo;
+    result_.decision = grasp::Decision::kNo;
     result_.at = t;
   }
 
   void LeaveOpen(double t) {
-    if (result_.decision != Decision::kYes) return;
-    result_.decision = Decision::kTooClose;
+    if (result_.decision != grasp::Decision::kYes) return;
+    result_.decision = grasp::Decision::kTooClose;
     result_.at = t;
   }
 
@@ -117,7 +117,7 @@ class PathDecision {
 
   const GraspMotion& motion_;
   SegmentProofs proofs_;
-  const WrenchFrame& frame_;
+  const object::WrenchFrame& frame_;
   double half_angle_;
   ProofBudget& budget_;
   int intervals_ = 0;
@@ -129,7 +129,7 @@ class PathDecision {
 /// is known before what it covers easily is looked at.
 class PathAngle {
  public:
-  PathAngle(const GraspMotion& motion, const WrenchFrame& frame, ProofBudget& budget)
+  PathAngle(const GraspMotion& motion, const object::WrenchFrame& frame, ProofBudget& budget)
       : motion_(motion), proofs_(motion, frame.dimension), frame_(frame), budget_(budget) {}
 
   /// @returns false where an instant is force closure at no angle.
@@ -146,7 +146,7 @@ class PathAngle {
   }
 
   [[nodiscard]] bool complete() const { return complete_; }
-  [[nodiscard]] RequiredHalfAngle bounds() const { return {bounds_.lower, proved_}; }
+  [[nodiscard]] grasp::RequiredHalfAngle bounds() const { return {bounds_.lower, proved_}; }
 
  private:
   struct Interval {
@@ -162,7 +162,8 @@ class PathAngle {
 
   /// The required half-angle of an instant; nullopt where it is force closure at none.
   std::optional<double> Include(double t) {
-    const auto required = ComputeRequiredHalfAngle(GraspAt(motion_, t), frame_, kInstantAccuracy);
+    const auto required =
+        grasp::ComputeRequiredHalfAngle(GraspAt(motion_, t), frame_, kInstantAccuracy);
     if (!required) return std::nullopt;
     bounds_.lower = std::max(bounds_.lower, required->lower);
     bounds_.upper = std::max(bounds_.upper, required->upper);
@@ -191,9 +192,9 @@ class PathAngle {
 
   const GraspMotion& motion_;
   SegmentProofs proofs_;
-  const WrenchFrame& frame_;
+  const object::WrenchFrame& frame_;
   ProofBudget& budget_;
-  RequiredHalfAngle bounds_;  ///< of the instants seen so far
+  grasp::RequiredHalfAngle bounds_;  ///< of the instants seen so far
   std::priority_queue<Interval> open_;
   double proved_ = 0;
   bool complete_ = true;
@@ -207,24 +208,23 @@ ProofBudget BudgetOf(const GraspMotion& motion) {
 
 }  // namespace
 
-PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const WrenchFrame& frame,
+PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const object::WrenchFrame& frame,
                                         double half_angle, ProofBudget& budget) {
   return PathDecision(motion, frame, half_angle, budget).Decide();
 }
 
-PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const WrenchFrame& frame,
+PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const object::WrenchFrame& frame,
                                         double half_angle) {
   ProofBudget budget = BudgetOf(motion);
   return DecidePathForceClosure(motion, frame, half_angle, budget);
 }
 
-std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion& motion,
-                                                              const WrenchFrame& frame,
-                                                              std::optional<double> proven,
-                                                              ProofBudget& budget) {
+std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
+    ProofBudget& budget) {
   PathAngle search(motion, frame, budget);
   if (!search.Search()) return std::nullopt;
-  RequiredHalfAngle bounds = search.bounds();
+  grasp::RequiredHalfAngle bounds = search.bounds();
   if (!search.complete()) {
     if (!proven) return std::nullopt;
     bounds.upper = *proven;
@@ -233,11 +233,10 @@ std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion&
   return bounds;
 }
 
-std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(const GraspMotion& motion,
-                                                              const WrenchFrame& frame,
-                                                              std::optional<double> proven) {
+std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven) {
   ProofBudget budget = BudgetOf(motion);
   return ComputePathRequiredHalfAngle(motion, frame, proven, budget);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -9,7 +9,7 @@
 #include "planner/motion/proof_budget.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Force closure is decided down to intervals of this length, the motion being 1 long.
 inline constexpr double kShortestInterval = 1e-6;
@@ -25,7 +25,7 @@ inline constexpr int kMostUndecided = 1000;
 /// What is known of force closure along a motion.
 struct PathForceClosure {
   /// kYes: proved everywhere. kNo: an instant is not force closure. kTooClose: neither.
-  Decision decision = Decision::kTooClose;
+  grasp::Decision decision = grasp::Decision::kTooClose;
   /// After kNo the instant t that decided; after kTooClose the first one that nothing is known of.
   double at = 0;
   /// Intervals no longer than kShortestInterval without a proof, whose ends and centre are force
@@ -37,7 +37,7 @@ struct PathForceClosure {
   MotionSegments pieces;
 
   /// Proved everywhere.
-  [[nodiscard]] bool holds() const { return decision == Decision::kYes; }
+  [[nodiscard]] bool holds() const { return decision == grasp::Decision::kYes; }
 };
 
 /// Decides force closure of a motion everywhere on the way, by bisection: an interval is halved
@@ -49,11 +49,12 @@ struct PathForceClosure {
 /// Laws: monotone in half_angle; a motion that is not force closure at some instant, however short
 /// the interval, is never said to hold.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
-                                                      const WrenchFrame& frame, double half_angle,
-                                                      ProofBudget& budget);
+                                                      const object::WrenchFrame& frame,
+                                                      double half_angle, ProofBudget& budget);
 /// The same with a budget of its own.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
-                                                      const WrenchFrame& frame, double half_angle);
+                                                      const object::WrenchFrame& frame,
+                                                      double half_angle);
 
 /// The accuracy of ComputePathRequiredHalfAngle, radians (0.006°), where proofs reach far enough at
 /// it.
@@ -68,11 +69,11 @@ inline constexpr double kPathAngleAccuracy = 1e-4;
 ///                `upper` is never above it.
 /// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
 ///          proved for the whole way.
-[[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
-    const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven,
+[[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget);
 /// The same with a budget of its own.
-[[nodiscard]] std::optional<RequiredHalfAngle> ComputePathRequiredHalfAngle(
-    const GraspMotion& motion, const WrenchFrame& frame, std::optional<double> proven);
+[[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+    const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven);
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

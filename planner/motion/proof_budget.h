@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Work that searches for proofs along motions may still do: pieces looked at, times their
 /// contacts. Counted, not timed, so that the same input has the same answer on every machine; a
@@ -24,4 +24,4 @@ class ProofBudget {
   std::int64_t left_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// What exact arithmetic says of a proof.
 struct ProofVerdict {
@@ -18,4 +18,4 @@ struct ProofVerdict {
   [[nodiscard]] bool proves() const { return kind == Kind::kForceClosure; }
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -15,7 +15,7 @@
 #include "planner/base/error.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -125,4 +125,4 @@ PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 
 #include "planner/object/polygon_soup.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Reads the bytes of a file with assimp in this process. Only for a process that may be lost: see
 /// ReadWithAssimp.
@@ -17,4 +17,4 @@ namespace regrasp {
 ///                     the surface may come from; without the file's name.
 [[nodiscard]] PolygonSoup ReadAssimpScene(std::string_view bytes, const std::string& file);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -12,7 +12,7 @@
 #include "planner/object/polygon_rings.h"
 #include "planner/object/size_limits.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector2d;
 
@@ -152,4 +152,4 @@ void CheckAndOrientRings(PolygonRings& rings, const std::string& name) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

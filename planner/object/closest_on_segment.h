@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// The point of the segment ab nearest to `point`; a where the segment has no length.
 [[nodiscard]] inline Eigen::Vector3d ClosestOnSegment(const Eigen::Vector3d& a,
@@ -17,4 +17,4 @@ namespace regrasp {
   return a + t * along;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -84,4 +84,4 @@ double ComputeDiameter(std::span<const Eigen::Vector3d> points) {
                                                : LargestSquaredByTree(points));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// The largest distance between two of the points; 0 for fewer than two.
 ///
@@ -12,4 +12,4 @@ namespace regrasp {
 /// the points.
 [[nodiscard]] double ComputeDiameter(std::span<const Eigen::Vector3d> points);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -17,7 +17,7 @@
 #include "planner/object/closest_on_segment.h"
 #include "planner/object/segment_coverage.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector3d;
 
@@ -318,4 +318,4 @@ bool FaceIndex::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
   });
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

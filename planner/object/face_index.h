@@ -6,7 +6,7 @@
 
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Answers where points and segments lie on the faces of a polyhedron, by trees of boxes.
 ///
@@ -35,4 +35,4 @@ class FaceIndex {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -8,7 +8,7 @@
 
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector3d;
 
@@ -126,4 +126,4 @@ std::vector<int> JoinCoplanarFacets(const TriangleMesh& mesh, const SurfaceTopol
   return face_of_triangle;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

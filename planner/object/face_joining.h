@@ -5,7 +5,7 @@
 #include "planner/object/surface_topology.h"
 #include "planner/object/triangle_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// A facet thinner than this times the diameter belongs to the face across its longest edge: it
 /// lies within a tenth of the tolerance of points on that face, and the rounding of 32-bit files
@@ -21,4 +21,4 @@ inline constexpr double kSliverThickness = 1e-7;
 [[nodiscard]] std::vector<int> JoinCoplanarFacets(const TriangleMesh& mesh,
                                                   const SurfaceTopology& topology, double diameter);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -13,7 +13,7 @@
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector3d;
 
@@ -161,4 +161,4 @@ TriangleMesh TriangulateFacets(const WeldedSoup& soup, double diameter, const st
   return mesh;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 #include "planner/object/triangle_mesh.h"
 #include "planner/object/weld.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// How far a polygon's corners may lie from its plane, relative to the object's diameter. Files
 /// with six decimals of a 5 cm body in metres need 1e-5; a polygon as wide as the object that is
@@ -22,4 +22,4 @@ inline constexpr double kPlanarTolerance = 2e-5;
 [[nodiscard]] TriangleMesh TriangulateFacets(const WeldedSoup& soup, double diameter,
                                              const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

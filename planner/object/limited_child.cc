@@ -20,7 +20,7 @@
 #include "planner/base/file.h"
 #include "planner/base/sanitizer.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -130,4 +130,4 @@ ChildResult RunInLimitedChild(const std::function<std::string()>& task, const Ch
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// How a child process ended.
 enum class ChildEnd {
@@ -36,4 +36,4 @@ struct ChildLimits {
 [[nodiscard]] ChildResult RunInLimitedChild(const std::function<std::string()>& task,
                                             const ChildLimits& limits);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
@@ -64,4 +64,4 @@ MassProperties ComputeMassProperties(const std::vector<std::vector<Vector2d>>& r
   return AboutCentroid(moments, {from.x(), from.y(), 0});
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

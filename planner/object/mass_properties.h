@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Volume (area in the plane), centroid and inertia of a homogeneous solid of density 1.
 ///
@@ -33,4 +33,4 @@ struct MassProperties {
 [[nodiscard]] MassProperties ComputeMassProperties(
     const std::vector<std::vector<Eigen::Vector2d>>& rings);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

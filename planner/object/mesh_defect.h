@@ -4,7 +4,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// What makes a soup not the surface of one solid.
 enum class MeshDefect {
@@ -33,4 +33,4 @@ class MeshError : public InputError {
   MeshDefect defect_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 
 #include "planner/object/polygon_soup.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 // Readers of the common surface formats, in double precision and the same under any locale.
 //
@@ -28,4 +28,4 @@ namespace regrasp {
 /// STL, ASCII or binary. Facets share no vertices here: equal coordinates are merged later.
 [[nodiscard]] PolygonSoup ReadStl(std::string_view bytes, const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -10,7 +10,7 @@
 #include "planner/object/mass_properties.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Where a face meets another one: a straight segment in space, a vertex of the polygon (a = b) in
 /// the plane.
@@ -134,4 +134,4 @@ struct ObjectFile {
 /// @throws InputError  names the file, the element and what is wrong with it.
 [[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -12,7 +12,7 @@
 #include "planner/object/polygon_rings.h"
 #include "planner/object/size_limits.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -159,4 +159,4 @@ std::vector<Vector3d> Polygon::CommonPoints(int face, int other, const Vector3d&
   return points;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -6,7 +6,7 @@
 
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// A simple polygon, with or without holes, in the plane z = 0.
 ///
@@ -62,4 +62,4 @@ class Polygon final : public Object {
   std::vector<int> previous_;  ///< by edge: the one that ends where it begins
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Rings of a polygon, the outer one first; a ring's last point is not repeated.
 using PolygonRings = std::vector<std::vector<Eigen::Vector2d>>;
@@ -20,4 +20,4 @@ void CheckAndOrientRings(PolygonRings& rings, const std::string& name);
 /// @throws InputError
 [[nodiscard]] PolygonRings ReadWktRings(std::string_view text, const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

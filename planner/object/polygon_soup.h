@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Vertices and facets as a file gives them, unchecked. A facet is a polygon of vertex indices,
 /// counter-clockwise from outside. It may be non-convex, but it has no holes.
@@ -12,4 +12,4 @@ struct PolygonSoup {
   std::vector<std::vector<int>> facets;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <map>
 
-namespace regrasp {
+namespace regrasp::object {
 
 std::vector<std::array<int, 3>> TriangulatePolygon(const Polygon& polygon) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -32,4 +32,4 @@ std::vector<std::array<int, 3>> TriangulatePolygon(const Polygon& polygon) {
   return triangles;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

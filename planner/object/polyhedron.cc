@@ -17,7 +17,7 @@
 #include "planner/object/surface_topology.h"
 #include "planner/object/weld.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector3d;
 
@@ -186,4 +186,4 @@ std::vector<Vector3d> Polyhedron::CommonPoints(int face, int other, const Vector
   return points;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -10,7 +10,7 @@
 #include "planner/object/polygon_soup.h"
 #include "planner/object/reading.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 class FaceIndex;
 
@@ -79,4 +79,4 @@ class Polyhedron final : public Object {
   std::shared_ptr<const FaceIndex> index_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

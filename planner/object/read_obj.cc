@@ -7,7 +7,7 @@
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -89,4 +89,4 @@ PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

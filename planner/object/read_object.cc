@@ -12,7 +12,7 @@
 #include "planner/object/reading.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -68,4 +68,4 @@ ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading)
 
 ObjectFile ReadObject(const std::filesystem::path& path) { return ReadObject(path, Reading()); }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -4,7 +4,7 @@
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -73,4 +73,4 @@ PolygonSoup ReadOff(std::string_view text, const std::string& name) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -13,7 +13,7 @@
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 static_assert(std::endian::native == std::endian::little, "values are swapped from big to little");
 
@@ -321,4 +321,4 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& name) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

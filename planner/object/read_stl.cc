@@ -8,7 +8,7 @@
 #include "planner/object/mesh_readers.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little-endian");
 
@@ -90,4 +90,4 @@ PolygonSoup ReadStl(std::string_view bytes, const std::string& name) {
                    std::to_string(bytes.size()) + " bytes");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

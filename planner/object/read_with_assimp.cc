@@ -5,7 +5,7 @@
 #include "planner/object/limited_child.h"
 #include "planner/object/soup_bytes.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -41,4 +41,4 @@ PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& 
   return *std::move(soup);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

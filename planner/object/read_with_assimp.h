@@ -7,7 +7,7 @@
 
 #include "planner/object/polygon_soup.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// What the child process that runs assimp may use.
 struct AssimpLimits {
@@ -30,4 +30,4 @@ struct AssimpLimits {
 [[nodiscard]] PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& path,
                                          const AssimpLimits& limits = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -3,7 +3,7 @@
 #include "planner/object/polygon_rings.h"
 #include "planner/object/text_scanner.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector2d;
 
@@ -128,4 +128,4 @@ PolygonRings ReadWktRings(std::string_view text, const std::string& name) {
   return WktReader(text, name).Read();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -8,7 +8,7 @@
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// What is told while an object is read, and when that makes an end.
 struct Reading {
@@ -28,4 +28,4 @@ struct Reading {
 /// @throws TimeUp  the deadline came; names the file.
 [[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

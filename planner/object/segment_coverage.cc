@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -74,4 +74,4 @@ bool CoverUnitInterval(std::vector<ParameterInterval> intervals) {
   return covered >= 1 && !intervals.empty();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

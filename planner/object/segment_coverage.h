@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// A part of the unit interval.
 using ParameterInterval = std::pair<double, double>;
@@ -21,4 +21,4 @@ using ParameterInterval = std::pair<double, double>;
 /// True iff the intervals cover [0, 1] without a gap.
 [[nodiscard]] bool CoverUnitInterval(std::vector<ParameterInterval> intervals);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -10,7 +10,7 @@
 #include "planner/object/size_limits.h"
 #include "planner/object/surface_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -58,4 +58,4 @@ void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
                       FacetName(mesh, b) + ", which is not its neighbour there");
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 #include "planner/base/deadline.h"
 #include "planner/object/triangle_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Checks with exact predicates that no two triangles meet elsewhere than at the vertices and the
 /// edge that they share.
@@ -15,4 +15,4 @@ namespace regrasp {
 void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
                            const Deadline& deadline);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

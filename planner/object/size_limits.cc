@@ -4,7 +4,7 @@
 
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 std::string SizeComplaint(const std::vector<Eigen::Vector3d>& vertices, double diameter) {
   if (!(diameter >= kMinDiameter)) {
@@ -24,4 +24,4 @@ std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to
          " of the diameter (" + FormatShort(diameter) + "); make its ends one point";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

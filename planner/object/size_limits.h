@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Larger coordinates are refused: their products of up to five factors, which inertia needs, would
 /// come near the end of double's range, and no object is that wide.
@@ -39,4 +39,4 @@ inline constexpr std::size_t kMaxOverlaps = 30'000'000;
 [[nodiscard]] std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                         double diameter);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

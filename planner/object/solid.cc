@@ -10,7 +10,7 @@
 #include "planner/object/mesh_defect.h"
 #include "planner/object/surface_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 using Eigen::Vector3d;
 
@@ -127,4 +127,4 @@ int OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology, const std::string
   return static_cast<int>(outside);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

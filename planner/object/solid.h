@@ -5,7 +5,7 @@
 #include "planner/object/surface_topology.h"
 #include "planner/object/triangle_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Checks that a surface bounds one solid, and orients it outward.
 ///
@@ -18,4 +18,4 @@ namespace regrasp {
 [[nodiscard]] int OrientSolid(TriangleMesh& mesh, SurfaceTopology& topology,
                               const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::optional<PolygonSoup> SoupFromBytes(std::string_view bytes) {
   return soup;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -6,7 +6,7 @@
 
 #include "planner/object/polygon_soup.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// A soup as bytes, to be sent between two processes of this machine.
 [[nodiscard]] std::string SoupToBytes(const PolygonSoup& soup);
@@ -14,4 +14,4 @@ namespace regrasp {
 /// The way back. @returns nullopt where the bytes are not those of a whole soup.
 [[nodiscard]] std::optional<PolygonSoup> SoupFromBytes(std::string_view bytes);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -2,7 +2,7 @@
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
-namespace regrasp {
+namespace regrasp::object {
 
 SurfaceMesh MakeSurfaceMesh(const TriangleMesh& mesh,
                             const std::vector<std::array<int, 3>>& triangles) {
@@ -25,4 +25,4 @@ SurfaceMesh MakeSurfaceMesh(const TriangleMesh& mesh,
   return surface;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 
 #include "planner/object/triangle_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// CGAL's half-edge mesh, for its algorithms; only for .cc files, as it brings CGAL along.
 using SurfaceKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -15,4 +15,4 @@ using SurfaceMesh = CGAL::Surface_mesh<SurfaceKernel::Point_3>;
 [[nodiscard]] SurfaceMesh MakeSurfaceMesh(const TriangleMesh& mesh,
                                           const std::vector<std::array<int, 3>>& triangles);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

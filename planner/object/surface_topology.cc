@@ -5,7 +5,7 @@
 
 #include "planner/object/mesh_defect.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -129,4 +129,4 @@ SurfaceTopology ComputeTopology(const TriangleMesh& mesh, const std::string& nam
   return topology;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

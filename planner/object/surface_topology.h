@@ -6,7 +6,7 @@
 
 #include "planner/object/triangle_mesh.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Which triangles are neighbours on a closed, consistently oriented 2-manifold.
 struct SurfaceTopology {
@@ -21,4 +21,4 @@ struct SurfaceTopology {
 /// @throws MeshError  kNotClosed, kNotManifold or kNotOriented, with facets and vertices named.
 [[nodiscard]] SurfaceTopology ComputeTopology(const TriangleMesh& mesh, const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

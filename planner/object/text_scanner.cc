@@ -5,7 +5,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::optional<long long> ParseInteger(std::string_view word) {
   return value;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Cuts text into words, the same under any locale, and knows where it is for messages.
 ///
@@ -54,4 +54,4 @@ class TextScanner {
 /// A whole word as an integer.
 [[nodiscard]] std::optional<long long> ParseInteger(std::string_view word);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

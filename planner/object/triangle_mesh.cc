@@ -4,7 +4,7 @@
 
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, int triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -21,4 +21,4 @@ std::string FacetName(const TriangleMesh& mesh, int triangle) {
   return "facet " + std::to_string(mesh.facet_of_triangle[triangle]);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Triangles with their way back to the file, so that checks can name what they find.
 struct TriangleMesh {
@@ -25,4 +25,4 @@ struct TriangleMesh {
 /// "facet 12", as the file counts.
 [[nodiscard]] std::string FacetName(const TriangleMesh& mesh, int triangle);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

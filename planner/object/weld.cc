@@ -9,7 +9,7 @@
 #include "planner/object/mesh_defect.h"
 #include "planner/object/size_limits.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 namespace {
 
@@ -81,4 +81,4 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
   return welded;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -6,7 +6,7 @@
 
 #include "planner/object/polygon_soup.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// A soup in which equal coordinates are one vertex and every vertex is used.
 struct WeldedSoup {
@@ -23,4 +23,4 @@ struct WeldedSoup {
 ///                    beyond kMaxCoordinate; a facet with fewer than three corners or one twice.
 [[nodiscard]] WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

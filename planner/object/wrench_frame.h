@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Where torques are taken and over what length they are divided, so that wrenches have one unit.
 ///
@@ -15,4 +15,4 @@ struct WrenchFrame {
   int dimension = 3;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -8,7 +8,7 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/same_grasp.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -53,7 +53,7 @@ StepCheck Skipped(int index, const char* kind) {
 
 /// Enough for any plan whose aligns keep off the limit: they need tens of pieces a stretch, and
 /// some stretches may need thousands.
-ProofBudget BudgetOf(const Plan& plan) {
+motion::ProofBudget BudgetOf(const Plan& plan) {
   constexpr std::int64_t kUnitsOfAPlan = 200'000;
   constexpr std::int64_t kUnitsOfAContact = 250;
   std::int64_t contacts = 0;
@@ -64,14 +64,14 @@ ProofBudget BudgetOf(const Plan& plan) {
       contacts += static_cast<std::int64_t>(waypoint.size());
     }
   }
-  return ProofBudget(kUnitsOfAPlan + kUnitsOfAContact * contacts);
+  return motion::ProofBudget(kUnitsOfAPlan + kUnitsOfAContact * contacts);
 }
 
 }  // namespace
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
 
-PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& options) {
+PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckOptions& options) {
   if (plan.dimension != object.dimension()) {
     throw InputError("plan: /object/dimension: is " + std::to_string(plan.dimension) +
                      ", but the object has dimension " + std::to_string(object.dimension()));
@@ -79,8 +79,8 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
   PlanCheck result;
   result.located = LocatePlan(object, plan);
   // Of their own, so that searches for bounds leave enough to decide with.
-  ProofBudget decisions = BudgetOf(plan);
-  ProofBudget bounds = BudgetOf(plan);
+  motion::ProofBudget decisions = BudgetOf(plan);
+  motion::ProofBudget bounds = BudgetOf(plan);
   const CheckContext context{
       object,
       result.located,
@@ -107,4 +107,4 @@ PlanCheck CheckPlan(const Object& object, const Plan& plan, const CheckOptions& 
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

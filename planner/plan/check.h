@@ -10,7 +10,7 @@
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// What the analytic check says of one entry of the report: the initial hold or a step.
 struct StepCheck {
@@ -26,7 +26,7 @@ struct StepCheck {
   bool force_closure = false;
   /// The smallest half-angle at which every grasp of the step is force closure; nullopt where none.
   /// Where `force_closure` is true by proofs alone, `upper` is no larger than the friction's.
-  std::optional<RequiredHalfAngle> required;
+  std::optional<grasp::RequiredHalfAngle> required;
   /// Intervals of an align's path, each no longer than 1e-6 of the way between two waypoints, on
   /// which force closure stayed undecided: no proof was found, and no instant that is not force
   /// closure. They fail the step (kNotProved) unless CheckOptions::allow_undecided is set.
@@ -40,8 +40,8 @@ struct CheckOptions {
   std::optional<double> finger_radius = std::nullopt;
   /// False: everything but force closure, which is then false and `required` nullopt everywhere.
   bool judge_force_closure = true;
-  const Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
-  const Grasp* goal = nullptr;   ///< and its goal this one
+  const grasp::Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
+  const grasp::Grasp* goal = nullptr;   ///< and its goal this one
   /// Aligns pass with up to kMostUndecided undecided intervals in each stretch.
   bool allow_undecided = false;
 };
@@ -66,7 +66,7 @@ struct PlanCheck {
 /// the unit of length; enlarging the friction never turns pass into fail.
 /// @throws InputError             the plan's dimension is not the object's.
 /// @throws std::invalid_argument  the friction half-angle is not in (0, π/2).
-[[nodiscard]] PlanCheck CheckPlan(const Object& object, const Plan& plan,
+[[nodiscard]] PlanCheck CheckPlan(const object::Object& object, const Plan& plan,
                                   const CheckOptions& options = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -13,7 +13,7 @@
 #include "planner/plan/same_grasp.h"
 #include "planner/plan/tolerance.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -80,14 +80,14 @@ void CheckNamedOnce(const FingerGrasp& grasp, const std::string& place, StepFaul
 }
 
 /// Bounds on the larger of two required half-angles; none if either is none.
-std::optional<RequiredHalfAngle> Larger(const std::optional<RequiredHalfAngle>& a,
-                                        const std::optional<RequiredHalfAngle>& b) {
+std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::RequiredHalfAngle>& a,
+                                               const std::optional<grasp::RequiredHalfAngle>& b) {
   if (!a || !b) return std::nullopt;
-  return RequiredHalfAngle{std::max(a->lower, b->lower), std::max(a->upper, b->upper)};
+  return grasp::RequiredHalfAngle{std::max(a->lower, b->lower), std::max(a->upper, b->upper)};
 }
 
 std::string AngleNeeded(const CheckContext& context,
-                        const std::optional<RequiredHalfAngle>& required) {
+                        const std::optional<grasp::RequiredHalfAngle>& required) {
   if (!required) return "at no friction half-angle";
   return "needs a friction half-angle of " + FormatShort(Degrees(required->upper)) +
          " degrees, has " + FormatShort(Degrees(context.half_angle));
@@ -99,24 +99,24 @@ void LeaveUnproved(const std::string& why, StepCheck& check, StepFault& fault) {
 }
 
 /// Where force closure holds at the friction, the smallest half-angle is no larger than that.
-std::optional<RequiredHalfAngle> Within(std::optional<RequiredHalfAngle> required,
-                                        double half_angle) {
+std::optional<grasp::RequiredHalfAngle> Within(std::optional<grasp::RequiredHalfAngle> required,
+                                               double half_angle) {
   if (!required) return std::nullopt;
-  return RequiredHalfAngle{std::min(required->lower, half_angle),
-                           std::min(required->upper, half_angle)};
+  return grasp::RequiredHalfAngle{std::min(required->lower, half_angle),
+                                  std::min(required->upper, half_angle)};
 }
 
 /// Includes a grasp at rest in a step's force closure and required half-angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
-  const Grasp contacts = ContactsOf(grasp);
-  const WrenchFrame frame = context.object.wrench_frame();
-  std::optional<RequiredHalfAngle> required;
+  const grasp::Grasp contacts = ContactsOf(grasp);
+  const object::WrenchFrame frame = context.object.wrench_frame();
+  std::optional<grasp::RequiredHalfAngle> required;
   bool holds = false;
   if (!contacts.empty()) {
-    required = ComputeRequiredHalfAngle(contacts, frame);
-    holds = IsForceClosure(contacts, frame, context.half_angle);
+    required = grasp::ComputeRequiredHalfAngle(contacts, frame);
+    holds = grasp::IsForceClosure(contacts, frame, context.half_angle);
     if (holds) required = Within(required, context.half_angle);
   }
   check.required = Larger(check.required, required);
@@ -138,7 +138,7 @@ void AddObstacle(const std::optional<std::string>& obstacle, StepFault& fault) {
 void BeginForceClosure(const CheckContext& context, StepCheck& check) {
   if (!context.judge_force_closure) return;
   check.force_closure = true;
-  check.required = RequiredHalfAngle{0, 0};
+  check.required = grasp::RequiredHalfAngle{0, 0};
 }
 
 StepCheck Finish(StepCheck check, const StepFault& fault) {
@@ -154,7 +154,7 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
     if (moved == nullptr) continue;
     if (!AreSameContact(held.contact, moved->contact, context.tolerance())) {
       const double distance = (held.contact.p - moved->contact.p).norm();
-      const double angle = Degrees(AngleBetween(held.contact.n, moved->contact.n));
+      const double angle = Degrees(grasp::AngleBetween(held.contact.n, moved->contact.n));
       fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
                                             " is not where it was: " + FormatShort(distance) +
                                             " away, normal turned by " + FormatShort(angle) +
@@ -204,16 +204,16 @@ void CheckMotions(const CheckContext& context, const Align& step, StepFault& fau
   }
 }
 
-GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to) {
-  GraspMotion motion;
+motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to) {
+  motion::GraspMotion motion;
   for (const FingerContact& held : from) {
     motion.emplace_back(held.contact, FindFinger(to, held.finger)->contact);
   }
   return motion;
 }
 
-std::string UnprovedText(const PathForceClosure& path, const std::string& way,
-                         const std::optional<RequiredHalfAngle>& required) {
+std::string UnprovedText(const motion::PathForceClosure& path, const std::string& way,
+                         const std::optional<grasp::RequiredHalfAngle>& required) {
   const std::string at = FormatShort(path.at) + " of the way " + way;
   if (path.ended_early) {
     return "force closure is not proved: the search for proofs ended at " + at +
@@ -227,26 +227,26 @@ std::string UnprovedText(const PathForceClosure& path, const std::string& way,
 }
 
 /// Includes the way from one waypoint to the next in an align's force closure.
-void IncludeMotion(const CheckContext& context, const GraspMotion& motion, std::size_t waypoint,
-                   StepCheck& check, StepFault& fault) {
+void IncludeMotion(const CheckContext& context, const motion::GraspMotion& motion,
+                   std::size_t waypoint, StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
-  const WrenchFrame frame = context.object.wrench_frame();
-  const PathForceClosure path =
-      DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
+  const object::WrenchFrame frame = context.object.wrench_frame();
+  const motion::PathForceClosure path =
+      motion::DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
   std::optional<double> proven;
   if (path.holds()) proven = context.half_angle;
-  const auto required = ComputePathRequiredHalfAngle(motion, frame, proven, context.bounds);
+  const auto required = motion::ComputePathRequiredHalfAngle(motion, frame, proven, context.bounds);
   check.required = Larger(check.required, required);
   check.undecided += path.undecided;
   const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);
   const bool allowed = context.allow_undecided && !path.ended_early;
-  if (path.decision == Decision::kNo) {
-    const auto there = ComputeRequiredHalfAngle(GraspAt(motion, path.at), frame);
+  if (path.decision == grasp::Decision::kNo) {
+    const auto there = grasp::ComputeRequiredHalfAngle(motion::GraspAt(motion, path.at), frame);
     check.force_closure = false;
     fault.Add(Reason::kNotForceClosure,
               "at " + FormatShort(path.at) + " of the way " + way +
                   " the grasp is not force closure: " + AngleNeeded(context, there));
-  } else if (path.decision == Decision::kTooClose && !allowed) {
+  } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
     LeaveUnproved(UnprovedText(path, way, required), check, fault);
   } else if (!required && !allowed) {
     LeaveUnproved("on the way " + way + " no bound on the half-angle that it needs is proved",
@@ -339,4 +339,4 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   return Finish(check, fault);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

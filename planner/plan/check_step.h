@@ -7,7 +7,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// The faults of one step: the first of the report's order counts.
 class StepFault {
@@ -25,16 +25,16 @@ class StepFault {
 
 /// What every step is checked against. The plan is located (LocatePlan).
 struct CheckContext {
-  const Object& object;
+  const object::Object& object;
   const Plan& plan;
   double half_angle;                ///< friction, radians
-  ProofBudget& decisions;           ///< for deciding force closure along all aligns
-  ProofBudget& bounds;              ///< for the required half-angles of all aligns
+  motion::ProofBudget& decisions;   ///< for deciding force closure along all aligns
+  motion::ProofBudget& bounds;      ///< for the required half-angles of all aligns
   double finger_radius = 0;         ///< the object's unit of length; 0: points
   bool allow_undecided = false;     ///< CheckOptions
   bool judge_force_closure = true;  ///< CheckOptions
 
-  [[nodiscard]] double tolerance() const { return kPointTolerance * object.diameter(); }
+  [[nodiscard]] double tolerance() const { return object::kPointTolerance * object.diameter(); }
 
   /// Points are read to within the tolerance: fingers that overlap something by less don't.
   [[nodiscard]] double least_radius() const { return finger_radius - tolerance(); }
@@ -49,4 +49,4 @@ struct CheckContext {
 [[nodiscard]] StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before,
                                    const Align& step);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

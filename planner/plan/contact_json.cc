@@ -2,9 +2,9 @@
 
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::plan {
 
-Contact ReadContact(const JsonReader& json, int dimension) {
+grasp::Contact ReadContact(const JsonReader& json, int dimension) {
   return {json.Member("point").Vector(dimension), json.Member("normal").Vector(dimension)};
 }
 
@@ -31,16 +31,16 @@ FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension) {
   return grasp;
 }
 
-Json ContactJson(const Contact& contact, int dimension) {
+Json ContactJson(const grasp::Contact& contact, int dimension) {
   Json json = Json::object();
   json["point"] = VectorJson(contact.p, dimension);
   json["normal"] = VectorJson(contact.n, dimension);
   return json;
 }
 
-Json GraspJson(const Grasp& grasp, int dimension) {
+Json GraspJson(const grasp::Grasp& grasp, int dimension) {
   Json json = Json::array();
-  for (const Contact& contact : grasp) json.push_back(ContactJson(contact, dimension));
+  for (const grasp::Contact& contact : grasp) json.push_back(ContactJson(contact, dimension));
   return json;
 }
 
@@ -56,4 +56,4 @@ Json FingerGraspJson(const FingerGrasp& grasp, int dimension) {
   return json;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

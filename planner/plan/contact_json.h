@@ -4,10 +4,10 @@
 #include "planner/plan/json_reader.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// Reads `{"point": […], "normal": […]}`, both of `dimension` numbers; further fields are ignored.
-[[nodiscard]] Contact ReadContact(const JsonReader& json, int dimension);
+[[nodiscard]] grasp::Contact ReadContact(const JsonReader& json, int dimension);
 
 /// Reads an array of contacts, each with its `finger` and, if it has one, its `region`.
 [[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
@@ -15,8 +15,8 @@ namespace regrasp {
 /// Reads a finger's number. Numbers outside the hand are left to the checker.
 [[nodiscard]] int ReadFinger(const JsonReader& json);
 
-[[nodiscard]] Json ContactJson(const Contact& contact, int dimension);
-[[nodiscard]] Json GraspJson(const Grasp& grasp, int dimension);
+[[nodiscard]] Json ContactJson(const grasp::Contact& contact, int dimension);
+[[nodiscard]] Json GraspJson(const grasp::Grasp& grasp, int dimension);
 [[nodiscard]] Json FingerGraspJson(const FingerGrasp& grasp, int dimension);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

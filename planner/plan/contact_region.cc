@@ -8,7 +8,7 @@
 
 #include "planner/grasp/force_closure.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 using Eigen::Vector3d;
 
@@ -16,13 +16,13 @@ namespace {
 
 /// A closed part of an edge, by its ends.
 struct Piece {
-  std::array<Contact, 2> ends;
+  std::array<grasp::Contact, 2> ends;
 };
 
 /// The ring that a contact lies on, by lengths from its first vertex.
 class RingPlace {
  public:
-  RingPlace(const Polygon& polygon, const Contact& contact) : polygon_(polygon) {
+  RingPlace(const object::Polygon& polygon, const grasp::Contact& contact) : polygon_(polygon) {
     int count = 0;
     for (const auto& ring : polygon.rings()) {
       first_ += count;
@@ -67,24 +67,27 @@ class RingPlace {
   }
 
  private:
-  [[nodiscard]] Contact At(int edge, double length) const {
+  [[nodiscard]] grasp::Contact At(int edge, double length) const {
     const auto [from, to] = polygon_.edge(edge);
     const double share = std::clamp(length / polygon_.face_measure(edge), 0.0, 1.0);
     return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
   }
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   int first_ = 0;                     ///< edge of the ring
   std::vector<double> begins_ = {0};  ///< of its edges, then the perimeter
   double place_ = 0;
 };
 
 /// Squeezing grasps push towards each other, stretching ones away from each other.
-bool IsSqueezing(const Contact& a, const Contact& b) { return (b.p - a.p).dot(a.n) > 0; }
+bool IsSqueezing(const grasp::Contact& a, const grasp::Contact& b) {
+  return (b.p - a.p).dot(a.n) > 0;
+}
 
 class Region {
  public:
-  Region(const Polygon& polygon, const Contact& a, const Contact& b, double half_angle)
+  Region(const object::Polygon& polygon, const grasp::Contact& a, const grasp::Contact& b,
+         double half_angle)
       : frame_(polygon.wrench_frame()),
         half_angle_(half_angle),
         squeezing_(IsSqueezing(a, b)),
@@ -100,22 +103,23 @@ class Region {
 
  private:
   [[nodiscard]] bool Holds(const Piece& a, const Piece& b) const {
-    return std::ranges::all_of(a.ends, [&](const Contact& p) {
-      return std::ranges::all_of(b.ends, [&](const Contact& q) {
-        return IsSqueezing(p, q) == squeezing_ && IsForceClosure({{p, q}}, frame_, half_angle_);
+    return std::ranges::all_of(a.ends, [&](const grasp::Contact& p) {
+      return std::ranges::all_of(b.ends, [&](const grasp::Contact& q) {
+        return IsSqueezing(p, q) == squeezing_ &&
+               grasp::IsForceClosure({{p, q}}, frame_, half_angle_);
       });
     });
   }
 
-  WrenchFrame frame_;
+  object::WrenchFrame frame_;
   double half_angle_;
   bool squeezing_;
   RingPlace first_, second_;
 };
 
-void CheckArguments(const Polygon& polygon, const Grasp& grasp, double limit) {
+void CheckArguments(const object::Polygon& polygon, const grasp::Grasp& grasp, double limit) {
   if (grasp.size() != 2) throw std::invalid_argument("a contact region is one of two contacts");
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     if (contact.face < 0 || contact.face >= polygon.face_count()) {
       throw std::invalid_argument("a contact of a contact region is on no edge");
     }
@@ -127,10 +131,10 @@ void CheckArguments(const Polygon& polygon, const Grasp& grasp, double limit) {
 
 }  // namespace
 
-double MeasureContactRegion(const Polygon& polygon, const Grasp& two_contacts, double half_angle,
-                            double limit) {
+double MeasureContactRegion(const object::Polygon& polygon, const grasp::Grasp& two_contacts,
+                            double half_angle, double limit) {
   CheckArguments(polygon, two_contacts, limit);
-  if (!IsForceClosure(two_contacts, polygon.wrench_frame(), half_angle)) return 0;
+  if (!grasp::IsForceClosure(two_contacts, polygon.wrench_frame(), half_angle)) return 0;
   const Region region(polygon, two_contacts[0], two_contacts[1], half_angle);
   if (region.Holds(limit)) return limit;
   double low = 0, high = limit;
@@ -141,4 +145,4 @@ double MeasureContactRegion(const Polygon& polygon, const Grasp& two_contacts, d
   return low;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -3,7 +3,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// The half-width of the independent contact region of a grasp of two contacts on a polygon's
 /// boundary (Phoka 2010, section 4.6.2): the largest h for which both contacts may be anywhere
@@ -24,10 +24,11 @@ namespace regrasp {
 /// @returns a lower bound within kRegionAccuracy · D; 0 where the grasp is not force closure.
 /// @throws std::invalid_argument  not two contacts, one without its edge; a limit that is negative
 ///                                or not finite; as IsForceClosure.
-[[nodiscard]] double MeasureContactRegion(const Polygon& polygon, const Grasp& two_contacts,
-                                          double half_angle, double limit);
+[[nodiscard]] double MeasureContactRegion(const object::Polygon& polygon,
+                                          const grasp::Grasp& two_contacts, double half_angle,
+                                          double limit);
 
 /// Over the diameter: a tenth of what two points may differ by and still be the same.
 inline constexpr double kRegionAccuracy = 1e-7;
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -5,13 +5,14 @@
 #include "planner/plan/contact_json.h"
 #include "planner/plan/locate.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
 /// The contact of a point whose normal is left out: its only face's.
-Contact ContactOfPoint(const JsonReader& json, const Object& object, const Eigen::Vector3d& point) {
-  const double tolerance = kPointTolerance * object.diameter();
+grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,
+                              const Eigen::Vector3d& point) {
+  const double tolerance = object::kPointTolerance * object.diameter();
   const std::vector<int> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) {
     json.Member("point").Fail("farther than " + FormatShort(tolerance) + " from the surface");
@@ -24,7 +25,7 @@ Contact ContactOfPoint(const JsonReader& json, const Object& object, const Eigen
   return {object.ClosestPoint(face, point), object.inward_normal(face), face};
 }
 
-Contact ReadOnObject(const JsonReader& json, const Object& object) {
+grasp::Contact ReadOnObject(const JsonReader& json, const object::Object& object) {
   if (!json.Has("normal")) {
     return ContactOfPoint(json, object, json.Member("point").Vector(object.dimension()));
   }
@@ -36,11 +37,12 @@ Contact ReadOnObject(const JsonReader& json, const Object& object) {
 
 }  // namespace
 
-Grasp ParseGrasp(std::string_view text, const std::string& name, const Object& object) {
+grasp::Grasp ParseGrasp(std::string_view text, const std::string& name,
+                        const object::Object& object) {
   const Json json = ParseJson(text, name);
   const JsonReader root(json, name);
   root.ExpectFormat("regrasp-grasp");
-  Grasp grasp;
+  grasp::Grasp grasp;
   for (const JsonReader& element : root.Member("contacts").Elements()) {
     grasp.push_back(ReadOnObject(element, object));
   }
@@ -48,11 +50,11 @@ Grasp ParseGrasp(std::string_view text, const std::string& name, const Object& o
   return grasp;
 }
 
-Grasp ReadGrasp(const std::filesystem::path& path, const Object& object) {
+grasp::Grasp ReadGrasp(const std::filesystem::path& path, const object::Object& object) {
   return ParseGrasp(ReadFile(path), path.string(), object);
 }
 
-std::string FormatGrasp(const Grasp& grasp, int dimension) {
+std::string FormatGrasp(const grasp::Grasp& grasp, int dimension) {
   Json json = Json::object();
   json["format"] = "regrasp-grasp";
   json["version"] = 1;
@@ -60,4 +62,4 @@ std::string FormatGrasp(const Grasp& grasp, int dimension) {
   return FormatJson(json);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

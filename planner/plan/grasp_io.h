@@ -7,18 +7,19 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// Reads a grasp file (docs/grasp.schema.json) and places it on the object: points are projected, a
 /// normal that is left out is the face's own.
 /// @throws InputError  names the file, the element as a JSON pointer, and what is wrong; also where
 ///                     a point is farther than the tolerance from the surface, a normal is at odds
 ///                     with it, or is left out on a border.
-[[nodiscard]] Grasp ReadGrasp(const std::filesystem::path& path, const Object& object);
-[[nodiscard]] Grasp ParseGrasp(std::string_view text, const std::string& name,
-                               const Object& object);
+[[nodiscard]] grasp::Grasp ReadGrasp(const std::filesystem::path& path,
+                                     const object::Object& object);
+[[nodiscard]] grasp::Grasp ParseGrasp(std::string_view text, const std::string& name,
+                                      const object::Object& object);
 
 /// The text of a grasp file: same grasp, same bytes; doubles read back as the same bits.
-[[nodiscard]] std::string FormatGrasp(const Grasp& grasp, int dimension);
+[[nodiscard]] std::string FormatGrasp(const grasp::Grasp& grasp, int dimension);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

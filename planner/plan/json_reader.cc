@@ -5,7 +5,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -110,4 +110,4 @@ Json VectorJson(const Eigen::Vector3d& vector, int dimension) {
   return json;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -8,7 +8,7 @@
 
 #include "planner/base/json.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// Numbers beyond this are refused: their squares must not overflow.
 inline constexpr double kLargestNumber = 1e15;
@@ -59,4 +59,4 @@ class JsonReader {
 /// Numbers of a vector as JSON, two in the plane.
 [[nodiscard]] Json VectorJson(const Eigen::Vector3d& vector, int dimension);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -9,11 +9,11 @@
 #include "planner/plan/locate_align.h"
 #include "planner/plan/tolerance.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
-void LocateAll(const Object& object, FingerGrasp& grasp) {
+void LocateAll(const object::Object& object, FingerGrasp& grasp) {
   for (FingerContact& held : grasp) held.contact = LocateContact(object, held.contact).contact;
 }
 
@@ -22,25 +22,26 @@ bool IsUnit(const Eigen::Vector3d& normal) {
 }
 
 /// Angles between the contact's normal and those of faces near it, nearest first.
-std::vector<std::pair<double, int>> RankFaces(const std::vector<int>& faces, const Object& object,
-                                              const Contact& contact) {
+std::vector<std::pair<double, int>> RankFaces(const std::vector<int>& faces,
+                                              const object::Object& object,
+                                              const grasp::Contact& contact) {
   std::vector<std::pair<double, int>> ranked;
   for (const int face : faces) {
-    ranked.emplace_back(AngleBetween(contact.n, object.inward_normal(face)), face);
+    ranked.emplace_back(grasp::AngleBetween(contact.n, object.inward_normal(face)), face);
   }
   std::ranges::stable_sort(ranked, {}, &std::pair<double, int>::first);
   return ranked;
 }
 
-Contact Project(const Object& object, const Contact& contact, int face) {
+grasp::Contact Project(const object::Object& object, const grasp::Contact& contact, int face) {
   return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
 }  // namespace
 
-LocatedContact LocateContact(const Object& object, const Contact& contact) {
+LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
   LocatedContact located{{contact.p, contact.n, -1}, Reason::kNone, ""};
-  const double tolerance = kPointTolerance * object.diameter();
+  const double tolerance = object::kPointTolerance * object.diameter();
   const std::vector<int> faces = object.FacesNear(contact.p, tolerance);
   if (faces.empty()) {
     located.reason = Reason::kOffSurface;
@@ -63,17 +64,19 @@ LocatedContact LocateContact(const Object& object, const Contact& contact) {
   return located;
 }
 
-std::vector<Contact> LocateEverywhere(const Object& object, const Contact& contact) {
-  std::vector<Contact> places;
+std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
+                                             const grasp::Contact& contact) {
+  std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
-  const std::vector<int> faces = object.FacesNear(contact.p, kPointTolerance * object.diameter());
+  const std::vector<int> faces =
+      object.FacesNear(contact.p, object::kPointTolerance * object.diameter());
   for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
     if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));
   }
   return places;
 }
 
-Plan LocatePlan(const Object& object, const Plan& plan) {
+Plan LocatePlan(const object::Object& object, const Plan& plan) {
   Plan located = plan;
   LocateAll(object, located.initial);
   for (Step& step : located.steps) {
@@ -83,8 +86,8 @@ Plan LocatePlan(const Object& object, const Plan& plan) {
       LocateAlign(object, std::get<Align>(step));
     }
   }
-  for (Contact& contact : located.goal) contact = LocateContact(object, contact).contact;
+  for (grasp::Contact& contact : located.goal) contact = LocateContact(object, contact).contact;
   return located;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -7,13 +7,13 @@
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// A contact as a file gives it, placed on the object.
 struct LocatedContact {
   /// The point projected onto its face, the face's own normal, and the face; as given and with face
   /// −1 where it has none.
-  Contact contact;
+  grasp::Contact contact;
   Reason reason = Reason::kNone;  ///< kOffSurface or kWrongNormal where it has no face
   std::string detail;             ///< how far off, for people
 };
@@ -21,13 +21,15 @@ struct LocatedContact {
 /// Finds the face of a contact: among the faces within kPointTolerance · D of the point, the one
 /// whose inward normal is nearest to the contact's, which must be within kNormalTolerance and of
 /// unit length within kNormalLengthTolerance. So the normal chooses where faces meet.
-[[nodiscard]] LocatedContact LocateContact(const Object& object, const Contact& contact);
+[[nodiscard]] LocatedContact LocateContact(const object::Object& object,
+                                           const grasp::Contact& contact);
 
 /// All places that a contact can have by the tolerances, nearest normal first, ties by distance and
 /// index; the first is that of LocateContact. Empty where that has none.
-[[nodiscard]] std::vector<Contact> LocateEverywhere(const Object& object, const Contact& contact);
+[[nodiscard]] std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
+                                                           const grasp::Contact& contact);
 
 /// Places every contact of a plan on the object, without judging; docs at PlanCheck::located.
-[[nodiscard]] Plan LocatePlan(const Object& object, const Plan& plan);
+[[nodiscard]] Plan LocatePlan(const object::Object& object, const Plan& plan);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -9,7 +9,7 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/motion_fault.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr double kRounding = 1e-12;
 
 /// One place of a contact, and the best way of the finger to it.
 struct Choice {
-  Contact place;
+  grasp::Contact place;
   int faults = 0;     ///< on the best way
   int ranks = 0;      ///< places before the chosen ones in their lists, summed
   int previous = -1;  ///< choice at the waypoint before
@@ -30,9 +30,9 @@ struct Choice {
 
 using Choices = std::vector<Choice>;
 
-Choices FindChoices(const Object& object, const Contact& contact) {
+Choices FindChoices(const object::Object& object, const grasp::Contact& contact) {
   Choices choices;
-  for (const Contact& place : LocateEverywhere(object, contact)) {
+  for (const grasp::Contact& place : LocateEverywhere(object, contact)) {
     if (choices.size() == kMostChoices) break;
     choices.push_back({place, 0, static_cast<int>(choices.size())});
   }
@@ -40,7 +40,7 @@ Choices FindChoices(const Object& object, const Contact& contact) {
   return choices;
 }
 
-bool IsFault(const Object& object, const Contact& from, const Contact& to) {
+bool IsFault(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to) {
   return from.face >= 0 && to.face >= 0 && FindMotionFault(object, from, to).has_value();
 }
 
@@ -49,7 +49,7 @@ bool IsBetter(const Choice& a, const Choice& b) {
 }
 
 /// Extends the best ways to the waypoint before by one motion.
-void Extend(const Object& object, const Choices& before, Choices& choices) {
+void Extend(const object::Object& object, const Choices& before, Choices& choices) {
   for (Choice& choice : choices) {
     Choice best;
     best.faults = std::numeric_limits<int>::max();
@@ -67,18 +67,18 @@ void Extend(const Object& object, const Choices& before, Choices& choices) {
 /// A point of an edge has its projections on both faces, which rounding may keep apart: a finger
 /// that turns there would move by next to nothing, and nothing could be proved of that. It keeps
 /// the first one.
-void KeepTurningPoints(const Object& object, const std::vector<Contact*>& chain) {
+void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   for (std::size_t j = 1; j < chain.size(); ++j) {
-    const Contact& before = *chain[j - 1];
+    const grasp::Contact& before = *chain[j - 1];
     if (before.face < 0 || chain[j]->face < 0 || before.face == chain[j]->face) continue;
     if ((before.p - chain[j]->p).norm() <= kRounding * object.diameter()) chain[j]->p = before.p;
   }
 }
 
 /// The contacts of one finger, in the order of the waypoints.
-void LocateChain(const Object& object, const std::vector<Contact*>& chain) {
+void LocateChain(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   std::vector<Choices> choices;
-  for (const Contact* contact : chain) {
+  for (const grasp::Contact* contact : chain) {
     choices.push_back(FindChoices(object, *contact));
     if (choices.size() > 1) Extend(object, choices[choices.size() - 2], choices.back());
   }
@@ -93,9 +93,9 @@ void LocateChain(const Object& object, const std::vector<Contact*>& chain) {
 
 }  // namespace
 
-void LocateAlign(const Object& object, Align& align) {
+void LocateAlign(const object::Object& object, Align& align) {
   // A finger that a waypoint names twice, by mistake, is two chains.
-  std::map<std::pair<int, int>, std::vector<Contact*>> chains;
+  std::map<std::pair<int, int>, std::vector<grasp::Contact*>> chains;
   for (FingerGrasp& waypoint : align.waypoints) {
     std::map<int, int> named;
     for (FingerContact& held : waypoint) {
@@ -105,4 +105,4 @@ void LocateAlign(const Object& object, Align& align) {
   for (const auto& [finger, chain] : chains) LocateChain(object, chain);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

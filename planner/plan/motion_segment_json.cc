@@ -1,6 +1,6 @@
 #include "planner/plan/motion_segment_json.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension) {
   Json json = Json::array();
@@ -8,9 +8,9 @@ Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension) {
   return json;
 }
 
-Json MotionSegmentsJson(const MotionSegments& pieces, int dimension) {
+Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension) {
   Json json = Json::array();
-  for (const MotionSegment& piece : pieces) {
+  for (const motion::MotionSegment& piece : pieces) {
     json.push_back({{"from", piece.from},
                     {"to", piece.to},
                     {"start", ForcesJson(piece.start, dimension)},
@@ -25,8 +25,8 @@ std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension) {
   return forces;
 }
 
-MotionSegments ReadMotionSegments(const JsonReader& json, int dimension) {
-  MotionSegments pieces;
+motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension) {
+  motion::MotionSegments pieces;
   for (const JsonReader& piece : json.Elements()) {
     pieces.push_back({piece.Member("from").Number(), piece.Member("to").Number(),
                       ReadForces(piece.Member("start"), dimension),
@@ -35,4 +35,4 @@ MotionSegments ReadMotionSegments(const JsonReader& json, int dimension) {
   return pieces;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

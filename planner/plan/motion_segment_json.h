@@ -6,12 +6,12 @@
 #include "planner/motion/motion_segment.h"
 #include "planner/plan/json_reader.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 [[nodiscard]] Json ForcesJson(const std::vector<Eigen::Vector3d>& forces, int dimension);
-[[nodiscard]] Json MotionSegmentsJson(const MotionSegments& pieces, int dimension);
+[[nodiscard]] Json MotionSegmentsJson(const motion::MotionSegments& pieces, int dimension);
 /// @throws InputError
 [[nodiscard]] std::vector<Eigen::Vector3d> ReadForces(const JsonReader& json, int dimension);
-[[nodiscard]] MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
+[[nodiscard]] motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

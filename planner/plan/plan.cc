@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::plan {
 
 const char* StepKind(const Step& step) {
   return std::holds_alternative<Switch>(step) ? "switch" : "align";
@@ -21,11 +21,11 @@ FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   return after;
 }
 
-Grasp ContactsOf(const FingerGrasp& grasp) {
-  Grasp contacts;
+grasp::Grasp ContactsOf(const FingerGrasp& grasp) {
+  grasp::Grasp contacts;
   contacts.reserve(grasp.size());
   for (const FingerContact& held : grasp) contacts.push_back(held.contact);
   return contacts;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -9,12 +9,12 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// A contact and the finger that makes it; fingers are numbered from 0.
 struct FingerContact {
   int finger = 0;
-  Contact contact;
+  grasp::Contact contact;
   /// Of a contact that a switch between 2-finger grasps of a polygon places: how far both contacts
   /// of the grasp before it, and of the grasp after it, may be off along the boundary, whichever
   /// way each, and the grasp is still force closure. In the object's unit of length.
@@ -33,7 +33,7 @@ struct Switch {
 
 /// A claim that an align is force closure everywhere on the way, with its proof: for each pair of
 /// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
-using AlignCertificate = std::vector<MotionSegments>;
+using AlignCertificate = std::vector<motion::MotionSegments>;
 
 /// The holding fingers move together along the surface, straight from waypoint to waypoint, all at
 /// the same rate. The first waypoint is the grasp before the step.
@@ -67,7 +67,7 @@ struct Plan {
   std::optional<RoadmapNote> roadmap = std::nullopt;
   FingerGrasp initial;
   std::vector<Step> steps;
-  Grasp goal;
+  grasp::Grasp goal;
 };
 
 /// "hold" for entry 0 of a report, "switch" or "align" for a step.
@@ -78,6 +78,6 @@ struct Plan {
 [[nodiscard]] FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step);
 
 /// The contacts without their fingers.
-[[nodiscard]] Grasp ContactsOf(const FingerGrasp& grasp);
+[[nodiscard]] grasp::Grasp ContactsOf(const FingerGrasp& grasp);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -11,7 +11,7 @@
 #include "planner/plan/contact_json.h"
 #include "planner/plan/motion_segment_json.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -47,7 +47,7 @@ AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int 
     certificate.push_back(ReadMotionSegments(ways[w], dimension));
     const std::vector<JsonReader> pieces = ways[w].Elements();
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const MotionSegment& piece = certificate.back()[k];
+      const motion::MotionSegment& piece = certificate.back()[k];
       const std::size_t fingers = step.waypoints[w].size();
       ExpectForces(pieces[k].Member("start"), piece.start.size(), fingers);
       ExpectForces(pieces[k].Member("end"), piece.end.size(), fingers);
@@ -167,7 +167,7 @@ Json AlignJson(const Align& step, int dimension) {
   json["waypoints"] = std::move(waypoints);
   if (step.certificate) {
     json["certificate"] = Json::array();
-    for (const MotionSegments& pieces : *step.certificate) {
+    for (const motion::MotionSegments& pieces : *step.certificate) {
       json["certificate"].push_back(MotionSegmentsJson(pieces, dimension));
     }
   }
@@ -229,4 +229,4 @@ std::string FormatPlan(const Plan& plan) {
   return FormatJson(json);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

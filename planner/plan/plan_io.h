@@ -7,7 +7,7 @@
 #include "planner/plan/grasp_io.h"  // IWYU pragma: export
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// More fingers than any hand has; a plan file that claims more is bad input.
 inline constexpr int kMostFingers = 64;
@@ -21,4 +21,4 @@ inline constexpr int kMostFingers = 64;
 /// The text of a plan file: same plan, same bytes; doubles read back as the same bits.
 [[nodiscard]] std::string FormatPlan(const Plan& plan);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

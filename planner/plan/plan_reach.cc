@@ -6,7 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 using Eigen::Vector3d;
 
@@ -22,26 +22,26 @@ std::string TooClose(const FingerContact& a, const FingerContact& b, double dist
          FormatShort(2 * radius);
 }
 
-double CentreDistance(const Contact& a, const Contact& b, double radius) {
-  return (BallCentre(a, radius) - BallCentre(b, radius)).norm();
+double CentreDistance(const grasp::Contact& a, const grasp::Contact& b, double radius) {
+  return (criteria::BallCentre(a, radius) - criteria::BallCentre(b, radius)).norm();
 }
 
 std::optional<std::string> FindOverlap(const FingerGrasp& grasp, double radius) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
-      const Contact& a = grasp[i].contact;
-      const Contact& b = grasp[j].contact;
-      if (KeepApart(std::vector{a, b}, radius)) continue;
+      const grasp::Contact& a = grasp[i].contact;
+      const grasp::Contact& b = grasp[j].contact;
+      if (criteria::KeepApart(std::vector{a, b}, radius)) continue;
       return TooClose(grasp[i], grasp[j], CentreDistance(a, b, radius), radius);
     }
   }
   return std::nullopt;
 }
 
-std::optional<std::string> FindUnreached(const Object& object, const FingerGrasp& grasp,
+std::optional<std::string> FindUnreached(const object::Object& object, const FingerGrasp& grasp,
                                          double radius) {
   for (const FingerContact& held : grasp) {
-    if (const auto obstacle = FindObstacle(object, held.contact, radius)) {
+    if (const auto obstacle = criteria::FindObstacle(object, held.contact, radius)) {
       return Name(held) + ": " + *obstacle;
     }
   }
@@ -64,17 +64,17 @@ std::optional<double> FindInstant(double begin, double end, const Fails& fails,
 }
 
 /// The instant at which the object blocks a moving finger.
-std::optional<double> FindBlocked(const Object& object, const ContactMotion& motion,
+std::optional<double> FindBlocked(const object::Object& object, const motion::ContactMotion& motion,
                                   double radius) {
   const int from = motion.At(0).face;
   const int to = motion.At(1).face;
   // The far end of the segment that a finger sweeps moves fastest.
   const double length = radius + object.diameter();
   const double speed = motion.velocity().norm() + motion.turn() * length;
-  const auto fails = [&](double t) { return !CanReach(object, motion.At(t), radius); };
+  const auto fails = [&](double t) { return !criteria::CanReach(object, motion.At(t), radius); };
   const auto is_clear = [&](double t, double half) {
-    const Contact contact = motion.At(t);
-    const Vector3d rest = BallCentre(contact, radius);
+    const grasp::Contact contact = motion.At(t);
+    const Vector3d rest = criteria::BallCentre(contact, radius);
     const auto near =
         object.FacesNearSegment(rest, rest - object.diameter() * contact.n, radius + half * speed);
     return std::ranges::all_of(near, [&](int face) { return face == from || face == to; });
@@ -83,20 +83,23 @@ std::optional<double> FindBlocked(const Object& object, const ContactMotion& mot
 }
 
 /// The instant at which two moving fingers overlap.
-std::optional<double> FindMeeting(const ContactMotion& a, const ContactMotion& b, double radius) {
+std::optional<double> FindMeeting(const motion::ContactMotion& a, const motion::ContactMotion& b,
+                                  double radius) {
   const double speed = (a.velocity() - b.velocity()).norm() + radius * (a.turn() + b.turn());
-  const auto fails = [&](double t) { return !KeepApart(std::vector{a.At(t), b.At(t)}, radius); };
+  const auto fails = [&](double t) {
+    return !criteria::KeepApart(std::vector{a.At(t), b.At(t)}, radius);
+  };
   const auto is_clear = [&](double t, double half) {
     return CentreDistance(a.At(t), b.At(t), radius) >= 2 * radius + half * speed;
   };
   return FindInstant(0, 1, fails, is_clear);
 }
 
-std::optional<std::string> FindPathObstacle(const Object& object, const FingerGrasp& from,
+std::optional<std::string> FindPathObstacle(const object::Object& object, const FingerGrasp& from,
                                             const FingerGrasp& to, double radius) {
   // Where points can be at both ends they can be on the way, which stays on the surface.
   if (radius <= 0) return std::nullopt;
-  std::vector<ContactMotion> motions;
+  std::vector<motion::ContactMotion> motions;
   for (const FingerContact& held : from) {
     const auto end = std::ranges::find(to, held.finger, &FingerContact::finger);
     if (end == to.end()) return std::nullopt;
@@ -106,7 +109,7 @@ std::optional<std::string> FindPathObstacle(const Object& object, const FingerGr
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (const auto t = FindBlocked(object, motions[i], radius)) {
       return at(*t) + Name(from[i]) + ": " +
-             FindObstacle(object, motions[i].At(*t), radius).value_or("");
+             criteria::FindObstacle(object, motions[i].At(*t), radius).value_or("");
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (const auto t = FindMeeting(motions[i], motions[j], radius)) {
@@ -118,7 +121,7 @@ std::optional<std::string> FindPathObstacle(const Object& object, const FingerGr
   return std::nullopt;
 }
 
-std::optional<std::string> FindAlignObstacle(const Object& object, const Align& align,
+std::optional<std::string> FindAlignObstacle(const object::Object& object, const Align& align,
                                              double radius) {
   for (std::size_t w = 0; w < align.waypoints.size(); ++w) {
     const std::string waypoint = "waypoint " + std::to_string(w);
@@ -134,13 +137,13 @@ std::optional<std::string> FindAlignObstacle(const Object& object, const Align& 
 
 }  // namespace
 
-std::optional<std::string> FindRestObstacle(const Object& object, const FingerGrasp& grasp,
+std::optional<std::string> FindRestObstacle(const object::Object& object, const FingerGrasp& grasp,
                                             double radius) {
   if (auto found = FindUnreached(object, grasp, radius)) return found;
   return FindOverlap(grasp, radius);
 }
 
-std::optional<std::string> FindStepObstacle(const Object& object, const FingerGrasp& before,
+std::optional<std::string> FindStepObstacle(const object::Object& object, const FingerGrasp& before,
                                             const Step& step, double radius) {
   if (const auto* align = std::get_if<Align>(&step)) {
     return FindAlignObstacle(object, *align, radius);
@@ -152,7 +155,8 @@ std::optional<std::string> FindStepObstacle(const Object& object, const FingerGr
   return FindOverlap(during, radius);
 }
 
-std::optional<PlanObstacle> FindPlanObstacle(const Object& object, const FingerGrasp& initial,
+std::optional<PlanObstacle> FindPlanObstacle(const object::Object& object,
+                                             const FingerGrasp& initial,
                                              std::span<const Step> steps, double radius) {
   if (auto found = FindRestObstacle(object, initial, radius)) return PlanObstacle{0, *found};
   FingerGrasp holding = initial;
@@ -167,4 +171,4 @@ std::optional<PlanObstacle> FindPlanObstacle(const Object& object, const FingerG
   return std::nullopt;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

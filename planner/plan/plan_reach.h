@@ -8,21 +8,21 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// What stands in the way of fingers of some radius (reach.h) in a plan, in words for people;
 /// nullopt where nothing does. Contacts lie on the object and know their faces; to fingers of a
 /// radius of 0 or less, which are points, only sealed cavities are closed.
 
 /// Of a grasp at rest: a contact that its finger cannot reach, or two fingers that overlap.
-[[nodiscard]] std::optional<std::string> FindRestObstacle(const Object& object,
+[[nodiscard]] std::optional<std::string> FindRestObstacle(const object::Object& object,
                                                           const FingerGrasp& grasp, double radius);
 
 /// Of a step that begins with `before`. In a switch all fingers hold together before those of
 /// `release` leave. In an align every waypoint counts as a rest, and on the way between two of them
 /// nothing may be in the way of the moving fingers either: decided by bisection with bounds on how
 /// far they move, down to kShortestReachInterval of the way; what stays undecided there passes.
-[[nodiscard]] std::optional<std::string> FindStepObstacle(const Object& object,
+[[nodiscard]] std::optional<std::string> FindStepObstacle(const object::Object& object,
                                                           const FingerGrasp& before,
                                                           const Step& step, double radius);
 
@@ -34,9 +34,9 @@ struct PlanObstacle {
 };
 
 /// The first in a sequence.
-[[nodiscard]] std::optional<PlanObstacle> FindPlanObstacle(const Object& object,
+[[nodiscard]] std::optional<PlanObstacle> FindPlanObstacle(const object::Object& object,
                                                            const FingerGrasp& initial,
                                                            std::span<const Step> steps,
                                                            double radius);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -1,6 +1,6 @@
 #include "planner/plan/reason.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 std::string_view ReasonName(Reason reason) {
   switch (reason) {
@@ -44,4 +44,4 @@ std::string_view ReasonName(Reason reason) {
   return "";
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// Why a step fails, in the order of the report: where a step has several faults, the first counts.
 enum class Reason {
@@ -29,4 +29,4 @@ enum class Reason {
 /// "off-surface" and so on, as the report spells it; empty for kNone.
 [[nodiscard]] std::string_view ReasonName(Reason reason);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -7,13 +7,13 @@
 #include "planner/grasp/angle_between.h"
 #include "planner/plan/tolerance.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
-bool AreSameContact(const Contact& a, const Contact& b, double tolerance) {
-  return (a.p - b.p).norm() <= tolerance && AngleBetween(a.n, b.n) <= kNormalTolerance;
+bool AreSameContact(const grasp::Contact& a, const grasp::Contact& b, double tolerance) {
+  return (a.p - b.p).norm() <= tolerance && grasp::AngleBetween(a.n, b.n) <= kNormalTolerance;
 }
 
-bool AreSameGrasp(const Grasp& a, const Grasp& b, double tolerance) {
+bool AreSameGrasp(const grasp::Grasp& a, const grasp::Grasp& b, double tolerance) {
   if (a.size() != b.size()) return false;
   using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
   Graph graph(a.size() + b.size());
@@ -27,4 +27,4 @@ bool AreSameGrasp(const Grasp& a, const Grasp& b, double tolerance) {
   return boost::matching_size(graph, mate.data()) == a.size();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -5,7 +5,7 @@
 
 #include "planner/grasp/contact.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// What a finger is doing at one instant.
 enum class FingerRole { kFree, kHolding, kPlaced, kReleased, kMoved };
@@ -32,4 +32,4 @@ struct Snapshot {
   std::vector<FingerState> fingers;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -4,7 +4,7 @@
 
 #include "planner/plan/contact_region.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -18,8 +18,9 @@ std::optional<double> SmallestClaim(const FingerGrasp& placed) {
 
 }  // namespace
 
-std::optional<SwitchRegion> MeasureSwitchRegion(const Polygon& polygon, const FingerGrasp& before,
-                                                const Switch& step, double half_angle) {
+std::optional<SwitchRegion> MeasureSwitchRegion(const object::Polygon& polygon,
+                                                const FingerGrasp& before, const Switch& step,
+                                                double half_angle) {
   const FingerGrasp after = GraspAfter(before, step);
   if (before.size() != 2 || after.size() != 2) return std::nullopt;
   const double limit = polygon.diameter();
@@ -29,9 +30,9 @@ std::optional<SwitchRegion> MeasureSwitchRegion(const Polygon& polygon, const Fi
       MeasureContactRegion(polygon, ContactsOf(after), half_angle,
                            MeasureContactRegion(polygon, ContactsOf(before), half_angle, limit));
   region.claimed = SmallestClaim(step.place);
-  region.holds = !region.claimed ||
-                 *region.claimed <= region.half_width + kPointTolerance * polygon.diameter();
+  region.holds = !region.claimed || *region.claimed <= region.half_width + object::kPointTolerance *
+                                                                               polygon.diameter();
   return region;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -5,7 +5,7 @@
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 /// What is claimed and what is true of the contact regions of a switch between 2-finger grasps.
 struct SwitchRegion {
@@ -22,9 +22,9 @@ struct SwitchRegion {
 /// contacts.
 /// @param before  the grasp that holds before the switch, located like the switch (LocatePlan).
 /// @param half_angle  θ, radians, in (0, π/2).
-[[nodiscard]] std::optional<SwitchRegion> MeasureSwitchRegion(const Polygon& polygon,
+[[nodiscard]] std::optional<SwitchRegion> MeasureSwitchRegion(const object::Polygon& polygon,
                                                               const FingerGrasp& before,
                                                               const Switch& step,
                                                               double half_angle);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -5,16 +5,17 @@
 #include "planner/base/number.h"
 #include "planner/planning/rest_summary.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
-std::optional<PlanObstacle> FindObstacle(const CandidateSequence& candidate,
-                                         const GraspEvaluator& evaluator) {
-  return FindPlanObstacle(evaluator.object(), candidate.initial, candidate.steps,
-                          evaluator.finger_radius());
+std::optional<plan::PlanObstacle> FindObstacle(const CandidateSequence& candidate,
+                                               const criteria::GraspEvaluator& evaluator) {
+  return plan::FindPlanObstacle(evaluator.object(), candidate.initial, candidate.steps,
+                                evaluator.finger_radius());
 }
 
-PlanResult ResultOf(const CandidateSequence& candidate, const GraspEvaluator& evaluator,
-                    const std::string& planner, const PlanRequest& request, const Grasp& goal) {
+PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEvaluator& evaluator,
+                    const std::string& planner, const PlanRequest& request,
+                    const grasp::Grasp& goal) {
   PlanResult result;
   if (const auto obstacle = FindObstacle(candidate, evaluator)) {
     result.status = PlanResult::Status::kNoSequence;
@@ -23,7 +24,7 @@ PlanResult ResultOf(const CandidateSequence& candidate, const GraspEvaluator& ev
                      std::to_string(obstacle->index) + ": " + obstacle->detail;
     return result;
   }
-  Plan& plan = result.plan.emplace();
+  plan::Plan& plan = result.plan.emplace();
   plan.dimension = request.object->dimension();
   plan.half_angle = request.criteria.half_angle;
   plan.fingers = request.hand.fingers;
@@ -37,4 +38,4 @@ PlanResult ResultOf(const CandidateSequence& candidate, const GraspEvaluator& ev
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

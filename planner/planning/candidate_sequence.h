@@ -6,23 +6,23 @@
 #include "planner/plan/plan.h"
 #include "planner/search/vertex_pair.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// A grasp that a sequence rests in.
 struct Rest {
-  Grasp grasp;
+  grasp::Grasp grasp;
   /// The switch of the graph that it was chosen for; none for what start and goal give.
-  std::optional<VertexPair> chosen_for;
+  std::optional<search::VertexPair> chosen_for;
 };
 
 /// A sequence and what is known of it.
 struct CandidateSequence {
-  FingerGrasp initial;
-  std::vector<Step> steps;
+  plan::FingerGrasp initial;
+  std::vector<plan::Step> steps;
   std::vector<Rest> rests;  ///< before all steps and after each
 };
 
 /// No steps: the fingers take the contacts of a grasp in their order.
-[[nodiscard]] CandidateSequence StartOf(const Grasp& grasp);
+[[nodiscard]] CandidateSequence StartOf(const grasp::Grasp& grasp);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

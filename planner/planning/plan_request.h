@@ -14,7 +14,7 @@
 #include "planner/object/object.h"
 #include "planner/planning/spanning.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// How a plan's start or goal is chosen.
 struct GraspChoice {
@@ -24,7 +24,7 @@ struct GraspChoice {
     kRandomAny,  ///< drawn evenly over the surface, reachable or not
   };
   Kind kind = Kind::kGiven;
-  Grasp grasp;
+  grasp::Grasp grasp;
   std::string name;  ///< how messages call it: the file, or "--start random"
 };
 
@@ -44,12 +44,12 @@ using Progress = std::function<void(std::string_view)>;
 /// What stands under "Of some planners" not every planner has (Planner::options); where it is left
 /// as it is here, none is asked for it.
 struct PlanRequest {
-  const Object* object = nullptr;  ///< outlives the request
-  std::string object_name = {};    ///< how messages call it: its file
+  const object::Object* object = nullptr;  ///< outlives the request
+  std::string object_name = {};            ///< how messages call it: its file
   GraspChoice start = {};
   GraspChoice goal = {};
-  Hand hand = {};
-  GraspCriteria criteria = {};
+  hand::Hand hand = {};
+  criteria::GraspCriteria criteria = {};
   std::uint64_t seed = 0;  ///< of everything that is drawn at random
   Progress progress = [](std::string_view) {};
 
@@ -75,4 +75,4 @@ struct PlanRequest {
   bool explain = false;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -6,7 +6,7 @@
 
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// What every planner answers.
 struct PlanResult {
@@ -20,8 +20,8 @@ struct PlanResult {
   std::vector<std::string> warnings;  ///< grasps below the quality that was asked for
   std::vector<std::string> notes;     ///< what was gained by making the sequence better, for people
   /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
-  std::optional<Plan> plan;
+  std::optional<plan::Plan> plan;
   double margin = 0;  ///< smallest of half_angle − required half-angle over all grasps at rest
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -4,7 +4,7 @@
 
 #include "planner/base/memory.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 std::optional<MemoryNeed> Planner::EstimateMemory(const PlanRequest& /*request*/) const {
   return std::nullopt;
@@ -71,4 +71,4 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
   return {};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -10,8 +10,10 @@
 #include "planner/sampling/contact_limits.h"
 
 namespace regrasp {
-
 struct MemoryNeed;
+}
+
+namespace regrasp::planning {
 
 /// Options of a PlanRequest that only some planners have.
 enum class PlanOption {
@@ -34,9 +36,9 @@ enum class PlanOption {
 
 /// What a planner can do with objects of one dimension.
 struct PlannerScope {
-  int fingers = 0;               ///< of the hand that it plans for
-  ContactLimits contacts;        ///< of the grasps that it takes
-  ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
+  int fingers = 0;                         ///< of the hand that it plans for
+  sampling::ContactLimits contacts;        ///< of the grasps that it takes
+  sampling::ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
 };
 
 /// What is known of a planner before it plans.
@@ -85,4 +87,4 @@ class Planner {
 /// at: they are checked one by one, with a message for each (Solve).
 [[nodiscard]] std::string WhyNotServed(const Planner& planner, const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -5,7 +5,7 @@
 
 #include "planner/base/deadline.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan) {
   std::optional<PlanResult> first;
@@ -22,4 +22,4 @@ PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan) {
   return *first;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

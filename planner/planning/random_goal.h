@@ -4,7 +4,7 @@
 
 #include "planner/planning/plan_result.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// A random goal is drawn anew up to so many times while the sequence to it passes grasps that are
 /// not as good as asked.
@@ -15,4 +15,4 @@ inline constexpr int kGoalDraws = 12;
 /// @param plan  draws a goal and plans to it; the last time one that the start is in a set with.
 [[nodiscard]] PlanResult PlanToRandomGoal(const std::function<PlanResult(bool last)>& plan);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

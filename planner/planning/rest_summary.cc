@@ -6,9 +6,9 @@
 #include "planner/base/number.h"
 #include "planner/grasp/required_half_angle.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
-double SmallestMargin(const std::vector<Rest>& rests, const GraspEvaluator& evaluator) {
+double SmallestMargin(const std::vector<Rest>& rests, const criteria::GraspEvaluator& evaluator) {
   // A score is a lower bound of the margin, so that only the few smallest ones need it exactly.
   std::vector<std::pair<double, const Rest*>> by_score;
   for (const Rest& rest : rests) by_score.emplace_back(evaluator.Score(rest.grasp), &rest);
@@ -16,14 +16,14 @@ double SmallestMargin(const std::vector<Rest>& rests, const GraspEvaluator& eval
   double smallest = evaluator.half_angle();
   for (const auto& [score, rest] : by_score) {
     if (score >= std::max(smallest, 0.0)) break;
-    const auto required = ComputeRequiredHalfAngle(rest->grasp, evaluator.frame());
+    const auto required = grasp::ComputeRequiredHalfAngle(rest->grasp, evaluator.frame());
     smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
   }
   return smallest;
 }
 
 std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
-                                         const GraspEvaluator& evaluator) {
+                                         const criteria::GraspEvaluator& evaluator) {
   const auto name = [&](std::size_t step) {
     if (step == 0) return std::string("the start grasp (step 0)");
     return "the grasp after step " + std::to_string(step) + " of " +
@@ -51,4 +51,4 @@ std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
   return warnings;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

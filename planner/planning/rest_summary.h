@@ -6,16 +6,16 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/planning/candidate_sequence.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// The smallest margin of a sequence's grasps at rest to their required half-angles, radians.
 [[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests,
-                                    const GraspEvaluator& evaluator);
+                                    const criteria::GraspEvaluator& evaluator);
 
 /// Warnings that name the weakest grasp, where one is below the quality that is asked for, and the
 /// first one where a fingertip has no room.
 /// @param rests  before all steps and after each.
 [[nodiscard]] std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
-                                                       const GraspEvaluator& evaluator);
+                                                       const criteria::GraspEvaluator& evaluator);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -16,7 +16,7 @@
 #include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/no_grasp.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 namespace {
 
@@ -24,12 +24,13 @@ using Kind = GraspChoice::Kind;
 using Status = PlanResult::Status;
 
 /// Rounded up to a hundredth of a degree: with that much friction the grasp is force closure.
-std::string NeededDegrees(const RequiredHalfAngle& required) {
+std::string NeededDegrees(const grasp::RequiredHalfAngle& required) {
   constexpr double kSteps = 100;
   return FormatDouble(std::ceil(Degrees(required.upper) * kSteps) / kSteps) + "°";
 }
 
-std::optional<std::pair<int, int>> ContactsAtSamePoint(const Grasp& grasp, double same_point) {
+std::optional<std::pair<int, int>> ContactsAtSamePoint(const grasp::Grasp& grasp,
+                                                       double same_point) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
       if ((grasp[i].p - grasp[j].p).norm() <= same_point) return std::pair(i, j);
@@ -38,7 +39,7 @@ std::optional<std::pair<int, int>> ContactsAtSamePoint(const Grasp& grasp, doubl
   return std::nullopt;
 }
 
-std::string RangeText(const ContactLimits& range) {
+std::string RangeText(const sampling::ContactLimits& range) {
   return (range.least == range.most ? "" : std::to_string(range.least) + " to ") +
          std::to_string(range.most);
 }
@@ -60,8 +61,8 @@ class GraspResolver {
     }
     if (choice.kind == Kind::kRandom && planner_.traits().has_own_grasps) return choice;
     RandomStream random(request_.seed, use);
-    choice.grasp = DrawOnSurface(*request_.object, scope_.contacts_drawn, evaluator_, random,
-                                 choice.name, [&] { request_.deadline.Check(); });
+    choice.grasp = sampling::DrawOnSurface(*request_.object, scope_.contacts_drawn, evaluator_,
+                                           random, choice.name, [&] { request_.deadline.Check(); });
     choice.kind = Kind::kGiven;
     return choice;
   }
@@ -71,30 +72,32 @@ class GraspResolver {
     const auto refuse = [&](const std::string& why) {
       throw InputError(choice.name + ": /contacts: " + why);
     };
-    const Grasp& grasp = choice.grasp;
+    const grasp::Grasp& grasp = choice.grasp;
     const int found = static_cast<int>(grasp.size());
     if (found < scope_.contacts.least || found > scope_.contacts.most) {
       refuse("the planner " + planner_.name() + " needs " + RangeText(scope_.contacts) +
              " contacts, found " + std::to_string(found));
     }
-    if (const auto pair = ContactsAtSamePoint(grasp, kSamePoint * request_.object->diameter())) {
+    if (const auto pair =
+            ContactsAtSamePoint(grasp, criteria::kSamePoint * request_.object->diameter())) {
       refuse("contacts " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
              " are at the same point");
     }
     CheckForceClosure(grasp, refuse);
-    FingerGrasp held;
-    for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
+    plan::FingerGrasp held;
+    for (const grasp::Contact& contact : grasp)
+      held.push_back({static_cast<int>(held.size()), contact});
     if (const auto obstacle =
-            FindRestObstacle(*request_.object, held, request_.hand.fingertip_radius)) {
+            plan::FindRestObstacle(*request_.object, held, request_.hand.fingertip_radius)) {
       refuse("with a finger at each, by their numbers: " + *obstacle);
     }
   }
 
   template <typename Refuse>
-  void CheckForceClosure(const Grasp& grasp, const Refuse& refuse) const {
+  void CheckForceClosure(const grasp::Grasp& grasp, const Refuse& refuse) const {
     const double half_angle = request_.criteria.half_angle;
-    if (IsForceClosure(grasp, evaluator_.frame(), half_angle)) return;
-    const auto required = ComputeRequiredHalfAngle(grasp, evaluator_.frame());
+    if (grasp::IsForceClosure(grasp, evaluator_.frame(), half_angle)) return;
+    const auto required = grasp::ComputeRequiredHalfAngle(grasp, evaluator_.frame());
     refuse("not force closure: " +
            (required ? "needs a friction half-angle of " + NeededDegrees(*required)
                      : std::string("no friction half-angle below 90° is enough")) +
@@ -104,7 +107,7 @@ class GraspResolver {
   const Planner& planner_;
   const PlanRequest& request_;
   PlannerScope scope_;
-  GraspEvaluator evaluator_;
+  criteria::GraspEvaluator evaluator_;
 };
 
 PlanResult Negative(Status status, std::string message) {
@@ -133,7 +136,7 @@ PlanResult Solve(const Planner& planner, const PlanRequest& request) {
       if (!why.empty()) return Negative(Status::kNoGrasp, why);
     }
     return planner.Plan(resolved);
-  } catch (const NoGrasp& none) {
+  } catch (const sampling::NoGrasp& none) {
     return Negative(Status::kNoGrasp, none.message);
   } catch (const TimeUp& time_up) {
     return Negative(Status::kNoSequence, "no sequence was found by the planner " + planner.name() +
@@ -141,4 +144,4 @@ PlanResult Solve(const Planner& planner, const PlanRequest& request) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -2,7 +2,7 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// Plans by a planner: checks the request, given grasps and what the planner would take, draws
 /// grasps evenly over the surface, and turns NoGrasp and TimeUp into results.
@@ -16,4 +16,4 @@ namespace regrasp {
 /// @throws std::invalid_argument  friction or quality is out of its range.
 [[nodiscard]] PlanResult Solve(const Planner& planner, const PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

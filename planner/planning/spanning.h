@@ -1,6 +1,6 @@
 #pragma once
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// Half-angle φ of the cones of concurrent grasps, θ being the friction's.
 enum class Spanning {
@@ -8,4 +8,4 @@ enum class Spanning {
   kUniform,  ///< φ = θ where the normals θ-positively span, no set where they don't
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

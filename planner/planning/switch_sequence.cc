@@ -3,21 +3,24 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::planning {
 
 namespace {
 
-bool SameContact(const Contact& a, const Contact& b) { return a.p == b.p && a.n == b.n; }
-
-bool Contains(const Grasp& grasp, const Contact& contact) {
-  return std::any_of(grasp.begin(), grasp.end(),
-                     [&](const Contact& other) { return SameContact(other, contact); });
+bool SameContact(const grasp::Contact& a, const grasp::Contact& b) {
+  return a.p == b.p && a.n == b.n;
 }
 
-int LowestFreeFinger(const FingerGrasp& holding, int fingers) {
+bool Contains(const grasp::Grasp& grasp, const grasp::Contact& contact) {
+  return std::any_of(grasp.begin(), grasp.end(),
+                     [&](const grasp::Contact& other) { return SameContact(other, contact); });
+}
+
+int LowestFreeFinger(const plan::FingerGrasp& holding, int fingers) {
   for (int finger = 0; finger < fingers; ++finger) {
-    const bool holds = std::any_of(holding.begin(), holding.end(),
-                                   [&](const FingerContact& c) { return c.finger == finger; });
+    const bool holds =
+        std::any_of(holding.begin(), holding.end(),
+                    [&](const plan::FingerContact& c) { return c.finger == finger; });
     if (!holds) return finger;
   }
   throw std::invalid_argument("the hand has too few fingers for the switch");
@@ -25,35 +28,35 @@ int LowestFreeFinger(const FingerGrasp& holding, int fingers) {
 
 }  // namespace
 
-Switch MakeSwitch(const FingerGrasp& before, const Grasp& after, int fingers) {
-  Switch step;
-  FingerGrasp holding = before;
-  const Grasp contacts_before = ContactsOf(before);
-  for (const Contact& contact : after) {
+plan::Switch MakeSwitch(const plan::FingerGrasp& before, const grasp::Grasp& after, int fingers) {
+  plan::Switch step;
+  plan::FingerGrasp holding = before;
+  const grasp::Grasp contacts_before = plan::ContactsOf(before);
+  for (const grasp::Contact& contact : after) {
     if (Contains(contacts_before, contact)) continue;
     step.place.push_back({LowestFreeFinger(holding, fingers), contact});
     holding.push_back(step.place.back());
   }
-  for (const FingerContact& finger : before) {
+  for (const plan::FingerContact& finger : before) {
     if (!Contains(after, finger.contact)) step.release.push_back(finger.finger);
   }
   return step;
 }
 
-Sequence MakeSwitchSequence(std::span<const Grasp> grasps, int fingers) {
+Sequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers) {
   if (grasps.empty()) throw std::invalid_argument("a sequence needs a grasp");
   Sequence sequence;
-  for (const Contact& contact : grasps.front()) {
+  for (const grasp::Contact& contact : grasps.front()) {
     sequence.initial.push_back({LowestFreeFinger(sequence.initial, fingers), contact});
   }
-  FingerGrasp holding = sequence.initial;
-  for (const Grasp& grasp : grasps.subspan(1)) {
-    Switch step = MakeSwitch(holding, grasp, fingers);
+  plan::FingerGrasp holding = sequence.initial;
+  for (const grasp::Grasp& grasp : grasps.subspan(1)) {
+    plan::Switch step = MakeSwitch(holding, grasp, fingers);
     if (step.place.empty() && step.release.empty()) continue;
-    holding = GraspAfter(holding, step);
+    holding = plan::GraspAfter(holding, step);
     sequence.steps.emplace_back(std::move(step));
   }
   return sequence;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

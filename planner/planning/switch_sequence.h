@@ -4,19 +4,20 @@
 
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 
 /// What a hand does: its first grasp and its steps.
 struct Sequence {
-  FingerGrasp initial;
-  std::vector<Step> steps;
+  plan::FingerGrasp initial;
+  std::vector<plan::Step> steps;
 };
 
 /// The finger switch from the fingers that hold to the contacts that are to hold after it: places
 /// the contacts that are new with the lowest free fingers and releases those that are gone. A
 /// contact is the same where its point and normal are, bit for bit.
 /// @throws std::invalid_argument  the hand has too few fingers.
-[[nodiscard]] Switch MakeSwitch(const FingerGrasp& before, const Grasp& after, int fingers);
+[[nodiscard]] plan::Switch MakeSwitch(const plan::FingerGrasp& before, const grasp::Grasp& after,
+                                      int fingers);
 
 /// Turns grasps that follow each other into finger switches of a hand of `fingers` fingers.
 ///
@@ -24,6 +25,6 @@ struct Sequence {
 /// that are new with the lowest free fingers and releases those that are gone; a contact is the
 /// same where its point and normal are, bit for bit. Grasps equal to the one before give no step.
 /// @throws std::invalid_argument  no grasp, or a step for which the hand has too few fingers.
-[[nodiscard]] Sequence MakeSwitchSequence(std::span<const Grasp> grasps, int fingers);
+[[nodiscard]] Sequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers);
 
-}  // namespace regrasp
+}  // namespace regrasp::planning

@@ -8,29 +8,30 @@
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/tree/tree_planner.h"
 
-namespace regrasp {
+namespace regrasp::registry {
 
-const std::vector<const Planner*>& AllPlanners() {
+const std::vector<const planning::Planner*>& AllPlanners() {
   static const tree::TreePlanner tree;
   static const contour::ContourPlanner contour;
   static const polygon::PolygonPlanner polygon;
   static const polyhedron::PolyhedronPlanner polyhedron;
   static const roadmap::RoadmapPlanner roadmap;
-  static const std::vector<const Planner*> all = {&tree, &contour, &polygon, &polyhedron, &roadmap};
+  static const std::vector<const planning::Planner*> all = {&tree, &contour, &polygon, &polyhedron,
+                                                            &roadmap};
   return all;
 }
 
 std::string PlannerNames() {
   std::string names = "auto";
-  for (const Planner* planner : AllPlanners()) {
+  for (const planning::Planner* planner : AllPlanners()) {
     names += (planner == AllPlanners().back() ? " and " : ", ") + planner->name();
   }
   return names;
 }
 
-const Planner* FindPlanner(const std::string& name) {
-  const auto found = std::ranges::find(AllPlanners(), name, &Planner::name);
+const planning::Planner* FindPlanner(const std::string& name) {
+  const auto found = std::ranges::find(AllPlanners(), name, &planning::Planner::name);
   return found == AllPlanners().end() ? nullptr : *found;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::registry

@@ -5,16 +5,16 @@
 
 #include "planner/planning/planner.h"
 
-namespace regrasp {
+namespace regrasp::registry {
 
 /// All planners: `general` first, then those that are complete over the grasps that they know.
-[[nodiscard]] const std::vector<const Planner*>& AllPlanners();
+[[nodiscard]] const std::vector<const planning::Planner*>& AllPlanners();
 
 /// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, contour …".
 [[nodiscard]] std::string PlannerNames();
 
 /// @returns nullptr where no planner has that name.
-[[nodiscard]] const Planner* FindPlanner(const std::string& name);
+[[nodiscard]] const planning::Planner* FindPlanner(const std::string& name);
 
 /// The planner that `--planner auto` takes: the first of AllPlanners that serves the request, with
 /// every option that it asks for. So that is `general`, which joins at least as many pairs of
@@ -22,11 +22,12 @@ namespace regrasp {
 /// gives: contact regions (contour), uniform spanning (polygon, polyhedron), contact points or
 /// clusters (roadmap).
 /// @throws InputError  none does; the message says for which option.
-[[nodiscard]] const Planner& ChoosePlanner(const PlanRequest& request);
+[[nodiscard]] const planning::Planner& ChoosePlanner(const planning::PlanRequest& request);
 
 /// The planner of a name, or ChoosePlanner's for "auto".
 /// @throws InputError  there is none of that name, or it does not serve the request; the message
 ///                     names a planner that does, where there is one.
-[[nodiscard]] const Planner& PlannerFor(const std::string& name, const PlanRequest& request);
+[[nodiscard]] const planning::Planner& PlannerFor(const std::string& name,
+                                                  const planning::PlanRequest& request);
 
-}  // namespace regrasp
+}  // namespace regrasp::registry

@@ -18,8 +18,8 @@ constexpr int kPlainContacts = 60;
 constexpr int kClusteredContacts = 1000;
 constexpr int kClusters = 50;
 
-const Polyhedron& SolidOf(const PlanRequest& request) {
-  return dynamic_cast<const Polyhedron&>(*request.object);
+const object::Polyhedron& SolidOf(const planning::PlanRequest& request) {
+  return dynamic_cast<const object::Polyhedron&>(*request.object);
 }
 
 void CheckSize(const RoadmapSize& size) {
@@ -29,47 +29,48 @@ void CheckSize(const RoadmapSize& size) {
   }
 }
 
-void JoinContacts(std::vector<Contact>& points, const std::vector<Contact>& more,
+void JoinContacts(std::vector<grasp::Contact>& points, const std::vector<grasp::Contact>& more,
                   double tolerance) {
-  for (const Contact& contact : more) {
+  for (const grasp::Contact& contact : more) {
     if (!FindContact(points, contact, tolerance)) points.push_back(contact);
   }
 }
 
 }  // namespace
 
-RoadmapSize SizeOf(const PlanRequest& request) {
+RoadmapSize SizeOf(const planning::PlanRequest& request) {
   const std::optional<int>& contacts = request.contact_points;
   const bool many = contacts.value_or(request.object->face_count()) > kMaxRoadmapContacts;
   const int clusters = request.clusters.value_or(many ? kClusters : 0);
   return {contacts.value_or(clusters > 0 ? kClusteredContacts : kPlainContacts), clusters};
 }
 
-std::vector<Contact> SpreadContacts(const PlanRequest& request) {
+std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request) {
   const RoadmapSize size = SizeOf(request);
   CheckSize(size);
   request.progress("spreading " + std::to_string(size.contacts) + " contact points");
-  std::vector<Contact> contacts =
-      SpreadContactPoints(SolidOf(request), size.contacts, request.seed);
-  std::erase_if(contacts, [&](const Contact& contact) {
-    return !CanReach(*request.object, contact, request.hand.fingertip_radius);
+  std::vector<grasp::Contact> contacts =
+      sampling::SpreadContactPoints(SolidOf(request), size.contacts, request.seed);
+  std::erase_if(contacts, [&](const grasp::Contact& contact) {
+    return !criteria::CanReach(*request.object, contact, request.hand.fingertip_radius);
   });
   return contacts;
 }
 
-Roadmap BuildRoadmap(const PlanRequest& request, const std::vector<Contact>& contacts,
-                     const std::vector<Contact>& joined) {
+Roadmap BuildRoadmap(const planning::PlanRequest& request,
+                     const std::vector<grasp::Contact>& contacts,
+                     const std::vector<grasp::Contact>& joined) {
   const double diameter = request.object->diameter();
-  std::vector<Contact> points;
-  JoinContacts(points, joined, kPointTolerance * diameter);
-  JoinContacts(points, contacts, kPointTolerance * diameter);
+  std::vector<grasp::Contact> points;
+  JoinContacts(points, joined, object::kPointTolerance * diameter);
+  JoinContacts(points, contacts, object::kPointTolerance * diameter);
   request.progress("testing the grasps of four of " + std::to_string(points.size()) +
                    " contact points");
   return Roadmap(std::move(points), request.object->wrench_frame(), request.criteria.half_angle,
-                 kSamePoint * diameter, request.hand.fingertip_radius, request.deadline);
+                 criteria::kSamePoint * diameter, request.hand.fingertip_radius, request.deadline);
 }
 
-ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request) {
+ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request) {
   const RoadmapSize size = SizeOf(request);
   CheckSize(size);
   return ClusteredRoadmap(SolidOf(request), {.half_angle = request.criteria.half_angle,

@@ -24,18 +24,19 @@ struct RoadmapSize {
   int contacts = 0;
   int clusters = 0;  ///< 0: none, all subsets of four contact points are looked at
 };
-[[nodiscard]] RoadmapSize SizeOf(const PlanRequest& request);
+[[nodiscard]] RoadmapSize SizeOf(const planning::PlanRequest& request);
 
 /// Contact points spread over the surface that fingers of the hand reach.
 /// @throws std::invalid_argument  there are to be fewer than four or too many.
-[[nodiscard]] std::vector<Contact> SpreadContacts(const PlanRequest& request);
+[[nodiscard]] std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request);
 
 /// The contact points, `joined` first, tested for force closure in all fours.
-[[nodiscard]] Roadmap BuildRoadmap(const PlanRequest& request, const std::vector<Contact>& contacts,
-                                   const std::vector<Contact>& joined = {});
+[[nodiscard]] Roadmap BuildRoadmap(const planning::PlanRequest& request,
+                                   const std::vector<grasp::Contact>& contacts,
+                                   const std::vector<grasp::Contact>& joined = {});
 
 /// The roadmap of representatives of clusters.
 /// @throws std::invalid_argument  there are to be fewer than four contact points or too many.
-[[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const PlanRequest& request);
+[[nodiscard]] ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -22,50 +22,53 @@ namespace {
 /// switches are saved, few enough that all their grasps are tested in some milliseconds.
 constexpr int kMoreContacts = 20;
 
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
 /// The plans of one clustered roadmap.
 class ClusterSearch {
  public:
-  explicit ClusterSearch(const PlanRequest& request)
+  explicit ClusterSearch(const planning::PlanRequest& request)
       : request_(request),
         evaluator_(*request.object, request.criteria, request.hand),
         roadmap_(BuildClusteredRoadmap(request)) {}
 
-  PlanResult Plan() {
+  planning::PlanResult Plan() {
     RandomStream start_numbers(request_.seed, RandomUse::kStart);
     RandomStream goal_numbers(request_.seed, RandomUse::kGoal);
-    const GraspChoice start = Resolve(request_.start, start_numbers);
+    const planning::GraspChoice start = Resolve(request_.start, start_numbers);
     const auto plan = [&] { return PlanBetween(start, Resolve(request_.goal, goal_numbers)); };
     if (request_.goal.kind != Kind::kRandom) return plan();
-    return PlanToRandomGoal([&](bool /*last*/) { return plan(); });
+    return planning::PlanToRandomGoal([&](bool /*last*/) { return plan(); });
   }
 
  private:
-  [[nodiscard]] GraspChoice Resolve(const GraspChoice& choice, RandomStream& random) const {
+  [[nodiscard]] planning::GraspChoice Resolve(const planning::GraspChoice& choice,
+                                              RandomStream& random) const {
     if (choice.kind == Kind::kGiven) return choice;
     return {Kind::kGiven, DrawContacts(choice, random), choice.name};
   }
 
-  Grasp DrawContacts(const GraspChoice& choice, RandomStream& random) const {
-    const std::vector<Contact>& contacts = roadmap_.clusters.contacts();
-    const auto grasp = DrawGoodGrasp(
+  grasp::Grasp DrawContacts(const planning::GraspChoice& choice, RandomStream& random) const {
+    const std::vector<grasp::Contact>& contacts = roadmap_.clusters.contacts();
+    const auto grasp = sampling::DrawGoodGrasp(
         [&] {
-          Grasp drawn;
+          grasp::Grasp drawn;
           for (int i = 0; i < kRoadmapContacts; ++i)
             drawn.push_back(contacts[random.Index(contacts.size())]);
           return drawn;
         },
         evaluator_);
     if (grasp) return *grasp;
-    throw NoGrasp{choice.name + ": none of " + std::to_string(kMaxSurfaceDraws) +
-                  " grasps drawn from " + std::to_string(contacts.size()) +
-                  " contact points is force closure with a quality of at least " +
-                  FormatShort(request_.criteria.min_quality)};
+    throw sampling::NoGrasp{choice.name + ": none of " +
+                            std::to_string(sampling::kMaxSurfaceDraws) + " grasps drawn from " +
+                            std::to_string(contacts.size()) +
+                            " contact points is force closure with a quality of at least " +
+                            FormatShort(request_.criteria.min_quality)};
   }
 
-  PlanResult PlanBetween(const GraspChoice& start, const GraspChoice& goal) {
+  planning::PlanResult PlanBetween(const planning::GraspChoice& start,
+                                   const planning::GraspChoice& goal) {
     request_.progress("linking start and goal to " +
                       std::to_string(roadmap_.roadmap.vertex_count()) +
                       " grasps of representatives");
@@ -87,31 +90,31 @@ class ClusterSearch {
     for (const Quadruple& grasp : chain.grasps) used.insert(grasp.begin(), grasp.end());
     const std::vector<int>& more = clusters.representatives();
     used.insert(more.begin(), more.begin() + std::min<int>(kMoreContacts, std::ssize(more)));
-    std::vector<Contact> contacts;
+    std::vector<grasp::Contact> contacts;
     for (const int contact : used) contacts.push_back(clusters.contacts()[contact]);
-    PlanRequest between = request_;
+    planning::PlanRequest between = request_;
     between.start = start;
     between.goal = goal;
-    PlanResult result = SearchContactPoints(contacts, between);
+    planning::PlanResult result = SearchContactPoints(contacts, between);
     if (result.plan) result.plan->roadmap = NoteOf(chain);
     return result;
   }
 
   /// The numbers of a grasp's contacts, which are added where they are new.
-  Quadruple Join(const Grasp& grasp, ContactClusters& clusters) const {
+  Quadruple Join(const grasp::Grasp& grasp, ContactClusters& clusters) const {
     Quadruple numbers;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const auto known =
-          FindContact(clusters.contacts(), grasp[i], kPointTolerance * request_.object->diameter());
+      const auto known = FindContact(clusters.contacts(), grasp[i],
+                                     object::kPointTolerance * request_.object->diameter());
       numbers[i] = known ? *known : clusters.Add(grasp[i]);
     }
     std::sort(numbers.begin(), numbers.end());
     return numbers;
   }
 
-  RoadmapNote NoteOf(const ContactChain& chain) const {
+  plan::RoadmapNote NoteOf(const ContactChain& chain) const {
     const RoadmapSize size = SizeOf(request_);
-    RoadmapNote note{size.contacts, size.clusters, request_.seed, {}, {}};
+    plan::RoadmapNote note{size.contacts, size.clusters, request_.seed, {}, {}};
     if (chain.by == ContactChain::By::kRoadmap) {
       note.start = RoadmapLinkName(chain.start_link);
       note.goal = RoadmapLinkName(chain.goal_link);
@@ -122,8 +125,8 @@ class ClusterSearch {
     return note;
   }
 
-  PlanResult NoSequence(const ContactChain& chain) const {
-    PlanResult result;
+  planning::PlanResult NoSequence(const ContactChain& chain) const {
+    planning::PlanResult result;
     result.status = Status::kNoSequence;
     const auto end = [](const char* name, RoadmapLink link) {
       return std::string(name) + (link == RoadmapLink::kNone
@@ -147,15 +150,17 @@ class ClusterSearch {
     return result;
   }
 
-  double SamePoint() const { return kSamePoint * request_.object->diameter(); }
+  double SamePoint() const { return criteria::kSamePoint * request_.object->diameter(); }
 
-  const PlanRequest& request_;
-  GraspEvaluator evaluator_;
+  const planning::PlanRequest& request_;
+  criteria::GraspEvaluator evaluator_;
   ClusteredRoadmap roadmap_;
 };
 
 }  // namespace
 
-PlanResult SearchClusters(const PlanRequest& request) { return ClusterSearch(request).Plan(); }
+planning::PlanResult SearchClusters(const planning::PlanRequest& request) {
+  return ClusterSearch(request).Plan();
+}
 
 }  // namespace regrasp::roadmap

@@ -11,6 +11,6 @@ namespace regrasp::roadmap {
 /// drawn anew while no sequence leads there.
 /// @param request  as Planner::Plan has it.
 /// @throws NoGrasp, TimeUp
-[[nodiscard]] PlanResult SearchClusters(const PlanRequest& request);
+[[nodiscard]] planning::PlanResult SearchClusters(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -16,7 +16,8 @@ namespace regrasp::roadmap {
 
 namespace {
 
-ContactClusters ClustersOf(const Polyhedron& solid, double half_angle, const RoadmapNote& note) {
+ContactClusters ClustersOf(const object::Polyhedron& solid, double half_angle,
+                           const plan::RoadmapNote& note) {
   const auto check = [](const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return;
     throw InputError(std::string("the plan's roadmap has ") + std::to_string(value) + " " + name +
@@ -33,7 +34,7 @@ ContactClusters ClustersOf(const Polyhedron& solid, double half_angle, const Roa
 }
 
 /// The nearest contact whose normal does not point the other way.
-int NearestContact(const std::vector<Contact>& contacts, const Contact& to) {
+int NearestContact(const std::vector<grasp::Contact>& contacts, const grasp::Contact& to) {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
@@ -47,20 +48,21 @@ int NearestContact(const std::vector<Contact>& contacts, const Contact& to) {
   return nearest;
 }
 
-std::vector<int> ClusterOfTriangles(const Polyhedron& solid, const ContactClusters& clusters) {
+std::vector<int> ClusterOfTriangles(const object::Polyhedron& solid,
+                                    const ContactClusters& clusters) {
   std::vector<int> cluster_of;
   for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
     const auto& v = solid.vertices();
-    const Contact centroid = ContactOnTriangle(solid, i, (v[a] + v[b] + v[c]) / 3);
+    const grasp::Contact centroid = sampling::ContactOnTriangle(solid, i, (v[a] + v[b] + v[c]) / 3);
     cluster_of.push_back(clusters.cluster_of(NearestContact(clusters.contacts(), centroid)));
   }
   return cluster_of;
 }
 
 /// The clusters that each cluster meets along an edge of a triangle.
-std::vector<std::set<int>> Neighbours(const Polyhedron& solid, const std::vector<int>& cluster_of,
-                                      int cluster_count) {
+std::vector<std::set<int>> Neighbours(const object::Polyhedron& solid,
+                                      const std::vector<int>& cluster_of, int cluster_count) {
   std::map<std::pair<int, int>, int> cluster_at_edge;
   std::vector<std::set<int>> neighbours(cluster_count);
   for (std::size_t i = 0; i < cluster_of.size(); ++i) {
@@ -104,7 +106,8 @@ std::vector<int> ColorClusters(const std::vector<std::set<int>>& neighbours) {
 
 }  // namespace
 
-ClusterView DescribeClusters(const Polyhedron& solid, double half_angle, const RoadmapNote& note) {
+ClusterView DescribeClusters(const object::Polyhedron& solid, double half_angle,
+                             const plan::RoadmapNote& note) {
   const ContactClusters clusters = ClustersOf(solid, half_angle, note);
   ClusterView view;
   view.color_of_triangle = ClusterOfTriangles(solid, clusters);

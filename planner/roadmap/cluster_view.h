@@ -23,7 +23,7 @@ struct ClusterView {
 /// nearest contact point on its side of the body.
 /// @param half_angle  the plan's, radians.
 /// @throws InputError  the note's numbers are none of a roadmap of clusters.
-[[nodiscard]] ClusterView DescribeClusters(const Polyhedron& solid, double half_angle,
-                                           const RoadmapNote& note);
+[[nodiscard]] ClusterView DescribeClusters(const object::Polyhedron& solid, double half_angle,
+                                           const plan::RoadmapNote& note);
 
 }  // namespace regrasp::roadmap

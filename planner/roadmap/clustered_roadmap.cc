@@ -12,29 +12,32 @@ namespace regrasp::roadmap {
 
 namespace {
 
-Roadmap BuildRepresentativeRoadmap(const Polyhedron& solid, const ContactClusters& clusters,
+Roadmap BuildRepresentativeRoadmap(const object::Polyhedron& solid, const ContactClusters& clusters,
                                    const ClusteredRoadmapOptions& options) {
-  std::vector<Contact> representatives;
+  std::vector<grasp::Contact> representatives;
   for (const int contact : clusters.representatives()) {
     representatives.push_back(clusters.contacts()[contact]);
   }
   options.progress("testing the grasps of four of " + std::to_string(representatives.size()) +
                    " representatives");
   return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
-                 kSamePoint * solid.diameter(), options.finger_radius, options.deadline);
+                 criteria::kSamePoint * solid.diameter(), options.finger_radius, options.deadline);
 }
 
 }  // namespace
 
-ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapOptions& options) {
+ContactClusters ClusterContacts(const object::Polyhedron& solid,
+                                const ClusteredRoadmapOptions& options) {
   if (options.clusters < kFewestClusters || options.clusters > kMostClusters) {
     throw std::invalid_argument("the number of clusters is out of range");
   }
   options.progress("choosing contact points");
-  std::vector<Contact> contacts = MeshContacts(solid, options.contacts, options.seed);
-  std::erase_if(contacts, [&](const Contact& contact) {
+  std::vector<grasp::Contact> contacts =
+      sampling::MeshContacts(solid, options.contacts, options.seed);
+  std::erase_if(contacts, [&](const grasp::Contact& contact) {
     options.deadline.Check();
-    return !HasClearance(solid, contact) || !CanReach(solid, contact, options.finger_radius);
+    return !criteria::HasClearance(solid, contact) ||
+           !criteria::CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
   options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
@@ -42,7 +45,8 @@ ContactClusters ClusterContacts(const Polyhedron& solid, const ClusteredRoadmapO
                          options.seed, options.deadline);
 }
 
-ClusteredRoadmap::ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadmapOptions& options)
+ClusteredRoadmap::ClusteredRoadmap(const object::Polyhedron& solid,
+                                   const ClusteredRoadmapOptions& options)
     : half_angle(options.half_angle),
       frame(solid.wrench_frame()),
       clusters(ClusterContacts(solid, options)),

@@ -31,20 +31,20 @@ struct ClusteredRoadmapOptions {
 /// The contact points of a mesh at which a fingertip has clearance, in clusters; no more clusters
 /// than contact points less one.
 /// @throws std::invalid_argument  an option is out of its range.
-[[nodiscard]] ContactClusters ClusterContacts(const Polyhedron& solid,
+[[nodiscard]] ContactClusters ClusterContacts(const object::Polyhedron& solid,
                                               const ClusteredRoadmapOptions& options);
 
 /// A mesh's contact points in clusters, and the roadmap of all force-closure grasps of four of the
 /// clusters' representatives (Phoka 2010, 6.2.2 and 6.2.3). Queries share it and change nothing.
 struct ClusteredRoadmap {
   /// @throws std::invalid_argument  an option is out of its range.
-  ClusteredRoadmap(const Polyhedron& solid, const ClusteredRoadmapOptions& options);
+  ClusteredRoadmap(const object::Polyhedron& solid, const ClusteredRoadmapOptions& options);
 
   double half_angle;
-  WrenchFrame frame;
+  object::WrenchFrame frame;
   ContactClusters clusters;
   Roadmap roadmap;  ///< its points are the representatives, in the order of their clusters
-  Components components;
+  search::Components components;
 };
 
 }  // namespace regrasp::roadmap

@@ -14,14 +14,14 @@ constexpr int kRestarts = 5;
 
 }  // namespace
 
-ContactClusters::ContactClusters(std::vector<Contact> contacts, const WrenchFrame& frame,
-                                 double half_angle, int clusters, std::uint64_t seed,
-                                 const Deadline& deadline)
+ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
+                                 const object::WrenchFrame& frame, double half_angle, int clusters,
+                                 std::uint64_t seed, const Deadline& deadline)
     : frame_(frame), half_angle_(half_angle), contacts_(std::move(contacts)) {
   if (clusters < 1 || clusters >= static_cast<int>(contacts_.size())) {
     throw std::invalid_argument("clusters must be at least 1 and fewer than the contacts");
   }
-  for (const Contact& contact : contacts_) {
+  for (const grasp::Contact& contact : contacts_) {
     pyramids_.push_back(PyramidOf(contact, frame_, half_angle_, contacts_));
   }
   const Eigen::MatrixXd distances = WrenchDistances(pyramids_);
@@ -47,7 +47,7 @@ ContactClusters::ContactClusters(std::vector<Contact> contacts, const WrenchFram
   }
 }
 
-int ContactClusters::Add(const Contact& contact) {
+int ContactClusters::Add(const grasp::Contact& contact) {
   const auto clustered = std::span(contacts_).first(clustered_count());
   const WrenchPyramid pyramid = PyramidOf(contact, frame_, half_angle_, clustered);
   Eigen::VectorXd affinity(clustered_count());

@@ -28,11 +28,12 @@ class ContactClusters {
   /// @param half_angle  radians.
   /// @throws std::invalid_argument  a number is out of range.
   /// @throws TimeUp  the deadline came; looks between its stages only, of a second or two each.
-  ContactClusters(std::vector<Contact> contacts, const WrenchFrame& frame, double half_angle,
-                  int clusters, std::uint64_t seed, const Deadline& deadline = {});
+  ContactClusters(std::vector<grasp::Contact> contacts, const object::WrenchFrame& frame,
+                  double half_angle, int clusters, std::uint64_t seed,
+                  const Deadline& deadline = {});
 
   /// The clustered contacts, then those that were added.
-  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] const std::vector<grasp::Contact>& contacts() const { return contacts_; }
   /// How many of them were clustered.
   [[nodiscard]] int clustered_count() const { return static_cast<int>(embedding_.degrees.size()); }
   [[nodiscard]] int cluster_count() const { return static_cast<int>(representatives_.size()); }
@@ -54,12 +55,12 @@ class ContactClusters {
   }
 
   /// Adds a contact. @returns its number.
-  int Add(const Contact& contact);
+  int Add(const grasp::Contact& contact);
 
  private:
-  WrenchFrame frame_;
+  object::WrenchFrame frame_;
   double half_angle_;
-  std::vector<Contact> contacts_;
+  std::vector<grasp::Contact> contacts_;
   std::vector<WrenchPyramid> pyramids_;  ///< of the clustered contacts
   double affinity_scale_ = 0;            ///< 2σ²
   SpectralEmbedding embedding_;

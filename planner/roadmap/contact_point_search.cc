@@ -30,7 +30,8 @@ constexpr int kProgressEvery = 100;
 /// The planning of one sequence: what its stages share.
 class ContactPointSearch {
  public:
-  ContactPointSearch(const std::vector<Contact>& contacts, const PlanRequest& request)
+  ContactPointSearch(const std::vector<grasp::Contact>& contacts,
+                     const planning::PlanRequest& request)
       : request_(request),
         frame_(request.object->wrench_frame()),
         start_(request.start),
@@ -38,38 +39,38 @@ class ContactPointSearch {
         roadmap_(RoadmapOver(contacts)),
         quality_(roadmap_, frame_, request.criteria) {}
 
-  PlanResult Run() {
+  planning::PlanResult Run() {
     const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
     const int goal = ChooseVertex(goal_, RandomUse::kGoal, start);
     ReportSearch();
     const std::vector<int> path = FindPath(start, goal);
     if (!path.empty()) return Finish(path);
-    PlanResult none;
-    none.status = PlanResult::Status::kNoSequence;
+    planning::PlanResult none;
+    none.status = planning::PlanResult::Status::kNoSequence;
     none.message = NoSequenceMessage(start, goal);
     return none;
   }
 
  private:
-  [[nodiscard]] Roadmap RoadmapOver(const std::vector<Contact>& contacts) const {
-    std::vector<Contact> given = start_.grasp;
+  [[nodiscard]] Roadmap RoadmapOver(const std::vector<grasp::Contact>& contacts) const {
+    std::vector<grasp::Contact> given = start_.grasp;
     given.insert(given.end(), goal_.grasp.begin(), goal_.grasp.end());
     return BuildRoadmap(request_, contacts, given);
   }
 
-  int ChooseVertex(GraspChoice& choice, RandomUse use, std::optional<int> start) {
-    if (choice.kind == GraspChoice::Kind::kGiven) return VertexOf(choice);
+  int ChooseVertex(planning::GraspChoice& choice, RandomUse use, std::optional<int> start) {
+    if (choice.kind == planning::GraspChoice::Kind::kGiven) return VertexOf(choice);
     const int vertex = DrawVertex(choice, use, start);
     choice.grasp = roadmap_.grasp(vertex);
     return vertex;
   }
 
-  int VertexOf(const GraspChoice& choice) const {
+  int VertexOf(const planning::GraspChoice& choice) const {
     std::vector<int> points;
-    for (const Contact& contact : choice.grasp) {
-      points.push_back(
-          FindContact(roadmap_.points(), contact, kPointTolerance * request_.object->diameter())
-              .value());
+    for (const grasp::Contact& contact : choice.grasp) {
+      points.push_back(FindContact(roadmap_.points(), contact,
+                                   object::kPointTolerance * request_.object->diameter())
+                           .value());
     }
     const std::optional<int> vertex = roadmap_.Find(points);
     // Only where a contact was joined to another of the same place can the verdict have changed.
@@ -79,7 +80,7 @@ class ContactPointSearch {
 
   /// A vertex of good quality by the seed, out of the start's component where there is a start and
   /// then another one than it, if the component has another.
-  int DrawVertex(const GraspChoice& choice, RandomUse use, std::optional<int> start) {
+  int DrawVertex(const planning::GraspChoice& choice, RandomUse use, std::optional<int> start) {
     std::vector<int> pool = Pool(start);
     RandomStream random(request_.seed, use);
     const std::size_t draws = std::min<std::size_t>(pool.size(), kMaxVertexDraws);
@@ -88,16 +89,17 @@ class ContactPointSearch {
       request_.deadline.Check();
       if (quality_.IsGood(pool[i])) return pool[i];
     }
-    throw NoGrasp{choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
-                  (start ? "start's component of the roadmap" : "roadmap") +
-                  " has a quality of at least " + FormatShort(request_.criteria.min_quality)};
+    throw sampling::NoGrasp{
+        choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
+        (start ? "start's component of the roadmap" : "roadmap") + " has a quality of at least " +
+        FormatShort(request_.criteria.min_quality)};
   }
 
   std::vector<int> Pool(std::optional<int> start) const {
     std::vector<int> pool(roadmap_.vertex_count());
     std::iota(pool.begin(), pool.end(), 0);
     if (!start) return pool;
-    const Components components = roadmap_.components();
+    const search::Components components = roadmap_.components();
     const int component = components.of_vertex[*start];
     if (components.sizes[component] == 1) return {*start};
     std::erase_if(pool, [&](int v) { return v == *start || components.of_vertex[v] != component; });
@@ -105,13 +107,13 @@ class ContactPointSearch {
   }
 
   std::vector<int> FindPath(int start, int goal) {
-    const VertexFilter good = [&](int vertex) {
+    const search::VertexFilter good = [&](int vertex) {
       request_.deadline.Check();
       const bool is_good = quality_.IsGood(vertex);
       if (quality_.quality_count() % kProgressEvery == 0) ReportSearch();
       return is_good;
     };
-    const VertexFilter any = [&](int) {
+    const search::VertexFilter any = [&](int) {
       request_.deadline.Check();
       return true;
     };
@@ -125,17 +127,17 @@ class ContactPointSearch {
                       " tested");
   }
 
-  std::vector<int> FindPath(int start, int goal, const VertexFilter& admits) {
-    const std::optional<int> switches = FewestSwitches(roadmap_, start, goal, admits);
+  std::vector<int> FindPath(int start, int goal, const search::VertexFilter& admits) {
+    const std::optional<int> switches = search::FewestSwitches(roadmap_, start, goal, admits);
     if (!switches) return {};
-    return WidestPath(roadmap_, start, goal, *switches, admits,
-                      [&](int vertex) { return quality_.Margin(vertex); });
+    return search::WidestPath(roadmap_, start, goal, *switches, admits,
+                              [&](int vertex) { return quality_.Margin(vertex); });
   }
 
   std::string NoSequenceMessage(int start, int goal) const {
     const auto all = [](int) { return true; };
     const auto size = [&](int vertex) {
-      return std::to_string(ReachableVertices(roadmap_, vertex, all).size());
+      return std::to_string(search::ReachableVertices(roadmap_, vertex, all).size());
     };
     return "no sequence of finger switches leads from start to goal over these contact points: "
            "searched " +
@@ -146,29 +148,31 @@ class ContactPointSearch {
            " of them, the goal's " + size(goal);
   }
 
-  [[nodiscard]] PlanResult Finish(const std::vector<int>& path) const {
-    std::vector<Grasp> grasps;
+  [[nodiscard]] planning::PlanResult Finish(const std::vector<int>& path) const {
+    std::vector<grasp::Grasp> grasps;
     for (const int vertex : path) grasps.push_back(roadmap_.grasp(vertex));
     // The fingers of the first grasp follow the order in which it was given.
     grasps.front() = start_.grasp;
-    Sequence sequence = MakeSwitchSequence(grasps, request_.hand.fingers);
-    CandidateSequence candidate = {std::move(sequence.initial), std::move(sequence.steps), {}};
-    for (Grasp& grasp : grasps) candidate.rests.push_back({std::move(grasp), std::nullopt});
-    const GraspEvaluator evaluator(*request_.object, request_.criteria, request_.hand);
-    return ResultOf(candidate, evaluator, "roadmap", request_, goal_.grasp);
+    planning::Sequence sequence = planning::MakeSwitchSequence(grasps, request_.hand.fingers);
+    planning::CandidateSequence candidate = {
+        std::move(sequence.initial), std::move(sequence.steps), {}};
+    for (grasp::Grasp& grasp : grasps) candidate.rests.push_back({std::move(grasp), std::nullopt});
+    const criteria::GraspEvaluator evaluator(*request_.object, request_.criteria, request_.hand);
+    return planning::ResultOf(candidate, evaluator, "roadmap", request_, goal_.grasp);
   }
 
-  const PlanRequest& request_;
-  WrenchFrame frame_;
-  GraspChoice start_;
-  GraspChoice goal_;
+  const planning::PlanRequest& request_;
+  object::WrenchFrame frame_;
+  planning::GraspChoice start_;
+  planning::GraspChoice goal_;
   Roadmap roadmap_;
   VertexQuality quality_;
 };
 
 }  // namespace
 
-PlanResult SearchContactPoints(const std::vector<Contact>& contacts, const PlanRequest& request) {
+planning::PlanResult SearchContactPoints(const std::vector<grasp::Contact>& contacts,
+                                         const planning::PlanRequest& request) {
   return ContactPointSearch(contacts, request).Run();
 }
 

@@ -13,7 +13,7 @@ namespace regrasp::roadmap {
 /// way, and then a warning names the weakest step.
 /// @param request  as Planner::Plan has it.
 /// @throws NoGrasp, TimeUp
-[[nodiscard]] PlanResult SearchContactPoints(const std::vector<Contact>& contacts,
-                                             const PlanRequest& request);
+[[nodiscard]] planning::PlanResult SearchContactPoints(const std::vector<grasp::Contact>& contacts,
+                                                       const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

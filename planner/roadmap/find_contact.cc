@@ -4,9 +4,9 @@
 
 namespace regrasp::roadmap {
 
-std::optional<int> FindContact(const std::vector<Contact>& points, const Contact& contact,
-                               double tolerance) {
-  const auto found = std::find_if(points.begin(), points.end(), [&](const Contact& point) {
+std::optional<int> FindContact(const std::vector<grasp::Contact>& points,
+                               const grasp::Contact& contact, double tolerance) {
+  const auto found = std::find_if(points.begin(), points.end(), [&](const grasp::Contact& point) {
     return point.face == contact.face && (point.p - contact.p).norm() <= tolerance;
   });
   if (found == points.end()) return std::nullopt;

@@ -8,7 +8,7 @@
 namespace regrasp::roadmap {
 
 /// The first of `points` that is the same contact: on the same face, no farther than `tolerance`.
-[[nodiscard]] std::optional<int> FindContact(const std::vector<Contact>& points,
-                                             const Contact& contact, double tolerance);
+[[nodiscard]] std::optional<int> FindContact(const std::vector<grasp::Contact>& points,
+                                             const grasp::Contact& contact, double tolerance);
 
 }  // namespace regrasp::roadmap

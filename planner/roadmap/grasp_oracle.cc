@@ -5,15 +5,15 @@
 
 namespace regrasp::roadmap {
 
-GraspOracle::GraspOracle(std::span<const Contact> contacts, const WrenchFrame& frame,
-                         double same_point, const GraspCriteria& criteria, const Hand& hand,
-                         Deadline deadline)
+GraspOracle::GraspOracle(std::span<const grasp::Contact> contacts, const object::WrenchFrame& frame,
+                         double same_point, const criteria::GraspCriteria& criteria,
+                         const hand::Hand& hand, Deadline deadline)
     : memory_(frame, same_point, criteria, hand), deadline_(std::move(deadline)) {
   memory_.Append(contacts);
 }
 
-Grasp GraspOracle::GraspOf(const Quadruple& contacts) const {
-  Grasp grasp;
+grasp::Grasp GraspOracle::GraspOf(const Quadruple& contacts) const {
+  grasp::Grasp grasp;
   for (const int contact : contacts) grasp.push_back(memory_.contact(contact));
   return grasp;
 }
@@ -22,7 +22,7 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
   deadline_.Check();
   // One contact cannot be held twice.
   if (std::ranges::adjacent_find(ascending) != ascending.end()) return false;
-  ContactSet set;
+  criteria::ContactSet set;
   for (const int contact : ascending) set.Insert(contact);
   return memory_.Admits(set);
 }

@@ -25,8 +25,9 @@ class GraspOracle {
   /// @param contacts    at most ContactSet::kMostNumbers.
   /// @param same_point  contacts no farther apart than this are at one point.
   /// @throws std::invalid_argument  there are more contacts.
-  GraspOracle(std::span<const Contact> contacts, const WrenchFrame& frame, double same_point,
-              const GraspCriteria& criteria, const Hand& hand = {}, Deadline deadline = {});
+  GraspOracle(std::span<const grasp::Contact> contacts, const object::WrenchFrame& frame,
+              double same_point, const criteria::GraspCriteria& criteria,
+              const hand::Hand& hand = {}, Deadline deadline = {});
 
   /// @throws TimeUp  the deadline came.
   [[nodiscard]] bool Admits(const Quadruple& ascending);
@@ -34,14 +35,14 @@ class GraspOracle {
   /// the one before another leaves the other.
   [[nodiscard]] bool ExcludeEachOther(int a, int b) const { return !memory_.CanMeet(a, b); }
 
-  [[nodiscard]] Grasp GraspOf(const Quadruple& contacts) const;
+  [[nodiscard]] grasp::Grasp GraspOf(const Quadruple& contacts) const;
 
   /// From now on grasps are asked to be of this quality; what is known of them stays known.
   void SetMinQuality(double min_quality) { memory_.SetMinQuality(min_quality); }
-  [[nodiscard]] const GraspMemory::Counts& counts() const { return memory_.counts(); }
+  [[nodiscard]] const criteria::GraspMemory::Counts& counts() const { return memory_.counts(); }
 
  private:
-  GraspMemory memory_;
+  criteria::GraspMemory memory_;
   Deadline deadline_;
 };
 

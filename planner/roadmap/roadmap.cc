@@ -13,13 +13,13 @@ namespace regrasp::roadmap {
 namespace {
 
 /// Of any two points, whether two fingers cannot be at both.
-std::vector<bool> FindExcluded(const std::vector<Contact>& points, double same_point,
+std::vector<bool> FindExcluded(const std::vector<grasp::Contact>& points, double same_point,
                                double finger_radius) {
   const std::size_t count = points.size();
   std::vector<bool> excluded(count * count, false);
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      if (CanMeet(points[a], points[b], same_point, finger_radius)) continue;
+      if (criteria::CanMeet(points[a], points[b], same_point, finger_radius)) continue;
       excluded[a * count + b] = excluded[b * count + a] = true;
     }
   }
@@ -40,11 +40,12 @@ bool Contains(const Quadruple& vertex, int point) {
 
 }  // namespace
 
-Roadmap::Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
-                 double same_point, double finger_radius, const Deadline& deadline)
+Roadmap::Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame,
+                 double half_angle, double same_point, double finger_radius,
+                 const Deadline& deadline)
     : points_(std::move(points)), excluded_(FindExcluded(points_, same_point, finger_radius)) {
   any_excluded_ = std::find(excluded_.begin(), excluded_.end(), true) != excluded_.end();
-  vertices_ = ForceClosureSubsets(points_, frame, half_angle, nullptr, deadline);
+  vertices_ = grasp::ForceClosureSubsets(points_, frame, half_angle, nullptr, deadline);
   deadline.Check();
   if (any_excluded_) {
     std::erase_if(vertices_, [&](const Quadruple& vertex) {
@@ -74,8 +75,8 @@ void Roadmap::ListByTriples() {
   }
 }
 
-Grasp Roadmap::grasp(int index) const {
-  Grasp grasp;
+grasp::Grasp Roadmap::grasp(int index) const {
+  grasp::Grasp grasp;
   for (const int point : vertices_[index]) grasp.push_back(points_[point]);
   return grasp;
 }
@@ -116,10 +117,10 @@ std::int64_t Roadmap::edge_count() const {
   return count;
 }
 
-Components Roadmap::components() const {
+search::Components Roadmap::components() const {
   if (!any_excluded_) {
-    return FindComponents(vertex_count(), triple_count(),
-                          [&](int triple) { return VerticesWith(triple); });
+    return search::FindComponents(vertex_count(), triple_count(),
+                                  [&](int triple) { return VerticesWith(triple); });
   }
   // In a group with excluded pairs a vertex is joined to those that it finds among the ones left
   // over: a search of the group, which leaves a tree of edges.
@@ -144,8 +145,8 @@ Components Roadmap::components() const {
       left.erase(joined, left.end());
     }
   }
-  return FindComponents(vertex_count(), static_cast<int>(edges.size()),
-                        [&](int edge) { return std::span<const int>(edges[edge]); });
+  return search::FindComponents(vertex_count(), static_cast<int>(edges.size()),
+                                [&](int edge) { return std::span<const int>(edges[edge]); });
 }
 
 int Roadmap::triple_count() const { return static_cast<int>(triple_begin_.size()) - 1; }

@@ -25,7 +25,7 @@ using Quadruple = std::array<int, 4>;
 /// different grasps share at most one triple. Contacts at the same point (two normals on an edge of
 /// the solid, say) are never in one grasp nor take turns in one switch, for two fingers cannot
 /// touch one point; nor do contacts where two fingers of a radius would overlap.
-class Roadmap final : public SwitchingGraph {
+class Roadmap final : public search::SwitchingGraph {
  public:
   /// Tests all 4-subsets of the points.
   /// @param half_angle  radians.
@@ -33,12 +33,12 @@ class Roadmap final : public SwitchingGraph {
   /// @param finger_radius  of fingers that are not points (reach.h).
   /// @throws std::invalid_argument  as TestForceClosure.
   /// @throws TimeUp  the deadline came.
-  Roadmap(std::vector<Contact> points, const WrenchFrame& frame, double half_angle,
+  Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame, double half_angle,
           double same_point, double finger_radius = 0, const Deadline& deadline = {});
 
-  [[nodiscard]] const std::vector<Contact>& points() const { return points_; }
+  [[nodiscard]] const std::vector<grasp::Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }
-  [[nodiscard]] Grasp grasp(int index) const;
+  [[nodiscard]] grasp::Grasp grasp(int index) const;
   /// The vertex of four contact points in any order; nullopt where they are no vertex.
   [[nodiscard]] std::optional<int> Find(std::span<const int> points) const;
 
@@ -51,7 +51,7 @@ class Roadmap final : public SwitchingGraph {
   [[nodiscard]] std::int64_t candidate_count() const;
   /// Unordered pairs of vertices that share three contacts.
   [[nodiscard]] std::int64_t edge_count() const;
-  [[nodiscard]] Components components() const;
+  [[nodiscard]] search::Components components() const;
 
  private:
   void ListByTriples();
@@ -65,7 +65,7 @@ class Roadmap final : public SwitchingGraph {
   }
   [[nodiscard]] std::int64_t EdgesWith(int triple) const;
 
-  std::vector<Contact> points_;
+  std::vector<grasp::Contact> points_;
   std::vector<Quadruple> vertices_;  ///< in lexicographic order
   /// Vertices that contain a triple are at triple_begin_[triple] … triple_begin_[triple + 1].
   std::vector<int> triple_begin_;

@@ -28,19 +28,19 @@ constexpr double kBytesOfTriple = 8;
 /// made of it for the eigenvalues; 26 to 28 measured on 1000 to 4000 contact points.
 constexpr double kBytesOfPair = 27;
 
-double ForceClosureShare(const Polyhedron& solid, double half_angle) {
-  const SurfaceSampler sampler(solid);
+double ForceClosureShare(const object::Polyhedron& solid, double half_angle) {
+  const sampling::SurfaceSampler sampler(solid);
   RandomStream random(0, RandomUse::kContactPoints);
   int count = 0;
   for (int i = 0; i < kTestedGrasps; ++i) {
-    Grasp grasp;
+    grasp::Grasp grasp;
     for (int k = 0; k < kContacts; ++k) grasp.push_back(sampler.DrawAnywhere(random));
-    if (IsForceClosure(grasp, solid.wrench_frame(), half_angle)) ++count;
+    if (grasp::IsForceClosure(grasp, solid.wrench_frame(), half_angle)) ++count;
   }
   return static_cast<double>(count) / kTestedGrasps;
 }
 
-MemoryNeed EstimateGrasps(const Polyhedron& solid, double half_angle, int points,
+MemoryNeed EstimateGrasps(const object::Polyhedron& solid, double half_angle, int points,
                           const std::string& units) {
   const double share = ForceClosureShare(solid, half_angle);
   const auto bytes_for = [share](int n) {
@@ -52,8 +52,8 @@ MemoryNeed EstimateGrasps(const Polyhedron& solid, double half_angle, int points
 
 }  // namespace
 
-MemoryNeed EstimateRoadmap(const PlanRequest& request) {
-  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+MemoryNeed EstimateRoadmap(const planning::PlanRequest& request) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   const RoadmapSize size = SizeOf(request);
   const double half_angle = request.criteria.half_angle;
   if (size.clusters == 0) {

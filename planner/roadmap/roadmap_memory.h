@@ -15,6 +15,6 @@ namespace regrasp::roadmap {
 /// GB for kMaxClusteredContacts.
 ///
 /// Law: the same solid and options give the same number.
-[[nodiscard]] MemoryNeed EstimateRoadmap(const PlanRequest& request);
+[[nodiscard]] MemoryNeed EstimateRoadmap(const planning::PlanRequest& request);
 
 }  // namespace regrasp::roadmap

@@ -9,19 +9,21 @@
 namespace regrasp::roadmap {
 
 RoadmapPlanner::RoadmapPlanner()
-    : Planner({.name = "roadmap",
-               .what = "grasps of contact points or clusters of them",
-               .in_space = PlannerScope{kRoadmapFingers,
-                                        {kRoadmapContacts, kRoadmapContacts},
-                                        {kRoadmapContacts, kRoadmapContacts}},
-               .options = {PlanOption::kContactPoints, PlanOption::kClusters,
-                           PlanOption::kNoLastResort}}) {}
+    : planning::Planner(
+          {.name = "roadmap",
+           .what = "grasps of contact points or clusters of them",
+           .in_space = planning::PlannerScope{kRoadmapFingers,
+                                              {kRoadmapContacts, kRoadmapContacts},
+                                              {kRoadmapContacts, kRoadmapContacts}},
+           .options = {planning::PlanOption::kContactPoints, planning::PlanOption::kClusters,
+                       planning::PlanOption::kNoLastResort}}) {}
 
-std::optional<MemoryNeed> RoadmapPlanner::EstimateMemory(const PlanRequest& request) const {
+std::optional<MemoryNeed> RoadmapPlanner::EstimateMemory(
+    const planning::PlanRequest& request) const {
   return EstimateRoadmap(request);
 }
 
-PlanResult RoadmapPlanner::Plan(const PlanRequest& request) const {
+planning::PlanResult RoadmapPlanner::Plan(const planning::PlanRequest& request) const {
   if (SizeOf(request).clusters > 0) return SearchClusters(request);
   return SearchContactPoints(SpreadContacts(request), request);
 }

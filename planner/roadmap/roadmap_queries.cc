@@ -11,15 +11,15 @@ namespace regrasp::roadmap {
 
 std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap, double same_point,
                                           RandomStream& random) {
-  const std::vector<Contact>& contacts = roadmap.clusters.contacts();
-  for (int draw = 0; draw < kMaxSurfaceDraws; ++draw) {
+  const std::vector<grasp::Contact>& contacts = roadmap.clusters.contacts();
+  for (int draw = 0; draw < sampling::kMaxSurfaceDraws; ++draw) {
     Quadruple numbers;
     for (int& contact : numbers) contact = static_cast<int>(random.Index(contacts.size()));
     std::sort(numbers.begin(), numbers.end());
-    Grasp grasp;
+    grasp::Grasp grasp;
     for (const int contact : numbers) grasp.push_back(contacts[contact]);
-    if (CanAllMeet(grasp, same_point, 0) &&
-        IsForceClosure(grasp, roadmap.frame, roadmap.half_angle)) {
+    if (criteria::CanAllMeet(grasp, same_point, 0) &&
+        grasp::IsForceClosure(grasp, roadmap.frame, roadmap.half_angle)) {
       return numbers;
     }
   }

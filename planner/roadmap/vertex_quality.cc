@@ -7,8 +7,8 @@
 
 namespace regrasp::roadmap {
 
-VertexQuality::VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame,
-                             const GraspCriteria& criteria)
+VertexQuality::VertexQuality(const Roadmap& roadmap, const object::WrenchFrame& frame,
+                             const criteria::GraspCriteria& criteria)
     : roadmap_(roadmap),
       frame_(frame),
       criteria_(criteria),
@@ -18,7 +18,7 @@ VertexQuality::VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame,
 bool VertexQuality::IsGood(int vertex) {
   if (good_[vertex] == Known::kNothing) {
     ++quality_count_;
-    const bool good = MeetsCriteria(roadmap_.grasp(vertex), frame_, criteria_);
+    const bool good = criteria::MeetsCriteria(roadmap_.grasp(vertex), frame_, criteria_);
     good_[vertex] = good ? Known::kGood : Known::kBad;
   }
   return good_[vertex] == Known::kGood;
@@ -28,7 +28,7 @@ double VertexQuality::Margin(int vertex) {
   if (std::isnan(margin_[vertex])) {
     ++margin_count_;
     const auto required =
-        ComputeRequiredHalfAngle(roadmap_.grasp(vertex), frame_, kMarginTolerance);
+        grasp::ComputeRequiredHalfAngle(roadmap_.grasp(vertex), frame_, kMarginTolerance);
     // A vertex is force closure at the half-angle, so at worst its margin rounds to nothing.
     margin_[vertex] = required ? criteria_.half_angle - required->upper : 0;
   }

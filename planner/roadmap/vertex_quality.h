@@ -13,7 +13,8 @@ namespace regrasp::roadmap {
 class VertexQuality {
  public:
   /// @param roadmap  outlives this object.
-  VertexQuality(const Roadmap& roadmap, const WrenchFrame& frame, const GraspCriteria& criteria);
+  VertexQuality(const Roadmap& roadmap, const object::WrenchFrame& frame,
+                const criteria::GraspCriteria& criteria);
 
   /// MeetsCriteria.
   [[nodiscard]] bool IsGood(int vertex);
@@ -29,8 +30,8 @@ class VertexQuality {
   enum class Known : unsigned char { kNothing, kBad, kGood };
 
   const Roadmap& roadmap_;
-  WrenchFrame frame_;
-  GraspCriteria criteria_;
+  object::WrenchFrame frame_;
+  criteria::GraspCriteria criteria_;
   std::vector<Known> good_;
   std::vector<double> margin_;  ///< NaN where not known yet
   int quality_count_ = 0;

@@ -24,14 +24,14 @@ inline double FastArcCosine(double x) {
 }
 
 /// Whether a vector leads along the surface at a contact.
-bool LeadsAlong(const Eigen::Vector3d& vector, const Contact& contact, double radius) {
+bool LeadsAlong(const Eigen::Vector3d& vector, const grasp::Contact& contact, double radius) {
   return contact.n.cross(vector).norm() > kParallel * radius;
 }
 
 }  // namespace
 
-WrenchPyramid PyramidOf(const Contact& contact, const WrenchFrame& frame, double half_angle,
-                        const Eigen::Vector3d& towards) {
+WrenchPyramid PyramidOf(const grasp::Contact& contact, const object::WrenchFrame& frame,
+                        double half_angle, const Eigen::Vector3d& towards) {
   const Eigen::Vector3d u = (towards - contact.n.dot(towards) * contact.n).normalized();
   const Eigen::Vector3d v = contact.n.cross(u);
   const Eigen::Vector3d arm = (contact.p - frame.origin) / frame.radius;
@@ -46,8 +46,8 @@ WrenchPyramid PyramidOf(const Contact& contact, const WrenchFrame& frame, double
   return pyramid;
 }
 
-WrenchPyramid PyramidOf(const Contact& contact, const WrenchFrame& frame, double half_angle,
-                        std::span<const Contact> others) {
+WrenchPyramid PyramidOf(const grasp::Contact& contact, const object::WrenchFrame& frame,
+                        double half_angle, std::span<const grasp::Contact> others) {
   Eigen::Vector3d towards = contact.p - frame.origin;
   for (std::size_t i = 0; i < others.size() && !LeadsAlong(towards, contact, frame.radius); ++i) {
     towards = others[i].p - contact.p;

@@ -19,15 +19,17 @@ using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 /// @param half_angle  radians; edges of the pyramid lie on the cone.
 /// @param towards     the first edge leans to where this vector points along the surface; must not
 ///                    be parallel to the normal.
-[[nodiscard]] WrenchPyramid PyramidOf(const Contact& contact, const WrenchFrame& frame,
-                                      double half_angle, const Eigen::Vector3d& towards);
+[[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
+                                      const object::WrenchFrame& frame, double half_angle,
+                                      const Eigen::Vector3d& towards);
 
 /// The pyramid of a contact, its first edge leaning away from the frame's origin, so that it turns
 /// with the object.
 /// @param others  where the contact is straight above the origin, the first of these that is not
 ///                decides.
-[[nodiscard]] WrenchPyramid PyramidOf(const Contact& contact, const WrenchFrame& frame,
-                                      double half_angle, std::span<const Contact> others);
+[[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
+                                      const object::WrenchFrame& frame, double half_angle,
+                                      std::span<const grasp::Contact> others);
 
 /// How differently two contacts act on the object (Phoka 2010, 6.2.2.1): the mean angle between
 /// wrenches of the two pyramids matched in order, for the cyclic shift that makes it least;

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 /// How many contacts a grasp has.
 struct ContactLimits {
@@ -8,4 +8,4 @@ struct ContactLimits {
   int most = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

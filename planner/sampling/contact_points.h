@@ -6,7 +6,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 /// Contact points of a roadmap: `count` of them spread evenly over the surface, the same for the
 /// same seed.
@@ -20,8 +20,8 @@ namespace regrasp {
 ///
 /// Fewer points come back where the surface is too small for that many different candidates.
 /// @throws std::invalid_argument  count < 1.
-[[nodiscard]] std::vector<Contact> SpreadContactPoints(const Polyhedron& solid, int count,
-                                                       std::uint64_t seed);
+[[nodiscard]] std::vector<grasp::Contact> SpreadContactPoints(const object::Polyhedron& solid,
+                                                              int count, std::uint64_t seed);
 
 /// Contact points of a triangle mesh (Phoka 2010, section 6.2): the centroids of its triangles,
 /// with the inward normals of their faces, in the order of the triangles.
@@ -34,8 +34,8 @@ namespace regrasp {
 /// Laws: moving and scaling the solid moves and scales the centroids, and they do not depend on the
 /// seed; points that are spread are as far apart whatever the unit of length.
 /// @throws std::invalid_argument  most < 1.
-[[nodiscard]] std::vector<Contact> MeshContacts(const Polyhedron& solid, int most,
-                                                std::uint64_t seed);
+[[nodiscard]] std::vector<grasp::Contact> MeshContacts(const object::Polyhedron& solid, int most,
+                                                       std::uint64_t seed);
 
 /// A solid with fewer than a quarter as many faces as contact points are asked for counts as a body
 /// of flat faces.
@@ -47,4 +47,4 @@ inline constexpr double kBorderMargin = 0.02;
 /// Small faces keep at least the middle of their area.
 inline constexpr double kBorderFraction = 0.3;
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -8,7 +8,7 @@
 #include "planner/base/number.h"
 #include "planner/sampling/surface_sampler.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 namespace {
 
@@ -17,7 +17,7 @@ struct Direction {
   Eigen::Vector3d normal;
 };
 
-std::vector<Direction> SortedNormals(const Object& polygon) {
+std::vector<Direction> SortedNormals(const object::Object& polygon) {
   std::vector<Direction> sorted;
   for (int e = 0; e < polygon.face_count(); ++e) {
     const Eigen::Vector3d normal = polygon.inward_normal(e);
@@ -30,7 +30,7 @@ std::vector<Direction> SortedNormals(const Object& polygon) {
 /// Of a force-closure grasp of two contacts each lies in the other's cone, and so the two normals
 /// are opposed but for less than both half-angles. Of each normal only those beside its opposite in
 /// the order of angles are looked at.
-bool HasOpposedEdges(const Object& polygon, double half_angle) {
+bool HasOpposedEdges(const object::Object& polygon, double half_angle) {
   const double least = std::cos(2 * half_angle);
   const std::vector<Direction> sorted = SortedNormals(polygon);
   const std::size_t n = sorted.size();
@@ -46,7 +46,7 @@ bool HasOpposedEdges(const Object& polygon, double half_angle) {
 }
 
 /// The numbers of contacts to try, in their order.
-std::vector<int> DrawOrder(const Object& object, const ContactLimits& contacts,
+std::vector<int> DrawOrder(const object::Object& object, const ContactLimits& contacts,
                            RandomStream& random) {
   if (object.dimension() == 3) return {contacts.least};
   std::vector<int> order(contacts.most - contacts.least + 1);
@@ -56,9 +56,9 @@ std::vector<int> DrawOrder(const Object& object, const ContactLimits& contacts,
   return order;
 }
 
-Grasp DrawContacts(const SurfaceSampler& sampler, int contacts, RandomStream& random,
-                   const std::string& nothing_reached) {
-  Grasp drawn;
+grasp::Grasp DrawContacts(const SurfaceSampler& sampler, int contacts, RandomStream& random,
+                          const std::string& nothing_reached) {
+  grasp::Grasp drawn;
   while (static_cast<int>(drawn.size()) < contacts) {
     const auto contact = sampler.TryDraw(random);
     if (!contact) throw NoGrasp{nothing_reached};
@@ -80,18 +80,18 @@ std::string Range(const ContactLimits& contacts) {
 
 }  // namespace
 
-std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw,
-                                   const GraspEvaluator& evaluator) {
+std::optional<grasp::Grasp> DrawGoodGrasp(const std::function<grasp::Grasp()>& draw,
+                                          const criteria::GraspEvaluator& evaluator) {
   for (int i = 0; i < kMaxSurfaceDraws; ++i) {
-    Grasp grasp = draw();
+    grasp::Grasp grasp = draw();
     if (evaluator.IsGood(grasp)) return grasp;
   }
   return std::nullopt;
 }
 
-Grasp DrawOnSurface(const Object& object, const ContactLimits& contacts,
-                    const GraspEvaluator& evaluator, RandomStream& random, const std::string& name,
-                    const std::function<void()>& before_draw) {
+grasp::Grasp DrawOnSurface(const object::Object& object, const ContactLimits& contacts,
+                           const criteria::GraspEvaluator& evaluator, RandomStream& random,
+                           const std::string& name, const std::function<void()>& before_draw) {
   const double radius = evaluator.finger_radius();
   // The ends of a sequence may be anywhere on their faces.
   const SurfaceSampler sampler(object, radius, 0);
@@ -113,4 +113,4 @@ Grasp DrawOnSurface(const Object& object, const ContactLimits& contacts,
                 (radius > 0 ? ", its fingers" + OfRadius(radius) + " apart" : "")};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

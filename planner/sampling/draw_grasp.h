@@ -11,13 +11,13 @@
 #include "planner/sampling/contact_limits.h"
 #include "planner/sampling/no_grasp.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 /// Draws grasps until the evaluator accepts one.
 /// @param draw  gives a grasp.
 /// @returns nullopt where none of `kMaxSurfaceDraws` draws is accepted.
-[[nodiscard]] std::optional<Grasp> DrawGoodGrasp(const std::function<Grasp()>& draw,
-                                                 const GraspEvaluator& evaluator);
+[[nodiscard]] std::optional<grasp::Grasp> DrawGoodGrasp(const std::function<grasp::Grasp()>& draw,
+                                                        const criteria::GraspEvaluator& evaluator);
 
 /// A grasp that the evaluator accepts, of contacts spread evenly over an object's surface. In the
 /// plane the random numbers say how many contacts are tried first; where the object has no such
@@ -28,13 +28,13 @@ namespace regrasp {
 /// @param before_draw  may throw to make an end.
 /// @throws NoGrasp  none of kMaxSurfaceDraws draws of each number is accepted, or fingers reach
 ///                  next to nothing of the surface.
-[[nodiscard]] Grasp DrawOnSurface(
-    const Object& object, const ContactLimits& contacts, const GraspEvaluator& evaluator,
-    RandomStream& random, const std::string& name,
+[[nodiscard]] grasp::Grasp DrawOnSurface(
+    const object::Object& object, const ContactLimits& contacts,
+    const criteria::GraspEvaluator& evaluator, RandomStream& random, const std::string& name,
     const std::function<void()>& before_draw = [] {});
 
 /// Draws before a random grasp is given up: at a microsecond each below a second, and enough for
 /// objects where one grasp in ten thousand is accepted.
 inline constexpr int kMaxSurfaceDraws = 200'000;
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

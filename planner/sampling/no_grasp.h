@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 /// Thrown for a negative answer: a random grasp could not be drawn, or a planner has no place for a
 /// grasp that it is given. PlanResult::Status::kNoGrasp where planners end.
@@ -10,4 +10,4 @@ struct NoGrasp {
   std::string message;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <queue>
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 namespace {
 
@@ -24,7 +24,7 @@ class Crowding {
 
   [[nodiscard]] double reach() const { return reach_; }
 
-  [[nodiscard]] double operator()(const Contact& a, const Contact& b) const {
+  [[nodiscard]] double operator()(const grasp::Contact& a, const grasp::Contact& b) const {
     const double distance = (a.p - b.p).norm();
     if (distance >= reach_ || a.n.dot(b.n) < std::cos(kOppositeAngle)) return 0;
     return std::pow(1 - std::max(distance, floor_) / reach_, kAlpha);
@@ -48,7 +48,7 @@ struct Neighbour {
 
 /// Of each contact those that crowd it, in ascending order, so that sums of their weights do not
 /// depend on how they were found: by a sweep along x, as only those within reach count.
-std::vector<std::vector<Neighbour>> FindNeighbours(const std::vector<Contact>& contacts,
+std::vector<std::vector<Neighbour>> FindNeighbours(const std::vector<grasp::Contact>& contacts,
                                                    const Crowding& crowding) {
   std::vector<std::size_t> along_x(contacts.size());
   std::iota(along_x.begin(), along_x.end(), std::size_t{0});
@@ -86,8 +86,8 @@ struct Weighed {
 
 }  // namespace
 
-std::vector<Contact> EliminateSamples(const std::vector<Contact>& contacts, int count,
-                                      double area) {
+std::vector<grasp::Contact> EliminateSamples(const std::vector<grasp::Contact>& contacts, int count,
+                                             double area) {
   if (contacts.size() <= static_cast<std::size_t>(count)) return contacts;
   const auto neighbours = FindNeighbours(contacts, {contacts.size(), count, area});
   std::vector<double> weight(contacts.size(), 0);
@@ -109,11 +109,11 @@ std::vector<Contact> EliminateSamples(const std::vector<Contact>& contacts, int 
     --left;
     for (const Neighbour& other : neighbours[i]) weight[other.index] -= other.weight;
   }
-  std::vector<Contact> result;
+  std::vector<grasp::Contact> result;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (!gone[i]) result.push_back(contacts[i]);
   }
   return result;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

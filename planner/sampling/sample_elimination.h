@@ -4,7 +4,7 @@
 
 #include "planner/grasp/contact.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 /// Thins contacts to `count` that are spread as evenly as blue noise, in their original order:
 /// weighted sample elimination (Yuksel 2015, "Sample Elimination for Generating Poisson Disk Sample
@@ -14,11 +14,11 @@ namespace regrasp {
 /// sides of a thin plate are apart for a finger.
 /// @param area  of the surface that the contacts cover.
 /// @returns all contacts where there are no more than `count`.
-[[nodiscard]] std::vector<Contact> EliminateSamples(const std::vector<Contact>& contacts, int count,
-                                                    double area);
+[[nodiscard]] std::vector<grasp::Contact> EliminateSamples(
+    const std::vector<grasp::Contact>& contacts, int count, double area);
 
 /// Radians, 100°: more than the right angle between two faces of a block, whose points do crowd
 /// each other across the edge.
 inline constexpr double kOppositeAngle = 1.7453292519943295;
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -10,7 +10,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 
 using Eigen::Vector3d;
 
@@ -24,24 +24,25 @@ constexpr double kFirstLook = 1.0 / 64;
 
 }  // namespace
 
-double TriangleArea(const Polyhedron& solid, int triangle) {
+double TriangleArea(const object::Polyhedron& solid, int triangle) {
   const auto& [a, b, c] = solid.triangles()[triangle];
   const Vector3d ab = solid.vertices()[b] - solid.vertices()[a];
   const Vector3d ac = solid.vertices()[c] - solid.vertices()[a];
   return ab.cross(ac).norm() / 2;
 }
 
-Contact ContactOnTriangle(const Polyhedron& solid, int triangle, const Vector3d& p) {
+grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, int triangle, const Vector3d& p) {
   const int face = solid.face_of_triangle(triangle);
   return {solid.ClosestPoint(face, p), solid.inward_normal(face), face};
 }
 
-SurfaceSampler::SurfaceSampler(const Object& object, double finger_radius, double from_border)
+SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radius,
+                               double from_border)
     : object_(object),
       finger_radius_(finger_radius),
       from_border_(from_border),
-      solid_(dynamic_cast<const Polyhedron*>(&object)),
-      polygon_(dynamic_cast<const Polygon*>(&object)) {
+      solid_(dynamic_cast<const object::Polyhedron*>(&object)),
+      polygon_(dynamic_cast<const object::Polygon*>(&object)) {
   for (int face = 0; face < object.face_count(); ++face) {
     first_facet_.push_back(static_cast<int>(facets_.size()));
     if (object.IsEnclosed(face)) continue;
@@ -61,9 +62,10 @@ double SurfaceSampler::MeasureOf(int facet) const {
   return solid_ == nullptr ? polygon_->face_measure(facet) : TriangleArea(*solid_, facet);
 }
 
-bool SurfaceSampler::IsValid(const Contact& contact) const {
+bool SurfaceSampler::IsValid(const grasp::Contact& contact) const {
   return object_.DistanceToBorder(contact.face, contact.p) >= from_border_ * object_.diameter() &&
-         HasClearance(object_, contact) && CanReach(object_, contact, finger_radius_);
+         criteria::HasClearance(object_, contact) &&
+         criteria::CanReach(object_, contact, finger_radius_);
 }
 
 SurfaceSampler::Range SurfaceSampler::RangeOf(int face) const {
@@ -84,13 +86,13 @@ int SurfaceSampler::DrawFacet(RandomStream& random) const {
   return facets_[PlaceAt(DrawSum(Everywhere(), random))];
 }
 
-Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) const {
   const double sum = DrawSum(range, random);
   const std::size_t place = PlaceAt(sum);
   const int facet = facets_[place];
   if (solid_ == nullptr) {
     const double along = sum - (place == 0 ? 0 : up_to_[place - 1]);
-    return ContactAt(*polygon_, facet, std::min(along / MeasureOf(facet), 1.0));
+    return grasp::ContactAt(*polygon_, facet, std::min(along / MeasureOf(facet), 1.0));
   }
   const auto& [a, b, c] = solid_->triangles()[facet];
   const auto& v = solid_->vertices();
@@ -100,33 +102,34 @@ Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) const {
   return ContactOnTriangle(*solid_, facet, p);
 }
 
-Contact SurfaceSampler::DrawAnywhere(RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawAnywhere(RandomStream& random) const {
   return DrawIn(Everywhere(), random);
 }
 
-std::optional<Contact> SurfaceSampler::DrawValid(const Range& range, RandomStream& random) const {
+std::optional<grasp::Contact> SurfaceSampler::DrawValid(const Range& range,
+                                                        RandomStream& random) const {
   for (int draw = 0; draw < kMostDraws; ++draw) {
-    const Contact contact = DrawIn(range, random);
+    const grasp::Contact contact = DrawIn(range, random);
     if (IsValid(contact)) return contact;
   }
   return std::nullopt;
 }
 
-std::optional<Contact> SurfaceSampler::TryDraw(RandomStream& random) const {
+std::optional<grasp::Contact> SurfaceSampler::TryDraw(RandomStream& random) const {
   return DrawValid(Everywhere(), random);
 }
 
-Contact SurfaceSampler::Draw(RandomStream& random) const {
+grasp::Contact SurfaceSampler::Draw(RandomStream& random) const {
   const auto valid = DrawValid(Everywhere(), random);
   return valid ? *valid : DrawAnywhere(random);
 }
 
-Contact SurfaceSampler::DrawOn(int face, RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawOn(int face, RandomStream& random) const {
   const auto valid = DrawValid(RangeOf(face), random);
   return valid ? *valid : DrawIn(RangeOf(face), random);
 }
 
-Vector3d SurfaceSampler::DrawBeside(const Contact& contact, double reach,
+Vector3d SurfaceSampler::DrawBeside(const grasp::Contact& contact, double reach,
                                     RandomStream& random) const {
   const bool space = object_.dimension() == 3;
   const Vector3d across = space ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
@@ -136,7 +139,8 @@ Vector3d SurfaceSampler::DrawBeside(const Contact& contact, double reach,
   return contact.p + u * along + v * across;
 }
 
-Contact SurfaceSampler::DrawNear(const Contact& contact, double reach, RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawNear(const grasp::Contact& contact, double reach,
+                                        RandomStream& random) const {
   const Vector3d beside = DrawBeside(contact, reach, random);
   const Vector3d on_face = object_.ClosestPoint(contact.face, beside);
   const bool is_inside = (on_face - beside).norm() <= kOffFace * object_.diameter();
@@ -144,8 +148,8 @@ Contact SurfaceSampler::DrawNear(const Contact& contact, double reach, RandomStr
           contact.face};
 }
 
-Contact SurfaceSampler::DrawAround(const Contact& contact, double reach,
-                                   RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double reach,
+                                          RandomStream& random) const {
   const Vector3d p = DrawBeside(contact, reach, random);
   // Looking for the nearest face far away is dear, and most are near.
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
@@ -174,4 +178,4 @@ Vector3d SurfaceSampler::DrawInwards(int face, const Vector3d& border, double re
   return object_.ClosestPoint(face, border + std::min(1.0, inwards / way.norm()) * way);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -7,10 +7,12 @@
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
 
-namespace regrasp {
-
+namespace regrasp::object {
 class Polygon;
 class Polyhedron;
+}  // namespace regrasp::object
+
+namespace regrasp::sampling {
 
 /// Random contacts on an object's surface, in space and in the plane; never in a sealed cavity.
 ///
@@ -26,33 +28,34 @@ class SurfaceSampler {
   /// @param object  outlives this object.
   /// @param finger_radius  its unit of length; 0: points.
   /// @param from_border  least distance of a valid contact from the border of its face, diameters.
-  explicit SurfaceSampler(const Object& object, double finger_radius = 0,
+  explicit SurfaceSampler(const object::Object& object, double finger_radius = 0,
                           double from_border = kFromBorder);
 
   /// Whether a finger can be placed at a contact (HasClearance, CanReach), away from the border of
   /// its face.
-  [[nodiscard]] bool IsValid(const Contact& contact) const;
+  [[nodiscard]] bool IsValid(const grasp::Contact& contact) const;
 
   /// A facet, by its measure: a triangle of the solid or an edge of the polygon.
   [[nodiscard]] int DrawFacet(RandomStream& random) const;
 
   /// Evenly over the whole surface, valid or not.
-  [[nodiscard]] Contact DrawAnywhere(RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawAnywhere(RandomStream& random) const;
   /// Evenly over the whole surface where it is valid; nullopt where none of kMostDraws draws is.
-  [[nodiscard]] std::optional<Contact> TryDraw(RandomStream& random) const;
+  [[nodiscard]] std::optional<grasp::Contact> TryDraw(RandomStream& random) const;
 
   /// Evenly over the whole surface or over one face (of no cavity), where it is valid. On nearly
   /// all of a surface contacts are: where none of kMostDraws draws is, one that is not.
-  [[nodiscard]] Contact Draw(RandomStream& random) const;
-  [[nodiscard]] Contact DrawOn(int face, RandomStream& random) const;
+  [[nodiscard]] grasp::Contact Draw(RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawOn(int face, RandomStream& random) const;
 
   /// Near a contact, on its face: beside it by no more than `reach` along each axis of the face, or
   /// where that is off the face about as far from the border there. May be invalid: that costs more
   /// to find out than whether the contact makes a grasp.
-  [[nodiscard]] Contact DrawNear(const Contact& contact, double reach, RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawNear(const grasp::Contact& contact, double reach,
+                                        RandomStream& random) const;
   /// The same on whatever face is there; the contact itself where none is.
-  [[nodiscard]] Contact DrawAround(const Contact& contact, double reach,
-                                   RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawAround(const grasp::Contact& contact, double reach,
+                                          RandomStream& random) const;
 
   /// Area of the surface, length of the boundary.
   [[nodiscard]] double measure() const { return up_to_.back(); }
@@ -69,29 +72,30 @@ class SurfaceSampler {
   /// A place among the running sums, and the facet there by its place in facets_.
   [[nodiscard]] double DrawSum(const Range& range, RandomStream& random) const;
   [[nodiscard]] std::size_t PlaceAt(double sum) const;
-  [[nodiscard]] Contact DrawIn(const Range& range, RandomStream& random) const;
-  [[nodiscard]] std::optional<Contact> DrawValid(const Range& range, RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawIn(const Range& range, RandomStream& random) const;
+  [[nodiscard]] std::optional<grasp::Contact> DrawValid(const Range& range,
+                                                        RandomStream& random) const;
   /// A point of the plane that touches at the contact, in the plane of its line.
-  [[nodiscard]] Eigen::Vector3d DrawBeside(const Contact& contact, double reach,
+  [[nodiscard]] Eigen::Vector3d DrawBeside(const grasp::Contact& contact, double reach,
                                            RandomStream& random) const;
   /// A point of the face no farther than `reach` from a point of its border.
   [[nodiscard]] Eigen::Vector3d DrawInwards(int face, const Eigen::Vector3d& border, double reach,
                                             RandomStream& random) const;
 
-  const Object& object_;
+  const object::Object& object_;
   double finger_radius_;
   double from_border_;
-  const Polyhedron* solid_;       ///< the object, in space
-  const Polygon* polygon_;        ///< the object, in the plane
-  std::vector<int> facets_;       ///< those of one face together
-  std::vector<double> up_to_;     ///< running sums of their measures
-  std::vector<int> first_facet_;  ///< by face: place in facets_, and their number at the end
+  const object::Polyhedron* solid_;  ///< the object, in space
+  const object::Polygon* polygon_;   ///< the object, in the plane
+  std::vector<int> facets_;          ///< those of one face together
+  std::vector<double> up_to_;        ///< running sums of their measures
+  std::vector<int> first_facet_;     ///< by face: place in facets_, and their number at the end
 };
 
-[[nodiscard]] double TriangleArea(const Polyhedron& solid, int triangle);
+[[nodiscard]] double TriangleArea(const object::Polyhedron& solid, int triangle);
 
 /// The contact at a point of a triangle of the solid: its face's normal, p on the face.
-[[nodiscard]] Contact ContactOnTriangle(const Polyhedron& solid, int triangle,
-                                        const Eigen::Vector3d& p);
+[[nodiscard]] grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, int triangle,
+                                               const Eigen::Vector3d& p);
 
-}  // namespace regrasp
+}  // namespace regrasp::sampling

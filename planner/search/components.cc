@@ -2,7 +2,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
-namespace regrasp {
+namespace regrasp::search {
 
 Components FindComponents(int vertex_count, int group_count,
                           const std::function<std::span<const int>(int group)>& members) {
@@ -26,4 +26,4 @@ Components FindComponents(int vertex_count, int group_count,
   return components;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// The connected components of a graph.
 struct Components {
@@ -20,4 +20,4 @@ struct Components {
     int vertex_count, int group_count,
     const std::function<std::span<const int>(int group)>& members);
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -4,7 +4,7 @@
 #include <deque>
 #include <limits>
 
-namespace regrasp {
+namespace regrasp::search {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::vector<int> ReachableVertices(const SwitchingGraph& graph, int start,
   return std::move(flood).TakeReached();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::search

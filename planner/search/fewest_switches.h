@@ -5,7 +5,7 @@
 
 #include "planner/search/switching_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// Whether a sequence may pass a vertex. Asked late and often: whoever answers should remember.
 using VertexFilter = std::function<bool(int vertex)>;
@@ -24,4 +24,4 @@ using VertexFilter = std::function<bool(int vertex)>;
 [[nodiscard]] std::vector<int> ReachableVertices(const SwitchingGraph& graph, int start,
                                                  const VertexFilter& admits);
 
-}  // namespace regrasp
+}  // namespace regrasp::search

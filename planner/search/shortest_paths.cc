@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::search {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::optional<ShortestPaths> FindShortestPaths(const SwitchingGraph& graph, int 
   return ways;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -5,7 +5,7 @@
 
 #include "planner/search/switching_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// The part of a graph that the sequences with the fewest switches from `start` to `goal` pass.
 struct ShortestPaths {
@@ -19,4 +19,4 @@ struct ShortestPaths {
 [[nodiscard]] std::optional<ShortestPaths> FindShortestPaths(const SwitchingGraph& graph, int start,
                                                              int goal);
 
-}  // namespace regrasp
+}  // namespace regrasp::search

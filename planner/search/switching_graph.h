@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// A graph of grasp sets joined by finger switches, as a search sees it.
 ///
@@ -34,4 +34,4 @@ class SwitchingGraph {
   SwitchingGraph& operator=(const SwitchingGraph&) = default;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace regrasp {
+namespace regrasp::search {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<int> WidestPath(const SwitchingGraph& graph, int start, int goal, in
   return WidestPathSearch(graph, start, goal, switches, admits, width).Run();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -5,7 +5,7 @@
 
 #include "planner/search/fewest_switches.h"
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// How good it is to pass a vertex; the more the better. Asked late, like VertexFilter.
 using VertexWidth = std::function<double(int vertex)>;
@@ -23,4 +23,4 @@ using VertexWidth = std::function<double(int vertex)>;
                                           int switches, const VertexFilter& admits,
                                           const VertexWidth& width);
 
-}  // namespace regrasp
+}  // namespace regrasp::search

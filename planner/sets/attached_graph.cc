@@ -31,7 +31,7 @@ void AttachedGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) cons
   graph_.GetNeighbours(vertex, neighbours);
   if (!banned_.empty()) {
     std::erase_if(neighbours,
-                  [&](int other) { return banned_.contains(Unordered(vertex, other)); });
+                  [&](int other) { return banned_.contains(search::Unordered(vertex, other)); });
   }
   AddEnd(start_, vertex, neighbours);
   AddEnd(goal_, vertex, neighbours);

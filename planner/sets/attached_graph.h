@@ -17,11 +17,11 @@ struct GraspEnds {
 /// A switching graph with a start and a goal grasp as vertices of their own, and without some
 /// switches. Sets that a grasp comes to by a switch of its own are one switch farther than those
 /// that it is in.
-class AttachedGraph final : public SwitchingGraph {
+class AttachedGraph final : public search::SwitchingGraph {
  public:
   /// @param graph, banned  outlive this object.
-  AttachedGraph(const SwitchingGraph& graph, const GraspEnds& start, const GraspEnds& goal,
-                const std::set<VertexPair>& banned)
+  AttachedGraph(const search::SwitchingGraph& graph, const GraspEnds& start, const GraspEnds& goal,
+                const std::set<search::VertexPair>& banned)
       : graph_(graph),
         banned_(banned),
         start_{graph.vertex_count(), graph.vertex_count() + 2, start},
@@ -46,8 +46,8 @@ class AttachedGraph final : public SwitchingGraph {
   static bool GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours);
   static void AddEnd(const End& end, int set, std::vector<int>& neighbours);
 
-  const SwitchingGraph& graph_;
-  const std::set<VertexPair>& banned_;
+  const search::SwitchingGraph& graph_;
+  const std::set<search::VertexPair>& banned_;
   End start_;
   End goal_;
 };

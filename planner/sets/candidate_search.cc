@@ -15,10 +15,10 @@ constexpr int kMaxPaths = 600;
 
 /// A graph that knows how far it is to its ends on the shortest paths: a search over sequences with
 /// the fewest switches looks at nothing beside them.
-class OnShortestPaths final : public SwitchingGraph {
+class OnShortestPaths final : public search::SwitchingGraph {
  public:
   /// Both must outlive this object.
-  OnShortestPaths(const SwitchingGraph& graph, const ShortestPaths& paths, int goal)
+  OnShortestPaths(const search::SwitchingGraph& graph, const search::ShortestPaths& paths, int goal)
       : graph_(graph), paths_(paths), goal_(goal) {}
 
   [[nodiscard]] int vertex_count() const override { return graph_.vertex_count(); }
@@ -33,8 +33,8 @@ class OnShortestPaths final : public SwitchingGraph {
   }
 
  private:
-  const SwitchingGraph& graph_;
-  const ShortestPaths& paths_;
+  const search::SwitchingGraph& graph_;
+  const search::ShortestPaths& paths_;
   int goal_;
 };
 
@@ -43,11 +43,11 @@ constexpr double kScoreOfObstacle = -2;
 
 /// The switch that a step belongs to: the one that the grasp after it was chosen for, or else the
 /// last one before or the first one after it.
-std::optional<VertexPair> EdgeNear(const CandidateSequence& candidate, int step) {
+std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& candidate, int step) {
   for (int i = step; i >= 0; --i) {
     if (candidate.rests[i].chosen_for) return candidate.rests[i].chosen_for;
   }
-  for (const Rest& rest : candidate.rests) {
+  for (const planning::Rest& rest : candidate.rests) {
     if (rest.chosen_for) return rest.chosen_for;
   }
   return std::nullopt;
@@ -55,27 +55,27 @@ std::optional<VertexPair> EdgeNear(const CandidateSequence& candidate, int step)
 
 }  // namespace
 
-std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
-                              const VertexWidth& width) {
-  const auto paths = FindShortestPaths(graph, start, goal);
+std::vector<int> FindWidePath(const search::SwitchingGraph& graph, int start, int goal,
+                              const search::VertexWidth& width) {
+  const auto paths = search::FindShortestPaths(graph, start, goal);
   if (!paths) return {};
   const OnShortestPaths on_paths(graph, *paths, goal);
-  return WidestPath(
+  return search::WidestPath(
       on_paths, start, goal, paths->switches, [](int) { return true; }, width);
 }
 
-std::optional<CandidateSequence> FindCandidate(
-    const GraspEvaluator& evaluator,
-    const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
-    const std::function<std::optional<CandidateSequence>(const std::vector<int>& path,
-                                                         std::set<VertexPair>& banned)>& make,
+std::optional<planning::CandidateSequence> FindCandidate(
+    const criteria::GraspEvaluator& evaluator,
+    const std::function<std::vector<int>(const std::set<search::VertexPair>& banned)>& find_path,
+    const std::function<std::optional<planning::CandidateSequence>(
+        const std::vector<int>& path, std::set<search::VertexPair>& banned)>& make,
     const Deadline& deadline) {
   // Where no path is free for the fingers' radius, the result is told so (ResultOf).
-  std::optional<CandidateSequence> best;
+  std::optional<planning::CandidateSequence> best;
   double best_score = -std::numeric_limits<double>::infinity();
-  std::set<VertexPair> banned;
+  std::set<search::VertexPair> banned;
   for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
-    std::optional<CandidateSequence> candidate;
+    std::optional<planning::CandidateSequence> candidate;
     try {
       deadline.Check();
       const std::vector<int> path = find_path(banned);
@@ -87,13 +87,13 @@ std::optional<CandidateSequence> FindCandidate(
     }
     if (!candidate) continue;
     double score = std::numeric_limits<double>::infinity();
-    for (const Rest& rest : candidate->rests) {
+    for (const planning::Rest& rest : candidate->rests) {
       if (!rest.chosen_for) continue;
       const double of_rest = evaluator.Score(rest.grasp);
       if (of_rest < 0) banned.insert(*rest.chosen_for);
       score = std::min(score, of_rest);
     }
-    const auto obstacle = FindObstacle(*candidate, evaluator);
+    const auto obstacle = planning::FindObstacle(*candidate, evaluator);
     if (obstacle) {
       const auto edge = EdgeNear(*candidate, obstacle->index);
       if (!edge) return candidate;

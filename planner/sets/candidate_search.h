@@ -14,8 +14,8 @@
 namespace regrasp {
 
 /// The vertices of a path with the fewest switches, of these the widest; empty where there is none.
-[[nodiscard]] std::vector<int> FindWidePath(const SwitchingGraph& graph, int start, int goal,
-                                            const VertexWidth& width);
+[[nodiscard]] std::vector<int> FindWidePath(const search::SwitchingGraph& graph, int start,
+                                            int goal, const search::VertexWidth& width);
 
 /// The first sequence whose chosen grasps are all of the quality that is asked for, otherwise the
 /// one whose weakest is best: paths are tried without the switches that were too weak before, or
@@ -23,11 +23,11 @@ namespace regrasp {
 /// @param find_path  a path without banned edges; empty where there is none.
 /// @param make       its sequence, or nullopt and at least one more edge banned.
 /// @throws TimeUp  before there was one.
-[[nodiscard]] std::optional<CandidateSequence> FindCandidate(
-    const GraspEvaluator& evaluator,
-    const std::function<std::vector<int>(const std::set<VertexPair>& banned)>& find_path,
-    const std::function<std::optional<CandidateSequence>(const std::vector<int>& path,
-                                                         std::set<VertexPair>& banned)>& make,
+[[nodiscard]] std::optional<planning::CandidateSequence> FindCandidate(
+    const criteria::GraspEvaluator& evaluator,
+    const std::function<std::vector<int>(const std::set<search::VertexPair>& banned)>& find_path,
+    const std::function<std::optional<planning::CandidateSequence>(
+        const std::vector<int>& path, std::set<search::VertexPair>& banned)>& make,
     const Deadline& deadline = {});
 
 }  // namespace regrasp

@@ -10,33 +10,35 @@ namespace regrasp {
 /// The same fingers at the contacts of the next waypoint of an align: each stays on its face, and
 /// the one whose face is gone goes to the contact that is left.
 /// @param next  as many contacts as fingers hold, at most one on a face that none was on before.
-[[nodiscard]] FingerGrasp FollowTo(const FingerGrasp& holding, const Grasp& next);
+[[nodiscard]] plan::FingerGrasp FollowTo(const plan::FingerGrasp& holding,
+                                         const grasp::Grasp& next);
 
 /// A sequence in the making: what the hand does next.
 class FingerSequence {
  public:
   /// @param fingers  of the hand.
-  FingerSequence(const Grasp& start, int fingers);
+  FingerSequence(const grasp::Grasp& start, int fingers);
 
   /// Switches to a grasp; no step where it holds it already. Two switches in a row are one where
   /// the hand has the fingers.
   /// @param region  what is known of how far the contacts placed may be off.
-  void SwitchTo(const Grasp& after, std::optional<VertexPair> chosen_for,
+  void SwitchTo(const grasp::Grasp& after, std::optional<search::VertexPair> chosen_for,
                 std::optional<double> region = std::nullopt);
 
   /// Aligns along waypoints, the first of which is the grasp that it holds.
-  void AlignAlong(const std::vector<Grasp>& waypoints, std::optional<VertexPair> chosen_for);
+  void AlignAlong(const std::vector<grasp::Grasp>& waypoints,
+                  std::optional<search::VertexPair> chosen_for);
 
-  [[nodiscard]] const CandidateSequence& candidate() const { return candidate_; }
+  [[nodiscard]] const planning::CandidateSequence& candidate() const { return candidate_; }
 
  private:
-  void AddStep(Step step, std::optional<VertexPair> chosen_for);
-  [[nodiscard]] bool CanJoinLastSwitch(const Grasp& after) const;
+  void AddStep(plan::Step step, std::optional<search::VertexPair> chosen_for);
+  [[nodiscard]] bool CanJoinLastSwitch(const grasp::Grasp& after) const;
 
-  CandidateSequence candidate_;
+  planning::CandidateSequence candidate_;
   int fingers_;
-  FingerGrasp holding_;
-  FingerGrasp held_before_;  ///< before the last step
+  plan::FingerGrasp holding_;
+  plan::FingerGrasp held_before_;  ///< before the last step
 };
 
 }  // namespace regrasp

@@ -45,20 +45,20 @@ struct SwitchEnds {
 /// be off.
 template <typename Model>
 concept GraspSetModel = requires(Model model, const typename Model::Place& place,
-                                 const Grasp& grasp, const GraspEvaluator& evaluator,
-                                 RandomStream& random,
+                                 const grasp::Grasp& grasp,
+                                 const criteria::GraspEvaluator& evaluator, RandomStream& random,
                                  const SwitchEnds<typename Model::Place>& ends) {
-  { model.graph() } -> std::convertible_to<const SwitchingGraph&>;
-  { model.components() } -> std::same_as<Components>;
+  { model.graph() } -> std::convertible_to<const search::SwitchingGraph&>;
+  { model.components() } -> std::same_as<search::Components>;
   /// For messages: "focus cells".
   { model.sets_name() } -> std::convertible_to<std::string>;
   /// How wide a set is to pass; the more the better.
   { model.WidthOf(0) } -> std::convertible_to<double>;
   /// A grasp anywhere in a set; empty where none was found.
-  { model.Draw(0, random) } -> std::same_as<Grasp>;
+  { model.Draw(0, random) } -> std::same_as<grasp::Grasp>;
 
   { model.SetOf(place) } -> std::convertible_to<int>;
-  { model.GraspOf(place) } -> std::same_as<Grasp>;
+  { model.GraspOf(place) } -> std::same_as<grasp::Grasp>;
   /// The places of a grasp, the best first; empty where no set has it.
   {
     model.Attach(grasp, evaluator)

@@ -29,17 +29,17 @@ class SequenceBuilder {
   using Place = typename Model::Place;
 
   /// All arguments outlive this object. @param fingers  of the hand.
-  SequenceBuilder(Model& model, const GraspEvaluator& evaluator, const Grasp& start,
-                  const Grasp& goal, int fingers)
+  SequenceBuilder(Model& model, const criteria::GraspEvaluator& evaluator,
+                  const grasp::Grasp& start, const grasp::Grasp& goal, int fingers)
       : model_(model), evaluator_(evaluator), start_(start), goal_(goal), fingers_(fingers) {}
 
   /// @param path    of sets, from the one that `from` is in to that of `to`.
   /// @param banned  gets a switch of the path where doubles find no way through it.
   /// @returns nullopt then.
   /// @throws NoGrasp  from one grasp of a set to another there is none.
-  [[nodiscard]] std::optional<CandidateSequence> Make(const std::vector<int>& path,
-                                                      const Place& from, const Place& to,
-                                                      std::set<VertexPair>& banned) {
+  [[nodiscard]] std::optional<planning::CandidateSequence> Make(
+      const std::vector<int>& path, const Place& from, const Place& to,
+      std::set<search::VertexPair>& banned) {
     const auto switches = ChooseSwitches(path, from, to, banned);
     if (!switches) return std::nullopt;
     FingerSequence sequence(start_, fingers_);
@@ -55,7 +55,7 @@ class SequenceBuilder {
     }
     if (!AlignTo(*at, to, std::nullopt, sequence)) {
       if (switches->empty())
-        throw NoGrasp{"the align from start to goal is too narrow for doubles"};
+        throw sampling::NoGrasp{"the align from start to goal is too narrow for doubles"};
       banned.insert(switches->back().edge);
       return std::nullopt;
     }
@@ -73,17 +73,17 @@ class SequenceBuilder {
 
   struct ChosenSwitch {
     Switch change;
-    VertexPair edge;
+    search::VertexPair edge;
     std::optional<double> region;
   };
 
   [[nodiscard]] std::optional<std::vector<ChosenSwitch>> ChooseSwitches(
       const std::vector<int>& path, const Place& from, const Place& to,
-      std::set<VertexPair>& banned) {
+      std::set<search::VertexPair>& banned) {
     std::vector<ChosenSwitch> switches;
     Place at = from;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const VertexPair edge = Unordered(path[i], path[i + 1]);
+      const search::VertexPair edge = search::Unordered(path[i], path[i + 1]);
       const bool last = i + 2 == path.size();
       const auto found = ChooseSwitch(path[i], path[i + 1], at, last ? &to : nullptr);
       if (!found) {
@@ -135,12 +135,12 @@ class SequenceBuilder {
   }
 
   /// The contacts of a place; those of start and goal as they were given.
-  [[nodiscard]] Grasp GraspAt(const Place& place) const {
-    Grasp grasp = model_.GraspOf(place);
+  [[nodiscard]] grasp::Grasp GraspAt(const Place& place) const {
+    grasp::Grasp grasp = model_.GraspOf(place);
     const double rounding = kContactRounding * evaluator_.object().diameter();
-    for (Contact& contact : grasp) {
-      for (const Grasp* given : {&start_, &goal_}) {
-        for (const Contact& other : *given) {
+    for (grasp::Contact& contact : grasp) {
+      for (const grasp::Grasp* given : {&start_, &goal_}) {
+        for (const grasp::Contact& other : *given) {
           const bool same = other.face == contact.face && (other.p - contact.p).norm() <= rounding;
           if (same) contact = other;
         }
@@ -151,24 +151,26 @@ class SequenceBuilder {
 
   /// @returns false where no way is found inside the set.
   [[nodiscard]] bool AlignTo(const Place& from, const Place& to,
-                             std::optional<VertexPair> chosen_for, FingerSequence& sequence) {
+                             std::optional<search::VertexPair> chosen_for,
+                             FingerSequence& sequence) {
     if (AreSame(GraspAt(from), GraspAt(to))) return true;
-    std::vector<Grasp> waypoints;
+    std::vector<grasp::Grasp> waypoints;
     for (const Place& place : model_.FindRoute(from, to)) waypoints.push_back(GraspAt(place));
     if (waypoints.empty()) return false;
     sequence.AlignAlong(waypoints, chosen_for);
     return true;
   }
 
-  [[nodiscard]] static bool AreSame(const Grasp& a, const Grasp& b) {
-    return std::ranges::equal(
-        a, b, [](const Contact& x, const Contact& y) { return x.face == y.face && x.p == y.p; });
+  [[nodiscard]] static bool AreSame(const grasp::Grasp& a, const grasp::Grasp& b) {
+    return std::ranges::equal(a, b, [](const grasp::Contact& x, const grasp::Contact& y) {
+      return x.face == y.face && x.p == y.p;
+    });
   }
 
   Model& model_;
-  const GraspEvaluator& evaluator_;
-  const Grasp& start_;
-  const Grasp& goal_;
+  const criteria::GraspEvaluator& evaluator_;
+  const grasp::Grasp& start_;
+  const grasp::Grasp& goal_;
   int fingers_;
   std::map<std::pair<int, int>, BestSwitch> best_;  ///< by the sets before and after
 };

@@ -26,7 +26,7 @@ template <GraspSetModel Model>
 class SetPlanner {
  public:
   /// Both outlive this object.
-  SetPlanner(Model& model, const PlanRequest& request, std::string planner)
+  SetPlanner(Model& model, const planning::PlanRequest& request, std::string planner)
       : model_(model),
         request_(request),
         planner_(std::move(planner)),
@@ -34,7 +34,7 @@ class SetPlanner {
         of_start_(request.seed, RandomUse::kStart),
         of_goal_(request.seed, RandomUse::kGoal) {}
 
-  [[nodiscard]] PlanResult Plan() {
+  [[nodiscard]] planning::PlanResult Plan() {
     start_ = request_.start.grasp;
     if (IsRandom(request_.start)) {
       start_ = Draw(request_.start, StartPools(model_.graph().vertex_count()), of_start_);
@@ -42,16 +42,16 @@ class SetPlanner {
     if (!IsRandom(request_.goal)) {
       goal_ = request_.goal.grasp;
       // Where there is nothing to do, the grasp need not be in a set.
-      if (IsGoalTheStart()) return Finish(StartOf(start_));
+      if (IsGoalTheStart()) return Finish(planning::StartOf(start_));
       start_at_ = Attach(request_.start, start_);
       return PlanToGoal();
     }
     start_at_ = Attach(request_.start, start_);
-    return PlanToRandomGoal([&](bool last) {
+    return planning::PlanToRandomGoal([&](bool last) {
       SamplingPools pools = GoalPools(model_.components(), SetsOf(start_at_));
       if (last) pools.erase(pools.begin());
       goal_ = Draw(request_.goal, std::move(pools), of_goal_);
-      return IsGoalTheStart() ? Finish(StartOf(start_)) : PlanToGoal();
+      return IsGoalTheStart() ? Finish(planning::StartOf(start_)) : PlanToGoal();
     });
   }
 
@@ -59,11 +59,12 @@ class SetPlanner {
   using Place = typename Model::Place;
   using Attachments = std::vector<Attachment<Place>>;
 
-  static bool IsRandom(const GraspChoice& choice) {
-    return choice.kind == GraspChoice::Kind::kRandom;
+  static bool IsRandom(const planning::GraspChoice& choice) {
+    return choice.kind == planning::GraspChoice::Kind::kRandom;
   }
 
-  [[nodiscard]] Grasp Draw(const GraspChoice& choice, SamplingPools pools, RandomStream& random) {
+  [[nodiscard]] grasp::Grasp Draw(const planning::GraspChoice& choice, SamplingPools pools,
+                                  RandomStream& random) {
     return DrawFromSets(
         choice.name, std::move(pools),
         [&](int set) {
@@ -74,13 +75,13 @@ class SetPlanner {
   }
 
   [[nodiscard]] bool IsGoalTheStart() const {
-    return AreSameGrasp(start_, goal_, kPointTolerance * request_.object->diameter());
+    return plan::AreSameGrasp(start_, goal_, object::kPointTolerance * request_.object->diameter());
   }
 
-  [[nodiscard]] Attachments Attach(const GraspChoice& choice, const Grasp& grasp) {
+  [[nodiscard]] Attachments Attach(const planning::GraspChoice& choice, const grasp::Grasp& grasp) {
     Attachments found = model_.Attach(grasp, evaluator_);
     if (found.empty()) {
-      throw NoGrasp{choice.name + ": force closure, but " + model_.WhyUnattached(grasp)};
+      throw sampling::NoGrasp{choice.name + ": force closure, but " + model_.WhyUnattached(grasp)};
     }
     return found;
   }
@@ -106,7 +107,7 @@ class SetPlanner {
         ->place;
   }
 
-  [[nodiscard]] PlanResult PlanToGoal() {
+  [[nodiscard]] planning::PlanResult PlanToGoal() {
     goal_at_ = Attach(request_.goal, goal_);
     request_.progress("searching a sequence among " +
                       std::to_string(model_.graph().vertex_count()) + " " + model_.sets_name());
@@ -119,14 +120,14 @@ class SetPlanner {
         },
         request_.deadline);
     if (candidate) return Finish(*candidate);
-    PlanResult none;
-    none.status = PlanResult::Status::kNoSequence;
+    planning::PlanResult none;
+    none.status = planning::PlanResult::Status::kNoSequence;
     none.message = NoSequenceMessage();
     return none;
   }
 
   /// The sets of a sequence with the fewest switches, of these the widest.
-  [[nodiscard]] std::vector<int> FindPath(const std::set<VertexPair>& banned) {
+  [[nodiscard]] std::vector<int> FindPath(const std::set<search::VertexPair>& banned) {
     const AttachedGraph graph(model_.graph(), EndsOf(start_at_), EndsOf(goal_at_), banned);
     std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
       request_.deadline.Check();
@@ -137,12 +138,12 @@ class SetPlanner {
     return path;
   }
 
-  [[nodiscard]] PlanResult Finish(const CandidateSequence& candidate) const {
-    return ResultOf(candidate, evaluator_, planner_, request_, goal_);
+  [[nodiscard]] planning::PlanResult Finish(const planning::CandidateSequence& candidate) const {
+    return planning::ResultOf(candidate, evaluator_, planner_, request_, goal_);
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
-    const Components components = model_.components();
+    const search::Components components = model_.components();
     const auto size = [&](const Attachments& attachments) {
       std::set<int> reached;
       for (const int set : SetsOf(attachments)) reached.insert(components.of_vertex[set]);
@@ -156,13 +157,13 @@ class SetPlanner {
   }
 
   Model& model_;
-  const PlanRequest& request_;
+  const planning::PlanRequest& request_;
   std::string planner_;
-  GraspEvaluator evaluator_;
+  criteria::GraspEvaluator evaluator_;
   RandomStream of_start_;
   RandomStream of_goal_;
-  Grasp start_;
-  Grasp goal_;
+  grasp::Grasp start_;
+  grasp::Grasp goal_;
   Attachments start_at_;
   Attachments goal_at_;
 };
@@ -176,8 +177,8 @@ class SetPlanner {
 /// @param request  as Planner::Plan has it. @param planner  its name, for plan and messages.
 /// @throws NoGrasp, TimeUp
 template <GraspSetModel Model>
-[[nodiscard]] PlanResult PlanOverSets(Model& model, const PlanRequest& request,
-                                      const std::string& planner) {
+[[nodiscard]] planning::PlanResult PlanOverSets(Model& model, const planning::PlanRequest& request,
+                                                const std::string& planner) {
   return SetPlanner<Model>(model, request, planner).Plan();
 }
 

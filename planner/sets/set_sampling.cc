@@ -23,7 +23,7 @@ SamplingPools StartPools(int set_count) {
   return {all};
 }
 
-SamplingPools GoalPools(const Components& components, const std::set<int>& start_sets) {
+SamplingPools GoalPools(const search::Components& components, const std::set<int>& start_sets) {
   std::set<int> reachable;
   for (const int set : start_sets) reachable.insert(components.of_vertex[set]);
   std::vector<int> others;
@@ -35,9 +35,9 @@ SamplingPools GoalPools(const Components& components, const std::set<int>& start
   return {others, {start_sets.begin(), start_sets.end()}};
 }
 
-Grasp DrawFromSets(const std::string& name, SamplingPools pools,
-                   const std::function<Grasp(int set)>& draw, const GraspEvaluator& evaluator,
-                   RandomStream& random) {
+grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
+                          const std::function<grasp::Grasp(int set)>& draw,
+                          const criteria::GraspEvaluator& evaluator, RandomStream& random) {
   std::size_t sets = 0;
   for (std::vector<int>& pool : pools) {
     sets += pool.size();
@@ -45,14 +45,15 @@ Grasp DrawFromSets(const std::string& name, SamplingPools pools,
     for (std::size_t i = 0; i < draws; ++i) {
       std::swap(pool[i], pool[i + random.Index(pool.size() - i)]);
       for (int k = 0; k < kDrawsPerSet; ++k) {
-        Grasp grasp = draw(pool[i]);
+        grasp::Grasp grasp = draw(pool[i]);
         if (!grasp.empty() && evaluator.IsGood(grasp)) return grasp;
       }
     }
   }
-  throw NoGrasp{name + ": no grasp with a quality of at least " +
-                FormatShort(evaluator.min_quality()) + " was drawn from " + std::to_string(sets) +
-                " sets of grasps" + (pools.size() > 1 ? " in the start's component" : "")};
+  throw sampling::NoGrasp{name + ": no grasp with a quality of at least " +
+                          FormatShort(evaluator.min_quality()) + " was drawn from " +
+                          std::to_string(sets) + " sets of grasps" +
+                          (pools.size() > 1 ? " in the start's component" : "")};
 }
 
 }  // namespace regrasp

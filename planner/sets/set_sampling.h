@@ -18,15 +18,16 @@ using SamplingPools = std::vector<std::vector<int>>;
 [[nodiscard]] SamplingPools StartPools(int set_count);
 /// For a goal: those in the components of the start's sets; the start's own where the others have
 /// no grasp.
-[[nodiscard]] SamplingPools GoalPools(const Components& components,
+[[nodiscard]] SamplingPools GoalPools(const search::Components& components,
                                       const std::set<int>& start_sets);
 
 /// Draws sets from pools and grasps from sets until one is good.
 /// @param draw  gives a grasp of a set; an empty one where none was found.
 /// @param name  how messages call the grasp.
 /// @throws NoGrasp  none of many draws is good.
-[[nodiscard]] Grasp DrawFromSets(const std::string& name, SamplingPools pools,
-                                 const std::function<Grasp(int set)>& draw,
-                                 const GraspEvaluator& evaluator, RandomStream& random);
+[[nodiscard]] grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
+                                        const std::function<grasp::Grasp(int set)>& draw,
+                                        const criteria::GraspEvaluator& evaluator,
+                                        RandomStream& random);
 
 }  // namespace regrasp

@@ -27,7 +27,7 @@ constexpr double kNarrower = 0.7;
 constexpr double kLeastTravel = 0.05;
 
 /// Contacts have no way to go on it.
-bool IsSmall(int face, const Object& object) {
+bool IsSmall(int face, const object::Object& object) {
   const double way = kLeastTravel * object.diameter();
   return object.face_measure(face) < (object.dimension() == 3 ? way * way : way);
 }
@@ -40,14 +40,15 @@ constexpr int kDrawCost = 2;
 
 }  // namespace
 
-BidirectionalTree::BidirectionalTree(const ContactSet& from, const ContactSet& to,
-                                     const SurfaceSampler& source, RandomStream& random,
+BidirectionalTree::BidirectionalTree(const criteria::ContactSet& from,
+                                     const criteria::ContactSet& to,
+                                     const sampling::SurfaceSampler& source, RandomStream& random,
                                      SearchSpace& space)
     : source_(source),
       random_(random),
       space_(space),
       trees_{Tree{ReachedGrasps(from, space), {}, {}}, Tree{ReachedGrasps(to, space), {}, {}}} {
-  for (const ContactSet* set : {&to, &from}) {
+  for (const criteria::ContactSet* set : {&to, &from}) {
     for (const int contact : *set) {
       if (std::find(candidates_.begin(), candidates_.end(), contact) == candidates_.end()) {
         candidates_.push_back(contact);
@@ -107,7 +108,7 @@ void BidirectionalTree::GrowBySwitches(int side, std::int64_t until) {
 }
 
 void BidirectionalTree::TryCandidate(int side, int node, int candidate) {
-  const ContactSet set = trees_[side].reached[node];
+  const criteria::ContactSet set = trees_[side].reached[node];
   const int fingers = space_.fingers();
   if (set.Has(candidate) || !space_.CanMeet(set, candidate)) return;
   if (set.size() < fingers - 1) {
@@ -120,11 +121,11 @@ void BidirectionalTree::TryCandidate(int side, int node, int candidate) {
   }
 }
 
-void BidirectionalTree::TryToReach(int side, const ContactSet& set, int parent) {
+void BidirectionalTree::TryToReach(int side, const criteria::ContactSet& set, int parent) {
   if (trees_[side].reached.Find(set) < 0 && space_.Admits(set)) Reach(side, set, parent);
 }
 
-void BidirectionalTree::Reach(int side, const ContactSet& set, int parent,
+void BidirectionalTree::Reach(int side, const criteria::ContactSet& set, int parent,
                               std::optional<FaceAlign> align) {
   const int node = trees_[side].reached.Reach(set, parent, std::move(align));
   Meet(side, node);
@@ -133,7 +134,7 @@ void BidirectionalTree::Reach(int side, const ContactSet& set, int parent,
 
 void BidirectionalTree::MakeQueueEntry(int side, int node) {
   Tree& tree = trees_[side];
-  const ContactSet set = tree.reached[node];
+  const criteria::ContactSet set = tree.reached[node];
   if (set.size() == space_.fingers()) {
     // A full hand can only let go.
     for (const int contact : set) TryToReach(side, set.Without(contact), node);
@@ -143,9 +144,8 @@ void BidirectionalTree::MakeQueueEntry(int side, int node) {
   tree.offers.push({kBehind * (on_tuple - 1), node, 0});
 }
 
-std::vector<BidirectionalTree::NodeAt> BidirectionalTree::NearestOnTuple(int side,
-                                                                         const ContactSet& set,
-                                                                         int most) const {
+std::vector<BidirectionalTree::NodeAt> BidirectionalTree::NearestOnTuple(
+    int side, const criteria::ContactSet& set, int most) const {
   const ReachedGrasps& reached = trees_[side].reached;
   std::vector<NodeAt> ways;
   for (const int node : reached.OnTuple(TupleOf(set, space_))) {
@@ -160,7 +160,7 @@ std::vector<BidirectionalTree::NodeAt> BidirectionalTree::NearestOnTuple(int sid
 void BidirectionalTree::Meet(int side, int node) {
   const ReachedGrasps& own = trees_[side].reached;
   const ReachedGrasps& other = trees_[1 - side].reached;
-  const ContactSet set = own[node];
+  const criteria::ContactSet set = own[node];
   const auto join = [&](int there, const GraspPath& between) {
     GraspPath path = own.PathTo(node);
     Append(between, path);
@@ -199,23 +199,23 @@ void BidirectionalTree::GrowAround(int side, std::int64_t until) {
 }
 
 bool BidirectionalTree::AlignAround(int side, int node, double reach) {
-  const ContactSet& from = trees_[side].reached[node];
+  const criteria::ContactSet& from = trees_[side].reached[node];
   // Of a full hand, which has no finger for a switch, one contact leaves its face.
   const bool full = from.size() == space_.fingers();
   const int leaving = full ? static_cast<int>(random_.Index(from.size())) : -1;
   const double least_travel = kLeastTravel * space_.object().diameter();
-  Grasp drawn;
+  grasp::Grasp drawn;
   double straight = 0;
   for (int i = 0; i < from.size(); ++i) {
-    const Contact& contact = space_.contact(from[i]);
+    const grasp::Contact& contact = space_.contact(from[i]);
     drawn.push_back(i == leaving ? source_.DrawAround(contact, reach, random_)
                                  : source_.DrawNear(contact, reach, random_));
     straight += (drawn.back().p - contact.p).norm();
   }
   if (straight < least_travel) return false;
-  const auto is_valid = [this](const Contact& contact) { return source_.IsValid(contact); };
+  const auto is_valid = [this](const grasp::Contact& contact) { return source_.IsValid(contact); };
   if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, is_valid)) return false;
-  const ContactSet set = space_.Add(drawn);
+  const criteria::ContactSet set = space_.Add(drawn);
   for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
     if (way < least_travel) return false;
     node = near;
@@ -224,15 +224,15 @@ bool BidirectionalTree::AlignAround(int side, int node, double reach) {
 }
 
 bool BidirectionalTree::SwitchAround(int side, int node, double reach) {
-  const ContactSet set = trees_[side].reached[node];
+  const criteria::ContactSet set = trees_[side].reached[node];
   if (set.size() == space_.fingers()) return false;
   const int leaving = set[static_cast<int>(random_.Index(set.size()))];
-  Grasp drawn = space_.GraspOf(set.Without(leaving));
+  grasp::Grasp drawn = space_.GraspOf(set.Without(leaving));
   drawn.push_back(source_.DrawAround(space_.contact(leaving), reach, random_));
   if (!space_.IsAdmitted(drawn) || !source_.IsValid(drawn.back())) return false;
   const int placed = space_.Add(drawn.back());
   if (!space_.CanMeet(leaving, placed)) return false;
-  const ContactSet after = set.Without(leaving).With(placed);
+  const criteria::ContactSet after = set.Without(leaving).With(placed);
   space_.Accept(after);
   if (trees_[side].reached.Find(after) < 0) Reach(side, after, node);
   return true;
@@ -241,12 +241,12 @@ bool BidirectionalTree::SwitchAround(int side, int node, double reach) {
 void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
   while (!found_ && space_.tests() < until && !space_.IsSpent() && space_.has_capacity()) {
     const int node = static_cast<int>(random_.Index(trees_[side].reached.size()));
-    const ContactSet set = trees_[side].reached[node];
+    const criteria::ContactSet set = trees_[side].reached[node];
     space_.CountTests(kDrawCost);
     if (set.size() == space_.fingers()) continue;
     const int leaving = static_cast<int>(random_.Index(set.size()));
     const int face = FaceAcross(side);
-    const Grasp before = space_.GraspOf(set);
+    const grasp::Grasp before = space_.GraspOf(set);
     FaceTuple tuple;
     for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
     std::sort(tuple.begin(), tuple.end());
@@ -258,7 +258,7 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
     if (!found) continue;
     const int last = AlignAlong(side, node, std::span(found->way).subspan(1));
     if (last < 0 || found_) continue;
-    const ContactSet after = space_.Add(found->after);
+    const criteria::ContactSet after = space_.Add(found->after);
     space_.Accept(after);
     if (trees_[side].reached.Find(after) < 0) Reach(side, after, last);
   }
@@ -267,11 +267,11 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
 int BidirectionalTree::FaceAcross(int side) {
   const ReachedGrasps& other = trees_[1 - side].reached;
   if (random_.Index(2) == 0) return static_cast<int>(random_.Index(space_.object().face_count()));
-  const ContactSet set = other[static_cast<int>(random_.Index(other.size()))];
+  const criteria::ContactSet set = other[static_cast<int>(random_.Index(other.size()))];
   return space_.contact(set[static_cast<int>(random_.Index(set.size()))]).face;
 }
 
-int BidirectionalTree::AlignTo(int side, int node, const ContactSet& set) {
+int BidirectionalTree::AlignTo(int side, int node, const criteria::ContactSet& set) {
   space_.Accept(set);
   if (trees_[side].reached.Find(set) < 0) {
     auto align = AlignBetween(trees_[side].reached[node], set, space_);
@@ -281,7 +281,7 @@ int BidirectionalTree::AlignTo(int side, int node, const ContactSet& set) {
   return trees_[side].reached.Find(set);
 }
 
-int BidirectionalTree::AlignAlong(int side, int node, std::span<const Grasp> way) {
+int BidirectionalTree::AlignAlong(int side, int node, std::span<const grasp::Grasp> way) {
   if (way.empty() || found_) return node;
   if (!space_.has_capacity()) return -1;
   if (const int end = AlignTo(side, node, space_.Add(way.back())); end >= 0) return end;

@@ -24,8 +24,9 @@ namespace regrasp::tree {
 class BidirectionalTree {
  public:
   /// @param from, to  grasps that the space admits, as do all that follow. All outlive this object.
-  BidirectionalTree(const ContactSet& from, const ContactSet& to, const SurfaceSampler& source,
-                    RandomStream& random, SearchSpace& space);
+  BidirectionalTree(const criteria::ContactSet& from, const criteria::ContactSet& to,
+                    const sampling::SurfaceSampler& source, RandomStream& random,
+                    SearchSpace& space);
 
   /// Grows until the trees meet.
   /// @returns nullopt where they have not met within the limits of the space.
@@ -61,12 +62,12 @@ class BidirectionalTree {
   /// Any face of the body, or one that the other tree's grasps are on.
   int FaceAcross(int side);
   /// Reaches a grasp by an align, whose node is returned; −1 where none was proved.
-  int AlignTo(int side, int node, const ContactSet& set);
+  int AlignTo(int side, int node, const criteria::ContactSet& set);
   /// The same for the last of several grasps, over some of the others where it has to be.
-  int AlignAlong(int side, int node, std::span<const Grasp> way);
+  int AlignAlong(int side, int node, std::span<const grasp::Grasp> way);
   void TryCandidate(int side, int node, int candidate);
-  void TryToReach(int side, const ContactSet& set, int parent);
-  void Reach(int side, const ContactSet& set, int parent,
+  void TryToReach(int side, const criteria::ContactSet& set, int parent);
+  void Reach(int side, const criteria::ContactSet& set, int parent,
              std::optional<FaceAlign> align = std::nullopt);
   /// Lets candidates be tried on a grasp.
   void MakeQueueEntry(int side, int node);
@@ -77,10 +78,11 @@ class BidirectionalTree {
     auto operator<=>(const NodeAt&) const = default;
   };
   /// Nodes of the tuple in a tree, those with the least way to the grasp first.
-  [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const ContactSet& set, int most) const;
+  [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const criteria::ContactSet& set,
+                                                   int most) const;
   void AddCandidates();
 
-  const SurfaceSampler& source_;
+  const sampling::SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
   std::array<Tree, 2> trees_;

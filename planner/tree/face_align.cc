@@ -27,32 +27,36 @@ constexpr double kShortestStretch = 1.0 / 64;
 /// Of the quality that grasps at rest have: only those are shaken.
 constexpr double kQualityAtTurns = 0.25;
 
-GraspMotion MotionBetween(const Grasp& from, const Grasp& to) {
-  GraspMotion motion;
+motion::GraspMotion MotionBetween(const grasp::Grasp& from, const grasp::Grasp& to) {
+  motion::GraspMotion motion;
   motion.reserve(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
   return motion;
 }
 
-bool HoldsAt(const GraspMotion& motion, double t, SearchSpace& space) {
+bool HoldsAt(const motion::GraspMotion& motion, double t, SearchSpace& space) {
   space.CountTests(1);
-  return IsForceClosure(GraspAt(motion, t), space.object().wrench_frame(), space.half_angle());
+  return grasp::IsForceClosure(motion::GraspAt(motion, t), space.object().wrench_frame(),
+                               space.half_angle());
 }
 
 /// Whether fingers that are no points can carry an align out.
-bool IsFree(const std::vector<Grasp>& waypoints, const SearchSpace& space) {
+bool IsFree(const std::vector<grasp::Grasp>& waypoints, const SearchSpace& space) {
   if (space.finger_radius() == 0) return true;
-  Align align;
-  for (const Grasp& grasp : waypoints) {
-    FingerGrasp& held = align.waypoints.emplace_back();
-    for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
+  plan::Align align;
+  for (const grasp::Grasp& grasp : waypoints) {
+    plan::FingerGrasp& held = align.waypoints.emplace_back();
+    for (const grasp::Contact& contact : grasp)
+      held.push_back({static_cast<int>(held.size()), contact});
   }
-  return !FindStepObstacle(space.object(), align.waypoints.front(), align, space.finger_radius());
+  return !plan::FindStepObstacle(space.object(), align.waypoints.front(), align,
+                                 space.finger_radius());
 }
 
 /// What remains of a set without the contacts of another.
-ContactSet Difference(const ContactSet& set, const ContactSet& other) {
-  ContactSet rest;
+criteria::ContactSet Difference(const criteria::ContactSet& set,
+                                const criteria::ContactSet& other) {
+  criteria::ContactSet rest;
   for (const int contact : set) {
     if (!other.Has(contact)) rest.Insert(contact);
   }
@@ -62,7 +66,8 @@ ContactSet Difference(const ContactSet& set, const ContactSet& other) {
 /// The cheapest assignment of contacts to as many others, by trying all: they are five at most.
 class Pairing {
  public:
-  Pairing(const ContactSet& from, const ContactSet& to, const SearchSpace& space)
+  Pairing(const criteria::ContactSet& from, const criteria::ContactSet& to,
+          const SearchSpace& space)
       : count_(from.size()) {
     for (int i = 0; i < count_; ++i) {
       bool some = false;
@@ -83,7 +88,7 @@ class Pairing {
   using Cost = std::pair<int, double>;
   static constexpr Cost kNever = {std::numeric_limits<int>::max(), 0};
 
-  static Cost CostOf(const Contact& a, const Contact& b, const SearchSpace& space) {
+  static Cost CostOf(const grasp::Contact& a, const grasp::Contact& b, const SearchSpace& space) {
     const double way = (a.p - b.p).norm();
     if (a.face == b.face) return {0, way};
     return MayHandOver(a, b, space.object()) ? Cost{1, way} : kNever;
@@ -105,9 +110,10 @@ class Pairing {
   }
 
   int count_;
-  std::array<std::array<Cost, ContactSet::kMostHeld>, ContactSet::kMostHeld> costs_{};
-  std::array<int, ContactSet::kMostHeld> choice_{};
-  std::array<int, ContactSet::kMostHeld> chosen_{};
+  std::array<std::array<Cost, criteria::ContactSet::kMostHeld>, criteria::ContactSet::kMostHeld>
+      costs_{};
+  std::array<int, criteria::ContactSet::kMostHeld> choice_{};
+  std::array<int, criteria::ContactSet::kMostHeld> chosen_{};
   Cost best_ = kNever;
 };
 
@@ -129,8 +135,8 @@ class JointPath {
   }
 
   /// A grasp before and after each turn, and the ends.
-  std::vector<Grasp> Waypoints() {
-    std::vector<Grasp> waypoints = {At(0)};
+  std::vector<grasp::Grasp> Waypoints() {
+    std::vector<grasp::Grasp> waypoints = {At(0)};
     double at = 0;
     for (const Turn& turn : Turns()) {
       if (turn.share > at) waypoints.push_back(At(turn.share));
@@ -166,11 +172,11 @@ class JointPath {
     return turns;
   }
 
-  [[nodiscard]] Grasp At(double share) const {
-    Grasp grasp;
+  [[nodiscard]] grasp::Grasp At(double share) const {
+    grasp::Grasp grasp;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
       const std::size_t k = 2 * leg_[i];
-      Contact contact = routes_[i][k];
+      grasp::Contact contact = routes_[i][k];
       const double begin = shares_[i][k];
       const double end = shares_[i][k + 1];
       const Eigen::Vector3d& goal = routes_[i][k + 1].p;
@@ -191,7 +197,7 @@ class JointPath {
 };
 
 /// The waypoints of an align with these pairs; none where a contact has no route.
-std::vector<Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& space) {
+std::vector<grasp::Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& space) {
   std::vector<SurfaceRoute> routes;
   for (const auto& [a, b] : pairs) {
     auto route = a == b ? SurfaceRoute{space.contact(a), space.contact(a)}
@@ -203,30 +209,31 @@ std::vector<Grasp> FindWaypoints(const ContactPairs& pairs, const SearchSpace& s
 }
 
 /// Whether the grasps at the turns, where fingers wait, have some of the quality that is asked for.
-bool AreGood(const std::vector<Grasp>& waypoints, SearchSpace& space) {
+bool AreGood(const std::vector<grasp::Grasp>& waypoints, SearchSpace& space) {
   const double asked = space.min_quality();
   if (!space.criteria().AsksMore()) return true;
   space.SetMinQuality(kQualityAtTurns * asked);
   const bool good = std::all_of(waypoints.begin() + 1, waypoints.end() - 1,
-                                [&](const Grasp& grasp) { return space.IsAdmitted(grasp); });
+                                [&](const grasp::Grasp& grasp) { return space.IsAdmitted(grasp); });
   space.SetMinQuality(asked);
   return good;
 }
 
-std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
+std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<grasp::Grasp> waypoints,
                                SearchSpace& space) {
-  std::vector<GraspMotion> motions;
+  std::vector<motion::GraspMotion> motions;
   for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
     motions.push_back(MotionBetween(waypoints[w], waypoints[w + 1]));
   }
-  for (const GraspMotion& motion : motions) {
+  for (const motion::GraspMotion& motion : motions) {
     if (!HoldsAt(motion, kProbe, space)) return std::nullopt;
   }
   if (!IsFree(waypoints, space) || !AreGood(waypoints, space)) return std::nullopt;
   FaceAlign align{std::move(pairs), {}, {}};
-  for (const GraspMotion& motion : motions) {
+  for (const motion::GraspMotion& motion : motions) {
     space.CountTests(kTestsOfAProof);
-    auto proof = FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
+    auto proof =
+        motion::FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
     if (!proof) return std::nullopt;
     align.proof.push_back(*std::move(proof));
   }
@@ -236,9 +243,9 @@ std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<Grasp> waypoints,
 
 }  // namespace
 
-std::vector<Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space) {
-  std::vector<Grasp> waypoints(1);
-  Grasp last;
+std::vector<grasp::Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space) {
+  std::vector<grasp::Grasp> waypoints(1);
+  grasp::Grasp last;
   for (const auto& [from, to] : align.contacts) {
     waypoints.front().push_back(space.contact(from));
     last.push_back(space.contact(to));
@@ -253,7 +260,7 @@ bool AdmitsPath(const FaceAlign& align, SearchSpace& space) {
 }
 
 double TravelOf(const FaceAlign& align, const SearchSpace& space) {
-  const std::vector<Grasp> waypoints = WaypointsOf(align, space);
+  const std::vector<grasp::Grasp> waypoints = WaypointsOf(align, space);
   double way = 0;
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
     for (std::size_t i = 0; i < waypoints[w].size(); ++i) {
@@ -263,23 +270,24 @@ double TravelOf(const FaceAlign& align, const SearchSpace& space) {
   return way;
 }
 
-FaceTuple TupleOf(const ContactSet& set, const SearchSpace& space) {
+FaceTuple TupleOf(const criteria::ContactSet& set, const SearchSpace& space) {
   FaceTuple tuple;
   for (const int contact : set) tuple.push_back(space.contact(contact).face);
   std::sort(tuple.begin(), tuple.end());
   return tuple;
 }
 
-bool MayHandOver(const Contact& from, const Contact& to, const Object& object) {
+bool MayHandOver(const grasp::Contact& from, const grasp::Contact& to,
+                 const object::Object& object) {
   return (from.p - to.p).norm() <= kNear * object.diameter() ||
          object.AreNeighbours(from.face, to.face);
 }
 
-std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSet& to,
-                                         const SearchSpace& space) {
+std::optional<ContactPairs> PairContacts(const criteria::ContactSet& from,
+                                         const criteria::ContactSet& to, const SearchSpace& space) {
   if (from.size() != to.size()) return std::nullopt;
-  const ContactSet left = Difference(from, to);
-  const ContactSet right = Difference(to, from);
+  const criteria::ContactSet left = Difference(from, to);
+  const criteria::ContactSet right = Difference(to, from);
   const Pairing pairing(left, right, space);
   if (!pairing.found()) return std::nullopt;
   ContactPairs pairs;
@@ -290,7 +298,8 @@ std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSe
   return pairs;
 }
 
-double DistanceBetween(const ContactSet& from, const ContactSet& to, const SearchSpace& space) {
+double DistanceBetween(const criteria::ContactSet& from, const criteria::ContactSet& to,
+                       const SearchSpace& space) {
   const auto pairs = PairContacts(from, to, space);
   if (!pairs) return std::numeric_limits<double>::infinity();
   double way = 0;
@@ -298,11 +307,11 @@ double DistanceBetween(const ContactSet& from, const ContactSet& to, const Searc
   return way;
 }
 
-std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& to,
-                                      SearchSpace& space) {
+std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,
+                                      const criteria::ContactSet& to, SearchSpace& space) {
   auto pairs = PairContacts(from, to, space);
   if (!pairs) return std::nullopt;
-  std::vector<Grasp> waypoints = FindWaypoints(*pairs, space);
+  std::vector<grasp::Grasp> waypoints = FindWaypoints(*pairs, space);
   if (waypoints.empty()) return std::nullopt;
   return Prove(*std::move(pairs), std::move(waypoints), space);
 }

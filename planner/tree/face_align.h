@@ -18,13 +18,14 @@ struct FaceAlign {
   std::vector<std::pair<int, int>> contacts;
   /// Waypoints between the two grasps, in the order of `contacts`; none where all of them stay on
   /// their faces.
-  std::vector<Grasp> between;
+  std::vector<grasp::Grasp> between;
   /// By pair of waypoints that follow each other, the ends included; in the order of `contacts`.
-  std::vector<MotionSegments> proof;
+  std::vector<motion::MotionSegments> proof;
 };
 
 /// The grasps of an align from the first to the last, in the order of its contacts.
-[[nodiscard]] std::vector<Grasp> WaypointsOf(const FaceAlign& align, const SearchSpace& space);
+[[nodiscard]] std::vector<grasp::Grasp> WaypointsOf(const FaceAlign& align,
+                                                    const SearchSpace& space);
 
 /// Whether the grasps at the turns of an align and half-way between its waypoints are as good as
 /// the space asks. AlignBetween only returns such aligns.
@@ -35,10 +36,11 @@ struct FaceAlign {
 
 /// The faces of a grasp's contacts, ascending.
 using FaceTuple = std::vector<int>;
-[[nodiscard]] FaceTuple TupleOf(const ContactSet& set, const SearchSpace& space);
+[[nodiscard]] FaceTuple TupleOf(const criteria::ContactSet& set, const SearchSpace& space);
 
 /// Whether an align may take a contact to another face: to a neighbouring one, or near by (kNear).
-[[nodiscard]] bool MayHandOver(const Contact& from, const Contact& to, const Object& object);
+[[nodiscard]] bool MayHandOver(const grasp::Contact& from, const grasp::Contact& to,
+                               const object::Object& object);
 /// Of the diameter. On a fine mesh faces are small, and what is near is few edges away.
 inline constexpr double kNear = 0.15;
 
@@ -49,13 +51,14 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 /// contacts that change their faces, of those the one with the least straight way in all.
 ///
 /// Takes well under a microsecond, most of all where there is none.
-[[nodiscard]] std::optional<ContactPairs> PairContacts(const ContactSet& from, const ContactSet& to,
+[[nodiscard]] std::optional<ContactPairs> PairContacts(const criteria::ContactSet& from,
+                                                       const criteria::ContactSet& to,
                                                        const SearchSpace& space);
 
 /// The straight way of all contacts together from one grasp to another; infinite where they can't
 /// be paired.
-[[nodiscard]] double DistanceBetween(const ContactSet& from, const ContactSet& to,
-                                     const SearchSpace& space);
+[[nodiscard]] double DistanceBetween(const criteria::ContactSet& from,
+                                     const criteria::ContactSet& to, const SearchSpace& space);
 
 /// Aligns from one grasp to another, force closure at the space's half-angle all the way: contacts
 /// go along their routes (FindSurfaceRoute), all at rates that bring them to their ends at once,
@@ -64,7 +67,8 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 /// Law: between the same grasps in exchange, with each route turned round, the same holds.
 /// @returns nullopt where the contacts can't be paired, one has no route, or the motion was not
 ///          proved to be force closure.
-[[nodiscard]] std::optional<FaceAlign> AlignBetween(const ContactSet& from, const ContactSet& to,
+[[nodiscard]] std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,
+                                                    const criteria::ContactSet& to,
                                                     SearchSpace& space);
 
 }  // namespace regrasp::tree

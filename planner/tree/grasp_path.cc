@@ -9,9 +9,9 @@ FaceAlign Reversed(FaceAlign align) {
   for (auto& [from, to] : align.contacts) std::swap(from, to);
   std::reverse(align.between.begin(), align.between.end());
   std::reverse(align.proof.begin(), align.proof.end());
-  for (MotionSegments& pieces : align.proof) {
+  for (motion::MotionSegments& pieces : align.proof) {
     std::reverse(pieces.begin(), pieces.end());
-    for (MotionSegment& piece : pieces) {
+    for (motion::MotionSegment& piece : pieces) {
       std::swap(piece.start, piece.end);
       std::swap(piece.from, piece.to);
       piece.from = 1 - piece.from;

@@ -9,16 +9,18 @@ namespace regrasp::tree {
 
 /// A step between two grasps of a SearchSpace: a finger switch, or an align where there is one.
 struct PathStep {
-  ContactSet to;
+  criteria::ContactSet to;
   std::optional<FaceAlign> align;
 };
 
 /// Grasps that follow each other.
 struct GraspPath {
-  ContactSet start;
+  criteria::ContactSet start;
   std::vector<PathStep> steps;
 
-  [[nodiscard]] const ContactSet& end() const { return steps.empty() ? start : steps.back().to; }
+  [[nodiscard]] const criteria::ContactSet& end() const {
+    return steps.empty() ? start : steps.back().to;
+  }
 };
 
 /// The same align the other way round.

@@ -27,7 +27,7 @@ std::optional<GraspPath> SearchSubpath(const GraspPath& path, const Subpath& str
                        stretch.contacts, UseAligns::kYes, most_steps, space);
 }
 
-bool ShortcutOnce(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
+bool ShortcutOnce(const sampling::SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                   GraspPath& path) {
   for (int begin = 0; begin + 1 < static_cast<int>(path.steps.size()); ++begin) {
     Subpath stretch = LongestSubpath(path, begin);
@@ -55,7 +55,7 @@ void ForEachSubpath(GraspPath& path, const Replace& replace) {
   }
 }
 
-void MaximiseMarginOn(Subpath stretch, int more_steps, const SurfaceSampler& source,
+void MaximiseMarginOn(Subpath stretch, int more_steps, const sampling::SurfaceSampler& source,
                       RandomStream& random, SearchSpace& space, GraspPath& path) {
   const GraspPath part = PartOf(path, stretch);
   const double least =
@@ -69,7 +69,7 @@ void MaximiseMarginOn(Subpath stretch, int more_steps, const SurfaceSampler& sou
 }
 
 /// @returns whether anything was gained.
-bool MinimiseTravelOn(Subpath stretch, int more_steps, const SurfaceSampler& source,
+bool MinimiseTravelOn(Subpath stretch, int more_steps, const sampling::SurfaceSampler& source,
                       RandomStream& random, SearchSpace& space, GraspPath& path) {
   const GraspPath part = PartOf(path, stretch);
   FillAround(stretch, kSubpathContacts, source, random, space);
@@ -83,8 +83,8 @@ bool MinimiseTravelOn(Subpath stretch, int more_steps, const SurfaceSampler& sou
 }  // namespace
 
 GraspPath Renumber(const GraspPath& path, const SearchSpace& from, SearchSpace& to) {
-  const auto convert = [&](const ContactSet& set) {
-    ContactSet converted;
+  const auto convert = [&](const criteria::ContactSet& set) {
+    criteria::ContactSet converted;
     for (const int contact : set) converted.Insert(to.Add(from.contact(contact)));
     return converted;
   };
@@ -100,14 +100,14 @@ GraspPath Renumber(const GraspPath& path, const SearchSpace& from, SearchSpace& 
   return renumbered;
 }
 
-GraspPath ShortcutPath(GraspPath path, const SurfaceSampler& source, RandomStream& random,
+GraspPath ShortcutPath(GraspPath path, const sampling::SurfaceSampler& source, RandomStream& random,
                        SearchSpace& space) {
   while (ShortcutOnce(source, random, space, path)) {
   }
   return path;
 }
 
-GraspPath MaximiseMargin(GraspPath path, int more_steps, const SurfaceSampler& source,
+GraspPath MaximiseMargin(GraspPath path, int more_steps, const sampling::SurfaceSampler& source,
                          RandomStream& random, SearchSpace& space) {
   const int most_steps = static_cast<int>(path.steps.size()) + more_steps;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -119,8 +119,8 @@ GraspPath MaximiseMargin(GraspPath path, int more_steps, const SurfaceSampler& s
   return path;
 }
 
-GraspPath MinimiseTravel(GraspPath path, const SurfaceSampler& source, RandomStream& random,
-                         SearchSpace& space) {
+GraspPath MinimiseTravel(GraspPath path, const sampling::SurfaceSampler& source,
+                         RandomStream& random, SearchSpace& space) {
   const auto most_steps = static_cast<int>(path.steps.size());
   for (int idle = 0; idle < kIdlePasses; ++idle) {
     ForEachSubpath(path, [&](const Subpath& stretch) {

@@ -16,8 +16,8 @@ using Mask = SubsetGraph::Mask;
 
 class TravelSearch {
  public:
-  TravelSearch(const ContactSet& from, const ContactSet& to, const std::vector<int>& contacts,
-               int most_steps, double bound, SearchSpace& space)
+  TravelSearch(const criteria::ContactSet& from, const criteria::ContactSet& to,
+               const std::vector<int>& contacts, int most_steps, double bound, SearchSpace& space)
       : graph_(from, to, contacts, UseAligns::kYes, space),
         space_(space),
         most_steps_(most_steps),
@@ -140,7 +140,8 @@ class TravelSearch {
 
 }  // namespace
 
-std::optional<GraspPath> SearchLeastTravel(const ContactSet& from, const ContactSet& to,
+std::optional<GraspPath> SearchLeastTravel(const criteria::ContactSet& from,
+                                           const criteria::ContactSet& to,
                                            const std::vector<int>& contacts, int most_steps,
                                            double bound, SearchSpace& space) {
   return TravelSearch(from, to, contacts, most_steps, bound, space).Search();

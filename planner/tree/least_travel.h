@@ -15,8 +15,8 @@ namespace regrasp::tree {
 /// @param most_steps  no way has more.
 /// @param bound       no way is looked for that is not shorter than this.
 /// @returns nullopt where there is no such way.
-[[nodiscard]] std::optional<GraspPath> SearchLeastTravel(const ContactSet& from,
-                                                         const ContactSet& to,
+[[nodiscard]] std::optional<GraspPath> SearchLeastTravel(const criteria::ContactSet& from,
+                                                         const criteria::ContactSet& to,
                                                          const std::vector<int>& contacts,
                                                          int most_steps, double bound,
                                                          SearchSpace& space);

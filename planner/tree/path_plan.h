@@ -9,8 +9,9 @@ namespace regrasp::tree {
 /// What the hand does along a path: fingers 0, 1, … take the contacts of `start` in its order;
 /// aligns that follow each other are one step.
 /// @param start  the contacts of the path's start.
-[[nodiscard]] CandidateSequence MakeCandidate(const GraspPath& path, const Grasp& start,
-                                              const SearchSpace& space);
+[[nodiscard]] planning::CandidateSequence MakeCandidate(const GraspPath& path,
+                                                        const grasp::Grasp& start,
+                                                        const SearchSpace& space);
 
 /// The way of all fingers together: along the surface in an align, straight from where one leaves
 /// to where one comes in a switch.

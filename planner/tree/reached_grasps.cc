@@ -4,11 +4,12 @@
 
 namespace regrasp::tree {
 
-ReachedGrasps::ReachedGrasps(const ContactSet& root, const SearchSpace& space) : space_(space) {
+ReachedGrasps::ReachedGrasps(const criteria::ContactSet& root, const SearchSpace& space)
+    : space_(space) {
   Reach(root, -1);
 }
 
-int ReachedGrasps::Find(const ContactSet& set) const {
+int ReachedGrasps::Find(const criteria::ContactSet& set) const {
   const auto found = numbers_.find(set);
   return found == numbers_.end() ? -1 : found->second;
 }
@@ -19,7 +20,8 @@ const std::vector<int>& ReachedGrasps::OnTuple(const FaceTuple& tuple) const {
   return found == tuples_.end() ? kNone : found->second;
 }
 
-int ReachedGrasps::Reach(const ContactSet& set, int parent, std::optional<FaceAlign> align) {
+int ReachedGrasps::Reach(const criteria::ContactSet& set, int parent,
+                         std::optional<FaceAlign> align) {
   const int node = size();
   nodes_.push_back({set, parent, std::move(align)});
   numbers_.emplace(set, node);

@@ -23,7 +23,7 @@ constexpr int kMoreRepairSteps = 1;
 
 class QualityRepair {
  public:
-  QualityRepair(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
+  QualityRepair(const sampling::SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                 GraspPath& path)
       : source_(source),
         random_(random),
@@ -84,7 +84,7 @@ class QualityRepair {
     return true;
   }
 
-  const SurfaceSampler& source_;
+  const sampling::SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
   GraspPath& path_;
@@ -93,8 +93,8 @@ class QualityRepair {
 
 }  // namespace
 
-double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
-                     GraspPath& path) {
+double RepairQuality(const sampling::SurfaceSampler& source, RandomStream& random,
+                     SearchSpace& space, GraspPath& path) {
   return QualityRepair(source, random, space, path).Run();
 }
 

@@ -15,7 +15,7 @@ namespace regrasp::tree {
 ///
 /// @param path  of force-closure grasps, good or not.
 /// @returns the quality that all of these grasps have then, at most the one that is asked for.
-double RepairQuality(const SurfaceSampler& source, RandomStream& random, SearchSpace& space,
-                     GraspPath& path);
+double RepairQuality(const sampling::SurfaceSampler& source, RandomStream& random,
+                     SearchSpace& space, GraspPath& path);
 
 }  // namespace regrasp::tree

@@ -12,9 +12,10 @@ constexpr std::int64_t kShotCost = 40;
 
 }  // namespace
 
-SearchSpace::SearchSpace(const Object& object, const GraspCriteria& criteria, const Hand& hand)
-    : GraspMemory(object.wrench_frame(), kSamePoint * object.diameter(), criteria, hand,
-                  QualityTest::kQuick),
+SearchSpace::SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
+                         const hand::Hand& hand)
+    : criteria::GraspMemory(object.wrench_frame(), criteria::kSamePoint * object.diameter(),
+                            criteria, hand, criteria::QualityTest::kQuick),
       object_(object) {}
 
 std::int64_t SearchSpace::tests() const {

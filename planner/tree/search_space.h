@@ -18,12 +18,13 @@ struct SearchLimits {
 /// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps
 /// that a sequence may pass (GraspMemory, by the quick test of quality). Counts what it tests,
 /// which is what searches spend.
-class SearchSpace : public GraspMemory {
+class SearchSpace : public criteria::GraspMemory {
  public:
   /// @param object  outlives this object.
-  SearchSpace(const Object& object, const GraspCriteria& criteria, const Hand& hand = {});
+  SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
+              const hand::Hand& hand = {});
 
-  [[nodiscard]] const Object& object() const { return object_; }
+  [[nodiscard]] const object::Object& object() const { return object_; }
   /// That the hand has: 5 in space, 4 in the plane.
   [[nodiscard]] int fingers() const { return dimension() == 3 ? 5 : 4; }
 
@@ -36,7 +37,7 @@ class SearchSpace : public GraspMemory {
   [[nodiscard]] bool out_of_time() const { return out_of_time_; }
 
  private:
-  const Object& object_;
+  const object::Object& object_;
   std::int64_t more_tests_ = 0;  ///< that the memory does not count
   SearchLimits limits_;
   std::int64_t next_look_ = 0;  ///< at the clock, by tests

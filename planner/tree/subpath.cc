@@ -19,13 +19,13 @@ void AddContact(int contact, std::vector<int>& contacts) {
   }
 }
 
-void AddContacts(const ContactSet& set, std::vector<int>& contacts) {
+void AddContacts(const criteria::ContactSet& set, std::vector<int>& contacts) {
   for (const int contact : set) AddContact(contact, contacts);
 }
 
 }  // namespace
 
-const ContactSet& GraspNumber(const GraspPath& path, int number) {
+const criteria::ContactSet& GraspNumber(const GraspPath& path, int number) {
   return number == 0 ? path.start : path.steps[number - 1].to;
 }
 
@@ -54,22 +54,22 @@ GraspPath PartOf(const GraspPath& path, const Subpath& stretch) {
   return {GraspNumber(path, stretch.begin), {first + stretch.begin, first + stretch.end}};
 }
 
-void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
-            SearchSpace& space) {
+void FillUp(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+            RandomStream& random, SearchSpace& space) {
   while (static_cast<int>(stretch.contacts.size()) < most && space.has_capacity()) {
     AddContact(space.Add(source.Draw(random)), stretch.contacts);
   }
 }
 
-void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
-                SearchSpace& space) {
+void FillAround(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+                RandomStream& random, SearchSpace& space) {
   const auto own = static_cast<int>(stretch.contacts.size());
   for (int draw = 0; draw < kDraws * (most - own); ++draw) {
     if (static_cast<int>(stretch.contacts.size()) == most || !space.has_capacity()) return;
-    const Contact& near = space.contact(stretch.contacts[random.Index(own)]);
+    const grasp::Contact& near = space.contact(stretch.contacts[random.Index(own)]);
     const int halvings = static_cast<int>(random.Index(kHalvings + 1));
     const double reach = space.object().diameter() * std::ldexp(0.5, -halvings);
-    const Contact contact = source.DrawAround(near, reach, random);
+    const grasp::Contact contact = source.DrawAround(near, reach, random);
     if (source.IsValid(contact)) AddContact(space.Add(contact), stretch.contacts);
   }
 }

@@ -20,7 +20,7 @@ struct Subpath {
 /// Where nothing else is said a stretch has at most so many contacts.
 inline constexpr int kSubpathContacts = 14;
 
-[[nodiscard]] const ContactSet& GraspNumber(const GraspPath& path, int number);
+[[nodiscard]] const criteria::ContactSet& GraspNumber(const GraspPath& path, int number);
 
 [[nodiscard]] Subpath SubpathBetween(const GraspPath& path, int begin, int end);
 
@@ -31,13 +31,13 @@ inline constexpr int kSubpathContacts = 14;
 [[nodiscard]] GraspPath PartOf(const GraspPath& path, const Subpath& stretch);
 
 /// Adds random contacts of the whole surface until there are `most`.
-void FillUp(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
-            SearchSpace& space);
+void FillUp(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+            RandomStream& random, SearchSpace& space);
 
 /// Adds random contacts near those of the stretch, from half the diameter away to a sixty-fourth,
 /// until there are `most`; fewer where contacts are not valid.
-void FillAround(Subpath& stretch, int most, const SurfaceSampler& source, RandomStream& random,
-                SearchSpace& space);
+void FillAround(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+                RandomStream& random, SearchSpace& space);
 
 /// Replaces a stretch of a path by another way between its ends.
 void ReplaceSubpath(const GraspPath& by, const Subpath& stretch, GraspPath& path);

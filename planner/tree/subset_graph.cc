@@ -18,7 +18,7 @@ constexpr int kOverChoices = 3;
 
 }  // namespace
 
-SubsetGraph::SubsetGraph(const ContactSet& from, const ContactSet& to,
+SubsetGraph::SubsetGraph(const criteria::ContactSet& from, const criteria::ContactSet& to,
                          const std::vector<int>& contacts, UseAligns aligns, SearchSpace& space)
     : space_(space),
       contacts_(contacts),
@@ -39,7 +39,7 @@ SubsetGraph::SubsetGraph(const ContactSet& from, const ContactSet& to,
   may_stay_full_ = NeedsAll(from) || NeedsAll(to);
 }
 
-bool SubsetGraph::NeedsAll(const ContactSet& set) const {
+bool SubsetGraph::NeedsAll(const criteria::ContactSet& set) const {
   return set.size() == space_.fingers() && std::none_of(set.begin(), set.end(), [&](int contact) {
            return space_.Admits(set.Without(contact));
          });
@@ -48,10 +48,10 @@ bool SubsetGraph::NeedsAll(const ContactSet& set) const {
 void SubsetGraph::FindTargets() {
   targets_.resize(contacts_.size());
   for (int i = 0; i < contact_count(); ++i) {
-    const Contact& from = space_.contact(contacts_[i]);
+    const grasp::Contact& from = space_.contact(contacts_[i]);
     std::vector<std::pair<double, int>> over;
     for (int k = 0; k < contact_count(); ++k) {
-      const Contact& to = space_.contact(contacts_[k]);
+      const grasp::Contact& to = space_.contact(contacts_[k]);
       if (k == i) continue;
       if (to.face == from.face) {
         targets_[i].push_back({k, 0, Distance(i, k)});
@@ -65,7 +65,7 @@ void SubsetGraph::FindTargets() {
   }
 }
 
-SubsetGraph::Mask SubsetGraph::MaskOf(const ContactSet& set) const {
+SubsetGraph::Mask SubsetGraph::MaskOf(const criteria::ContactSet& set) const {
   Mask mask = 0;
   for (int i = 0; i < contact_count(); ++i) {
     if (set.Has(contacts_[i])) mask |= Mask{1} << i;
@@ -73,8 +73,8 @@ SubsetGraph::Mask SubsetGraph::MaskOf(const ContactSet& set) const {
   return mask;
 }
 
-ContactSet SubsetGraph::SetOf(Mask mask) const {
-  ContactSet set;
+criteria::ContactSet SubsetGraph::SetOf(Mask mask) const {
+  criteria::ContactSet set;
   for (; mask != 0; mask &= mask - 1) set.Insert(contacts_[std::countr_zero(mask)]);
   return set;
 }

@@ -30,15 +30,15 @@ class SubsetGraph {
   using Mask = std::uint32_t;
 
   /// @param contacts  those of the ends included, at most kMostSubsetContacts. All outlive this.
-  SubsetGraph(const ContactSet& from, const ContactSet& to, const std::vector<int>& contacts,
-              UseAligns aligns, SearchSpace& space);
+  SubsetGraph(const criteria::ContactSet& from, const criteria::ContactSet& to,
+              const std::vector<int>& contacts, UseAligns aligns, SearchSpace& space);
 
   [[nodiscard]] Mask from() const { return ends_[0]; }
   [[nodiscard]] Mask to() const { return ends_[1]; }
   [[nodiscard]] int contact_count() const { return static_cast<int>(contacts_.size()); }
   [[nodiscard]] std::size_t mask_count() const { return std::size_t{1} << contacts_.size(); }
   [[nodiscard]] int contact(int i) const { return contacts_[i]; }
-  [[nodiscard]] ContactSet SetOf(Mask mask) const;
+  [[nodiscard]] criteria::ContactSet SetOf(Mask mask) const;
 
   /// Whether a sequence may pass it; the ends are taken as they are.
   [[nodiscard]] bool Admits(Mask mask) {
@@ -88,12 +88,12 @@ class SubsetGraph {
     return count;
   }
 
-  [[nodiscard]] Mask MaskOf(const ContactSet& set) const;
+  [[nodiscard]] Mask MaskOf(const criteria::ContactSet& set) const;
 
   /// Whether a grasp of all fingers holds with no finger less. A hand that is full switches to
   /// nothing but a part of what it holds, and its aligns have no spare finger to be carried out
   /// with: full grasps are passed only where there is no other way.
-  [[nodiscard]] bool NeedsAll(const ContactSet& set) const;
+  [[nodiscard]] bool NeedsAll(const criteria::ContactSet& set) const;
 
   void FindTargets();
 

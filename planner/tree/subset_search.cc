@@ -115,13 +115,15 @@ class SubsetSearch {
 
 }  // namespace
 
-std::optional<GraspPath> SearchSubsets(const ContactSet& from, const ContactSet& to,
+std::optional<GraspPath> SearchSubsets(const criteria::ContactSet& from,
+                                       const criteria::ContactSet& to,
                                        const std::vector<int>& contacts, UseAligns aligns,
                                        int most_steps, SearchSpace& space) {
   return SubsetSearch({from, to, contacts, aligns, space}, most_steps).Search();
 }
 
-std::optional<GraspPath> SearchWidest(const ContactSet& from, const ContactSet& to,
+std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
+                                      const criteria::ContactSet& to,
                                       const std::vector<int>& contacts, UseAligns aligns,
                                       int most_steps, double least, SearchSpace& space) {
   const double before = space.half_angle();
@@ -144,8 +146,8 @@ std::optional<GraspPath> SearchWidest(const ContactSet& from, const ContactSet& 
   return widest;
 }
 
-std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from, const ContactSet& to,
-                                          SearchSpace& space) {
+std::optional<GraspPath> SearchOwnSubsets(const criteria::ContactSet& from,
+                                          const criteria::ContactSet& to, SearchSpace& space) {
   std::vector<int> contacts(from.begin(), from.end());
   for (const int contact : to) {
     if (!from.Has(contact)) contacts.push_back(contact);

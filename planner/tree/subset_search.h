@@ -18,7 +18,8 @@ namespace regrasp::tree {
 /// @param contacts   those of the ends included, at most kMostSubsetContacts.
 /// @param most_steps the search ends there.
 /// @returns nullopt where there is no way.
-[[nodiscard]] std::optional<GraspPath> SearchSubsets(const ContactSet& from, const ContactSet& to,
+[[nodiscard]] std::optional<GraspPath> SearchSubsets(const criteria::ContactSet& from,
+                                                     const criteria::ContactSet& to,
                                                      const std::vector<int>& contacts,
                                                      UseAligns aligns, int most_steps,
                                                      SearchSpace& space);
@@ -28,14 +29,16 @@ namespace regrasp::tree {
 /// align at one angle spares tests at the others, so that all take little more than the first.
 /// @param least  no way is looked for that needs less than this half-angle, radians.
 /// @returns nullopt where none needs less than the space's half-angle.
-[[nodiscard]] std::optional<GraspPath> SearchWidest(const ContactSet& from, const ContactSet& to,
+[[nodiscard]] std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
+                                                    const criteria::ContactSet& to,
                                                     const std::vector<int>& contacts,
                                                     UseAligns aligns, int most_steps, double least,
                                                     SearchSpace& space);
 
 /// Over the contacts of the two grasps alone, by switches. With enough friction that joins nearly
 /// all pairs.
-[[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const ContactSet& from,
-                                                        const ContactSet& to, SearchSpace& space);
+[[nodiscard]] std::optional<GraspPath> SearchOwnSubsets(const criteria::ContactSet& from,
+                                                        const criteria::ContactSet& to,
+                                                        SearchSpace& space);
 
 }  // namespace regrasp::tree

@@ -21,7 +21,7 @@ constexpr int kPullRounds = 8;
 constexpr double kOnEdge = 1e-10;
 
 /// The point of an edge on the shortest way from p to q, which lie on its two sides.
-Vector3d CrossingPoint(const FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
+Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   const double length = (edge.b - edge.a).norm();
   if (!(length > 0)) return edge.a;
   const Vector3d along = (edge.b - edge.a) / length;
@@ -40,13 +40,13 @@ struct Entry {
   Vector3d at;
   double way;  ///< to there
   int crossings;
-  int parent;       ///< −1 for the first face
-  FaceBorder edge;  ///< of the parent, that was crossed
+  int parent;               ///< −1 for the first face
+  object::FaceBorder edge;  ///< of the parent, that was crossed
 };
 
 class RouteSearch {
  public:
-  RouteSearch(const Object& object, const Contact& from, const Contact& to)
+  RouteSearch(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to)
       : object_(object), from_(from), to_(to) {}
 
   std::optional<SurfaceRoute> Find() {
@@ -73,7 +73,7 @@ class RouteSearch {
       const Entry entry = entries_[number];
       if (entry.face == to_.face) return number;
       if (entry.crossings == kMostCrossings || !done.insert(entry.face).second) continue;
-      for (const FaceBorder& edge : object_.BordersOf(entry.face)) {
+      for (const object::FaceBorder& edge : object_.BordersOf(entry.face)) {
         if (!CanCross(entry.face, edge) || done.contains(edge.beyond)) continue;
         const Vector3d at = CrossingPoint(edge, entry.at, to_.p);
         push({edge.beyond, at, entry.way + (at - entry.at).norm(), entry.crossings + 1, number,
@@ -83,9 +83,10 @@ class RouteSearch {
     return -1;
   }
 
-  [[nodiscard]] bool CanCross(int face, const FaceBorder& edge) const {
-    return edge.convex && AngleBetween(object_.inward_normal(face),
-                                       object_.inward_normal(edge.beyond)) <= kMostTurn;
+  [[nodiscard]] bool CanCross(int face, const object::FaceBorder& edge) const {
+    return edge.convex &&
+           grasp::AngleBetween(object_.inward_normal(face), object_.inward_normal(edge.beyond)) <=
+               motion::kMostTurn;
   }
 
   SurfaceRoute MakeRoute(int last) const {
@@ -118,26 +119,27 @@ class RouteSearch {
   }
 
   [[nodiscard]] bool IsValid(const SurfaceRoute& route) const {
-    const double tolerance = kPointTolerance * object_.diameter();
+    const double tolerance = object::kPointTolerance * object_.diameter();
     for (std::size_t i = 0; i < route.size(); i += 2) {
       if (!object_.ContainsSegment(route[i].face, route[i].p, route[i + 1].p, tolerance)) {
         return false;
       }
     }
-    return std::all_of(route.begin() + 1, route.end() - 1,
-                       [&](const Contact& edge) { return HasClearance(object_, edge); });
+    return std::all_of(route.begin() + 1, route.end() - 1, [&](const grasp::Contact& edge) {
+      return criteria::HasClearance(object_, edge);
+    });
   }
 
-  const Object& object_;
-  const Contact& from_;
-  const Contact& to_;
+  const object::Object& object_;
+  const grasp::Contact& from_;
+  const grasp::Contact& to_;
   std::vector<Entry> entries_;
 };
 
 }  // namespace
 
-std::optional<SurfaceRoute> FindSurfaceRoute(const Object& object, const Contact& from,
-                                             const Contact& to) {
+std::optional<SurfaceRoute> FindSurfaceRoute(const object::Object& object,
+                                             const grasp::Contact& from, const grasp::Contact& to) {
   return RouteSearch(object, from, to).Find();
 }
 

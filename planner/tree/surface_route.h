@@ -11,7 +11,7 @@ namespace regrasp::tree {
 /// The way of a contact along the surface. Of contacts that follow each other the first two, then
 /// every other two lie on one face, with a straight way inside it between them; the pairs between
 /// them lie at one point of an edge, on the one face and on the other.
-using SurfaceRoute = std::vector<Contact>;
+using SurfaceRoute = std::vector<grasp::Contact>;
 
 /// Faces that a route goes over after its first one, at most.
 inline constexpr int kMostCrossings = 3;
@@ -27,8 +27,9 @@ inline constexpr int kMostCrossings = 3;
 /// Laws: the way back has the same length over one edge; never shorter than the straight line.
 /// @returns nullopt where there is none, or it is cut off by the borders of faces that are not
 ///          convex.
-[[nodiscard]] std::optional<SurfaceRoute> FindSurfaceRoute(const Object& object,
-                                                           const Contact& from, const Contact& to);
+[[nodiscard]] std::optional<SurfaceRoute> FindSurfaceRoute(const object::Object& object,
+                                                           const grasp::Contact& from,
+                                                           const grasp::Contact& to);
 
 /// Routes keep this share of an edge away from its ends: faces beyond would be in the way.
 inline constexpr double kFromCorner = 0.02;

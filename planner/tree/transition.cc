@@ -25,8 +25,8 @@ constexpr double kHighest = 1.2;
 
 class Descent {
  public:
-  Descent(const Grasp& before, int leaving, const Contact& placed, const SurfaceSampler& source,
-          RandomStream& random, SearchSpace& space)
+  Descent(const grasp::Grasp& before, int leaving, const grasp::Contact& placed,
+          const sampling::SurfaceSampler& source, RandomStream& random, SearchSpace& space)
       : leaving_(leaving),
         source_(source),
         random_(random),
@@ -52,19 +52,22 @@ class Descent {
   }
 
  private:
-  [[nodiscard]] Grasp After(const Grasp& held, const Contact& placed) const {
-    Grasp after = held;
+  [[nodiscard]] grasp::Grasp After(const grasp::Grasp& held, const grasp::Contact& placed) const {
+    grasp::Grasp after = held;
     after[leaving_] = placed;
     return after;
   }
 
   bool Move(double reach) {
-    Grasp held;
-    for (const Contact& contact : held_) held.push_back(source_.DrawNear(contact, reach, random_));
-    const Contact placed = source_.DrawNear(placed_, reach, random_);
+    grasp::Grasp held;
+    for (const grasp::Contact& contact : held_)
+      held.push_back(source_.DrawNear(contact, reach, random_));
+    const grasp::Contact placed = source_.DrawNear(placed_, reach, random_);
     const double aim = lowest_ + kWorthwhile * (level_ - lowest_);
     if (!space_.HoldsAt(After(held, placed), aim) || !space_.IsAdmitted(held)) return false;
-    const auto is_valid = [this](const Contact& contact) { return source_.IsValid(contact); };
+    const auto is_valid = [this](const grasp::Contact& contact) {
+      return source_.IsValid(contact);
+    };
     if (!is_valid(placed) || !std::ranges::all_of(held, is_valid)) return false;
     level_ = aim;
     Lower(held, placed);
@@ -75,8 +78,8 @@ class Descent {
   }
 
   /// Brings the level down to what the later grasp requires, about.
-  void Lower(const Grasp& held, const Contact& placed) {
-    const Grasp after = After(held, placed);
+  void Lower(const grasp::Grasp& held, const grasp::Contact& placed) {
+    const grasp::Grasp after = After(held, placed);
     double below = lowest_;
     if (below > 0 && space_.HoldsAt(after, below)) {
       level_ = below;
@@ -89,21 +92,21 @@ class Descent {
   }
 
   std::optional<Transition> Finish() {
-    const Grasp after = After(held_, placed_);
-    const bool together = std::all_of(held_.begin(), held_.end(), [&](const Contact& contact) {
-      return space_.CanMeet(contact, placed_);
-    });
+    const grasp::Grasp after = After(held_, placed_);
+    const bool together = std::all_of(
+        held_.begin(), held_.end(),
+        [&](const grasp::Contact& contact) { return space_.CanMeet(contact, placed_); });
     if (!together || !space_.IsAdmitted(after)) return std::nullopt;
     return Transition{path_, after};
   }
 
   int leaving_;
-  const SurfaceSampler& source_;
+  const sampling::SurfaceSampler& source_;
   RandomStream& random_;
   SearchSpace& space_;
-  Grasp held_;
-  Contact placed_;
-  std::vector<Grasp> path_;
+  grasp::Grasp held_;
+  grasp::Contact placed_;
+  std::vector<grasp::Grasp> path_;
   /// There is no use in less; for good grasps there may be.
   double lowest_;
   double level_ = 0;
@@ -111,9 +114,10 @@ class Descent {
 
 }  // namespace
 
-std::optional<Transition> FindTransition(const Grasp& before, int leaving, const Contact& placed,
-                                         const SurfaceSampler& source, RandomStream& random,
-                                         SearchSpace& space) {
+std::optional<Transition> FindTransition(const grasp::Grasp& before, int leaving,
+                                         const grasp::Contact& placed,
+                                         const sampling::SurfaceSampler& source,
+                                         RandomStream& random, SearchSpace& space) {
   return Descent(before, leaving, placed, source, random, space).Find();
 }
 

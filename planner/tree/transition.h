@@ -13,9 +13,9 @@ namespace regrasp::tree {
 struct Transition {
   /// Grasps of the first tuple of faces, each a little way from the one before, all of them
   /// admitted, and contact by contact in the same order. The first is where the search began.
-  std::vector<Grasp> way;
+  std::vector<grasp::Grasp> way;
   /// What the last of them is switched to: one of its contacts has left, another one is placed.
-  Grasp after;
+  grasp::Grasp after;
 };
 
 /// Looks for a switch of one finger between two tuples of faces, where hardly any grasp of the
@@ -28,9 +28,9 @@ struct Transition {
 /// @param leaving  the place in it of the contact that leaves.
 /// @param placed   the contact that comes, to begin with.
 /// @returns nullopt where the moves came to nothing: no proof that there is no such switch.
-[[nodiscard]] std::optional<Transition> FindTransition(const Grasp& before, int leaving,
-                                                       const Contact& placed,
-                                                       const SurfaceSampler& source,
+[[nodiscard]] std::optional<Transition> FindTransition(const grasp::Grasp& before, int leaving,
+                                                       const grasp::Contact& placed,
+                                                       const sampling::SurfaceSampler& source,
                                                        RandomStream& random, SearchSpace& space);
 
 }  // namespace regrasp::tree

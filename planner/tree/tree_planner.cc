@@ -18,7 +18,7 @@ namespace regrasp::tree {
 
 namespace {
 
-using Status = PlanResult::Status;
+using Status = planning::PlanResult::Status;
 
 /// Where the first sequence can't be mended to the quality that is asked for, others are looked for
 /// whose grasps have these shares of it from the beginning, each with this part of the effort.
@@ -35,7 +35,7 @@ constexpr int kExplainEffortShare = 4;
 /// The planning of one sequence: what its stages share.
 class TreeSearch {
  public:
-  explicit TreeSearch(const PlanRequest& request)
+  explicit TreeSearch(const planning::PlanRequest& request)
       : request_(request),
         object_(*request.object),
         half_angle_(request.criteria.half_angle),
@@ -45,9 +45,9 @@ class TreeSearch {
         source_(object_, request.hand.fingertip_radius),
         random_(request.seed, RandomUse::kCandidates) {}
 
-  PlanResult Plan(const std::string& name) {
-    const Grasp& from = request_.start.grasp;
-    const Grasp& to = request_.goal.grasp;
+  planning::PlanResult Plan(const std::string& name) {
+    const grasp::Grasp& from = request_.start.grasp;
+    const grasp::Grasp& to = request_.goal.grasp;
     SearchSpace wide = MakeSpace(half_angle_, 0, effort_);
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
@@ -55,7 +55,8 @@ class TreeSearch {
     SearchSpace space = MakeSpace(half_angle_, min_quality_, effort_);
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, space);
-    PlanResult result = ResultOf(MakeCandidate(path, from, space), evaluator_, name, request_, to);
+    planning::PlanResult result =
+        planning::ResultOf(MakeCandidate(path, from, space), evaluator_, name, request_, to);
     result.notes = std::move(notes);
     return result;
   }
@@ -70,7 +71,7 @@ class TreeSearch {
   };
 
   SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
-    GraspCriteria criteria = request_.criteria;
+    criteria::GraspCriteria criteria = request_.criteria;
     criteria.half_angle = half_angle;
     criteria.min_quality = min_quality;
     SearchSpace space(object_, criteria, request_.hand);
@@ -79,9 +80,10 @@ class TreeSearch {
   }
 
   /// The path of the first stage that finds one.
-  std::optional<GraspPath> Search(const Grasp& from, const Grasp& to, SearchSpace& space) {
-    const ContactSet start = space.Add(from);
-    const ContactSet goal = space.Add(to);
+  std::optional<GraspPath> Search(const grasp::Grasp& from, const grasp::Grasp& to,
+                                  SearchSpace& space) {
+    const criteria::ContactSet start = space.Add(from);
+    const criteria::ContactSet goal = space.Add(to);
     if (start == goal) return GraspPath{start, {}};
     space.Accept(start);
     space.Accept(goal);
@@ -100,7 +102,8 @@ class TreeSearch {
 
   /// The path, or one whose grasps all have the quality that is asked for; where none is found, one
   /// whose weakest grasp is as good as could be reached, and no more is then asked for.
-  GraspPath MakeGood(GraspPath path, const Grasp& from, const Grasp& to, SearchSpace& space) {
+  GraspPath MakeGood(GraspPath path, const grasp::Grasp& from, const grasp::Grasp& to,
+                     SearchSpace& space) {
     if (AreAdmitted(path, space)) return path;
     if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
     request_.progress("looking for grasps of a quality of " + FormatShort(min_quality_));
@@ -152,14 +155,14 @@ class TreeSearch {
     const auto steps = static_cast<double>(path.steps.size());
     const double before = Achieved(path, space);
     path = ShortcutPath(std::move(path), source_, random_, space);
-    if (request_.objective == Objective::kTravel) {
+    if (request_.objective == planning::Objective::kTravel) {
       path = MinimiseTravel(std::move(path), source_, random_, space);
     } else {
-      const int more = request_.objective == Objective::kMargin ? kMoreSteps : 0;
+      const int more = request_.objective == planning::Objective::kMargin ? kMoreSteps : 0;
       path = MaximiseMargin(std::move(path), more, source_, random_, space);
     }
     note("steps", steps, static_cast<double>(path.steps.size()), "");
-    const bool is_travel = request_.objective == Objective::kTravel;
+    const bool is_travel = request_.objective == planning::Objective::kTravel;
     note(is_travel ? "travel of all fingers together" : "margin of the weakest grasp", before,
          Achieved(path, space), is_travel ? " diameters of the object" : "°");
     return notes;
@@ -167,14 +170,14 @@ class TreeSearch {
 
   /// What the objective counts: the travel over the diameter, or the margin, degrees.
   [[nodiscard]] double Achieved(const GraspPath& path, SearchSpace& space) const {
-    if (request_.objective == Objective::kTravel) {
+    if (request_.objective == planning::Objective::kTravel) {
       return TravelOf(path, space) / object_.diameter();
     }
     return Degrees(half_angle_ - RequiredHalfAngleOf(path, space));
   }
 
-  PlanResult NoSequence(const Grasp& from, const Grasp& to) {
-    PlanResult result;
+  planning::PlanResult NoSequence(const grasp::Grasp& from, const grasp::Grasp& to) {
+    planning::PlanResult result;
     result.status = Status::kNoSequence;
     const auto reached = [&](int side) {
       return std::to_string(reach_.grasps[side]) + " grasps on " +
@@ -189,7 +192,7 @@ class TreeSearch {
   }
 
   /// The smallest half-angle at which a sequence is found.
-  std::string Explain(const Grasp& from, const Grasp& to) {
+  std::string Explain(const grasp::Grasp& from, const grasp::Grasp& to) {
     double none = half_angle_;
     double some = kLargestExplained;
     const auto finds = [&](double half_angle) {
@@ -206,13 +209,13 @@ class TreeSearch {
            "°, an upper bound by search of the friction that is needed";
   }
 
-  const PlanRequest& request_;
-  const Object& object_;
+  const planning::PlanRequest& request_;
+  const object::Object& object_;
   double half_angle_;   ///< of the request's criteria
   double min_quality_;  ///< of the request's criteria
   std::int64_t effort_;
-  GraspEvaluator evaluator_;
-  SurfaceSampler source_;
+  criteria::GraspEvaluator evaluator_;
+  sampling::SurfaceSampler source_;
   RandomStream random_;
   Reach reach_;
 };
@@ -220,15 +223,15 @@ class TreeSearch {
 }  // namespace
 
 TreePlanner::TreePlanner()
-    : Planner({.name = "general",
-               .what = "any force-closure grasps, on any object",
-               .in_plane = PlannerScope{4, {2, 4}, {2, 3}},
-               .in_space = PlannerScope{5, {3, 5}, {4, 4}},
-               .options = {PlanOption::kMargin, PlanOption::kTravel, PlanOption::kEffort,
-                           PlanOption::kExplain},
-               .has_own_grasps = false}) {}
+    : planning::Planner({.name = "general",
+                         .what = "any force-closure grasps, on any object",
+                         .in_plane = planning::PlannerScope{4, {2, 4}, {2, 3}},
+                         .in_space = planning::PlannerScope{5, {3, 5}, {4, 4}},
+                         .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
+                                     planning::PlanOption::kEffort, planning::PlanOption::kExplain},
+                         .has_own_grasps = false}) {}
 
-PlanResult TreePlanner::Plan(const PlanRequest& request) const {
+planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {
   return TreeSearch(request).Plan(name());
 }
 

@@ -14,10 +14,10 @@ namespace regrasp::tree {
 /// force closure.
 ///
 /// Failure is not a proof of infeasibility: the message says what was reached.
-class TreePlanner final : public Planner {
+class TreePlanner final : public planning::Planner {
  public:
   TreePlanner();
-  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+  [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 
   /// Force-closure tests after which a search gives up where PlanRequest::effort leaves it open;
   /// about two microseconds each.

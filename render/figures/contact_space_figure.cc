@@ -26,7 +26,8 @@ std::string OverviewCaption(const ContactSpaceMap& map, double half_angle) {
          "; dots: the grasp after each step; solid: aligns; dashed: switches";
 }
 
-std::string SwitchCaption(const ContactSwitch& step, const Plan& plan, int finger, double place) {
+std::string SwitchCaption(const ContactSwitch& step, const plan::Plan& plan, int finger,
+                          double place) {
   const auto& [before, after] = step.sides;
   const auto half_width = [](const ContactSwitchSide& side) {
     return "±" + FormatShort(side.size, kDigits) + " about grasp " +
@@ -39,7 +40,7 @@ std::string SwitchCaption(const ContactSwitch& step, const Plan& plan, int finge
 
 }  // namespace
 
-ContactSpaceFigures::ContactSpaceFigures(const Polygon& polygon, const Plan& plan)
+ContactSpaceFigures::ContactSpaceFigures(const object::Polygon& polygon, const plan::Plan& plan)
     : plan_(plan),
       graph_(polygon, plan.half_angle),
       geometry_(graph_),

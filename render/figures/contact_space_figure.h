@@ -20,7 +20,7 @@ class ContactSpaceFigures {
  public:
   /// @param polygon, plan  located and legal; every grasp at rest has two contacts
   ///                       (FindOtherThanTwoFingers). Both must outlive this object.
-  ContactSpaceFigures(const Polygon& polygon, const Plan& plan);
+  ContactSpaceFigures(const object::Polygon& polygon, const plan::Plan& plan);
   ContactSpaceFigures(const ContactSpaceFigures&) = delete;
   ContactSpaceFigures& operator=(const ContactSpaceFigures&) = delete;
 
@@ -32,7 +32,7 @@ class ContactSpaceFigures {
   [[nodiscard]] std::optional<std::string> DrawSwitch(int entry, FigureFormat format);
 
  private:
-  const Plan& plan_;
+  const plan::Plan& plan_;
   contour::ContourGraph graph_;
   contour::SetGeometry geometry_;
   std::vector<TrackEntry> track_;

@@ -12,8 +12,8 @@ namespace {
 std::optional<ContactSwitchSide> DescribeSide(contour::SetGeometry& geometry,
                                               const AxisGrasp& grasp, int shared_axis,
                                               const std::map<int, int>& names) {
-  const Contact& shared = grasp[shared_axis].contact;
-  const Contact& other = grasp[1 - shared_axis].contact;
+  const grasp::Contact& shared = grasp[shared_axis].contact;
+  const grasp::Contact& other = grasp[1 - shared_axis].contact;
   const auto at = geometry.Locate({shared, other});
   if (!at) return std::nullopt;
   const contour::ContourGraph& graph = geometry.graph();

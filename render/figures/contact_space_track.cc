@@ -9,25 +9,26 @@ namespace regrasp::render {
 namespace {
 
 /// The contacts of a grasp on the axes that their fingers have.
-AxisGrasp OnAxes(const FingerGrasp& grasp, const AxisGrasp& axes) {
+AxisGrasp OnAxes(const plan::FingerGrasp& grasp, const AxisGrasp& axes) {
   assert(grasp.size() == 2);
   const bool turned = grasp[0].finger == axes[1].finger;
   return {grasp[turned ? 1 : 0], grasp[turned ? 0 : 1]};
 }
 
-bool Holds(const FingerGrasp& grasp, int finger) {
-  return std::ranges::any_of(grasp, [&](const FingerContact& c) { return c.finger == finger; });
+bool Holds(const plan::FingerGrasp& grasp, int finger) {
+  return std::ranges::any_of(grasp,
+                             [&](const plan::FingerContact& c) { return c.finger == finger; });
 }
 
-void Follow(const Align& step, const AxisGrasp& before, TrackEntry& entry) {
-  for (const FingerGrasp& waypoint : step.waypoints) {
+void Follow(const plan::Align& step, const AxisGrasp& before, TrackEntry& entry) {
+  for (const plan::FingerGrasp& waypoint : step.waypoints) {
     entry.path.push_back(OnAxes(waypoint, before));
   }
   entry.grasp = entry.path.back();
 }
 
-void Follow(const Switch& step, const AxisGrasp& before, TrackEntry& entry) {
-  const FingerGrasp after = GraspAfter({before[0], before[1]}, step);
+void Follow(const plan::Switch& step, const AxisGrasp& before, TrackEntry& entry) {
+  const plan::FingerGrasp after = plan::GraspAfter({before[0], before[1]}, step);
   assert(after.size() == 2);
   entry.grasp = {after[0], after[1]};
   for (int axis = 0; axis < 2; ++axis) {
@@ -42,16 +43,16 @@ void Follow(const Switch& step, const AxisGrasp& before, TrackEntry& entry) {
 
 }  // namespace
 
-std::optional<RestSize> FindOtherThanTwoFingers(const Plan& plan) {
-  FingerGrasp grasp = plan.initial;
+std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan) {
+  plan::FingerGrasp grasp = plan.initial;
   for (std::size_t entry = 0;; ++entry) {
     if (grasp.size() != 2) return RestSize{static_cast<int>(entry), static_cast<int>(grasp.size())};
     if (entry == plan.steps.size()) return std::nullopt;
-    grasp = GraspAfter(grasp, plan.steps[entry]);
+    grasp = plan::GraspAfter(grasp, plan.steps[entry]);
   }
 }
 
-std::vector<TrackEntry> TrackPlan(const Plan& plan) {
+std::vector<TrackEntry> TrackPlan(const plan::Plan& plan) {
   assert(!FindOtherThanTwoFingers(plan));
   TrackEntry hold;
   hold.kind = "hold";
@@ -60,9 +61,9 @@ std::vector<TrackEntry> TrackPlan(const Plan& plan) {
     std::swap(hold.grasp[0], hold.grasp[1]);
   }
   std::vector<TrackEntry> track = {hold};
-  for (const Step& step : plan.steps) {
+  for (const plan::Step& step : plan.steps) {
     TrackEntry entry;
-    entry.kind = StepKind(step);
+    entry.kind = plan::StepKind(step);
     std::visit([&](const auto& s) { Follow(s, track.back().grasp, entry); }, step);
     track.push_back(std::move(entry));
   }

@@ -12,7 +12,7 @@ namespace regrasp::render {
 
 /// A grasp of two contacts on the axes of contact space: the horizontal one first. Which finger is
 /// on which axis lasts while it holds.
-using AxisGrasp = std::array<FingerContact, 2>;
+using AxisGrasp = std::array<plan::FingerContact, 2>;
 
 /// A point of contact space: the rings that its axes belong to and the places on them.
 struct SpacePoint {
@@ -36,13 +36,13 @@ struct RestSize {
 };
 
 /// The first grasp at rest that has not two contacts.
-[[nodiscard]] std::optional<RestSize> FindOtherThanTwoFingers(const Plan& plan);
+[[nodiscard]] std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan);
 
 /// Follows a plan through contact space. The initial grasp has its contact on the lower edge on the
 /// horizontal axis; a finger that is placed takes the axis of the one that is released, so that a
 /// switch that keeps a contact moves along one axis.
 /// @param plan  located; FindOtherThanTwoFingers finds none.
-[[nodiscard]] std::vector<TrackEntry> TrackPlan(const Plan& plan);
+[[nodiscard]] std::vector<TrackEntry> TrackPlan(const plan::Plan& plan);
 
 [[nodiscard]] SpacePoint PointOf(const contour::Boundary& boundary, const AxisGrasp& grasp);
 

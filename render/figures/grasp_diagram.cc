@@ -23,7 +23,7 @@ constexpr double kPi = std::numbers::pi;
 
 /// Where the cones' intersection has a smaller area, over D², they only touch and rounding made the
 /// rest: the tolerance for reading points, squared.
-constexpr double kLeastArea = kPointTolerance * kPointTolerance;
+constexpr double kLeastArea = object::kPointTolerance * object::kPointTolerance;
 
 /// Cones are this much narrower where it is computed what sees a grasp, relative: at φ* borders of
 /// two cones can lie on one line, and where they meet would be a matter of rounding. Corners are
@@ -61,7 +61,7 @@ Vector2d Centroid(const Outline& outline) {
 /// sides that has an interior.
 class CommonPoints {
  public:
-  explicit CommonPoints(const Polygon& polygon)
+  explicit CommonPoints(const object::Polygon& polygon)
       : centre_(Head(polygon.mass_properties().centroid)), diameter_(polygon.diameter()) {}
 
   [[nodiscard]] std::vector<Outline> Find(const std::vector<DoubleCone>& cones) const {
@@ -113,25 +113,26 @@ class CommonPoints {
 };
 
 /// The focus cell of three edges, all its parts.
-std::vector<Outline> CellOf(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+std::vector<Outline> CellOf(const object::Polygon& polygon, const grasp::Grasp& grasp,
+                            double half_angle) {
   polygon::GraspSet set;
   set.tangent = std::tan(half_angle);
-  for (const Contact& contact : grasp) set.edges.push_back(contact.face);
+  for (const grasp::Contact& contact : grasp) set.edges.push_back(contact.face);
   std::sort(set.edges.begin(), set.edges.end());
   set.parts = {0, 1, 2, 3, 4, 5, 6, 7};
   return polygon::FocusCell(polygon, set);
 }
 
-Frame FrameOf(const Polygon& polygon, int face, double half_angle) {
+Frame FrameOf(const object::Polygon& polygon, int face, double half_angle) {
   const auto [a, b] = polygon.edge(face);
   return polygon::MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))},
                                         std::tan(half_angle));
 }
 
 /// φ* of some normals; not positive where they do not positively span the plane.
-double LargestSpanningAngle(const Grasp& grasp) {
+double LargestSpanningAngle(const grasp::Grasp& grasp) {
   std::vector<double> angles;
-  for (const Contact& contact : grasp) angles.push_back(AngleOf(Head(contact.n)));
+  for (const grasp::Contact& contact : grasp) angles.push_back(AngleOf(Head(contact.n)));
   std::sort(angles.begin(), angles.end());
   double largest_gap = angles.front() + 2 * kPi - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -140,15 +141,15 @@ double LargestSpanningAngle(const Grasp& grasp) {
   return (kPi - largest_gap) / 2;
 }
 
-std::vector<DoubleCone> FrictionCones(const Grasp& grasp, double half_angle) {
+std::vector<DoubleCone> FrictionCones(const grasp::Grasp& grasp, double half_angle) {
   std::vector<DoubleCone> cones;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     cones.push_back({Head(contact.p), Head(contact.n), half_angle});
   }
   return cones;
 }
 
-std::optional<GraspDiagram> TryTwoFinger(const Grasp& grasp, double half_angle) {
+std::optional<GraspDiagram> TryTwoFinger(const grasp::Grasp& grasp, double half_angle) {
   const Vector2d line = Head(grasp[1].p - grasp[0].p).normalized();
   const double first = line.dot(Head(grasp[0].n));
   const double second = -line.dot(Head(grasp[1].n));
@@ -162,7 +163,7 @@ std::optional<GraspDiagram> TryTwoFinger(const Grasp& grasp, double half_angle) 
   return diagram;
 }
 
-std::optional<GraspDiagram> TryConcurrent(const Polygon& polygon, const Grasp& grasp,
+std::optional<GraspDiagram> TryConcurrent(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                           double friction) {
   const double half_angle = std::min(friction, LargestSpanningAngle(grasp));
   if (half_angle <= 0) return std::nullopt;
@@ -208,12 +209,12 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
   return best;
 }
 
-std::optional<GraspDiagram> TryParallel(const Polygon& polygon, const Grasp& grasp,
+std::optional<GraspDiagram> TryParallel(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                         double half_angle) {
   for (int a = 0; a < 3; ++a) {
-    const Contact& centre = grasp[a];
-    const Contact& b = grasp[(a + 1) % 3];
-    const Contact& c = grasp[(a + 2) % 3];
+    const grasp::Contact& centre = grasp[a];
+    const grasp::Contact& b = grasp[(a + 1) % 3];
+    const grasp::Contact& c = grasp[(a + 2) % 3];
     const auto cone = polygon::CommonCone(FrameOf(polygon, centre.face, half_angle),
                                           FrameOf(polygon, b.face, half_angle),
                                           FrameOf(polygon, c.face, half_angle));
@@ -227,7 +228,7 @@ std::optional<GraspDiagram> TryParallel(const Polygon& polygon, const Grasp& gra
     GraspDiagram diagram;
     diagram.kind = DiagramKind::kParallel;
     diagram.force_direction = *direction;
-    for (const Contact& contact : grasp) {
+    for (const grasp::Contact& contact : grasp) {
       const double inward = axis.dot(Head(contact.n)) < 0 ? -1 : 1;
       diagram.cones.push_back({Head(contact.p), inward * axis, width / 2});
     }
@@ -238,11 +239,12 @@ std::optional<GraspDiagram> TryParallel(const Polygon& polygon, const Grasp& gra
 
 }  // namespace
 
-GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& grasp,
+                           double half_angle) {
   if (!(half_angle > 0) || !(half_angle < kPi / 2)) {
     throw std::invalid_argument("DescribeGrasp: the half-angle is not in (0, pi/2)");
   }
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     if (contact.face < 0 || contact.face >= polygon.face_count()) {
       throw std::invalid_argument("DescribeGrasp: a contact has no face");
     }

@@ -56,7 +56,7 @@ struct GraspDiagram {
 /// @param grasp       contacts with their faces, as LocatePlan gives them.
 /// @param half_angle  θ, radians.
 /// @throws std::invalid_argument  a contact has no face, or θ is not in (0, π/2).
-[[nodiscard]] GraspDiagram DescribeGrasp(const Polygon& polygon, const Grasp& grasp,
+[[nodiscard]] GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                          double half_angle);
 
 }  // namespace regrasp::render

@@ -57,7 +57,7 @@ struct FingerShape {
   std::vector<Vector2d> arrow;  ///< empty where there is none
 };
 
-std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finger,
+std::vector<Vector2d> ArrowOf(const object::Polygon& polygon, const DiagramFinger& finger,
                               const PanelView& view) {
   const Vector2d contact = view.ToPanel(finger.contact.p);
   const Vector2d outward = PanelView::ToPanelDirection(finger.contact.outward);
@@ -66,18 +66,18 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
   const Vector2d near_end = contact + kArrowNear * outward;
   const Vector2d far_end = contact + far * outward;
   switch (finger.role) {
-    case FingerRole::kPlaced:
+    case plan::FingerRole::kPlaced:
       return {far_end, near_end};
-    case FingerRole::kReleased:
+    case plan::FingerRole::kReleased:
       return {near_end, far_end};
-    case FingerRole::kMoved: {
+    case plan::FingerRole::kMoved: {
       const std::vector<Vector2d> path = PathBeside(finger.path, view, kPathOffset).points;
       double length = 0;
       for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
       return length < kShortestPath ? std::vector<Vector2d>() : path;
     }
-    case FingerRole::kFree:
-    case FingerRole::kHolding:
+    case plan::FingerRole::kFree:
+    case plan::FingerRole::kHolding:
       break;
   }
   return {};
@@ -85,20 +85,20 @@ std::vector<Vector2d> ArrowOf(const Polygon& polygon, const DiagramFinger& finge
 
 /// Where one finger takes the place of another, one arrow arrives beside the one that leaves.
 void MoveArrowAside(FingerShape& shape, const std::vector<FingerShape>& shapes) {
-  const FingerRole role = shape.finger->role;
-  if (role != FingerRole::kPlaced && role != FingerRole::kReleased) return;
+  const plan::FingerRole role = shape.finger->role;
+  if (role != plan::FingerRole::kPlaced && role != plan::FingerRole::kReleased) return;
   const Vector2d tangent(-shape.outward.y(), shape.outward.x());
   for (const FingerShape& other : shapes) {
     const Vector2d away = shape.contact - other.contact;
     if (&other == &shape || other.arrow.empty() || away.norm() > kNearby) continue;
     const double along = away.dot(tangent);
-    const bool forward = along != 0 ? along > 0 : role == FingerRole::kPlaced;
+    const bool forward = along != 0 ? along > 0 : role == plan::FingerRole::kPlaced;
     for (Vector2d& p : shape.arrow) p += (forward ? kAside : -kAside) * tangent;
     return;
   }
 }
 
-std::vector<FingerShape> ShapesOf(const Polygon& polygon, const StepDiagram& diagram,
+std::vector<FingerShape> ShapesOf(const object::Polygon& polygon, const StepDiagram& diagram,
                                   const PanelView& view) {
   std::vector<FingerShape> shapes;
   for (const DiagramFinger& finger : diagram.fingers) {
@@ -123,7 +123,7 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
   const Color color = FingerColor(finger.finger);
   SetColor(cr, color);
   StrokeArrow(cr, shape.arrow, kArrowWidth);
-  if (finger.role == FingerRole::kMoved) {
+  if (finger.role == plan::FingerRole::kMoved) {
     for (const auto& [at, across] : PathBeside(finger.path, view, kPathOffset).ticks) {
       SetColor(cr, color);
       StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
@@ -131,12 +131,12 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
     DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
                      /*outline=*/true);
   }
-  if (finger.role == FingerRole::kPlaced) DrawRing(cr, shape.contact, color);
+  if (finger.role == plan::FingerRole::kPlaced) DrawRing(cr, shape.contact, color);
   DrawFingerMarker(cr, finger.finger, shape.contact, kMarkerRadius,
-                   /*outline=*/finger.role == FingerRole::kReleased);
+                   /*outline=*/finger.role == plan::FingerRole::kReleased);
 }
 
-std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& diagram,
+std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiagram& diagram,
                                   const std::vector<FingerShape>& shapes, const PanelView& view) {
   std::vector<Obstacle> obstacles;
   for (int face = 0; face < polygon.face_count(); ++face) {
@@ -144,13 +144,13 @@ std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& dia
     obstacles.push_back({view.ToPanel(a.head<2>()), view.ToPanel(b.head<2>()), 0, kBorderWeight});
   }
   for (const FingerShape& shape : shapes) {
-    const bool ring = shape.finger->role == FingerRole::kPlaced;
+    const bool ring = shape.finger->role == plan::FingerRole::kPlaced;
     obstacles.push_back(
         {shape.contact, shape.contact, ring ? kRingRadius : kMarkerRadius, kMarkerWeight});
     for (std::size_t i = 1; i < shape.arrow.size(); ++i) {
       obstacles.push_back({shape.arrow[i - 1], shape.arrow[i], 1, kArrowWeight});
     }
-    if (shape.finger->role == FingerRole::kMoved) {
+    if (shape.finger->role == plan::FingerRole::kMoved) {
       const Vector2d start = view.ToPanel(shape.finger->path.front().p);
       obstacles.push_back({start, start, kMarkerRadius, kMarkerWeight});
     }
@@ -178,7 +178,7 @@ std::vector<Obstacle> ObstaclesOf(const Polygon& polygon, const StepDiagram& dia
 
 }  // namespace
 
-double OutwardRoom(const Polygon& polygon, const BorderPoint& from) {
+double OutwardRoom(const object::Polygon& polygon, const BorderPoint& from) {
   const auto cross = [](const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
   };
@@ -191,13 +191,14 @@ double OutwardRoom(const Polygon& polygon, const BorderPoint& from) {
     if (slope == 0) continue;
     const double distance = cross(a, along) / slope;
     const double place = cross(a, from.outward) / slope;
-    const bool hit = place >= 0 && place <= 1 && distance > kPointTolerance * polygon.diameter();
+    const bool hit =
+        place >= 0 && place <= 1 && distance > object::kPointTolerance * polygon.diameter();
     if (hit) room = std::min(room, distance);
   }
   return room;
 }
 
-void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                  const PanelView& view) {
   const std::vector<FingerShape> shapes = ShapesOf(polygon, diagram, view);
   std::vector<LabelAnchor> anchors;

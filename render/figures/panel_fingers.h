@@ -12,11 +12,11 @@ namespace regrasp::render {
 /// arrow that arrives for a placed finger; a hollow marker and an arrow that leaves for a released
 /// one; a hollow marker at the start of a moved one, and an arrow beside the border from there to
 /// the contact with a tick at each waypoint.
-void DrawFingers(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                  const PanelView& view);
 
 /// How far one can go out of the material from a place on the border until the polygon is met
 /// again; infinity where it never is.
-[[nodiscard]] double OutwardRoom(const Polygon& polygon, const BorderPoint& from);
+[[nodiscard]] double OutwardRoom(const object::Polygon& polygon, const BorderPoint& from);
 
 }  // namespace regrasp::render

@@ -92,7 +92,7 @@ double RoomOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
   return room;
 }
 
-double UsualLength(const Polygon& polygon, const DoubleCone& cone, int side,
+double UsualLength(const object::Polygon& polygon, const DoubleCone& cone, int side,
                    const PanelView& view) {
   const double usual = kConeLength * view.scale * polygon.diameter();
   if (side < 0) return std::min(usual, kLongestOuter);
@@ -122,14 +122,14 @@ std::vector<Vector2d> OnPanel(const Outline& outline, const PanelView& view) {
 
 }  // namespace
 
-double ConeLength(const Polygon& polygon, const GraspDiagram& grasp, const DoubleCone& cone,
+double ConeLength(const object::Polygon& polygon, const GraspDiagram& grasp, const DoubleCone& cone,
                   int side, const PanelView& view) {
   const double length = UsualLength(polygon, cone, side, view);
   if (!grasp.focus || side * cone.axis.dot(*grasp.focus - cone.apex) <= 0) return length;
   return std::max(length, kBeyondFocus * view.scale * (*grasp.focus - cone.apex).norm());
 }
 
-void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+void DrawCones(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                const PanelView& view) {
   const GraspDiagram& grasp = diagram.grasp;
   for (std::size_t i = 0; i < grasp.cones.size(); ++i) {

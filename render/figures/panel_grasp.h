@@ -14,11 +14,11 @@ namespace regrasp::render {
 /// less where the panel ends, on the outer side no more than the panel's margin, and in both cases
 /// beyond a focus point there.
 /// @param side  1 the inner side, −1 the outer one.
-[[nodiscard]] double ConeLength(const Polygon& polygon, const GraspDiagram& grasp,
+[[nodiscard]] double ConeLength(const object::Polygon& polygon, const GraspDiagram& grasp,
                                 const DoubleCone& cone, int side, const PanelView& view);
 
 /// Draws the cones of a grasp, translucent, in their fingers' colours, both sides of each.
-void DrawCones(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+void DrawCones(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                const PanelView& view);
 
 /// Hatches the focus cell.

@@ -9,7 +9,7 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-Box BoxOf(const Polygon& polygon) {
+Box BoxOf(const object::Polygon& polygon) {
   Box box;
   for (const Eigen::Vector2d& p : polygon.rings().front()) box.extend(p);
   return box;
@@ -17,7 +17,8 @@ Box BoxOf(const Polygon& polygon) {
 
 }  // namespace
 
-PanelView FitView(const Polygon& polygon, std::span<const StepDiagram> diagrams, double width) {
+PanelView FitView(const object::Polygon& polygon, std::span<const StepDiagram> diagrams,
+                  double width) {
   assert(width > 2 * kPanelMargin);
   const Box object = BoxOf(polygon);
   Box shown = object;

@@ -34,8 +34,8 @@ inline constexpr double kFocusOnPage = 0.35;
 /// One view for all figures of a plan: it shows the polygon and the focus points that are not too
 /// far, as large as `width` points and a height of at most `width` times kTallestPanel allow. The
 /// height is what is needed.
-[[nodiscard]] PanelView FitView(const Polygon& polygon, std::span<const StepDiagram> diagrams,
-                                double width);
+[[nodiscard]] PanelView FitView(const object::Polygon& polygon,
+                                std::span<const StepDiagram> diagrams, double width);
 
 inline constexpr double kTallestPanel = 1.25;
 

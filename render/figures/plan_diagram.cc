@@ -11,7 +11,7 @@ namespace regrasp::render {
 
 namespace {
 
-BorderPoint BorderPointOf(const Contact& contact) {
+BorderPoint BorderPointOf(const grasp::Contact& contact) {
   return {contact.p.head<2>(), -contact.n.head<2>()};
 }
 
@@ -39,17 +39,17 @@ std::string Describe(const GraspDiagram& grasp, double friction) {
   return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
 }
 
-const FingerContact* Find(const FingerGrasp& grasp, int finger) {
+const plan::FingerContact* Find(const plan::FingerGrasp& grasp, int finger) {
   const auto found = std::find_if(grasp.begin(), grasp.end(),
-                                  [&](const FingerContact& c) { return c.finger == finger; });
+                                  [&](const plan::FingerContact& c) { return c.finger == finger; });
   return found == grasp.end() ? nullptr : &*found;
 }
 
 /// Where a finger is at the waypoints of an align.
-std::vector<BorderPoint> PathOf(const Align& align, int finger) {
+std::vector<BorderPoint> PathOf(const plan::Align& align, int finger) {
   std::vector<BorderPoint> path;
-  for (const FingerGrasp& waypoint : align.waypoints) {
-    const FingerContact* at = Find(waypoint, finger);
+  for (const plan::FingerGrasp& waypoint : align.waypoints) {
+    const plan::FingerContact* at = Find(waypoint, finger);
     if (at != nullptr) path.push_back(BorderPointOf(at->contact));
   }
   return path;
@@ -60,25 +60,25 @@ bool Moves(const std::vector<BorderPoint>& path) {
                      [&](const BorderPoint& point) { return point.p != path.front().p; });
 }
 
-void AddActions(const FingerGrasp& /*before*/, const Align& align,
+void AddActions(const plan::FingerGrasp& /*before*/, const plan::Align& align,
                 std::vector<DiagramFinger>& fingers) {
   for (DiagramFinger& finger : fingers) {
     std::vector<BorderPoint> path = PathOf(align, finger.finger);
     if (!Moves(path)) continue;
-    finger.role = FingerRole::kMoved;
+    finger.role = plan::FingerRole::kMoved;
     finger.path = std::move(path);
   }
 }
 
-void AddActions(const FingerGrasp& before, const Switch& step,
+void AddActions(const plan::FingerGrasp& before, const plan::Switch& step,
                 std::vector<DiagramFinger>& fingers) {
   for (DiagramFinger& finger : fingers) {
-    if (Find(step.place, finger.finger) != nullptr) finger.role = FingerRole::kPlaced;
+    if (Find(step.place, finger.finger) != nullptr) finger.role = plan::FingerRole::kPlaced;
   }
   for (const int released : step.release) {
-    const FingerContact* at = Find(before, released);
+    const plan::FingerContact* at = Find(before, released);
     if (at == nullptr) continue;
-    fingers.push_back({released, FingerRole::kReleased, BorderPointOf(at->contact), {}});
+    fingers.push_back({released, plan::FingerRole::kReleased, BorderPointOf(at->contact), {}});
   }
 }
 
@@ -93,22 +93,22 @@ std::string PanelLabel(int index) {
   return "(" + letters + ")";
 }
 
-std::vector<StepDiagram> DescribePlan(const Polygon& polygon, const Plan& plan) {
+std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon, const plan::Plan& plan) {
   std::vector<StepDiagram> diagrams;
-  FingerGrasp grasp = plan.initial;
+  plan::FingerGrasp grasp = plan.initial;
   const int entries = static_cast<int>(plan.steps.size()) + 1;
   for (int entry = 0; entry < entries; ++entry) {
-    const FingerGrasp before = grasp;
-    const Step* step = entry > 0 ? &plan.steps[entry - 1] : nullptr;
-    if (step != nullptr) grasp = GraspAfter(before, *step);
+    const plan::FingerGrasp before = grasp;
+    const plan::Step* step = entry > 0 ? &plan.steps[entry - 1] : nullptr;
+    if (step != nullptr) grasp = plan::GraspAfter(before, *step);
     StepDiagram diagram;
-    diagram.kind = step != nullptr ? StepKind(*step) : "hold";
-    diagram.grasp = DescribeGrasp(polygon, ContactsOf(grasp), plan.half_angle);
+    diagram.kind = step != nullptr ? plan::StepKind(*step) : "hold";
+    diagram.grasp = DescribeGrasp(polygon, plan::ContactsOf(grasp), plan.half_angle);
     diagram.caption = PanelLabel(entry) + " " + EntryTitle(plan, entry) + "; " +
                       Describe(diagram.grasp, plan.half_angle);
-    for (const FingerContact& held : grasp) {
+    for (const plan::FingerContact& held : grasp) {
       diagram.fingers.push_back(
-          {held.finger, FingerRole::kHolding, BorderPointOf(held.contact), {}});
+          {held.finger, plan::FingerRole::kHolding, BorderPointOf(held.contact), {}});
     }
     if (step != nullptr) {
       std::visit([&](const auto& s) { AddActions(before, s, diagram.fingers); }, *step);

@@ -20,7 +20,7 @@ struct BorderPoint {
 /// One finger in a figure.
 struct DiagramFinger {
   int finger = 0;
-  FingerRole role = FingerRole::kHolding;
+  plan::FingerRole role = plan::FingerRole::kHolding;
   BorderPoint contact;
   /// The path of a moved finger, its start first and its contact last; empty for the others.
   std::vector<BorderPoint> path;
@@ -39,7 +39,8 @@ struct StepDiagram {
 /// The caption says what happens, the type of the grasp after it, and the cones' half-angle φ where
 /// it is smaller than the friction's θ.
 /// @param plan  of this polygon, located (LocatePlan), and legal (CheckPlan).
-[[nodiscard]] std::vector<StepDiagram> DescribePlan(const Polygon& polygon, const Plan& plan);
+[[nodiscard]] std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon,
+                                                    const plan::Plan& plan);
 
 /// "(a)" … "(z)", "(aa)", "(ab)" …
 [[nodiscard]] std::string PanelLabel(int index);

@@ -31,7 +31,7 @@ constexpr Color kMaterial = {234, 238, 243};
 
 using Lines = std::vector<std::string>;
 
-void AddPolygon(cairo_t* cr, const Polygon& polygon, const PanelView& view) {
+void AddPolygon(cairo_t* cr, const object::Polygon& polygon, const PanelView& view) {
   cairo_new_path(cr);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   for (const auto& ring : polygon.rings()) {
@@ -42,7 +42,7 @@ void AddPolygon(cairo_t* cr, const Polygon& polygon, const PanelView& view) {
   }
 }
 
-void DrawPanel(cairo_t* cr, const Polygon& polygon, const StepDiagram& diagram,
+void DrawPanel(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                const PanelView& view, const Vector2d& corner) {
   cairo_save(cr);
   cairo_translate(cr, corner.x(), corner.y());
@@ -82,7 +82,8 @@ struct SheetLayout {
   }
 };
 
-SheetLayout LayOutIn(int columns, const Polygon& polygon, std::span<const StepDiagram> diagrams) {
+SheetLayout LayOutIn(int columns, const object::Polygon& polygon,
+                     std::span<const StepDiagram> diagrams) {
   SheetLayout layout;
   layout.columns = columns;
   const int on_page = std::min(columns, kUsualColumns);
@@ -96,7 +97,7 @@ SheetLayout LayOutIn(int columns, const Polygon& polygon, std::span<const StepDi
   return layout;
 }
 
-SheetLayout LayOut(const Polygon& polygon, std::span<const StepDiagram> diagrams) {
+SheetLayout LayOut(const object::Polygon& polygon, std::span<const StepDiagram> diagrams) {
   const int columns = SheetColumns(static_cast<int>(diagrams.size()));
   SheetLayout usual = LayOutIn(columns, polygon, diagrams);
   const bool low = usual.view.height < kLowPanel * usual.view.width;
@@ -116,8 +117,8 @@ int SheetColumns(int count) {
   return static_cast<int>(std::ceil(std::sqrt(count)));
 }
 
-std::string DrawStepFigure(const Polygon& polygon, std::span<const StepDiagram> diagrams, int index,
-                           FigureFormat format) {
+std::string DrawStepFigure(const object::Polygon& polygon, std::span<const StepDiagram> diagrams,
+                           int index, FigureFormat format) {
   const StepDiagram& diagram = diagrams[index];
   const PanelView view = FitView(polygon, diagrams, kColumnWidth);
   const Lines caption = WrapCaption(diagram.caption, view.width);
@@ -127,7 +128,7 @@ std::string DrawStepFigure(const Polygon& polygon, std::span<const StepDiagram> 
   return page.Finish();
 }
 
-std::string DrawSheet(const Polygon& polygon, std::span<const StepDiagram> diagrams,
+std::string DrawSheet(const object::Polygon& polygon, std::span<const StepDiagram> diagrams,
                       FigureFormat format) {
   const SheetLayout layout = LayOut(polygon, diagrams);
   FigurePage page(format, layout.width(), layout.height());

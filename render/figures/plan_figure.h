@@ -19,11 +19,11 @@ namespace regrasp::render {
 ///
 /// Laws: the same plan gives the same bytes.
 /// @throws EnvironmentError  Cairo failed.
-[[nodiscard]] std::string DrawStepFigure(const Polygon& polygon,
+[[nodiscard]] std::string DrawStepFigure(const object::Polygon& polygon,
                                          std::span<const StepDiagram> diagrams, int index,
                                          FigureFormat format);
-[[nodiscard]] std::string DrawSheet(const Polygon& polygon, std::span<const StepDiagram> diagrams,
-                                    FigureFormat format);
+[[nodiscard]] std::string DrawSheet(const object::Polygon& polygon,
+                                    std::span<const StepDiagram> diagrams, FigureFormat format);
 
 /// Panels in a row of a sheet of `count` (> 0), of objects that are not long.
 [[nodiscard]] int SheetColumns(int count);

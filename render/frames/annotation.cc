@@ -181,7 +181,7 @@ Image Annotate(const Image& image, const Camera& camera, std::span<const FingerG
   cairo_t* cr = page.context();
   const double font = kFontSize * image.height;
   for (const FingerGlyph& glyph : fingers) {
-    if (glyph.role == FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
+    if (glyph.role == plan::FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
   }
   std::vector<Obstacle> text = DrawCaption(cr, camera, caption, font);
   for (const Obstacle& bar : DrawScaleBar(cr, camera, metres_per_unit, font)) text.push_back(bar);

@@ -40,7 +40,7 @@ struct Normaliser {
   Vector3d operator()(const Vector3d& p) const { return (p - centroid) / diameter; }
 };
 
-BodyShape MakeSolidShape(const Polyhedron& body, const Normaliser& place) {
+BodyShape MakeSolidShape(const object::Polyhedron& body, const Normaliser& place) {
   BodyShape shape;
   const std::vector<Vector3d>& vertices = body.vertices();
   for (const auto& [a, b, c] : body.triangles()) {
@@ -61,7 +61,8 @@ BodyShape MakeSolidShape(const Polyhedron& body, const Normaliser& place) {
   return shape;
 }
 
-BodyShape MakePrismShape(const Polygon& polygon, double thickness, const Normaliser& place) {
+BodyShape MakePrismShape(const object::Polygon& polygon, double thickness,
+                         const Normaliser& place) {
   BodyShape shape;
   const Vector3d top = kTop * Vector3d::UnitZ();
   const Vector3d bottom = top - thickness * Vector3d::UnitZ();
@@ -69,7 +70,7 @@ BodyShape MakePrismShape(const Polygon& polygon, double thickness, const Normali
   for (const auto& ring : polygon.rings()) {
     for (const Eigen::Vector2d& p : ring) vertices.push_back(place(Vector3d(p.x(), p.y(), 0)));
   }
-  for (const auto& [i, j, k] : TriangulatePolygon(polygon)) {
+  for (const auto& [i, j, k] : object::TriangulatePolygon(polygon)) {
     const std::array<Vector3d, 3> p = {vertices[i], vertices[j], vertices[k]};
     shape.surface.AddFlat(p[0] + top, p[1] + top, p[2] + top);
     shape.surface.AddFlat(p[0] + bottom, p[2] + bottom, p[1] + bottom);
@@ -104,12 +105,12 @@ FacetMesh TurnInsideOut(FacetMesh mesh) {
   return mesh;
 }
 
-BodyShape MakeBodyShape(const Object& object, double thickness) {
+BodyShape MakeBodyShape(const object::Object& object, double thickness) {
   const Normaliser place = {object.mass_properties().centroid, object.diameter()};
-  if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
+  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
     return MakePrismShape(*polygon, thickness, place);
   }
-  return MakeSolidShape(dynamic_cast<const Polyhedron&>(object), place);
+  return MakeSolidShape(dynamic_cast<const object::Polyhedron&>(object), place);
 }
 
 FacetMesh MakeCone(double half_angle, double slant) {

@@ -34,7 +34,8 @@ inline constexpr double kUsualThickness = 0.25;
 ///
 /// Edges between faces that meet at less than 5° are left out: on finely meshed curved bodies they
 /// would cover everything else.
-[[nodiscard]] BodyShape MakeBodyShape(const Object& object, double thickness = kUsualThickness);
+[[nodiscard]] BodyShape MakeBodyShape(const object::Object& object,
+                                      double thickness = kUsualThickness);
 
 /// A closed cone with apex at the origin that opens along +z.
 [[nodiscard]] FacetMesh MakeCone(double half_angle, double slant);

@@ -86,13 +86,13 @@ void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes)
 }
 
 /// How far the fingertip is from the surface, metres.
-double GapOf(const FingerState& state, double fingertip_radius_m) {
+double GapOf(const plan::FingerState& state, double fingertip_radius_m) {
   const double away = (state.contact_W - state.tip_W).dot(state.normal_W.normalized());
   return std::max(0.0, away - fingertip_radius_m);
 }
 
-bool IsInMotion(FingerRole role) {
-  return role == FingerRole::kPlaced || role == FingerRole::kReleased;
+bool IsInMotion(plan::FingerRole role) {
+  return role == plan::FingerRole::kPlaced || role == plan::FingerRole::kReleased;
 }
 
 }  // namespace
@@ -103,12 +103,12 @@ Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
   return pose;
 }
 
-std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const PictureFrame& frame,
+std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const PictureFrame& frame,
                                           const FacetMesh& surface, GapView gaps) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
-  for (const FingerState& state : snapshot.fingers) {
-    if (state.role == FingerRole::kFree) continue;
+  for (const plan::FingerState& state : snapshot.fingers) {
+    if (state.role == plan::FingerRole::kFree) continue;
     FingerGlyph glyph;
     glyph.finger = state.finger;
     glyph.role = state.role;
@@ -138,7 +138,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot, const Pictur
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes) {
   const Color color = FingerColor(glyph.finger);
-  const bool ghost = glyph.role == FingerRole::kReleased;
+  const bool ghost = glyph.role == plan::FingerRole::kReleased;
   const double opacity = ghost ? kGhostOpacity : 1;
   const double stem_radius = kStemRadius * glyph.ball_radius / kBallRadius;
   shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
@@ -153,7 +153,7 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
   shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
   AddForce(glyph, largest_force, meshes, shapes);
-  if (glyph.role == FingerRole::kMoved) AddTrack(glyph, color, shapes);
+  if (glyph.role == plan::FingerRole::kMoved) AddTrack(glyph, color, shapes);
 }
 
 }  // namespace regrasp::render

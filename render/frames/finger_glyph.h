@@ -25,7 +25,7 @@ struct PictureFrame {
 /// One finger as it is drawn: a ball that touches at `contact` and a stem that ends at `end`.
 struct FingerGlyph {
   int finger = 0;
-  FingerRole role = FingerRole::kHolding;
+  plan::FingerRole role = plan::FingerRole::kHolding;
   Eigen::Vector3d contact;
   Eigen::Vector3d outward;  ///< unit, against the contact's normal
   Eigen::Vector3d ball;
@@ -46,7 +46,7 @@ inline constexpr double kGapScale = 3;
 
 /// The fingers of a snapshot that are drawn: all but the free ones. In narrow places (a hole, an
 /// inner corner) balls and stems are smaller, so that they don't run into the opposite wall.
-[[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const Snapshot& snapshot,
+[[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
                                                         const PictureFrame& frame,
                                                         const FacetMesh& surface,
                                                         GapView gaps = GapView::kNone);

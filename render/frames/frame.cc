@@ -122,8 +122,8 @@ bool IsNear(const Eigen::Isometry3d& pose) {
 
 class FrameRenderer::Impl {
  public:
-  Impl(const Object& object, double scale, double half_angle,
-       const std::vector<Snapshot>& snapshots, const FrameOptions& options)
+  Impl(const object::Object& object, double scale, double half_angle,
+       const std::vector<plan::Snapshot>& snapshots, const FrameOptions& options)
       : options_(options),
         object_(object),
         scale_(scale),
@@ -136,7 +136,7 @@ class FrameRenderer::Impl {
         canvas_(MakeMeshes(body_, planar_, half_angle, options.clusters),
                 options.width * options.supersampling, options.height * options.supersampling) {}
 
-  Image Render(const Snapshot& snapshot, const std::string& caption) {
+  Image Render(const plan::Snapshot& snapshot, const std::string& caption) {
     const std::vector<FingerGlyph> fingers =
         MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
@@ -180,7 +180,7 @@ class FrameRenderer::Impl {
     return options_.clusters ? kClusterOpacity : kOutsideOpacity;
   }
 
-  void AddRepresentatives(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
+  void AddRepresentatives(const plan::Snapshot& snapshot, std::vector<Shape>& shapes) const {
     for (const Vector3d& p : options_.clusters->representatives) {
       shapes.push_back(
           {Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius}, kInk});
@@ -198,12 +198,13 @@ class FrameRenderer::Impl {
   }
 
   /// The contacts of the fingers that hold, where they are planned, on the object.
-  [[nodiscard]] Grasp HeldGrasp(const Snapshot& snapshot) const {
+  [[nodiscard]] grasp::Grasp HeldGrasp(const plan::Snapshot& snapshot) const {
     const Eigen::Isometry3d X_OW = snapshot.X_WO.inverse();
-    Grasp grasp;
-    for (const FingerState& finger : snapshot.fingers) {
-      if (finger.role == FingerRole::kFree || finger.role == FingerRole::kReleased) continue;
-      Contact contact = {X_OW * finger.contact_W / scale_, X_OW.linear() * finger.normal_W};
+    grasp::Grasp grasp;
+    for (const plan::FingerState& finger : snapshot.fingers) {
+      if (finger.role == plan::FingerRole::kFree || finger.role == plan::FingerRole::kReleased)
+        continue;
+      grasp::Contact contact = {X_OW * finger.contact_W / scale_, X_OW.linear() * finger.normal_W};
       double most = -1;
       for (const int face : object_.FacesNear(contact.p, kFocusReach * object_.diameter())) {
         const double along = object_.inward_normal(face).dot(contact.n);
@@ -218,17 +219,17 @@ class FrameRenderer::Impl {
     return grasp;
   }
 
-  void AddFocus(const Snapshot& snapshot, std::vector<Shape>& shapes) const {
-    const auto* solid = dynamic_cast<const Polyhedron*>(&object_);
+  void AddFocus(const plan::Snapshot& snapshot, std::vector<Shape>& shapes) const {
+    const auto* solid = dynamic_cast<const object::Polyhedron*>(&object_);
     if (solid == nullptr) return;
-    const Grasp grasp = HeldGrasp(snapshot);
+    const grasp::Grasp grasp = HeldGrasp(snapshot);
     const auto view = polyhedron::DescribeFocus(*solid, grasp, half_angle_);
     if (!view) return;
     const auto place = [&](const Vector3d& p) {
       return frame_.FromWorld(snapshot.X_WO * (scale_ * p));
     };
     shapes.push_back({Ball{place(view->focus), kFocusRadius}, kFocus});
-    for (const Contact& contact : grasp) {
+    for (const grasp::Contact& contact : grasp) {
       shapes.push_back({Rod{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
     }
     for (const std::vector<Vector3d>& region : view->regions) {
@@ -240,11 +241,11 @@ class FrameRenderer::Impl {
     }
   }
 
-  [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<Snapshot>& snapshots) const {
+  [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<plan::Snapshot>& snapshots) const {
     std::vector<std::vector<FingerGlyph>> frames;
     std::vector<Vector3d> points;
     AddBody(Eigen::Isometry3d::Identity(), points);
-    for (const Snapshot& snapshot : snapshots) {
+    for (const plan::Snapshot& snapshot : snapshots) {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps));
@@ -265,11 +266,11 @@ class FrameRenderer::Impl {
     }
   }
 
-  static double LargestForce(const std::vector<Snapshot>& snapshots) {
+  static double LargestForce(const std::vector<plan::Snapshot>& snapshots) {
     double largest = 0;
-    for (const Snapshot& snapshot : snapshots) {
-      for (const FingerState& finger : snapshot.fingers) {
-        if (finger.role != FingerRole::kReleased) {
+    for (const plan::Snapshot& snapshot : snapshots) {
+      for (const plan::FingerState& finger : snapshot.fingers) {
+        if (finger.role != plan::FingerRole::kReleased) {
           largest = std::max(largest, finger.force_W.norm());
         }
       }
@@ -278,7 +279,7 @@ class FrameRenderer::Impl {
   }
 
   FrameOptions options_;
-  const Object& object_;
+  const object::Object& object_;
   double scale_;
   double half_angle_;
   BodyShape body_;
@@ -289,8 +290,9 @@ class FrameRenderer::Impl {
   Canvas canvas_;
 };
 
-FrameRenderer::FrameRenderer(const Object& object, double scale, double half_angle,
-                             const std::vector<Snapshot>& snapshots, const FrameOptions& options) {
+FrameRenderer::FrameRenderer(const object::Object& object, double scale, double half_angle,
+                             const std::vector<plan::Snapshot>& snapshots,
+                             const FrameOptions& options) {
   CheckOptions(options);
   impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
 }
@@ -298,7 +300,7 @@ FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;
 
-Image FrameRenderer::Render(const Snapshot& snapshot, const std::string& caption) {
+Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption) {
   return impl_->Render(snapshot, caption);
 }
 

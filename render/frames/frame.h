@@ -51,14 +51,14 @@ class FrameRenderer {
   /// @throws EnvironmentError       no off-screen rendering context.
   /// @throws std::invalid_argument  a side is outside [kMinFrameSide, kMaxFrameSide], or
   ///                                supersampling outside [1, 4].
-  FrameRenderer(const Object& object, double scale, double half_angle,
-                const std::vector<Snapshot>& snapshots, const FrameOptions& options = {});
+  FrameRenderer(const object::Object& object, double scale, double half_angle,
+                const std::vector<plan::Snapshot>& snapshots, const FrameOptions& options = {});
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&&) noexcept;
   FrameRenderer& operator=(FrameRenderer&&) noexcept;
 
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.
-  [[nodiscard]] Image Render(const Snapshot& snapshot, const std::string& caption = "");
+  [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "");
 
  private:
   class Impl;

@@ -16,21 +16,21 @@ namespace {
 constexpr double kLargestMotion = 0.25;
 constexpr double kStillMotion = 1e-3;
 
-double LargestForce(const std::vector<Snapshot>& rests) {
+double LargestForce(const std::vector<plan::Snapshot>& rests) {
   double largest = 0;
-  for (const Snapshot& rest : rests) {
-    for (const FingerState& finger : rest.fingers) {
+  for (const plan::Snapshot& rest : rests) {
+    for (const plan::FingerState& finger : rest.fingers) {
       largest = std::max(largest, finger.force_W.norm());
     }
   }
   return largest;
 }
 
-double MotionBetween(const Snapshot& a, const Snapshot& b, double diameter_m,
+double MotionBetween(const plan::Snapshot& a, const plan::Snapshot& b, double diameter_m,
                      double largest_force) {
   double most = 0;
-  for (const FingerState& after : b.fingers) {
-    const auto before = std::ranges::find(a.fingers, after.finger, &FingerState::finger);
+  for (const plan::FingerState& after : b.fingers) {
+    const auto before = std::ranges::find(a.fingers, after.finger, &plan::FingerState::finger);
     if (before == a.fingers.end()) continue;
     const double travel = (after.tip_W - before->tip_W).norm() / (kMotionUnit * diameter_m);
     const double force = 2 * (after.force_W - before->force_W).norm() / largest_force;
@@ -40,12 +40,12 @@ double MotionBetween(const Snapshot& a, const Snapshot& b, double diameter_m,
 }
 
 /// How far the replay has come at each rest; the samples up to it belong to its entry.
-std::vector<double> ProgressAtRests(const std::vector<Snapshot>& samples,
+std::vector<double> ProgressAtRests(const std::vector<plan::Snapshot>& samples,
                                     const std::vector<double>& progress,
-                                    const std::vector<Snapshot>& rests) {
+                                    const std::vector<plan::Snapshot>& rests) {
   std::vector<double> at;
-  for (const Snapshot& rest : rests) {
-    const auto end = std::ranges::upper_bound(samples, rest.time_s, {}, &Snapshot::time_s);
+  for (const plan::Snapshot& rest : rests) {
+    const auto end = std::ranges::upper_bound(samples, rest.time_s, {}, &plan::Snapshot::time_s);
     at.push_back(end == samples.begin() ? 0 : progress[end - samples.begin() - 1]);
   }
   return at;
@@ -69,7 +69,7 @@ std::vector<int> CountPictures(const std::vector<double>& at_rests) {
 
 }  // namespace
 
-std::vector<double> MeasureProgress(const std::vector<Snapshot>& samples, double diameter_m,
+std::vector<double> MeasureProgress(const std::vector<plan::Snapshot>& samples, double diameter_m,
                                     double largest_force) {
   std::vector<double> progress;
   double sum = 0;
@@ -95,9 +95,10 @@ std::vector<int> ChooseInstants(const std::vector<double>& progress, double from
   return chosen;
 }
 
-std::string RenderAnimation(const Object& object, const Plan& plan, double half_angle,
-                            const std::vector<Snapshot>& samples,
-                            const std::vector<Snapshot>& rests, const AnimationOptions& options) {
+std::string RenderAnimation(const object::Object& object, const plan::Plan& plan, double half_angle,
+                            const std::vector<plan::Snapshot>& samples,
+                            const std::vector<plan::Snapshot>& rests,
+                            const AnimationOptions& options) {
   if (rests.empty()) throw std::invalid_argument("RenderAnimation: nothing was replayed");
   FrameOptions frame;
   frame.width = options.width;

@@ -33,7 +33,7 @@ inline constexpr int kMostPicturesInAll = 900;
 /// finger appears somewhere else, counts as little; time counts a little too, so that no two
 /// samples are equal.
 /// @param largest_force  newtons, > 0.
-[[nodiscard]] std::vector<double> MeasureProgress(const std::vector<Snapshot>& samples,
+[[nodiscard]] std::vector<double> MeasureProgress(const std::vector<plan::Snapshot>& samples,
                                                   double diameter_m, double largest_force);
 
 /// The instants of one entry that an animation shows, by their index in `progress`: at most
@@ -49,9 +49,10 @@ inline constexpr int kMostPicturesInAll = 900;
 /// @param rests    the state after each entry that was replayed, in the order of the plan, ≥ 1.
 /// @throws EnvironmentError       no off-screen rendering context.
 /// @throws std::invalid_argument  a size that frames cannot have, or no rest.
-[[nodiscard]] std::string RenderAnimation(const Object& object, const Plan& plan, double half_angle,
-                                          const std::vector<Snapshot>& samples,
-                                          const std::vector<Snapshot>& rests,
+[[nodiscard]] std::string RenderAnimation(const object::Object& object, const plan::Plan& plan,
+                                          double half_angle,
+                                          const std::vector<plan::Snapshot>& samples,
+                                          const std::vector<plan::Snapshot>& rests,
                                           const AnimationOptions& options = {});
 
 }  // namespace regrasp::render

@@ -13,18 +13,18 @@ std::string List(const std::vector<int>& fingers) {
   return text;
 }
 
-std::vector<int> FingersOf(const FingerGrasp& grasp) {
+std::vector<int> FingersOf(const plan::FingerGrasp& grasp) {
   std::vector<int> fingers;
-  for (const FingerContact& contact : grasp) fingers.push_back(contact.finger);
+  for (const plan::FingerContact& contact : grasp) fingers.push_back(contact.finger);
   return fingers;
 }
 
 /// The fingers whose last waypoint is not their first, by number.
-std::vector<int> MovedFingers(const Align& align) {
+std::vector<int> MovedFingers(const plan::Align& align) {
   std::vector<int> moved;
   if (align.waypoints.empty()) return moved;
-  for (const FingerContact& first : align.waypoints.front()) {
-    for (const FingerContact& last : align.waypoints.back()) {
+  for (const plan::FingerContact& first : align.waypoints.front()) {
+    for (const plan::FingerContact& last : align.waypoints.back()) {
       const bool same = first.finger == last.finger;
       if (same && first.contact.p != last.contact.p) moved.push_back(first.finger);
     }
@@ -33,7 +33,7 @@ std::vector<int> MovedFingers(const Align& align) {
   return moved;
 }
 
-std::string Describe(const Switch& step) {
+std::string Describe(const plan::Switch& step) {
   std::string text = "switch:";
   if (!step.place.empty()) text += " place " + List(FingersOf(step.place));
   if (!step.release.empty()) {
@@ -42,23 +42,23 @@ std::string Describe(const Switch& step) {
   return text;
 }
 
-std::string Describe(const Align& step) {
+std::string Describe(const plan::Align& step) {
   const std::vector<int> moved = MovedFingers(step);
   return moved.empty() ? "align" : "align: move " + List(moved);
 }
 
 }  // namespace
 
-std::string EntryTitle(const Plan& plan, int entry) {
+std::string EntryTitle(const plan::Plan& plan, int entry) {
   if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial));
   return std::visit([](const auto& kind) { return Describe(kind); }, plan.steps[entry - 1]);
 }
 
-std::string FrameCaption(const Plan& plan, int entry) {
+std::string FrameCaption(const plan::Plan& plan, int entry) {
   if (entry == 0) return EntryTitle(plan, entry);
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
-  const auto* align = std::get_if<Align>(&plan.steps[entry - 1]);
+  const auto* align = std::get_if<plan::Align>(&plan.steps[entry - 1]);
   const bool moves = align != nullptr && !MovedFingers(*align).empty();
   return step + " · " + EntryTitle(plan, entry) + (moves ? " along the surface" : "");
 }

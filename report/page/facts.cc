@@ -33,11 +33,11 @@ class FactList {
 
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
-  const std::optional<RequiredHalfAngle>& required = report.steps.front().check.required;
+  const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
   facts.Add("Needs", required ? DegreesText(Degrees(required->upper)) : "none is enough");
   if (grasp.fingers.empty()) return;
-  facts.Add("Quality ε", QualityText(grasp.quality, kQualityDigits));
-  facts.Add("Weakest", "finger " + std::to_string(WeakestFinger(grasp.fingers)));
+  facts.Add("Quality ε", grasp::QualityText(grasp.quality, kQualityDigits));
+  facts.Add("Weakest", "finger " + std::to_string(grasp::WeakestFinger(grasp.fingers)));
 }
 
 void AddTrials(const sim::TrialSummary& trials, FactList& facts) {

@@ -61,8 +61,8 @@ std::string Margin(const sim::FingerMargins& margins) {
 }
 
 std::string FixedVerdict(const ReportStep& step) {
-  const Reason reason = step.replay->fixed->reason;
-  return reason == Reason::kNone ? "pass" : "fail: " + std::string(ReasonName(reason));
+  const plan::Reason reason = step.replay->fixed->reason;
+  return reason == plan::Reason::kNone ? "pass" : "fail: " + std::string(plan::ReasonName(reason));
 }
 
 Element RequirementsRow(const ReportStep& step, bool both) {

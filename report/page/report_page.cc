@@ -27,7 +27,7 @@ constexpr char kPolicy[] = "default-src 'none'; style-src 'unsafe-inline'; img-s
 
 class Page {
  public:
-  Page(const Report& report, const Plan& plan, const std::vector<PagePicture>& pictures)
+  Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures)
       : report_(report), plan_(plan), pictures_(pictures), measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
@@ -100,7 +100,7 @@ class Page {
       if (*failed_ > 0) text += " (" + render::EntryTitle(plan_, *failed_) + ")";
       text += ": ";
     }
-    text += std::string(ReasonName(step.reason())) + ".";
+    text += std::string(plan::ReasonName(step.reason())) + ".";
     text = Capitalized(text);
     if (!step.detail().empty()) text += " " + Capitalized(step.detail()) + ".";
     const bool replayed = step.replay.has_value();
@@ -218,7 +218,7 @@ class Page {
   }
 
   const Report& report_;
-  const Plan& plan_;
+  const plan::Plan& plan_;
   const std::vector<PagePicture>& pictures_;
   std::vector<StepMeasures> measures_;
   std::optional<int> failed_;
@@ -226,7 +226,7 @@ class Page {
 
 }  // namespace
 
-std::string FormatReportHtml(const Report& report, const Plan& plan,
+std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                              const std::vector<PagePicture>& pictures) {
   assert(pictures.empty() || pictures.size() == report.steps.size());
   return Page(report, plan, pictures).Format();

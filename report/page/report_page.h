@@ -23,7 +23,7 @@ struct PagePicture {
 /// Well-formed XML too. Same report, same bytes.
 /// @param plan      the one that was reported on, for the names of steps.
 /// @param pictures  one per entry of the report, or none at all.
-[[nodiscard]] std::string FormatReportHtml(const Report& report, const Plan& plan,
+[[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                                            const std::vector<PagePicture>& pictures);
 
 /// How wide a picture should be, pixels, so that a page of `count` of them can be sent by mail: the

@@ -17,11 +17,11 @@ std::string DegreesOr(const std::optional<double>& radians, const char* otherwis
   return radians ? DegreesText(Degrees(*radians)) : otherwise;
 }
 
-std::string Required(const StepCheck& check) {
+std::string Required(const plan::StepCheck& check) {
   if (check.skipped) return kNothing;
   if (check.required) return DegreesText(Degrees(check.required->upper));
   const bool judged =
-      check.reason == Reason::kNotForceClosure || check.reason == Reason::kNotProved;
+      check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
   return judged ? "none" : kNothing;
 }
 
@@ -49,7 +49,7 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
 
 }  // namespace
 
-std::vector<Element> MakeStepTable(const Report& report, const Plan& plan,
+std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                    const std::vector<StepMeasures>& measures,
                                    const std::vector<std::string>& anchors) {
   const std::vector<Element> head = {
@@ -75,7 +75,7 @@ std::vector<Element> MakeFingerTable(const Report& report) {
     head.push_back(HeadCell(name));
   }
   for (std::size_t i = 0; i < report.grasp->fingers.size(); ++i) {
-    const FingerFriction& finger = report.grasp->fingers[i];
+    const grasp::FingerFriction& finger = report.grasp->fingers[i];
     rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
                       NumberCell(DegreesText(Degrees(finger.required))),
                       NumberCell(DegreesText(Degrees(report.half_angle - finger.required))),

@@ -15,7 +15,7 @@ namespace regrasp::report {
 /// moved in the replay, and the verdict; with a note that says what the columns are.
 /// @param measures  of each entry (MeasureSteps).
 /// @param anchors   of each entry: the id of its picture in the page, empty where there is none.
-[[nodiscard]] std::vector<Element> MakeStepTable(const Report& report, const Plan& plan,
+[[nodiscard]] std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                                  const std::vector<StepMeasures>& measures,
                                                  const std::vector<std::string>& anchors);
 

@@ -4,7 +4,7 @@
 
 namespace regrasp::report {
 
-std::string StepTitle(const Plan& plan, int index) {
+std::string StepTitle(const plan::Plan& plan, int index) {
   return Capitalized(render::EntryTitle(plan, index));
 }
 
@@ -15,7 +15,7 @@ std::string StepName(int index) {
 std::string VerdictText(const ReportStep& step) {
   const std::string verdict(VerdictName(step.verdict()));
   if (step.verdict() != Verdict::kFail) return verdict;
-  return verdict + ": " + std::string(ReasonName(step.reason()));
+  return verdict + ": " + std::string(plan::ReasonName(step.reason()));
 }
 
 std::string Capitalized(std::string text) {

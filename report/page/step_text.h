@@ -8,7 +8,7 @@
 namespace regrasp::report {
 
 /// The title of an entry with an upper-case first letter: "Switch: place 4, release 0".
-[[nodiscard]] std::string StepTitle(const Plan& plan, int index);
+[[nodiscard]] std::string StepTitle(const plan::Plan& plan, int index);
 
 /// "the hold", "step 3".
 [[nodiscard]] std::string StepName(int index);

@@ -15,18 +15,18 @@ namespace {
 /// Contacts this close, over D, are one: the finger stays.
 constexpr double kSamePoint = 1e-9;
 
-bool Stays(const ReplayWorld& world, const Contact& from, const Contact& to) {
+bool Stays(const ReplayWorld& world, const grasp::Contact& from, const grasp::Contact& to) {
   return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * world.settings().diameter_m;
 }
 
-std::vector<int> FingersOf(const FingerGrasp& grasp) {
+std::vector<int> FingersOf(const plan::FingerGrasp& grasp) {
   std::vector<int> fingers;
-  for (const FingerContact& held : grasp) fingers.push_back(held.finger);
+  for (const plan::FingerContact& held : grasp) fingers.push_back(held.finger);
   return fingers;
 }
 
 /// The verdict stands; to go on with an object that is lost takes long and tells nothing.
-bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != Reason::kNone; }
+bool HasFailed(ReplayWorld& world) { return world.monitor().reason() != plan::Reason::kNone; }
 
 void HandOver(ReplayWorld& world, const FingerHandover& move) {
   SwitchFingers(world, move.support_fingers, FingersOf(move.targets));
@@ -34,7 +34,7 @@ void HandOver(ReplayWorld& world, const FingerHandover& move) {
 }
 
 /// The finger that the others balance best goes first.
-void Slide(ReplayWorld& world, const FingerGrasp& from, const FingerGrasp& to) {
+void Slide(ReplayWorld& world, const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (!Stays(world, from[i].contact, to[i].contact)) waiting.push_back(i);
@@ -73,18 +73,19 @@ AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B) {
   return handed_over ? AlignMode::kMixed : AlignMode::kSlid;
 }
 
-void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B) {
+void TellMoved(ReplayWorld& world, const std::vector<plan::FingerGrasp>& waypoints_B) {
   for (WorldFinger& finger : world.fingers()) {
-    finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
+    finger.role = finger.holding ? plan::FingerRole::kHolding : plan::FingerRole::kFree;
   }
-  for (const FingerContact& start : waypoints_B.front()) {
-    const auto end = std::ranges::find(waypoints_B.back(), start.finger, &FingerContact::finger);
+  for (const plan::FingerContact& start : waypoints_B.front()) {
+    const auto end =
+        std::ranges::find(waypoints_B.back(), start.finger, &plan::FingerContact::finger);
     if (end == waypoints_B.back().end() || Stays(world, start.contact, end->contact)) continue;
     WorldFinger& finger = world.fingers()[start.finger];
-    finger.role = FingerRole::kMoved;
+    finger.role = plan::FingerRole::kMoved;
     finger.path_B.clear();
-    for (const FingerGrasp& grasp_B : waypoints_B) {
-      const auto at = std::ranges::find(grasp_B, start.finger, &FingerContact::finger);
+    for (const plan::FingerGrasp& grasp_B : waypoints_B) {
+      const auto at = std::ranges::find(grasp_B, start.finger, &plan::FingerContact::finger);
       if (at != grasp_B.end()) finger.path_B.push_back(at->contact.p);
     }
   }

@@ -22,7 +22,7 @@ namespace regrasp::sim {
 AlignMode PerformAlign(ReplayWorld& world, const AlignScript& script_B);
 
 /// What the frame of an align shows: who moved, and along which path.
-void TellMoved(ReplayWorld& world, const std::vector<FingerGrasp>& waypoints_B);
+void TellMoved(ReplayWorld& world, const std::vector<plan::FingerGrasp>& waypoints_B);
 
 inline constexpr double kSlideForce = 0.01;    ///< least force of a sliding finger over the squeeze
 inline constexpr double kSlideSpeed = 1.5e-3;  ///< of D in a natural time

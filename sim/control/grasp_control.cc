@@ -5,19 +5,19 @@ namespace regrasp::sim {
 using Eigen::Vector3d;
 
 HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
-                          const Wrench& load_S, double half_angle) {
+                          const grasp::Wrench& load_S, double half_angle) {
   HandForces forces(world.fingers().size(), Vector3d::Zero());
   if (fingers.empty()) return forces;
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
-  Grasp contacts;
+  grasp::Grasp contacts;
   for (const int f : fingers) {
-    const Contact& planned = world.fingers()[f].contact;
+    const grasp::Contact& planned = world.fingers()[f].contact;
     contacts.push_back({world.ContactPoint_B(f), planned.n, planned.face});
   }
-  const Wrench load_B{R_SB.transpose() * (world.weight_S() + load_S.force),
-                      R_SB.transpose() * load_S.torque_over_radius};
-  const GraspForces planned =
-      ComputeGraspForces(contacts, world.frame_B(), half_angle, load_B, world.settings().squeeze_N);
+  const grasp::Wrench load_B{R_SB.transpose() * (world.weight_S() + load_S.force),
+                             R_SB.transpose() * load_S.torque_over_radius};
+  const grasp::GraspForces planned = grasp::ComputeGraspForces(
+      contacts, world.frame_B(), half_angle, load_B, world.settings().squeeze_N);
   for (std::size_t i = 0; i < fingers.size(); ++i) forces[fingers[i]] = R_SB * planned.forces[i];
   return forces;
 }

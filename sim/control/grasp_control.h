@@ -15,7 +15,7 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// effort where there are none.
 /// @param load_S  about the centroid, besides the weight.
 [[nodiscard]] HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
-                                        const Wrench& load_S, double half_angle);
+                                        const grasp::Wrench& load_S, double half_angle);
 
 /// The forces that the fingers push with now.
 [[nodiscard]] HandForces CurrentForces(const ReplayWorld& world);

@@ -29,7 +29,7 @@ void Touch(ReplayWorld& world, int finger) {
   state.touch_B = world.ContactPoint_B(finger);
 }
 
-void Appear(ReplayWorld& world, const FingerContact& placed_B, double gap) {
+void Appear(ReplayWorld& world, const plan::FingerContact& placed_B, double gap) {
   WorldFinger& state = world.fingers()[placed_B.finger];
   state.contact = placed_B.contact;
   state.force_S.setZero();
@@ -38,43 +38,43 @@ void Appear(ReplayWorld& world, const FingerContact& placed_B, double gap) {
   world.engine().SetSite(placed_B.finger, FindSite(world.scene(), placed_B.contact));
 }
 
-void Descend(ReplayWorld& world, const FingerGrasp& placed_B, double from, double to,
+void Descend(ReplayWorld& world, const plan::FingerGrasp& placed_B, double from, double to,
              double duration) {
   world.Run(duration, [&](double share) {
-    for (const FingerContact& placed : placed_B) {
+    for (const plan::FingerContact& placed : placed_B) {
       world.fingers()[placed.finger].anchor_S =
           world.TipAt_S(placed.contact, Mix(from, to, Smooth(share)));
     }
   });
 }
 
-void CreepUntilTouch(ReplayWorld& world, const FingerGrasp& placed_B) {
+void CreepUntilTouch(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
   const ReplaySettings& s = world.settings();
   const int most = world.StepsIn(kMostCreepTime);
   const double travel = kCreepSpeed * kMostCreepTime;
-  FingerGrasp open = placed_B;
+  plan::FingerGrasp open = placed_B;
   for (int i = 1; i <= most && !open.empty(); ++i) {
     const double gap = kCreepGap - travel * i / most;
-    for (const FingerContact& placed : open) {
+    for (const plan::FingerContact& placed : open) {
       world.fingers()[placed.finger].anchor_S = world.TipAt_S(placed.contact, gap * s.diameter_m);
     }
     world.Step();
-    std::erase_if(open, [&](const FingerContact& placed) {
+    std::erase_if(open, [&](const plan::FingerContact& placed) {
       const bool touches =
           world.engine().contact_force(placed.finger).norm() >= kTouchForce * s.squeeze_N;
       if (touches) Touch(world, placed.finger);
       return touches;
     });
   }
-  for (const FingerContact& placed : open) Touch(world, placed.finger);
+  for (const plan::FingerContact& placed : open) Touch(world, placed.finger);
 }
 
 }  // namespace
 
-void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B) {
-  for (const FingerContact& held : grasp_B) {
+void TakeHold(ReplayWorld& world, const plan::FingerGrasp& grasp_B) {
+  for (const plan::FingerContact& held : grasp_B) {
     Appear(world, held, -kFirstDepth * world.settings().diameter_m);
-    world.fingers()[held.finger].role = FingerRole::kHolding;
+    world.fingers()[held.finger].role = plan::FingerRole::kHolding;
     Touch(world, held.finger);
   }
   world.SetGravity(world.settings().gravity_m_s2);
@@ -86,13 +86,13 @@ void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B) {
   });
 }
 
-void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B) {
+void PlaceFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
   if (placed_B.empty()) return;
   const double D = world.settings().diameter_m;
   const double away = StandOff(world);
-  for (const FingerContact& placed : placed_B) {
+  for (const plan::FingerContact& placed : placed_B) {
     Appear(world, placed, away);
-    world.fingers()[placed.finger].role = FingerRole::kPlaced;
+    world.fingers()[placed.finger].role = plan::FingerRole::kPlaced;
   }
   Descend(world, placed_B, away, std::min(away, kApproachGap * D), kApproachTime);
   Descend(world, placed_B, std::min(away, kApproachGap * D), kCreepGap * D, kCloseTime);
@@ -114,7 +114,7 @@ void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
   for (const int f : fingers) {
     WorldFinger& finger = world.fingers()[f];
     finger.holding = false;
-    finger.role = FingerRole::kReleased;
+    finger.role = plan::FingerRole::kReleased;
     start.push_back(finger.anchor_S);
     offset.push_back(-StandOff(world) * (world.X_SB().linear() * finger.contact.n));
   }
@@ -126,7 +126,7 @@ void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
   for (const int f : fingers) world.engine().SetSite(f, SiteIndex::kNone);
 }
 
-void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,
+void SwitchFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B,
                    const std::vector<int>& released) {
   PlaceFingers(world, placed_B);
   std::vector<int> after = world.HoldingFingers();

@@ -9,11 +9,11 @@
 namespace regrasp::sim {
 
 /// The fingers appear at their contacts and take the object: squeeze and weight grow together.
-void TakeHold(ReplayWorld& world, const FingerGrasp& grasp_B);
+void TakeHold(ReplayWorld& world, const plan::FingerGrasp& grasp_B);
 
 /// Free fingers come down along the normals, all at once: quickly to kApproachGap, then ever slower
 /// until each feels a force of kTouchForce; there it is anchored.
-void PlaceFingers(ReplayWorld& world, const FingerGrasp& placed_B);
+void PlaceFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B);
 
 /// Forces change, on a straight line, into those with which `fingers` hold the object.
 void TransferForces(ReplayWorld& world, const std::vector<int>& fingers);
@@ -25,7 +25,7 @@ void BlendForces(ReplayWorld& world, const HandForces& to);
 void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers);
 
 /// Place, transfer to the grasp without the released fingers, retract.
-void SwitchFingers(ReplayWorld& world, const FingerGrasp& placed_B,
+void SwitchFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B,
                    const std::vector<int>& released);
 
 /// Lengths over D, forces over the squeeze, durations in natural times (ReplaySettings).

@@ -25,7 +25,9 @@ constexpr double kTurnSegment = Radians(2);
 /// The engine misses a touch at an edge now and then, so that turns are short.
 constexpr double kLeastSegmentTime = 0.08;  ///< natural times
 
-Vector3d Tip(const Contact& contact, double radius) { return contact.p - radius * contact.n; }
+Vector3d Tip(const grasp::Contact& contact, double radius) {
+  return contact.p - radius * contact.n;
+}
 
 /// What the fingers have to do at most.
 struct Extent {
@@ -33,26 +35,26 @@ struct Extent {
   double turn = 0;    ///< of a normal, radians
 };
 
-Extent FindExtent(const FingerGrasp& from, const FingerGrasp& to) {
+Extent FindExtent(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   Extent most;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const Contact& a = from[i].contact;
-    const Contact& b = to[i].contact;
+    const grasp::Contact& a = from[i].contact;
+    const grasp::Contact& b = to[i].contact;
     most.travel = std::max(most.travel, (b.p - a.p).norm());
-    most.turn = std::max(most.turn, AngleBetween(a.n, b.n));
+    most.turn = std::max(most.turn, grasp::AngleBetween(a.n, b.n));
   }
   return most;
 }
 
 /// Forces that hold the object in a grasp: inside narrower cones where there are such.
-HandForces PlanForces(const ReplayWorld& world, const FingerGrasp& grasp_B) {
+HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B) {
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
-  const Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
+  const grasp::Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
   HandForces hand(world.fingers().size(), Vector3d::Zero());
   for (const double friction_share : {kSlideFriction, 1.0}) {
-    const GraspForces planned = ComputeGraspForces(ContactsOf(grasp_B), world.frame_B(),
-                                                   std::atan(friction_share * world.settings().mu),
-                                                   load, world.settings().squeeze_N);
+    const grasp::GraspForces planned = grasp::ComputeGraspForces(
+        plan::ContactsOf(grasp_B), world.frame_B(), std::atan(friction_share * world.settings().mu),
+        load, world.settings().squeeze_N);
     for (std::size_t i = 0; i < grasp_B.size(); ++i) {
       hand[grasp_B[i].finger] = R_SB * planned.forces[i];
     }
@@ -62,7 +64,7 @@ HandForces PlanForces(const ReplayWorld& world, const FingerGrasp& grasp_B) {
 }
 
 /// Takes a tip along with its contact; whatever it is off the plan stays.
-void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
+void MoveAlong(ReplayWorld& world, int finger, const grasp::Contact& contact_B) {
   WorldFinger& state = world.fingers()[finger];
   const double radius = world.settings().fingertip_radius_m;
   const Vector3d offset_S =
@@ -75,7 +77,8 @@ void MoveAlong(ReplayWorld& world, int finger, const Contact& contact_B) {
 
 }  // namespace
 
-void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B) {
+void RollFingers(ReplayWorld& world, const plan::FingerGrasp& from_B,
+                 const plan::FingerGrasp& to_B) {
   const Extent extent = FindExtent(from_B, to_B);
   const double travel = extent.travel / world.settings().diameter_m;
   const int segments =
@@ -88,13 +91,13 @@ void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGras
     world.engine().AddSite(to_B[i].finger, sites.back());
   }
   BlendForces(world, PlanForces(world, from_B));
-  FingerGrasp at = from_B;
+  plan::FingerGrasp at = from_B;
   for (int i = 1; i <= segments; ++i) {
-    const FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / segments);
+    const plan::FingerGrasp next = Interpolate(from_B, to_B, static_cast<double>(i) / segments);
     const HandForces before = CurrentForces(world);
     const HandForces after = PlanForces(world, next);
     world.Run(duration, [&](double share) {
-      for (const FingerContact& held : Interpolate(at, next, share)) {
+      for (const plan::FingerContact& held : Interpolate(at, next, share)) {
         MoveAlong(world, held.finger, held.contact);
       }
       MixForces(world, before, after, share);

@@ -15,6 +15,7 @@ namespace regrasp::sim {
 /// no place on it.
 /// @param to_B  the same fingers in the same order; each moves straight inside one face or turns at
 ///              a point of the border of two.
-void RollFingers(ReplayWorld& world, const FingerGrasp& from_B, const FingerGrasp& to_B);
+void RollFingers(ReplayWorld& world, const plan::FingerGrasp& from_B,
+                 const plan::FingerGrasp& to_B);
 
 }  // namespace regrasp::sim

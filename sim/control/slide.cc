@@ -36,23 +36,23 @@ struct SlideForces {
 
 /// Forces while `finger` slides towards `direction_B`, pressing with `normal`: the finger's is on
 /// its cone's edge, the others balance it and the weight inside narrower cones.
-SlideForces PlanSlide(const ReplayWorld& world, int finger, const Contact& at_B,
+SlideForces PlanSlide(const ReplayWorld& world, int finger, const grasp::Contact& at_B,
                       const Vector3d& direction_B, double normal, double friction_share) {
   const double mu = world.settings().mu;
   const double radius = world.settings().diameter_m / 2;
   const Vector3d pushed_B = normal * (at_B.n + mu * direction_B);
   std::vector<int> others = world.HoldingFingers();
   std::erase(others, finger);
-  Grasp contacts;
+  grasp::Grasp contacts;
   for (const int f : others) {
     contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, -1});
   }
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
-  const Wrench load{R_SB.transpose() * world.weight_S() + pushed_B,
-                    at_B.p.cross(pushed_B) / radius};
-  const GraspForces planned =
-      ComputeGraspForces(contacts, world.frame_B(), std::atan(friction_share * mu), load,
-                         world.settings().squeeze_N - normal);
+  const grasp::Wrench load{R_SB.transpose() * world.weight_S() + pushed_B,
+                           at_B.p.cross(pushed_B) / radius};
+  const grasp::GraspForces planned =
+      grasp::ComputeGraspForces(contacts, world.frame_B(), std::atan(friction_share * mu), load,
+                                world.settings().squeeze_N - normal);
   SlideForces result{HandForces(world.fingers().size(), Vector3d::Zero()), planned.margin};
   for (std::size_t i = 0; i < others.size(); ++i) {
     result.hand[others[i]] = R_SB * planned.forces[i];
@@ -63,7 +63,7 @@ SlideForces PlanSlide(const ReplayWorld& world, int finger, const Contact& at_B,
 
 /// The smallest normal force with a good margin, or else the one with the best; with the whole
 /// friction only where kSlideFriction of it leaves no margin.
-SlideForces ChooseSlide(const ReplayWorld& world, int finger, const Contact& at_B,
+SlideForces ChooseSlide(const ReplayWorld& world, int finger, const grasp::Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
   for (const double friction_share : {kSlideFriction, 1.0}) {
@@ -78,14 +78,14 @@ SlideForces ChooseSlide(const ReplayWorld& world, int finger, const Contact& at_
   return *best;
 }
 
-Vector3d Direction(const Contact& from, const Contact& to) {
+Vector3d Direction(const grasp::Contact& from, const grasp::Contact& to) {
   const Vector3d path = to.p - from.p;
   const Vector3d along = path - path.dot(to.n) * to.n;
   return along.norm() > 0 ? Vector3d(along.normalized()) : Vector3d::Zero();
 }
 
 /// One straight segment of the path: tip and forces change together, at constant rates.
-void MoveTip(ReplayWorld& world, int finger, const Contact& from, const Contact& to,
+void MoveTip(ReplayWorld& world, int finger, const grasp::Contact& from, const grasp::Contact& to,
              const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(world);
   WorldFinger& state = world.fingers()[finger];
@@ -96,21 +96,22 @@ void MoveTip(ReplayWorld& world, int finger, const Contact& from, const Contact&
   });
 }
 
-double TipTravel(const ReplayWorld& world, const Contact& from, const Contact& to) {
+double TipTravel(const ReplayWorld& world, const grasp::Contact& from, const grasp::Contact& to) {
   const double turn = std::acos(std::clamp(from.n.dot(to.n), -1.0, 1.0));
   return (to.p - from.p).norm() + turn * world.settings().fingertip_radius_m;
 }
 
 }  // namespace
 
-double SlideMargin(const ReplayWorld& world, int finger, const Contact& from_B,
-                   const Contact& to_B) {
+double SlideMargin(const ReplayWorld& world, int finger, const grasp::Contact& from_B,
+                   const grasp::Contact& to_B) {
   const Vector3d direction = Direction(from_B, to_B);
   return std::min(ChooseSlide(world, finger, from_B, direction).margin,
                   ChooseSlide(world, finger, to_B, direction).margin);
 }
 
-void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Contact& to_B) {
+void SlideFinger(ReplayWorld& world, int finger, const grasp::Contact& from_B,
+                 const grasp::Contact& to_B) {
   const double travel = TipTravel(world, from_B, to_B) / world.settings().diameter_m;
   const int segments = std::max(1, static_cast<int>(std::ceil(travel / kSegment)));
   const double duration = std::max(kLeastSegmentTime, travel / (segments * kSlideSpeed));
@@ -120,10 +121,11 @@ void SlideFinger(ReplayWorld& world, int finger, const Contact& from_B, const Co
   world.engine().AddSite(finger, site);
   BlendForces(world, ChooseSlide(world, finger, from_B, direction).hand);
   state.sliding = true;
-  Contact at = from_B;
+  grasp::Contact at = from_B;
   for (int i = 1; i <= segments; ++i) {
     const double share = static_cast<double>(i) / segments;
-    const Contact next = Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
+    const grasp::Contact next =
+        Interpolate({{finger, from_B}}, {{finger, to_B}}, share).front().contact;
     MoveTip(world, finger, at, next, ChooseSlide(world, finger, next, direction).hand, duration);
     at = next;
   }

@@ -24,10 +24,10 @@ std::string PushName(const Push& push) {
          "xyz"[push.axis];
 }
 
-Wrench PushWrench(const Push& push, double size) {
+grasp::Wrench PushWrench(const Push& push, double size) {
   const Eigen::Vector3d along = push.sign * size * Eigen::Vector3d::Unit(push.axis);
-  return push.turn ? Wrench{Eigen::Vector3d::Zero(), along}
-                   : Wrench{along, Eigen::Vector3d::Zero()};
+  return push.turn ? grasp::Wrench{Eigen::Vector3d::Zero(), along}
+                   : grasp::Wrench{along, Eigen::Vector3d::Zero()};
 }
 
 }  // namespace regrasp::sim

@@ -16,6 +16,6 @@ namespace regrasp::sim {
 [[nodiscard]] std::string PushName(const Push& push);
 
 /// A force of `size`, or a torque of `size` times the frame's radius.
-[[nodiscard]] Wrench PushWrench(const Push& push, double size);
+[[nodiscard]] grasp::Wrench PushWrench(const Push& push, double size);
 
 }  // namespace regrasp::sim

@@ -31,12 +31,12 @@ void KeepRest::Restore() {
 namespace {
 
 /// The push, or a share of it, as the object's load.
-void Load(ReplayWorld& world, const Wrench& push_S, double share) {
+void Load(ReplayWorld& world, const grasp::Wrench& push_S, double share) {
   const double radius = world.settings().diameter_m / 2;
   world.engine().SetLoad(share * push_S.force, share * radius * push_S.torque_over_radius);
 }
 
-void PushAdapted(ReplayWorld& world, const Wrench& push_S) {
+void PushAdapted(ReplayWorld& world, const grasp::Wrench& push_S) {
   const HandForces from = CurrentForces(world);
   const HandForces to = PlanHandForces(world, world.HoldingFingers(), push_S, world.half_angle());
   world.Run(kPushRamp, [&](double share) {
@@ -46,7 +46,7 @@ void PushAdapted(ReplayWorld& world, const Wrench& push_S) {
   ComeToRest(world);
 }
 
-void PushFixed(ReplayWorld& world, const Wrench& push_S) {
+void PushFixed(ReplayWorld& world, const grasp::Wrench& push_S) {
   world.monitor().SetGiving(true);
   world.Run(kPushRamp, [&](double share) { Load(world, push_S, share); });
   // What swings on the servos for long is not lost, and what slides does not come back.
@@ -61,7 +61,7 @@ void PushFixed(ReplayWorld& world, const Wrench& push_S) {
 
 }  // namespace
 
-void PushOnce(ReplayWorld& world, const Wrench& push_S, DisturbanceResponse response) {
+void PushOnce(ReplayWorld& world, const grasp::Wrench& push_S, DisturbanceResponse response) {
   response == DisturbanceResponse::kAdapted ? PushAdapted(world, push_S) : PushFixed(world, push_S);
 }
 
@@ -74,7 +74,7 @@ void Shake(ReplayWorld& world, DisturbanceResponse response) {
   for (const Push& push : PushDirections(world.scene().dimension)) {
     world.monitor().SetPhase(name + PushName(push));
     PushOnce(world, PushWrench(push, size), response);
-    if (world.monitor().reason() != Reason::kNone) return;
+    if (world.monitor().reason() != plan::Reason::kNone) return;
     rest.Restore();
   }
 }

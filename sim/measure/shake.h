@@ -24,7 +24,7 @@ void Shake(ReplayWorld& world, DisturbanceResponse response);
 /// One push on the object at rest, and a look at its contacts. Adapted forces and their push stay;
 /// a push that fixed forces meet is taken away again.
 /// @throws UnstableError
-void PushOnce(ReplayWorld& world, const Wrench& push_S, DisturbanceResponse response);
+void PushOnce(ReplayWorld& world, const grasp::Wrench& push_S, DisturbanceResponse response);
 
 /// Keeps the world as it is, at rest: puts it back at its end.
 class KeepRest {

@@ -25,7 +25,7 @@ bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share)
   try {
     PushOnce(world, PushWrench(push, share * world.settings().squeeze_N),
              DisturbanceResponse::kAdapted);
-    stands = world.monitor().reason() == Reason::kNone;
+    stands = world.monitor().reason() == plan::Reason::kNone;
   } catch (const UnstableError&) {
     // A push under which the simulation falls apart is not resisted.
   }
@@ -48,12 +48,12 @@ double SearchReplay(ReplayWorld& world, KeepRest& rest, const Push& push) {
 }
 
 double SearchAnalysis(const ReplayWorld& world, const Push& push) {
-  Grasp contacts;
+  grasp::Grasp contacts;
   for (const int f : world.HoldingFingers()) contacts.push_back(world.fingers()[f].contact);
   if (contacts.empty()) return 0;
-  const auto largest = ComputeLargestLoad(contacts, world.frame_B(), world.half_angle(),
-                                          {world.weight_S(), {0, 0, 0}}, PushWrench(push, 1),
-                                          world.settings().squeeze_N);
+  const auto largest = grasp::ComputeLargestLoad(contacts, world.frame_B(), world.half_angle(),
+                                                 {world.weight_S(), {0, 0, 0}}, PushWrench(push, 1),
+                                                 world.settings().squeeze_N);
   return largest ? largest->lower : 0;
 }
 

@@ -2,21 +2,21 @@
 
 namespace regrasp::sim {
 
-std::vector<FingerGrasp> GraspsOfEntry(const Plan& located, int index) {
+std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, int index) {
   if (index == 0) return {located.initial};
-  FingerGrasp before = located.initial;
-  for (int i = 0; i + 1 < index; ++i) before = GraspAfter(before, located.steps[i]);
-  const Step& step = located.steps[index - 1];
-  if (const auto* align = std::get_if<Align>(&step)) return align->waypoints;
-  return {before, GraspAfter(before, step)};
+  plan::FingerGrasp before = located.initial;
+  for (int i = 0; i + 1 < index; ++i) before = plan::GraspAfter(before, located.steps[i]);
+  const plan::Step& step = located.steps[index - 1];
+  if (const auto* align = std::get_if<plan::Align>(&step)) return align->waypoints;
+  return {before, plan::GraspAfter(before, step)};
 }
 
-std::vector<NeedOfFinger> NeedsOfEntry(const Plan& located, int index, const WrenchFrame& frame,
-                                       double half_angle) {
+std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, int index,
+                                       const object::WrenchFrame& frame, double half_angle) {
   std::vector<NeedOfFinger> needs;
-  for (const FingerGrasp& grasp : GraspsOfEntry(located, index)) {
+  for (const plan::FingerGrasp& grasp : GraspsOfEntry(located, index)) {
     if (grasp.empty()) continue;
-    const auto friction = MeasureFingerFriction(ContactsOf(grasp), frame, half_angle);
+    const auto friction = grasp::MeasureFingerFriction(plan::ContactsOf(grasp), frame, half_angle);
     for (std::size_t i = 0; i < friction.size(); ++i) {
       needs.push_back({grasp[i].finger, friction[i]});
     }
@@ -25,9 +25,9 @@ std::vector<NeedOfFinger> NeedsOfEntry(const Plan& located, int index, const Wre
 }
 
 int WeakestOf(const std::vector<NeedOfFinger>& needs) {
-  std::vector<FingerFriction> friction;
+  std::vector<grasp::FingerFriction> friction;
   for (const NeedOfFinger& need : needs) friction.push_back(need.friction);
-  return WeakestFinger(friction);
+  return grasp::WeakestFinger(friction);
 }
 
 }  // namespace regrasp::sim

@@ -13,14 +13,15 @@ namespace regrasp::sim {
 /// holds in several of them has an element for each. Empty for an entry without contacts.
 /// @param located  contacts on the surface, in the unit of `frame`.
 /// @param index    0 is the hold, k the plan's k-th step.
-[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const Plan& located, int index,
-                                                     const WrenchFrame& frame, double half_angle);
+[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, int index,
+                                                     const object::WrenchFrame& frame,
+                                                     double half_angle);
 
 /// Index of the finger with the least of its own friction to spare, as planner/grasp/
 /// finger_friction.h has it; −1 for none.
 [[nodiscard]] int WeakestOf(const std::vector<NeedOfFinger>& needs);
 
 /// The grasps of an entry, in the order of time (see NeedsOfEntry).
-[[nodiscard]] std::vector<FingerGrasp> GraspsOfEntry(const Plan& located, int index);
+[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, int index);
 
 }  // namespace regrasp::sim

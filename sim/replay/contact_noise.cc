@@ -16,25 +16,25 @@ using Eigen::Vector3d;
 /// The fingers as they are meant to be and as they are.
 class NoisyHand {
  public:
-  NoisyHand(const Object& object, const ContactNoise& noise, RandomStream& random)
+  NoisyHand(const object::Object& object, const ContactNoise& noise, RandomStream& random)
       : object_(object), noise_(noise), random_(random) {}
 
   /// A free finger touches.
-  void Place(FingerContact& held) {
-    const Contact actual = Draw(held.contact);
+  void Place(plan::FingerContact& held) {
+    const grasp::Contact actual = Draw(held.contact);
     held_[held.finger] = {held.contact, actual};
     held.contact = actual;
   }
 
   /// A finger that holds goes on, or stays, or turns.
-  void Move(FingerContact& held) {
+  void Move(plan::FingerContact& held) {
     const auto at = held_.find(held.finger);
-    const double same = kPointTolerance * object_.diameter();
+    const double same = object::kPointTolerance * object_.diameter();
     if (at == held_.end() || (at->second.meant.p - held.contact.p).norm() > same) {
       Place(held);
       return;
     }
-    Contact actual = held.contact;
+    grasp::Contact actual = held.contact;
     actual.p = at->second.actual.p;
     at->second = {held.contact, actual};
     held.contact = actual;
@@ -42,12 +42,12 @@ class NoisyHand {
 
  private:
   struct Held {
-    Contact meant;
-    Contact actual;
+    grasp::Contact meant;
+    grasp::Contact actual;
   };
 
   /// Directions in which a contact can be off without leaving any face that it is on.
-  [[nodiscard]] std::vector<Vector3d> Directions(const Contact& contact,
+  [[nodiscard]] std::vector<Vector3d> Directions(const grasp::Contact& contact,
                                                  const std::vector<int>& faces) const {
     const Vector3d n = contact.n;
     if (object_.dimension() == 2) {
@@ -64,21 +64,22 @@ class NoisyHand {
     return {across, n.cross(across)};
   }
 
-  [[nodiscard]] bool CanTouch(const Contact& from, const Contact& at,
+  [[nodiscard]] bool CanTouch(const grasp::Contact& from, const grasp::Contact& at,
                               const std::vector<int>& faces) const {
-    const double tolerance = kPointTolerance * object_.diameter();
+    const double tolerance = object::kPointTolerance * object_.diameter();
     const bool inside = std::ranges::all_of(
         faces, [&](int face) { return object_.ContainsSegment(face, from.p, at.p, tolerance); });
-    return inside && ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
+    return inside && criteria::ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
   }
 
-  [[nodiscard]] Contact Draw(const Contact& meant) {
+  [[nodiscard]] grasp::Contact Draw(const grasp::Contact& meant) {
     if (noise_.deviation == 0) return meant;
-    const std::vector<int> faces = object_.FacesNear(meant.p, kPointTolerance * object_.diameter());
+    const std::vector<int> faces =
+        object_.FacesNear(meant.p, object::kPointTolerance * object_.diameter());
     const std::vector<Vector3d> directions = Directions(meant, faces);
     if (directions.empty()) return meant;
     for (int i = 0; i < kMostNoiseDraws; ++i) {
-      Contact drawn = meant;
+      grasp::Contact drawn = meant;
       for (const Vector3d& along : directions) {
         drawn.p += noise_.deviation * random_.Normal() * along;
       }
@@ -87,7 +88,7 @@ class NoisyHand {
     return meant;
   }
 
-  const Object& object_;
+  const object::Object& object_;
   ContactNoise noise_;
   RandomStream& random_;
   std::map<int, Held> held_;
@@ -95,18 +96,18 @@ class NoisyHand {
 
 }  // namespace
 
-Plan AddContactNoise(const Object& object, const Plan& plan, const ContactNoise& noise,
-                     RandomStream& random) {
-  Plan noisy = plan;
+plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
+                           const ContactNoise& noise, RandomStream& random) {
+  plan::Plan noisy = plan;
   NoisyHand hand(object, noise, random);
-  for (FingerContact& held : noisy.initial) hand.Place(held);
-  for (Step& step : noisy.steps) {
-    if (auto* change = std::get_if<Switch>(&step)) {
-      for (FingerContact& held : change->place) hand.Place(held);
+  for (plan::FingerContact& held : noisy.initial) hand.Place(held);
+  for (plan::Step& step : noisy.steps) {
+    if (auto* change = std::get_if<plan::Switch>(&step)) {
+      for (plan::FingerContact& held : change->place) hand.Place(held);
       continue;
     }
-    for (FingerGrasp& waypoint : std::get<Align>(step).waypoints) {
-      for (FingerContact& held : waypoint) hand.Move(held);
+    for (plan::FingerGrasp& waypoint : std::get<plan::Align>(step).waypoints) {
+      for (plan::FingerContact& held : waypoint) hand.Move(held);
     }
   }
   return noisy;

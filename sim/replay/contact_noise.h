@@ -23,8 +23,8 @@ struct ContactNoise {
 ///
 /// Deterministic; without deviation the plan as it is.
 /// @param plan  located on the object (PlanCheck::located); its goal is left as it is.
-[[nodiscard]] Plan AddContactNoise(const Object& object, const Plan& plan,
-                                   const ContactNoise& noise, RandomStream& random);
+[[nodiscard]] plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
+                                         const ContactNoise& noise, RandomStream& random);
 
 inline constexpr int kMostNoiseDraws = 100;
 

@@ -56,8 +56,8 @@ class ReplayFault {
 
   [[nodiscard]] Finding LookForEdge() const {
     const double slip = step_.settings.tolerance * step_.object.diameter();
-    for (const FingerGrasp& grasp : grasps_) {
-      for (const FingerContact& held : grasp) {
+    for (const plan::FingerGrasp& grasp : grasps_) {
+      for (const plan::FingerContact& held : grasp) {
         const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
         if (away >= slip) continue;
         return Disagreement{.cause = Cause::kEdge,
@@ -75,7 +75,7 @@ class ReplayFault {
  private:
   [[nodiscard]] double Metres(double length) const { return length * step_.located.scale; }
 
-  [[nodiscard]] Wrench Weight() const {
+  [[nodiscard]] grasp::Wrench Weight() const {
     const double share =
         step_.settings.mass_kg * step_.settings.gravity_m_s2 / step_.settings.squeeze_N;
     return {-share * Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
@@ -83,21 +83,21 @@ class ReplayFault {
 
   [[nodiscard]] double quality() const {
     double least = 1;
-    for (const FingerGrasp& grasp : grasps_) {
+    for (const plan::FingerGrasp& grasp : grasps_) {
       if (grasp.empty()) return 0;
-      const Grasp contacts = ContactsOf(grasp);
+      const grasp::Grasp contacts = plan::ContactsOf(grasp);
       // To say that a grasp is no worse takes a part of the work of measuring it.
-      if (QualityAtLeast(contacts, frame_, half_angle_, least)) continue;
-      least = std::min(least, ComputeQuality(contacts, frame_, half_angle_).lower);
+      if (grasp::QualityAtLeast(contacts, frame_, half_angle_, least)) continue;
+      least = std::min(least, grasp::ComputeQuality(contacts, frame_, half_angle_).lower);
     }
     return least;
   }
 
   [[nodiscard]] Finding LookForClearance() const {
     const double tip = step_.settings.fingertip_radius_m / step_.located.scale;
-    for (const FingerGrasp& grasp : grasps_) {
-      for (const FingerContact& held : grasp) {
-        const double clearance = ComputeClearance(step_.object, held.contact, 2 * tip);
+    for (const plan::FingerGrasp& grasp : grasps_) {
+      for (const plan::FingerContact& held : grasp) {
+        const double clearance = criteria::ComputeClearance(step_.object, held.contact, 2 * tip);
         const bool corner = clearance < kLeastClearance * step_.object.diameter();
         if (!corner && tip <= kThicker * clearance) continue;
         const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
@@ -120,10 +120,11 @@ class ReplayFault {
   [[nodiscard]] Finding LookAtWeight() const {
     const double weight = Weight().force.norm();
     if (weight == 0) return std::nullopt;
-    const Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
-    for (const FingerGrasp& grasp : grasps_) {
+    const grasp::Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+    for (const plan::FingerGrasp& grasp : grasps_) {
       if (grasp.empty()) continue;
-      const auto carried = ComputeLargestLoad(ContactsOf(grasp), frame_, half_angle_, {}, down, 1);
+      const auto carried =
+          grasp::ComputeLargestLoad(plan::ContactsOf(grasp), frame_, half_angle_, {}, down, 1);
       if (!carried || carried->upper >= weight) continue;
       return Disagreement{.cause = Cause::kWeight,
                           .text = "the squeeze does not carry the weight: the weight is " +
@@ -146,10 +147,10 @@ class ReplayFault {
   /// A grasp above the shake that is below it once it carries the weight.
   [[nodiscard]] Finding LookAtWeightInShake() const {
     if (grasps_.back().empty()) return std::nullopt;
-    const Grasp rest = ContactsOf(grasps_.back());
+    const grasp::Grasp rest = plan::ContactsOf(grasps_.back());
     for (const Push& push : PushDirections(frame_.dimension)) {
       const auto left =
-          ComputeLargestLoad(rest, frame_, half_angle_, Weight(), PushWrench(push, 1), 1);
+          grasp::ComputeLargestLoad(rest, frame_, half_angle_, Weight(), PushWrench(push, 1), 1);
       if (left && left->upper >= step_.settings.shake) continue;
       const double least = left ? left->lower : 0;
       return Disagreement{.cause = Cause::kWeight,
@@ -179,8 +180,8 @@ class ReplayFault {
 
   const ExaminedStep& step_;
   double half_angle_;
-  WrenchFrame frame_;
-  std::vector<FingerGrasp> grasps_;
+  object::WrenchFrame frame_;
+  std::vector<plan::FingerGrasp> grasps_;
 };
 
 Disagreement ExplainFixed(const ExaminedStep& step) {
@@ -200,9 +201,11 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
 }
 
 Disagreement ExplainAnalysis(const ExaminedStep& step) {
-  if (step.check.reason != Reason::kNotForceClosure && step.check.reason != Reason::kNotProved) {
-    return {.cause = Cause::kNotSimulated,
-            .text = "the replay does not look at " + std::string(ReasonName(step.check.reason))};
+  if (step.check.reason != plan::Reason::kNotForceClosure &&
+      step.check.reason != plan::Reason::kNotProved) {
+    return {
+        .cause = Cause::kNotSimulated,
+        .text = "the replay does not look at " + std::string(plan::ReasonName(step.check.reason))};
   }
   if (step.settings.shake == 0) {
     return {.cause = Cause::kNoShake,
@@ -233,13 +236,13 @@ Disagreement Named(Between between, Disagreement found) {
 
 std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step) {
   if (step.check.skipped) return std::nullopt;
-  const bool analysis = step.check.reason == Reason::kNone;
-  const bool replay = step.replay.reason == Reason::kNone;
+  const bool analysis = step.check.reason == plan::Reason::kNone;
+  const bool replay = step.replay.reason == plan::Reason::kNone;
   if (analysis && !replay) return Named(Between::kReplayFails, ReplayFault(step).Explain());
   if (!analysis && replay) return Named(Between::kAnalysisFails, ExplainAnalysis(step));
   const bool fixed_differs = step.replay.adapted && step.replay.fixed &&
-                             step.replay.adapted->reason == Reason::kNone &&
-                             step.replay.fixed->reason != Reason::kNone;
+                             step.replay.adapted->reason == plan::Reason::kNone &&
+                             step.replay.fixed->reason != plan::Reason::kNone;
   if (fixed_differs) return Named(Between::kFixedFails, ExplainFixed(step));
   return std::nullopt;
 }

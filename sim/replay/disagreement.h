@@ -44,9 +44,9 @@ struct Disagreement {
 
 /// A step and what was found of it.
 struct ExaminedStep {
-  const Object& object;
-  const Plan& located;  ///< contacts on the surface (PlanCheck::located)
-  const StepCheck& check;
+  const object::Object& object;
+  const plan::Plan& located;  ///< contacts on the surface (PlanCheck::located)
+  const plan::StepCheck& check;
   const StepReplay& replay;
   const ReplaySettings& settings;
 };

@@ -21,29 +21,29 @@ namespace {
 
 void RestoreRoles(ReplayWorld& world) {
   for (WorldFinger& finger : world.fingers()) {
-    finger.role = finger.holding ? FingerRole::kHolding : FingerRole::kFree;
+    finger.role = finger.holding ? plan::FingerRole::kHolding : plan::FingerRole::kFree;
   }
 }
 
 /// What entry `index` of the report does between two rests.
-void Perform(ReplayWorld& world, const Object& object, const Plan& plan, int index,
+void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan& plan, int index,
              StepReplay& result) {
   if (index == 0) {
     TakeHold(world, ToScene(object, plan.scale, plan.initial));
     return;
   }
-  const Step& step = plan.steps[index - 1];
-  if (const auto* change = std::get_if<Switch>(&step)) {
+  const plan::Step& step = plan.steps[index - 1];
+  if (const auto* change = std::get_if<plan::Switch>(&step)) {
     SwitchFingers(world, ToScene(object, plan.scale, change->place), change->release);
     return;
   }
-  const auto& waypoints = std::get<Align>(step).waypoints;
+  const auto& waypoints = std::get<plan::Align>(step).waypoints;
   if (waypoints.empty()) return;
   const AlignScript& script = *world.scene().entries[index].script;
   result.align_mode = PerformAlign(world, script);
   result.align_shares = script.shares;
-  std::vector<FingerGrasp> waypoints_B;
-  for (const FingerGrasp& grasp : waypoints) {
+  std::vector<plan::FingerGrasp> waypoints_B;
+  for (const plan::FingerGrasp& grasp : waypoints) {
     waypoints_B.push_back(ToScene(object, plan.scale, grasp));
   }
   TellMoved(world, waypoints_B);
@@ -66,8 +66,8 @@ StepMotion Describe(const MotionMonitor& monitor) {
 StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   StepMotion result = Describe(monitor);
   // An object that is lost may well end in a state that the engine cannot bear.
-  if (result.reason != Reason::kNone) return result;
-  result.reason = Reason::kSimulationUnstable;
+  if (result.reason != plan::Reason::kNone) return result;
+  result.reason = plan::Reason::kSimulationUnstable;
   result.detail = error.what();
   return result;
 }
@@ -111,15 +111,16 @@ void ExamineRest(ReplayWorld& world, StepReplay& result) {
     result.fixed = ShakeAtRest(world, DisturbanceResponse::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
   // A grasp that lost the object before any push has no limit to look for.
-  if (settings.stress && world.monitor().reason() == Reason::kNone)
+  if (settings.stress && world.monitor().reason() == plan::Reason::kNone)
     result.stress = MeasureStress(world);
 }
 
-StepReplay ReplayStep(ReplayWorld& world, const Object& object, const Plan& plan, int index) {
+StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const plan::Plan& plan,
+                      int index) {
   StepReplay result;
   result.index = index;
   if (const std::string& why = world.scene().entries[index].unreachable; !why.empty()) {
-    result.reason = Reason::kUnreachable;
+    result.reason = plan::Reason::kUnreachable;
     result.detail = why;
     result.snapshot = world.TakeSnapshot();
     return result;
@@ -142,15 +143,15 @@ StepReplay ReplayStep(ReplayWorld& world, const Object& object, const Plan& plan
 }
 
 /// The controls with which the fingers hold the initial grasp at rest, for the keyframe.
-std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Object& body,
-                                          const Plan& plan) {
+std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const object::Object& body,
+                                          const plan::Plan& plan) {
   const ReplaySettings& s = scene.settings;
   const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
   std::vector<Eigen::Vector3d> push(scene.fingers.size(), s.finger_mass_kg * up);
-  const Grasp contacts = ContactsOf(ToScene(body, plan.scale, plan.initial));
-  const GraspForces forces =
-      ComputeGraspForces(contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension},
-                         std::atan(s.mu), {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
+  const grasp::Grasp contacts = plan::ContactsOf(ToScene(body, plan.scale, plan.initial));
+  const grasp::GraspForces forces = grasp::ComputeGraspForces(
+      contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension}, std::atan(s.mu),
+      {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     push[plan.initial[i].finger] += forces.forces[i];
   }
@@ -160,8 +161,8 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const Object& body
 
 }  // namespace
 
-ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOptions& options,
-                        const ReplayObserver& observer, int steps) {
+ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
+                        const ReplayOptions& options, const ReplayObserver& observer, int steps) {
   const int all = static_cast<int>(plan.steps.size()) + 1;
   const int total = steps < 0 ? all : std::min(steps, all);
   ReplayResult result;
@@ -172,12 +173,13 @@ ReplayResult ReplayPlan(const Object& object, const Plan& plan, const ReplayOpti
   for (int index = 0; index < total; ++index) {
     result.steps.push_back(ReplayStep(world, object, plan, index));
     if (observer.on_progress) observer.on_progress(index + 1, total);
-    if (result.steps.back().reason != Reason::kNone) break;
+    if (result.steps.back().reason != plan::Reason::kNone) break;
   }
   return result;
 }
 
-std::string SceneMjcf(const Object& object, const Plan& plan, const ReplayOptions& options) {
+std::string SceneMjcf(const object::Object& object, const plan::Plan& plan,
+                      const ReplayOptions& options) {
   const Scene scene = MakeScene(object, plan, static_cast<int>(plan.steps.size()), options);
   return FormatScene(scene, object, HoldControls(scene, object, plan), /*surface=*/true);
 }

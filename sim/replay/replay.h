@@ -16,7 +16,7 @@ namespace regrasp::sim {
 
 /// What is measured of a step: its motion, its rest and the shakes after it.
 struct StepMotion {
-  Reason reason = Reason::kNone;
+  plan::Reason reason = plan::Reason::kNone;
   std::string detail;         ///< for people: which finger, which direction of the shake
   double displacement_m = 0;  ///< largest translation of the object's centroid in this step
   double rotation_deg = 0;    ///< largest rotation of the object in this step
@@ -39,7 +39,7 @@ struct StepReplay : StepMotion {
   FingerMargins rest_margins;    ///< at rest after the step
   std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
   std::vector<DirectionStress> stress;       ///< where it was asked for, in each direction
-  Snapshot snapshot;                         ///< the rest state after the step
+  plan::Snapshot snapshot;                   ///< the rest state after the step
 };
 
 struct ReplayResult {
@@ -58,14 +58,14 @@ struct ReplayResult {
 /// @param plan   located on the object (PlanCheck::located).
 /// @param steps  how many entries to replay, hold included; all where negative.
 /// @throws InputError  the body cannot be simulated (scale or mass out of range).
-[[nodiscard]] ReplayResult ReplayPlan(const Object& object, const Plan& plan,
+[[nodiscard]] ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
                                       const ReplayOptions& options,
                                       const ReplayObserver& observer = {}, int steps = -1);
 
 /// The scene of the replay at rest before the initial grasp, as MJCF that stock MuJoCo loads:
 /// object, collision prisms near the plan's contacts, fingers and their actuators. Numbers are
 /// written with 17 digits.
-[[nodiscard]] std::string SceneMjcf(const Object& object, const Plan& plan,
+[[nodiscard]] std::string SceneMjcf(const object::Object& object, const plan::Plan& plan,
                                     const ReplayOptions& options);
 
 }  // namespace regrasp::sim

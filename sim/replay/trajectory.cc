@@ -5,17 +5,17 @@
 namespace regrasp::sim {
 namespace {
 
-const char* RoleName(FingerRole role) {
+const char* RoleName(plan::FingerRole role) {
   switch (role) {
-    case FingerRole::kFree:
+    case plan::FingerRole::kFree:
       return "free";
-    case FingerRole::kHolding:
+    case plan::FingerRole::kHolding:
       return "holding";
-    case FingerRole::kPlaced:
+    case plan::FingerRole::kPlaced:
       return "placed";
-    case FingerRole::kReleased:
+    case plan::FingerRole::kReleased:
       return "released";
-    case FingerRole::kMoved:
+    case plan::FingerRole::kMoved:
       return "moved";
   }
   return "";
@@ -23,12 +23,12 @@ const char* RoleName(FingerRole role) {
 
 }  // namespace
 
-std::string FormatTrajectory(const std::vector<Snapshot>& samples) {
+std::string FormatTrajectory(const std::vector<plan::Snapshot>& samples) {
   std::string csv =
       "time_s,finger,role,tip_x_m,tip_y_m,tip_z_m,contact_x_m,contact_y_m,contact_z_m,"
       "normal_x,normal_y,normal_z,force_x_N,force_y_N,force_z_N\r\n";
-  for (const Snapshot& sample : samples) {
-    for (const FingerState& state : sample.fingers) {
+  for (const plan::Snapshot& sample : samples) {
+    for (const plan::FingerState& state : sample.fingers) {
       csv += FormatDouble(sample.time_s) + "," + std::to_string(state.finger) + "," +
              RoleName(state.role);
       for (const Eigen::Vector3d* v :

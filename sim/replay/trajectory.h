@@ -14,6 +14,6 @@ namespace regrasp::sim {
 /// the object (N), all in the world frame of Snapshot. The path of a free finger from one place to
 /// the next is left to the hand: its position jumps while its role is "free". Shakes are tests, no
 /// motion, and are not part of it. Lines end with CR LF as RFC 4180 has it.
-[[nodiscard]] std::string FormatTrajectory(const std::vector<Snapshot>& samples);
+[[nodiscard]] std::string FormatTrajectory(const std::vector<plan::Snapshot>& samples);
 
 }  // namespace regrasp::sim

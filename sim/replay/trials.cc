@@ -35,8 +35,8 @@ ShareInterval TrialSummary::interval() const {
   return ComputeShareInterval(passed, options.count, kTrialConfidence);
 }
 
-TrialSummary RunTrials(const Object& object, const Plan& plan, const ReplayOptions& options,
-                       const TrialOptions& trials, double fingertip,
+TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
+                       const ReplayOptions& options, const TrialOptions& trials, double fingertip,
                        const std::function<void(int done)>& progress) {
   CheckOptions(trials);
   const ContactNoise noise{trials.position_noise * object.diameter(), fingertip / plan.scale};
@@ -49,9 +49,9 @@ TrialSummary RunTrials(const Object& object, const Plan& plan, const ReplayOptio
     drawn.stress = false;  // of the nominal replay alone
     drawn.friction_factor = DrawFactor(trials.friction_error, world);
     drawn.mass_factor = DrawFactor(trials.mass_error, world);
-    const Plan noisy = AddContactNoise(object, plan, noise, contacts);
+    const plan::Plan noisy = AddContactNoise(object, plan, noise, contacts);
     const StepReplay last = ReplayPlan(object, noisy, drawn).steps.back();
-    if (last.reason == Reason::kNone) {
+    if (last.reason == plan::Reason::kNone) {
       ++summary.passed;
     } else {
       ++summary.reasons[last.reason];

@@ -31,8 +31,8 @@ struct TrialOptions {
 struct TrialSummary {
   TrialOptions options;
   int passed = 0;
-  std::map<Reason, int> reasons;  ///< how many trials failed for each reason
-  std::map<int, int> steps;       ///< how many failed in each entry, the first that fails
+  std::map<plan::Reason, int> reasons;  ///< how many trials failed for each reason
+  std::map<int, int> steps;             ///< how many failed in each entry, the first that fails
 
   [[nodiscard]] double share() const;
   /// Of the share, at kTrialConfidence.
@@ -54,7 +54,7 @@ struct TrialSummary {
 /// @param progress   told after every trial; may be empty.
 /// @throws std::invalid_argument  a count below 1, an error or noise outside [0, kMostError].
 /// @throws InputError             as ReplayPlan.
-[[nodiscard]] TrialSummary RunTrials(const Object& object, const Plan& plan,
+[[nodiscard]] TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
                                      const ReplayOptions& options, const TrialOptions& trials,
                                      double fingertip,
                                      const std::function<void(int done)>& progress = {});

@@ -10,10 +10,10 @@ namespace regrasp::sim {
 namespace {
 
 /// The fingers of `to` in the order of `from`.
-FingerGrasp InOrderOf(const FingerGrasp& from, const FingerGrasp& to) {
-  FingerGrasp ordered;
-  for (const FingerContact& held : from) {
-    const auto match = std::ranges::find(to, held.finger, &FingerContact::finger);
+plan::FingerGrasp InOrderOf(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
+  plan::FingerGrasp ordered;
+  for (const plan::FingerContact& held : from) {
+    const auto match = std::ranges::find(to, held.finger, &plan::FingerContact::finger);
     ordered.push_back(match == to.end() ? held : *match);
   }
   return ordered;
@@ -21,12 +21,13 @@ FingerGrasp InOrderOf(const FingerGrasp& from, const FingerGrasp& to) {
 
 }  // namespace
 
-FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double share) {
+plan::FingerGrasp Interpolate(const plan::FingerGrasp& from, const plan::FingerGrasp& to,
+                              double share) {
   if (share >= 1) return to;
-  FingerGrasp between = to;
+  plan::FingerGrasp between = to;
   for (std::size_t i = 0; i < to.size(); ++i) {
-    const Contact& a = from[i].contact;
-    Contact& c = between[i].contact;
+    const grasp::Contact& a = from[i].contact;
+    grasp::Contact& c = between[i].contact;
     c.p = (1 - share) * a.p + share * c.p;
     if (a.face == c.face) continue;
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(a.n, c.n);
@@ -36,14 +37,14 @@ FingerGrasp Interpolate(const FingerGrasp& from, const FingerGrasp& to, double s
   return between;
 }
 
-AlignPath::AlignPath(const Align& align) {
+AlignPath::AlignPath(const plan::Align& align) {
   assert(!align.waypoints.empty());
-  for (const FingerGrasp& waypoint : align.waypoints) {
+  for (const plan::FingerGrasp& waypoint : align.waypoints) {
     waypoints_.push_back(InOrderOf(align.waypoints.front(), waypoint));
   }
 }
 
-FingerGrasp AlignPath::At(double t) const {
+plan::FingerGrasp AlignPath::At(double t) const {
   const int from = std::clamp(static_cast<int>(std::floor(t)), 0, end());
   if (from == end()) return waypoints_.back();
   return Interpolate(waypoints_[from], waypoints_[from + 1], t - from);
@@ -53,7 +54,7 @@ double AlignPath::Travel(double from, double to) const {
   double travel = 0;
   while (from < to) {
     const double next = std::min(std::floor(from) + 1, to);
-    const FingerGrasp a = At(from), b = At(next);
+    const plan::FingerGrasp a = At(from), b = At(next);
     for (std::size_t k = 0; k < a.size(); ++k) {
       travel += (b[k].contact.p - a[k].contact.p).norm();
     }

@@ -47,7 +47,7 @@ struct Segment {
 
 class ScriptWriter {
  public:
-  ScriptWriter(const Object& object, const Align& align, const AlignLimits& limits)
+  ScriptWriter(const object::Object& object, const plan::Align& align, const AlignLimits& limits)
       : object_(object), limits_(limits), frame_(object.wrench_frame()), path_(align) {}
 
   AlignScript Write() {
@@ -80,18 +80,19 @@ class ScriptWriter {
     return all > 0 ? path_.Travel(from, to) / all : (to - from) / path_.end();
   }
 
-  [[nodiscard]] bool Holds(const Grasp& grasp, double half_angle) const {
-    return IsForceClosure(grasp, frame_, half_angle);
+  [[nodiscard]] bool Holds(const grasp::Grasp& grasp, double half_angle) const {
+    return grasp::IsForceClosure(grasp, frame_, half_angle);
   }
   [[nodiscard]] bool HoldsAt(double t) const {
-    return Holds(ContactsOf(path_.At(t)), limits_.half_angle);
+    return Holds(plan::ContactsOf(path_.At(t)), limits_.half_angle);
   }
 
   /// The contacts that differ between two grasps of the path.
-  [[nodiscard]] Places FindMoving(const FingerGrasp& from, const FingerGrasp& to) const {
+  [[nodiscard]] Places FindMoving(const plan::FingerGrasp& from,
+                                  const plan::FingerGrasp& to) const {
     Places moving;
     for (std::size_t k = 0; k < from.size(); ++k) {
-      const Contact &a = from[k].contact, &b = to[k].contact;
+      const grasp::Contact &a = from[k].contact, &b = to[k].contact;
       const bool stays = a.face == b.face && (a.p - b.p).norm() <= kSamePoint * object_.diameter();
       if (!stays) moving.push_back(k);
     }
@@ -99,26 +100,27 @@ class ScriptWriter {
   }
 
   [[nodiscard]] bool CanRest(const Places& places, double t, const Demand& demand) const {
-    const FingerGrasp grasp = path_.At(t);
+    const plan::FingerGrasp grasp = path_.At(t);
     return std::ranges::all_of(places, [&](std::size_t k) {
       if (path_.IsTurning(k, t) && !demand.may_turn) return false;
       return demand.clearance == 0 ||
-             ComputeClearance(object_, grasp[k].contact, demand.clearance) >= demand.clearance;
+             criteria::ComputeClearance(object_, grasp[k].contact, demand.clearance) >=
+                 demand.clearance;
     });
   }
 
   /// Hands the contacts of `group` in `grasp` over to where they are at `end`.
   [[nodiscard]] std::optional<FingerHandover> HandOver(double begin, double end,
                                                        const Places& group, const Demand& demand,
-                                                       Grasp& grasp) const {
-    const FingerGrasp to = path_.At(end);
-    Grasp after = grasp;
+                                                       grasp::Grasp& grasp) const {
+    const plan::FingerGrasp to = path_.At(end);
+    grasp::Grasp after = grasp;
     for (const std::size_t k : group) after[k] = to[k].contact;
     if (!Holds(after, demand.half_angle)) return std::nullopt;
     for (const double share : kSupportShares) {
       const double t = share < 1 ? begin + share * (end - begin) : end;
-      const FingerGrasp between = path_.At(t);
-      Grasp meanwhile = grasp;
+      const plan::FingerGrasp between = path_.At(t);
+      grasp::Grasp meanwhile = grasp;
       for (const std::size_t k : group) meanwhile[k] = between[k].contact;
       if (!Holds(meanwhile, demand.half_angle) || !CanRest(group, t, demand)) continue;
       FingerHandover move;
@@ -138,7 +140,7 @@ class ScriptWriter {
                                                                       const Places& order,
                                                                       const Demand& demand) const {
     std::vector<AlignMove> moves;
-    Grasp grasp = ContactsOf(path_.At(begin));
+    grasp::Grasp grasp = plan::ContactsOf(path_.At(begin));
     for (std::size_t first = 0; first < order.size(); first += limits_.spare.size()) {
       const std::size_t last = std::min(first + limits_.spare.size(), order.size());
       const Places group(order.begin() + first, order.begin() + last);
@@ -202,20 +204,20 @@ class ScriptWriter {
 
   /// The finger `k` may slide: the other contacts hold the object without it, with something to
   /// spare.
-  [[nodiscard]] bool OthersHold(const Grasp& grasp, std::size_t k) const {
-    Grasp others = grasp;
+  [[nodiscard]] bool OthersHold(const grasp::Grasp& grasp, std::size_t k) const {
+    grasp::Grasp others = grasp;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     const double half_angle = std::atan(kSlideFriction * std::tan(limits_.half_angle));
-    return QualityAtLeast(others, frame_, half_angle, kSlideQuality);
+    return grasp::QualityAtLeast(others, frame_, half_angle, kSlideQuality);
   }
 
   /// An order in which the contacts `left` of `grasps.back()` can slide to where they are in `to`;
   /// the grasps in between are added.
-  [[nodiscard]] bool OrderSlides(const FingerGrasp& to, const Places& left,
-                                 std::vector<FingerGrasp>& grasps) const {
+  [[nodiscard]] bool OrderSlides(const plan::FingerGrasp& to, const Places& left,
+                                 std::vector<plan::FingerGrasp>& grasps) const {
     if (left.empty()) return true;
     for (const std::size_t k : left) {
-      if (!OthersHold(ContactsOf(grasps.back()), k)) continue;
+      if (!OthersHold(plan::ContactsOf(grasps.back()), k)) continue;
       Places rest = left;
       std::erase(rest, k);
       grasps.push_back(grasps.back());
@@ -244,7 +246,7 @@ class ScriptWriter {
 
   [[nodiscard]] std::optional<Segment> TrySlide(double begin, double end) const {
     if (IsTurning(begin) || IsTurning(end)) return std::nullopt;
-    const FingerGrasp to = path_.At(end);
+    const plan::FingerGrasp to = path_.At(end);
     const Places moving = FindMoving(path_.At(begin), to);
     if (moving.empty() || !HasClearance(moving, begin, end)) return std::nullopt;
     FingersSlide slide{{path_.At(begin)}};
@@ -314,8 +316,8 @@ class ScriptWriter {
   }
 
   [[nodiscard]] bool CanSlide(double begin, double end) const {
-    const FingerGrasp to = path_.At(end);
-    Grasp grasp = ContactsOf(path_.At(begin));
+    const plan::FingerGrasp to = path_.At(end);
+    grasp::Grasp grasp = plan::ContactsOf(path_.At(begin));
     return std::ranges::all_of(FindMoving(path_.At(begin), to), [&](std::size_t k) {
       grasp[k] = to[k].contact;
       return Holds(grasp, limits_.half_angle);
@@ -356,15 +358,16 @@ class ScriptWriter {
     script.moves.emplace_back(std::move(slide));
   }
 
-  const Object& object_;
+  const object::Object& object_;
   const AlignLimits& limits_;
-  WrenchFrame frame_;
+  object::WrenchFrame frame_;
   AlignPath path_;
 };
 
 }  // namespace
 
-AlignScript WriteAlignScript(const Object& object, const Align& align, const AlignLimits& limits) {
+AlignScript WriteAlignScript(const object::Object& object, const plan::Align& align,
+                             const AlignLimits& limits) {
   if (align.waypoints.empty()) return {};
   return ScriptWriter(object, align, limits).Write();
 }

@@ -14,21 +14,21 @@ namespace regrasp::sim {
 /// lift and come down at their targets, the support fingers leave. The k-th of them is for the k-th
 /// target.
 struct FingerHandover {
-  FingerGrasp support_fingers;
-  FingerGrasp targets;
+  plan::FingerGrasp support_fingers;
+  plan::FingerGrasp targets;
 };
 
 /// Fingers move along the surface, one after the other, from one grasp to the next; all of them lie
 /// between two waypoints, and their k-th contacts belong together. Where only one contact differs
 /// from a grasp to the next the order of the fingers is settled.
 struct FingersSlide {
-  std::vector<FingerGrasp> grasps;
+  std::vector<plan::FingerGrasp> grasps;
 };
 
 /// All fingers roll along the surface together (sim/control/roll.h), between two waypoints.
 struct FingersRoll {
-  FingerGrasp from;
-  FingerGrasp to;
+  plan::FingerGrasp from;
+  plan::FingerGrasp to;
 };
 
 using AlignMove = std::variant<FingerHandover, FingersSlide, FingersRoll>;
@@ -73,7 +73,7 @@ struct AlignLimits {
 /// Where no segment is valid at all the fingers go to the next waypoint all the same: without a
 /// spare finger all of them roll at once, otherwise they slide, the path cut so that grasps between
 /// two slides are force closure where that is possible.
-[[nodiscard]] AlignScript WriteAlignScript(const Object& object, const Align& align,
+[[nodiscard]] AlignScript WriteAlignScript(const object::Object& object, const plan::Align& align,
                                            const AlignLimits& limits);
 
 inline constexpr int kSharesOfPath = 16;

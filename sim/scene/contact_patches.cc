@@ -38,7 +38,7 @@ constexpr double kLeastPiece = 1e-8;
 constexpr double kLeastOfLargest = 1e-3;
 
 /// Half the side of the least patch, over D: places nearer than this are one where files are read.
-constexpr double kPointPatch = kPointTolerance;
+constexpr double kPointPatch = object::kPointTolerance;
 
 /// Near the corners of a face rectangles are halved this often at most, to 3e-4 of the diameter for
 /// a path and 8e-5 for a point, as long as another shape is valid: fingers that hold slip by a
@@ -61,9 +61,9 @@ struct Chart {
 
 /// Along the path; along the nearest border where the path is a point, so that a rectangle can lie
 /// along it.
-Vector3d ChartAxis(const Polyhedron& body, const ContactSite& site) {
+Vector3d ChartAxis(const object::Polyhedron& body, const ContactSite& site) {
   const Vector3d path = site.to - site.from;
-  if (path.norm() > kPointTolerance * body.diameter()) return path;
+  if (path.norm() > object::kPointTolerance * body.diameter()) return path;
   Vector3d axis = Vector3d::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : body.faces()[site.face].border) {
@@ -79,7 +79,7 @@ Vector3d ChartAxis(const Polyhedron& body, const ContactSite& site) {
   return axis;
 }
 
-Chart MakeChart(const Polyhedron& body, const ContactSite& site) {
+Chart MakeChart(const object::Polyhedron& body, const ContactSite& site) {
   const Vector3d outward = -body.inward_normal(site.face);
   Vector3d u = ChartAxis(body, site);
   u = (u - u.dot(outward) * outward).normalized();
@@ -97,7 +97,7 @@ void DropSlivers(std::vector<Ring>& pieces, double window_area) {
   std::erase_if(pieces, [&](const Ring& piece) { return Area(piece) <= least; });
 }
 
-std::vector<Ring> ClipTriangles(const Polyhedron& body, int face, const Chart& chart,
+std::vector<Ring> ClipTriangles(const object::Polyhedron& body, int face, const Chart& chart,
                                 const Rectangle& window) {
   std::vector<Ring> pieces;
   for (const int t : body.faces()[face].triangles) {
@@ -131,7 +131,7 @@ double TotalArea(const std::vector<Ring>& pieces) {
 /// A rectangle along u that reaches `size` from the path on all sides, cut short at its ends and at
 /// its sides to the distance of the nearest border where it does not fit otherwise; nothing where
 /// none fits.
-std::optional<Rectangle> FittingWindow(const Polyhedron& body, const ContactSite& site,
+std::optional<Rectangle> FittingWindow(const object::Polyhedron& body, const ContactSite& site,
                                        const Chart& chart, double size) {
   const double end = chart.u.dot(site.to - site.from);
   const double reach = std::min(size, body.DistanceToBorder(site.face, site.from));
@@ -149,8 +149,9 @@ std::optional<Rectangle> FittingWindow(const Polyhedron& body, const ContactSite
 }
 
 /// The largest of the fitting windows of `size`, half of it, a quarter of it …, down to `least`.
-std::optional<Rectangle> LargestFittingWindow(const Polyhedron& body, const ContactSite& site,
-                                              const Chart& chart, double size, double least) {
+std::optional<Rectangle> LargestFittingWindow(const object::Polyhedron& body,
+                                              const ContactSite& site, const Chart& chart,
+                                              double size, double least) {
   for (; size >= least; size /= 2) {
     if (const auto window = FittingWindow(body, site, chart, size)) return window;
   }
@@ -194,8 +195,8 @@ ContactPatch LiftRectangle(const Chart& chart, const Rectangle& window) {
 
 }  // namespace
 
-std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const ContactSite& site,
-                                             double size) {
+std::vector<ContactPatch> MakeContactPatches(const object::Polyhedron& body,
+                                             const ContactSite& site, double size) {
   const Chart chart = MakeChart(body, site);
   const bool rests = site.from == site.to;
   const double least = std::ldexp(size, rests ? -kPointHalvings : -kPathHalvings);
@@ -220,7 +221,7 @@ std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body, const Conta
   return patches;
 }
 
-ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site, double size,
+ContactPatch MakeEdgePatch(const object::Polygon& polygon, const ContactSite& site, double size,
                            double thickness) {
   const auto [start, end] = polygon.edge(site.face);
   const double length = polygon.face_measure(site.face);

@@ -33,12 +33,12 @@ struct ContactPatch {
 /// wide where none does, across the face's border. Never none. A finger that leaves its patch has
 /// left the face or slipped that far. MuJoCo collides convex shapes only, so a body that is not
 /// convex is touched through these and never through its hull.
-[[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const Polyhedron& body,
+[[nodiscard]] std::vector<ContactPatch> MakeContactPatches(const object::Polyhedron& body,
                                                            const ContactSite& site, double size);
 
 /// The piece of a polygon's edge within `size` of the site's path, cut at the edge's ends: a
 /// rectangle of the height `thickness` about the plane z = 0.
-[[nodiscard]] ContactPatch MakeEdgePatch(const Polygon& polygon, const ContactSite& site,
+[[nodiscard]] ContactPatch MakeEdgePatch(const object::Polygon& polygon, const ContactSite& site,
                                          double size, double thickness);
 
 }  // namespace regrasp::sim

@@ -45,7 +45,7 @@ struct DirectionStress {
 /// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
 struct NeedOfFinger {
   int finger = 0;
-  FingerFriction friction;
+  grasp::FingerFriction friction;
 };
 
 }  // namespace regrasp::sim

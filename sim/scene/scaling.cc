@@ -30,7 +30,7 @@ void CheckRange(const char* what, double value, double least, double largest, co
                    " " + unit + " (check " + look_at + ")");
 }
 
-double ThicknessInMetres(const Object& object, double scale, const ReplayOptions& options) {
+double ThicknessInMetres(const object::Object& object, double scale, const ReplayOptions& options) {
   if (object.dimension() == 3) {
     if (options.thickness) throw InputError("replay: a solid has no thickness to choose");
     return 0;
@@ -41,15 +41,15 @@ double ThicknessInMetres(const Object& object, double scale, const ReplayOptions
   return relative * object.diameter() * scale;
 }
 
-double Volume(const Object& object, double scale, double thickness_m) {
+double Volume(const object::Object& object, double scale, double thickness_m) {
   const double measure = object.mass_properties().volume * scale * scale;
   return measure * (object.dimension() == 3 ? scale : thickness_m);
 }
 
 /// The radius of gyration about the axis where it is smallest, object's unit; in the plane there is
 /// one axis only.
-double LeastGyration(const Object& object) {
-  const MassProperties& mass = object.mass_properties();
+double LeastGyration(const object::Object& object) {
+  const object::MassProperties& mass = object.mass_properties();
   const double least = object.dimension() == 2 ? mass.inertia(2, 2)
                                                : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
                                                      mass.inertia, Eigen::EigenvaluesOnly)
@@ -66,7 +66,7 @@ double RollingTime(const ReplaySettings& s, double gyration) {
 
 }  // namespace
 
-ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
+ReplaySettings DeriveSettings(const object::Object& object, double scale, double half_angle,
                               double clearance, const ReplayOptions& options) {
   ReplaySettings s;
   s.diameter_m = object.diameter() * scale;

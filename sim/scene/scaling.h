@@ -37,8 +37,9 @@ namespace regrasp::sim {
 ///                    over the plan's contacts (planner/criteria/clearance.h).
 /// @throws InputError  size, thickness, mass or squeeze out of the range that can be simulated; a
 ///                     thickness for a solid.
-[[nodiscard]] ReplaySettings DeriveSettings(const Object& object, double scale, double half_angle,
-                                            double clearance, const ReplayOptions& options);
+[[nodiscard]] ReplaySettings DeriveSettings(const object::Object& object, double scale,
+                                            double half_angle, double clearance,
+                                            const ReplayOptions& options);
 
 /// Units in which every body has the diameter kEngineDiameter, the mass 1 and the natural time
 /// kEngineTime. The engine takes volumes and inertias below 1e-15 for zero: pieces of surface of a
@@ -63,7 +64,7 @@ inline constexpr double kRollingStep = 0.3;            ///< step over √(I / (F
 inline constexpr double kLeastTipRadius = 1e-4;
 /// Over D: where no larger ball fits, a finger cannot stand. What is read to within kPointTolerance
 /// cannot be told from a contact in the corner itself, where no ball fits.
-inline constexpr double kLeastClearance = kPointTolerance;
+inline constexpr double kLeastClearance = object::kPointTolerance;
 inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D

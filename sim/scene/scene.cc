@@ -29,12 +29,12 @@ constexpr double kParkingDistance = 1.5;
 
 /// Gathers where fingers touch.
 struct SiteCollector {
-  const Object& object;
+  const object::Object& object;
   double scale;
   Scene& scene;
   double point_tolerance;  ///< metres
 
-  SiteIndex Add(int finger, const Contact& from, const Contact& to) {
+  SiteIndex Add(int finger, const grasp::Contact& from, const grasp::Contact& to) {
     const ContactSite site{to.face, ToScene(object, scale, from.face == to.face ? from : to).p,
                            ToScene(object, scale, to).p};
     const int index = FindEqual(site);
@@ -44,8 +44,8 @@ struct SiteCollector {
     return SiteIndex(index);
   }
 
-  void AddPlanned(const FingerGrasp& grasp) {
-    for (const FingerContact& held : grasp) {
+  void AddPlanned(const plan::FingerGrasp& grasp) {
+    for (const plan::FingerContact& held : grasp) {
       const SiteIndex index = Add(held.finger, held.contact, held.contact);
       SiteIndex& first = scene.fingers[held.finger].first_site;
       if (first == SiteIndex::kNone) first = index;
@@ -55,8 +55,9 @@ struct SiteCollector {
   void Add(const AlignScript& script) {
     for (const AlignMove& move : script.moves) {
       if (const auto* handover = std::get_if<FingerHandover>(&move)) {
-        for (const FingerGrasp* grasp : {&handover->support_fingers, &handover->targets}) {
-          for (const FingerContact& held : *grasp) Add(held.finger, held.contact, held.contact);
+        for (const plan::FingerGrasp* grasp : {&handover->support_fingers, &handover->targets}) {
+          for (const plan::FingerContact& held : *grasp)
+            Add(held.finger, held.contact, held.contact);
         }
         continue;
       }
@@ -87,23 +88,23 @@ struct SiteCollector {
 
 /// The initial grasp and the first steps of a plan, and how many fingers they need.
 struct Sequence {
-  const Object& object;
-  const Plan& plan;
+  const object::Object& object;
+  const plan::Plan& plan;
   int steps;
 
   /// The contacts that entry `index` of the report names and where fingers come to rest.
-  [[nodiscard]] FingerGrasp PlannedRests(int index) const {
+  [[nodiscard]] plan::FingerGrasp PlannedRests(int index) const {
     if (index == 0) return plan.initial;
-    const Step& step = plan.steps[index - 1];
-    if (const auto* change = std::get_if<Switch>(&step)) return change->place;
-    const auto& waypoints = std::get<Align>(step).waypoints;
-    return waypoints.empty() ? FingerGrasp() : waypoints.back();
+    const plan::Step& step = plan.steps[index - 1];
+    if (const auto* change = std::get_if<plan::Switch>(&step)) return change->place;
+    const auto& waypoints = std::get<plan::Align>(step).waypoints;
+    return waypoints.empty() ? plan::FingerGrasp() : waypoints.back();
   }
 
   [[nodiscard]] int CountFingers() const {
     int fingers = plan.fingers;
     for (int index = 0; index <= steps; ++index) {
-      for (const FingerContact& held : PlannedRests(index)) {
+      for (const plan::FingerContact& held : PlannedRests(index)) {
         fingers = std::max(fingers, held.finger + 1);
       }
     }
@@ -111,8 +112,8 @@ struct Sequence {
   }
 
   void CheckFaces() const {
-    const auto check = [&](const FingerGrasp& grasp) {
-      for (const FingerContact& held : grasp) {
+    const auto check = [&](const plan::FingerGrasp& grasp) {
+      for (const plan::FingerContact& held : grasp) {
         if (held.contact.face >= 0 && held.contact.face < object.face_count()) continue;
         throw InputError("replay: a contact of finger " + std::to_string(held.finger) +
                          " is on no face of the object");
@@ -120,7 +121,7 @@ struct Sequence {
     };
     check(plan.initial);
     for (int i = 0; i < steps; ++i) {
-      if (const auto* align = std::get_if<Align>(&plan.steps[i])) {
+      if (const auto* align = std::get_if<plan::Align>(&plan.steps[i])) {
         std::ranges::for_each(align->waypoints, check);
       } else {
         check(PlannedRests(i + 1));
@@ -130,15 +131,16 @@ struct Sequence {
 };
 
 /// The clearance that the fingertip which is wanted needs: twice its radius where it is derived.
-double WantedClearance(const Object& object, const ReplayOptions& options) {
+double WantedClearance(const object::Object& object, const ReplayOptions& options) {
   return options.finger_radius.value_or(2 * kTipRadius * object.diameter());
 }
 
 /// The smallest clearance of contacts where fingers stand, at most `limit`.
-double SmallestClearance(const Object& object, const FingerGrasp& grasp, double limit) {
+double SmallestClearance(const object::Object& object, const plan::FingerGrasp& grasp,
+                         double limit) {
   double least = limit;
-  for (const FingerContact& held : grasp) {
-    least = std::min(least, ComputeClearance(object, held.contact, least));
+  for (const plan::FingerContact& held : grasp) {
+    least = std::min(least, criteria::ComputeClearance(object, held.contact, least));
   }
   return least;
 }
@@ -154,25 +156,25 @@ std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, doub
   AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
   std::vector<SceneEntry> entries(sequence.steps + 1);
-  FingerGrasp holding = sequence.plan.initial;
+  plan::FingerGrasp holding = sequence.plan.initial;
   for (int index = 1; index <= sequence.steps; ++index) {
-    const Step& step = sequence.plan.steps[index - 1];
-    if (const auto* align = std::get_if<Align>(&step)) {
+    const plan::Step& step = sequence.plan.steps[index - 1];
+    if (const auto* align = std::get_if<plan::Align>(&step)) {
       limits.spare.clear();
       for (int f = 0; f < fingers; ++f) {
-        if (std::ranges::find(holding, f, &FingerContact::finger) == holding.end()) {
+        if (std::ranges::find(holding, f, &plan::FingerContact::finger) == holding.end()) {
           limits.spare.push_back(f);
         }
       }
       entries[index].script = WriteAlignScript(sequence.object, *align, limits);
     }
-    holding = GraspAfter(holding, step);
+    holding = plan::GraspAfter(holding, step);
   }
   return entries;
 }
 
-AlignScript ScriptToScene(const Object& object, double scale, AlignScript script) {
-  const auto convert = [&](FingerGrasp& grasp) {
+AlignScript ScriptToScene(const object::Object& object, double scale, AlignScript script) {
+  const auto convert = [&](plan::FingerGrasp& grasp) {
     grasp = ToScene(object, scale, std::move(grasp));
   };
   for (AlignMove& move : script.moves) {
@@ -197,10 +199,10 @@ double DistanceTo(const ContactSite& site, const Vector3d& point) {
 }
 
 /// Names the first finger that has to come to rest where no ball fits.
-std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
+std::string FindUnreachable(const object::Object& object, const plan::FingerGrasp& rests) {
   const double least = kLeastClearance * object.diameter();
-  for (const FingerContact& held : rests) {
-    const double clearance = ComputeClearance(object, held.contact, least);
+  for (const plan::FingerContact& held : rests) {
+    const double clearance = criteria::ComputeClearance(object, held.contact, least);
     if (clearance >= least) continue;
     return "finger " + std::to_string(held.finger) +
            " cannot stand at its contact: no fingertip thicker than a radius of " +
@@ -210,8 +212,8 @@ std::string FindUnreachable(const Object& object, const FingerGrasp& rests) {
 }
 
 /// Everywhere that fingers come to rest in entry `index`.
-FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
-  FingerGrasp rests = sequence.PlannedRests(index);
+plan::FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
+  plan::FingerGrasp rests = sequence.PlannedRests(index);
   const std::optional<AlignScript>& script = scene_O.entries[index].script;
   if (!script) return rests;
   for (const AlignMove& move : script->moves) {
@@ -223,33 +225,34 @@ FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) 
   return rests;
 }
 
-Vector3d FromScene(const Object& object, double scale, const Vector3d& p_S) {
+Vector3d FromScene(const object::Object& object, double scale, const Vector3d& p_S) {
   return p_S / scale + object.mass_properties().centroid;
 }
 
-double SmallestClearance(const Object& object, double scale, const Scene& scene, double limit) {
+double SmallestClearance(const object::Object& object, double scale, const Scene& scene,
+                         double limit) {
   double least = limit;
   for (const auto& [site, patches, fingers] : scene.sites) {
     const int samples = site.from == site.to ? 0 : kClearanceSamples;
     for (int i = 0; i <= samples; ++i) {
       const double t = samples == 0 ? 0 : static_cast<double>(i) / samples;
       const Vector3d p = FromScene(object, scale, site.from + t * (site.to - site.from));
-      const Contact contact{p, object.inward_normal(site.face), site.face};
-      least = std::min(least, ComputeClearance(object, contact, limit));
+      const grasp::Contact contact{p, object.inward_normal(site.face), site.face};
+      least = std::min(least, criteria::ComputeClearance(object, contact, limit));
     }
   }
   return least * scale;
 }
 
-std::vector<ContactPatch> MakePatches(const Object& body, const ContactSite& site, double size,
-                                      double thickness) {
-  if (const auto* polygon = dynamic_cast<const Polygon*>(&body)) {
+std::vector<ContactPatch> MakePatches(const object::Object& body, const ContactSite& site,
+                                      double size, double thickness) {
+  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&body)) {
     return {MakeEdgePatch(*polygon, site, size, thickness)};
   }
-  return MakeContactPatches(dynamic_cast<const Polyhedron&>(body), site, size);
+  return MakeContactPatches(dynamic_cast<const object::Polyhedron&>(body), site, size);
 }
 
-std::vector<ContactPatch> MakeScenePatches(const Object& body, double scale,
+std::vector<ContactPatch> MakeScenePatches(const object::Object& body, double scale,
                                            const ContactSite& site, const ReplaySettings& s) {
   std::vector<ContactPatch> patches = MakePatches(
       body, {site.face, FromScene(body, scale, site.from), FromScene(body, scale, site.to)},
@@ -264,7 +267,7 @@ std::vector<ContactPatch> MakeScenePatches(const Object& body, double scale,
 
 /// Of the homogeneous body about its centroid, kg m². A polygon's moments are those of its area:
 /// its prism adds M t²/12 about the axes in the plane.
-Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& s) {
+Eigen::Matrix3d Inertia(const object::Object& body, double scale, const ReplaySettings& s) {
   const double mass = s.mass_factor * s.mass_kg;
   Eigen::Matrix3d inertia =
       mass / body.mass_properties().volume * scale * scale * body.mass_properties().inertia;
@@ -272,7 +275,7 @@ Eigen::Matrix3d Inertia(const Object& body, double scale, const ReplaySettings& 
   return inertia;
 }
 
-void PlaceFingersAtStart(const Object& object, Scene& scene) {
+void PlaceFingersAtStart(const object::Object& object, Scene& scene) {
   for (SceneFinger& finger : scene.fingers) {
     if (finger.first_site == SiteIndex::kNone) {
       finger.start_S = Vector3d::UnitX() * kParkingDistance * scene.settings.diameter_m;
@@ -301,13 +304,14 @@ void AssignCollisionBits(Scene& scene) {
 
 /// Scripts, what is unreachable, and sites.
 void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene) {
-  const Object& object = sequence.object;
+  const object::Object& object = sequence.object;
   const double scale = sequence.plan.scale;
   const double half_angle = options.half_angle.value_or(sequence.plan.half_angle);
   const int fingers = static_cast<int>(scene.fingers.size());
   scene.entries =
       WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
-  SiteCollector collector{object, scale, scene, kPointTolerance * object.diameter() * scale};
+  SiteCollector collector{object, scale, scene,
+                          object::kPointTolerance * object.diameter() * scale};
   for (int index = 0; index <= sequence.steps; ++index) {
     SceneEntry& entry = scene.entries[index];
     entry.unreachable = FindUnreachable(object, AllRests(sequence, scene, index));
@@ -322,16 +326,17 @@ void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene
 
 }  // namespace
 
-Contact ToScene(const Object& object, double scale, const Contact& contact) {
+grasp::Contact ToScene(const object::Object& object, double scale, const grasp::Contact& contact) {
   return {(contact.p - object.mass_properties().centroid) * scale, contact.n, contact.face};
 }
 
-FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp) {
-  for (FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
+plan::FingerGrasp ToScene(const object::Object& object, double scale, plan::FingerGrasp grasp) {
+  for (plan::FingerContact& held : grasp) held.contact = ToScene(object, scale, held.contact);
   return grasp;
 }
 
-Scene MakeScene(const Object& body, const Plan& plan, int steps, const ReplayOptions& given) {
+Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
+                const ReplayOptions& given) {
   ReplayOptions options = given;
   if (!options.finger_radius) options.finger_radius = plan.finger_radius;
   const Sequence sequence{body, plan, steps};
@@ -381,7 +386,7 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
   return scene;
 }
 
-SiteIndex FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S) {
+SiteIndex FindSite(const Scene& scene, const grasp::Contact& from_S, const grasp::Contact& to_S) {
   // A finger that turns at an edge is at its new face's site already.
   const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
   SiteIndex best = SiteIndex::kNone;
@@ -398,7 +403,7 @@ SiteIndex FindSite(const Scene& scene, const Contact& from_S, const Contact& to_
   return best;
 }
 
-SiteIndex FindSite(const Scene& scene, const Contact& contact_S) {
+SiteIndex FindSite(const Scene& scene, const grasp::Contact& contact_S) {
   return FindSite(scene, contact_S, contact_S);
 }
 

@@ -52,20 +52,23 @@ struct Scene {
 };
 
 /// Metres about the centroid; normal and face stay.
-[[nodiscard]] Contact ToScene(const Object& object, double scale, const Contact& contact);
-[[nodiscard]] FingerGrasp ToScene(const Object& object, double scale, FingerGrasp grasp);
+[[nodiscard]] grasp::Contact ToScene(const object::Object& object, double scale,
+                                     const grasp::Contact& contact);
+[[nodiscard]] plan::FingerGrasp ToScene(const object::Object& object, double scale,
+                                        plan::FingerGrasp grasp);
 
 /// Everything that the replay of `plan` needs to know about the body. Only the initial grasp and
 /// the first `steps` steps are looked at.
 /// @throws InputError  a size or mass out of range, a contact that is on no face.
-[[nodiscard]] Scene MakeScene(const Object& body, const Plan& plan, int steps,
+[[nodiscard]] Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
                               const ReplayOptions& options);
 
 /// The site on `contact.face` whose path passes nearest to the contact.
-[[nodiscard]] SiteIndex FindSite(const Scene& scene, const Contact& contact_S);
+[[nodiscard]] SiteIndex FindSite(const Scene& scene, const grasp::Contact& contact_S);
 /// The same for a path from one contact to another, straight inside one face or a turn to the next:
 /// the site that both belong to.
-[[nodiscard]] SiteIndex FindSite(const Scene& scene, const Contact& from_S, const Contact& to_S);
+[[nodiscard]] SiteIndex FindSite(const Scene& scene, const grasp::Contact& from_S,
+                                 const grasp::Contact& to_S);
 
 /// The same scene in other units: what is in metres, kilograms and seconds is in `units`.
 [[nodiscard]] Scene InUnits(Scene scene, const EngineUnits& units);
@@ -74,7 +77,7 @@ struct Scene {
 /// @param hold  the control of every finger, newtons over stiffness, that holds the
 ///              initial grasp; stored as the keyframe "hold".
 /// @param surface  whether the object's true surface is written too, for the eye only.
-[[nodiscard]] std::string FormatScene(const Scene& scene, const Object& body,
+[[nodiscard]] std::string FormatScene(const Scene& scene, const object::Object& body,
                                       const std::vector<Eigen::Vector3d>& hold, bool surface);
 
 }  // namespace regrasp::sim

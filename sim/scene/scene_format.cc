@@ -76,7 +76,7 @@ struct Parts {
   std::string assets, object_geoms, fingers, actuators;
 };
 
-void AddSurface(const Object& body, double scale, double thickness_m, Parts& parts) {
+void AddSurface(const object::Object& body, double scale, double thickness_m, Parts& parts) {
   const VisibleSurface surface = MakeVisibleSurface(body, thickness_m / scale);
   std::string vertices, faces;
   for (const Vector3d& v : surface.vertices) {
@@ -90,7 +90,7 @@ void AddSurface(const Object& body, double scale, double thickness_m, Parts& par
   parts.object_geoms += "      <geom class=\"surface\" type=\"mesh\" mesh=\"surface\"/>\n";
 }
 
-void AddPatches(const Scene& scene, const Object& body, Parts& parts) {
+void AddPatches(const Scene& scene, const object::Object& body, Parts& parts) {
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
     const SceneSite& site = scene.sites[i];
     const Vector3d inward = body.inward_normal(site.place.face);
@@ -168,8 +168,8 @@ std::string Fill(const std::map<std::string, std::string>& values) {
 
 }  // namespace
 
-std::string FormatScene(const Scene& scene, const Object& body, const std::vector<Vector3d>& hold,
-                        bool surface) {
+std::string FormatScene(const Scene& scene, const object::Object& body,
+                        const std::vector<Vector3d>& hold, bool surface) {
   const ReplaySettings& s = scene.settings;
   Parts parts;
   if (surface) AddSurface(body, s.diameter_m / body.diameter(), s.thickness_m, parts);

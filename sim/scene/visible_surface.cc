@@ -7,7 +7,7 @@
 namespace regrasp::sim {
 namespace {
 
-VisibleSurface MakePrism(const Polygon& polygon, double thickness) {
+VisibleSurface MakePrism(const object::Polygon& polygon, double thickness) {
   VisibleSurface prism;
   // Vertex k of the polygon is 2 k below and 2 k + 1 above.
   for (const auto& ring : polygon.rings()) {
@@ -22,7 +22,7 @@ VisibleSurface MakePrism(const Polygon& polygon, double thickness) {
       prism.triangles.push_back({a, b + 1, a + 1});
     }
   }
-  for (const auto& [a, b, c] : TriangulatePolygon(polygon)) {
+  for (const auto& [a, b, c] : object::TriangulatePolygon(polygon)) {
     prism.triangles.push_back({2 * a, 2 * c, 2 * b});
     prism.triangles.push_back({2 * a + 1, 2 * b + 1, 2 * c + 1});
   }
@@ -31,11 +31,11 @@ VisibleSurface MakePrism(const Polygon& polygon, double thickness) {
 
 }  // namespace
 
-VisibleSurface MakeVisibleSurface(const Object& object, double thickness) {
-  if (const auto* polygon = dynamic_cast<const Polygon*>(&object)) {
+VisibleSurface MakeVisibleSurface(const object::Object& object, double thickness) {
+  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
     return MakePrism(*polygon, thickness);
   }
-  const auto& body = dynamic_cast<const Polyhedron&>(object);
+  const auto& body = dynamic_cast<const object::Polyhedron&>(object);
   return {body.vertices(), body.triangles()};
 }
 

@@ -15,6 +15,6 @@ struct VisibleSurface {
 };
 
 /// A solid's own surface; a polygon's prism of the height `thickness` about the plane z = 0.
-[[nodiscard]] VisibleSurface MakeVisibleSurface(const Object& object, double thickness);
+[[nodiscard]] VisibleSurface MakeVisibleSurface(const object::Object& object, double thickness);
 
 }  // namespace regrasp::sim

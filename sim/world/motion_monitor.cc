@@ -72,20 +72,20 @@ void MotionMonitor::AddForce(int finger, const Eigen::Vector3d& force,
   AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu)), margins_);
 }
 
-Reason MotionMonitor::reason() const {
-  if (!lost_.empty()) return Reason::kContactLost;
-  if (!slipped_.empty()) return Reason::kSlipped;
-  if (!object_moved_.empty()) return Reason::kObjectMoved;
-  return Reason::kNone;
+plan::Reason MotionMonitor::reason() const {
+  if (!lost_.empty()) return plan::Reason::kContactLost;
+  if (!slipped_.empty()) return plan::Reason::kSlipped;
+  if (!object_moved_.empty()) return plan::Reason::kObjectMoved;
+  return plan::Reason::kNone;
 }
 
 std::string MotionMonitor::detail() const {
   switch (reason()) {
-    case Reason::kContactLost:
+    case plan::Reason::kContactLost:
       return lost_;
-    case Reason::kSlipped:
+    case plan::Reason::kSlipped:
       return slipped_ + ", " + FormatShort(slip_) + " m in the end";
-    case Reason::kObjectMoved:
+    case plan::Reason::kObjectMoved:
       return object_moved_ + ", " + FormatShort(displacement_) + " m and " +
              FormatShort(Degrees(rotation_)) + " deg in the end";
     default:

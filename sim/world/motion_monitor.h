@@ -39,7 +39,7 @@ class MotionMonitor {
   void ForgetForces() { margins_.clear(); }
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
-  [[nodiscard]] Reason reason() const;
+  [[nodiscard]] plan::Reason reason() const;
   /// One phrase on what the reason is, empty where there is none.
   [[nodiscard]] std::string detail() const;
   [[nodiscard]] double displacement_m() const { return displacement_; }

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Where the plan first puts a finger; on no face where it never does.
-Contact FirstContact(const Object& body, const Scene& scene, int finger) {
+grasp::Contact FirstContact(const object::Object& body, const Scene& scene, int finger) {
   const SiteIndex first = scene.fingers[finger].first_site;
   if (first == SiteIndex::kNone) return {};
   const ContactSite& place = scene.site(first).place;
@@ -22,7 +22,7 @@ Contact FirstContact(const Object& body, const Scene& scene, int finger) {
 
 }  // namespace
 
-ReplayWorld::ReplayWorld(const Object& body, const Plan& plan, Scene scene,
+ReplayWorld::ReplayWorld(const object::Object& body, const plan::Plan& plan, Scene scene,
                          const ReplayObserver& observer)
     : p_WS_(body.mass_properties().centroid * plan.scale),
       scene_(std::move(scene)),
@@ -40,7 +40,7 @@ ReplayWorld::ReplayWorld(const Object& body, const Plan& plan, Scene scene,
   StartMonitoring();
 }
 
-WrenchFrame ReplayWorld::frame_B() const {
+object::WrenchFrame ReplayWorld::frame_B() const {
   return {Vector3d::Zero(), settings().diameter_m / 2, scene_.dimension};
 }
 
@@ -62,7 +62,7 @@ Vector3d ReplayWorld::ContactPoint_B(int finger, const Isometry3d& X_BS) const {
   return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
-Vector3d ReplayWorld::TipAt_S(const Contact& contact_B, double gap) const {
+Vector3d ReplayWorld::TipAt_S(const grasp::Contact& contact_B, double gap) const {
   return X_SB() * (contact_B.p - (settings().fingertip_radius_m + gap) * contact_B.n);
 }
 
@@ -118,7 +118,7 @@ void ReplayWorld::MonitorMotion() {
 
 void ReplayWorld::MonitorRest() {
   for (const int f : HoldingFingers()) {
-    const Contact& contact = fingers_[f].contact;
+    const grasp::Contact& contact = fingers_[f].contact;
     monitor_.AddGap(f, contact.n.dot(contact.p - ContactPoint_B(f)));
   }
 }
@@ -129,8 +129,8 @@ void ReplayWorld::Sample() {
   next_sample_ = engine_.time() + observer_.sample_interval_s;
 }
 
-Snapshot ReplayWorld::TakeSnapshot() const {
-  Snapshot snapshot;
+plan::Snapshot ReplayWorld::TakeSnapshot() const {
+  plan::Snapshot snapshot;
   snapshot.time_s = engine_.time();
   const Isometry3d X_SB = this->X_SB();
   snapshot.X_WO = Eigen::Translation3d(p_WS_) * X_SB * Eigen::Translation3d(-p_WS_);
@@ -138,7 +138,7 @@ Snapshot ReplayWorld::TakeSnapshot() const {
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (finger.contact.face < 0) continue;
-    FingerState state;
+    plan::FingerState state;
     state.finger = static_cast<int>(f);
     state.role = finger.role;
     state.tip_W = p_WS_ + engine_.tip(state.finger);
@@ -146,7 +146,7 @@ Snapshot ReplayWorld::TakeSnapshot() const {
     state.contact_W =
         p_WS_ + X_SB * (finger.holding ? ContactPoint_B(state.finger) : finger.contact.p);
     state.force_W = engine_.contact_force(state.finger);
-    if (finger.role == FingerRole::kMoved) {
+    if (finger.role == plan::FingerRole::kMoved) {
       for (const Vector3d& point_B : finger.path_B) state.path_W.push_back(p_WS_ + X_SB * point_B);
     }
     snapshot.fingers.push_back(state);

@@ -14,10 +14,10 @@ namespace regrasp::sim {
 
 /// A finger in the world. B is the body's frame: metres about the centroid, fixed to the object.
 struct WorldFinger {
-  FingerRole role = FingerRole::kFree;
+  plan::FingerRole role = plan::FingerRole::kFree;
   bool holding = false;
   bool sliding = false;                                ///< moves along the surface on purpose
-  Contact contact;                                     ///< planned, in B
+  grasp::Contact contact;                              ///< planned, in B
   std::vector<Eigen::Vector3d> path_B = {};            ///< planned, of a finger that moved
   Eigen::Vector3d touch_B = Eigen::Vector3d::Zero();   ///< where its slide counts from
   Eigen::Vector3d anchor_S = Eigen::Vector3d::Zero();  ///< tip at which the servo pushes nothing
@@ -31,11 +31,12 @@ struct WorldFinger {
 /// resists with stiffness k. Constant forces without stiffness lose every grasp.
 class ReplayWorld {
  public:
-  ReplayWorld(const Object& body, const Plan& plan, Scene scene, const ReplayObserver& observer);
+  ReplayWorld(const object::Object& body, const plan::Plan& plan, Scene scene,
+              const ReplayObserver& observer);
 
   [[nodiscard]] const ReplaySettings& settings() const { return scene_.settings; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] WrenchFrame frame_B() const;
+  [[nodiscard]] object::WrenchFrame frame_B() const;
   [[nodiscard]] double half_angle() const;
   [[nodiscard]] std::vector<WorldFinger>& fingers() { return fingers_; }
   [[nodiscard]] const std::vector<WorldFinger>& fingers() const { return fingers_; }
@@ -48,7 +49,7 @@ class ReplayWorld {
   /// Where the fingertip meets the surface, from the measured tip and the planned normal.
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(int finger) const;
   /// The tip of a finger that would touch the object as it lies now at `contact_B`, `gap` away.
-  [[nodiscard]] Eigen::Vector3d TipAt_S(const Contact& contact_B, double gap) const;
+  [[nodiscard]] Eigen::Vector3d TipAt_S(const grasp::Contact& contact_B, double gap) const;
   /// The object's weight now, newtons along −z of S.
   [[nodiscard]] Eigen::Vector3d weight_S() const;
 
@@ -68,7 +69,7 @@ class ReplayWorld {
 
   /// Samples go to the observer unless this is off (shakes are not part of the motion).
   void SetSampling(bool on) { sampling_ = on; }
-  [[nodiscard]] Snapshot TakeSnapshot() const;
+  [[nodiscard]] plan::Snapshot TakeSnapshot() const;
 
  private:
   [[nodiscard]] Eigen::Vector3d ContactPoint_B(int finger, const Eigen::Isometry3d& X_BS) const;

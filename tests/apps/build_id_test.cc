@@ -5,7 +5,7 @@
 
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 TEST(BuildIdTest, IsThatInTheFileOfTheRunningProgram) {
@@ -20,4 +20,4 @@ TEST(BuildIdTest, IsThatInTheFileOfTheRunningProgram) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -13,7 +13,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -191,4 +191,4 @@ TEST_F(HeldFolderTest, AFolderThatCannotBeMadeIsNamed) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -10,7 +10,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -136,4 +136,4 @@ TEST_F(OutputFilesTest, AResultThatIsGoneIsNoBadInput) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

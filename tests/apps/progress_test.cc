@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 using std::chrono::seconds;
@@ -29,4 +29,4 @@ TEST(ProgressLogTest, ALogGetsALineNowAndThenAndNoneAtOnce) {
 TEST(ProgressLogTest, QuietMeansNone) { EXPECT_EQ(ShownOf100Seconds(true), ""); }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

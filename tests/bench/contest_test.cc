@@ -12,8 +12,8 @@ namespace {
 
 constexpr ContestLimits kFewPairs = {5, 1e3};
 
-ObjectFile ReadModel(const std::string& name) {
-  return ReadObject(REGRASP_SOURCE_DIR "/models/" + name);
+object::ObjectFile ReadModel(const std::string& name) {
+  return object::ReadObject(REGRASP_SOURCE_DIR "/models/" + name);
 }
 
 struct Case {
@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, Contests,
                          [](const auto& test) { return "case" + std::to_string(test.index); });
 
 TEST_P(Contests, NoPlannerJoinsMoreThanGeneral) {
-  const ObjectFile file = ReadModel(GetParam().model);
+  const object::ObjectFile file = ReadModel(GetParam().model);
   const ContestSetting& setting = GetParam().setting;
   const std::vector<GraspPair> pairs = DrawPairs(*file.object, setting, kFewPairs);
   ASSERT_EQ(pairs.size(), 5);
@@ -57,7 +57,7 @@ TEST_P(Contests, NoPlannerJoinsMoreThanGeneral) {
 }
 
 TEST(Contest, DrawsTheSamePairsAgain) {
-  const ObjectFile file = ReadModel("cube.obj");
+  const object::ObjectFile file = ReadModel("cube.obj");
   const ContestSetting setting = {Radians(25), 0, 4, 4};
   const auto once = DrawPairs(*file.object, setting, kFewPairs);
   const auto again = DrawPairs(*file.object, setting, kFewPairs);
@@ -72,13 +72,13 @@ TEST(Contest, DrawsTheSamePairsAgain) {
 
 TEST(Contest, HasNoPairsWhereNoGraspIsForceClosure) {
   // The corners of a triangle are wider than the 10 degrees that two contacts could span.
-  const ObjectFile file = ReadModel("triangle.wkt");
+  const object::ObjectFile file = ReadModel("triangle.wkt");
   EXPECT_TRUE(DrawPairs(*file.object, {Radians(5), 0, 2, 2}, kFewPairs).empty());
   EXPECT_FALSE(DrawPairs(*file.object, {Radians(5), 0, 2, 3}, kFewPairs).empty());
 }
 
 TEST(Contest, AsksForNoFurtherPairWhenTimeIsUp) {
-  const ObjectFile file = ReadModel("cube.obj");
+  const object::ObjectFile file = ReadModel("cube.obj");
   const std::vector<GraspPair> pairs(3);
   const Contender slow = {"slow", "", 0, [](const GraspPair&, std::uint64_t) {
                             Answer answer;

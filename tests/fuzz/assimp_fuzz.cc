@@ -21,14 +21,14 @@ constexpr std::array<const char*, 8> kEndings = {".gltf", ".glb", ".dae", ".3mf"
                                                  ".x3d",  ".3ds", ".fbx", ".ac"};
 
 /// Far below a user's limits, for the sake of speed; files here are small.
-constexpr AssimpLimits kLimits = {std::size_t{1} << 30, std::chrono::seconds(2),
-                                  std::chrono::milliseconds(4000)};
+constexpr object::AssimpLimits kLimits = {std::size_t{1} << 30, std::chrono::seconds(2),
+                                          std::chrono::milliseconds(4000)};
 
 /// Messages name the file with its ending, without which it is kHostileName.
-PolygonSoup ReadBytes(const std::string& ending, std::string_view bytes) {
+object::PolygonSoup ReadBytes(const std::string& ending, std::string_view bytes) {
   const std::string file = kHostileName + ending;
   try {
-    return ReadWithAssimp(bytes, file, kLimits);
+    return object::ReadWithAssimp(bytes, file, kLimits);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (!message.starts_with(file)) ReportFinding("the message does not name its file: " + message);
@@ -43,6 +43,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const char* ending = kEndings[data[0] % kEndings.size()];
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   ReadHostileInput(
-      [&] { ExpectSound(Polyhedron::FromSoup(ReadBytes(ending, bytes), kHostileName)); });
+      [&] { ExpectSound(object::Polyhedron::FromSoup(ReadBytes(ending, bytes), kHostileName)); });
   return 0;
 }

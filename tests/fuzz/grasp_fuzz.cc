@@ -14,14 +14,15 @@ namespace {
 using namespace regrasp;
 
 /// What was read is on the object, so it reads back as the same bytes.
-void ReadTwice(std::string_view text, const Object& object) {
-  const Grasp grasp = ParseGrasp(text, kHostileName, object);
-  for (const Contact& contact : grasp) {
+void ReadTwice(std::string_view text, const object::Object& object) {
+  const grasp::Grasp grasp = plan::ParseGrasp(text, kHostileName, object);
+  for (const grasp::Contact& contact : grasp) {
     if (contact.face < 0 || contact.face >= object.face_count()) ReportFinding("a contact off");
     if (!contact.p.allFinite()) ReportFinding("a contact at no finite point");
   }
-  const std::string written = FormatGrasp(grasp, object.dimension());
-  if (FormatGrasp(ParseGrasp(written, kHostileName, object), object.dimension()) != written) {
+  const std::string written = plan::FormatGrasp(grasp, object.dimension());
+  if (plan::FormatGrasp(plan::ParseGrasp(written, kHostileName, object), object.dimension()) !=
+      written) {
     ReportFinding("a grasp that was written reads back as another");
   }
 }

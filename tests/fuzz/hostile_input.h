@@ -27,6 +27,6 @@ void ReadHostileInput(const std::function<void()>& read);
 
 /// Demands of an object that was read what the rest of the program relies on: a finite size, a
 /// positive volume, faces with unit normals and an area, and each face found where it is.
-void ExpectSound(const Object& object);
+void ExpectSound(const object::Object& object);
 
 }  // namespace regrasp

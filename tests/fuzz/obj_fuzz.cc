@@ -11,7 +11,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace regrasp;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  ReadHostileInput(
-      [&] { ExpectSound(Polyhedron::FromSoup(ReadObj(bytes, kHostileName), kHostileName)); });
+  ReadHostileInput([&] {
+    ExpectSound(object::Polyhedron::FromSoup(object::ReadObj(bytes, kHostileName), kHostileName));
+  });
   return 0;
 }

@@ -18,30 +18,30 @@ using namespace regrasp;
 
 /// As validate does: where the align is right, exact arithmetic must come to an end, and prove
 /// nothing that the check has refuted.
-void CheckCertificate(const PlanCheck& check, std::size_t index) {
-  const auto* align = std::get_if<Align>(&check.located.steps[index]);
-  const StepCheck& step = check.steps[index + 1];
+void CheckCertificate(const plan::PlanCheck& check, std::size_t index) {
+  const auto* align = std::get_if<plan::Align>(&check.located.steps[index]);
+  const plan::StepCheck& step = check.steps[index + 1];
   if (align == nullptr || !align->certificate || step.skipped) return;
-  if (step.reason != Reason::kNone && step.reason != Reason::kNotForceClosure) return;
+  if (step.reason != plan::Reason::kNone && step.reason != plan::Reason::kNotForceClosure) return;
   const double mu = std::tan(check.located.half_angle);
-  const ProofVerdict verdict =
-      CheckAlignCertificate(*align, check.located.dimension, mu, *align->certificate);
+  const motion::ProofVerdict verdict =
+      certificate::CheckAlignCertificate(*align, check.located.dimension, mu, *align->certificate);
   if (verdict.proves() && !step.force_closure) {
     ReportFinding("a certificate holds where the check refutes force closure");
   }
 }
 
 void ReadAndCheck(std::string_view text) {
-  const Plan plan = ParsePlan(text, kHostileName);
-  const std::string written = FormatPlan(plan);
-  if (FormatPlan(ParsePlan(written, kHostileName)) != written) {
+  const plan::Plan plan = plan::ParsePlan(text, kHostileName);
+  const std::string written = plan::FormatPlan(plan);
+  if (plan::FormatPlan(plan::ParsePlan(written, kHostileName)) != written) {
     ReportFinding("a plan that was written reads back as another");
   }
-  const Object& object =
-      plan.dimension == 2 ? static_cast<const Object&>(SmallPolygon()) : SmallSolid();
-  const PlanCheck check = CheckPlan(object, plan);
+  const object::Object& object =
+      plan.dimension == 2 ? static_cast<const object::Object&>(SmallPolygon()) : SmallSolid();
+  const plan::PlanCheck check = plan::CheckPlan(object, plan);
   if (check.steps.size() != plan.steps.size() + 1) ReportFinding("a step was not judged");
-  for (const StepCheck& step : check.steps) {
+  for (const plan::StepCheck& step : check.steps) {
     if (step.force_closure && !step.required) ReportFinding("force closure at no angle");
   }
   for (std::size_t k = 0; k < plan.steps.size(); ++k) CheckCertificate(check, k);

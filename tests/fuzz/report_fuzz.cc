@@ -24,12 +24,12 @@ const std::string kPlanDigest(64, '1');
 constexpr double kHalfAngleDegrees = 30;
 
 /// The cube held by six fingers, one of which leaves; then the others move a little.
-Plan MakePlan() {
-  Plan plan;
+plan::Plan MakePlan() {
+  plan::Plan plan;
   plan.dimension = 3;
   plan.half_angle = Radians(kHalfAngleDegrees);
   plan.fingers = 6;
-  FingerGrasp held;
+  plan::FingerGrasp held;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {1.0, -1.0}) {
       const Eigen::Vector3d p = side * Eigen::Vector3d::Unit(axis);
@@ -37,24 +37,25 @@ Plan MakePlan() {
     }
   }
   plan.initial = held;
-  plan.steps.push_back(Switch{{}, {5}});
+  plan.steps.push_back(plan::Switch{{}, {5}});
   held.pop_back();
-  FingerGrasp moved = held;
+  plan::FingerGrasp moved = held;
   moved[0].contact.p.y() = moved[1].contact.p.y() = 0.1;
-  plan.steps.push_back(Align{{held, moved}});
-  for (const FingerContact& finger : moved) plan.goal.push_back(finger.contact);
+  plan.steps.push_back(plan::Align{{held, moved}});
+  for (const plan::FingerContact& finger : moved) plan.goal.push_back(finger.contact);
   return plan;
 }
 
 void ReadAndVerify(std::string_view text) {
-  static const Plan plan = MakePlan();
-  const ReportVerification found =
-      VerifyReport(text, kHostileName, {SmallSolid(), kObjectDigest, plan, kPlanDigest});
+  static const plan::Plan plan = MakePlan();
+  const apps::ReportVerification found =
+      apps::VerifyReport(text, kHostileName, {SmallSolid(), kObjectDigest, plan, kPlanDigest});
   if (found.text.empty()) ReportFinding("a report was verified without a word");
 }
 
 void Summarize(std::string_view text) {
-  const ReportSummary summary = SummarizeReport(ParseJson(text, kHostileName), kHostileName);
+  const apps::ReportSummary summary =
+      apps::SummarizeReport(ParseJson(text, kHostileName), kHostileName);
   if (summary.entries.empty()) ReportFinding("a report without entries");
   const auto count = static_cast<int>(summary.entries.size());
   if (summary.weakest_step.value_or(0) >= count) ReportFinding("a weakest step outside the plan");

@@ -6,9 +6,9 @@
 namespace regrasp {
 
 /// The cube [-1, 1]^3, which the plans and grasps of tests/data are of.
-[[nodiscard]] const Polyhedron& SmallSolid();
+[[nodiscard]] const object::Polyhedron& SmallSolid();
 
 /// The square [-1, 1]^2.
-[[nodiscard]] const Polygon& SmallPolygon();
+[[nodiscard]] const object::Polygon& SmallPolygon();
 
 }  // namespace regrasp

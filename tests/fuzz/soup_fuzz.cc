@@ -13,9 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace regrasp;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   ReadHostileInput([&] {
-    const auto soup = SoupFromBytes(bytes);
+    const auto soup = object::SoupFromBytes(bytes);
     if (!soup) throw InputError(kHostileName + ": not a soup");
-    ExpectSound(Polyhedron::FromSoup(*soup, kHostileName));
+    ExpectSound(object::Polyhedron::FromSoup(*soup, kHostileName));
   });
   return 0;
 }

@@ -10,6 +10,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace regrasp;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  ReadHostileInput([&] { ExpectSound(Polygon::FromWkt(text, kHostileName)); });
+  ReadHostileInput([&] { ExpectSound(object::Polygon::FromWkt(text, kHostileName)); });
   return 0;
 }

@@ -21,7 +21,7 @@ ReportStep MakeStep(int index, const std::string& kind, double required_deg) {
   step.check.index = index;
   step.check.kind = kind;
   step.check.force_closure = true;
-  step.check.required = RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+  step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   step.replay = sim::StepReplay();
   step.replay->index = index;
   step.replay->displacement_m = 1e-6 * (index + 1);
@@ -44,7 +44,7 @@ Report MakeReport() {
 /// Step 1 fails in the replay, step 2 is skipped.
 Report MakeFailedReport() {
   Report report = MakeReport();
-  report.steps[1].replay->reason = Reason::kSlipped;
+  report.steps[1].replay->reason = plan::Reason::kSlipped;
   report.steps[1].replay->detail = "finger 2 slid by 1 mm <under> \"shake\" & push";
   report.steps[2].replay.reset();
   report.steps[2].frame.clear();
@@ -56,19 +56,19 @@ TEST(ReportTest, PassesOnlyWhenEveryStepPasses) {
   EXPECT_TRUE(MakeReport().passed());
   EXPECT_FALSE(MakeFailedReport().passed());
   Report analytic = MakeReport();
-  analytic.steps[0].check.reason = Reason::kOffSurface;
+  analytic.steps[0].check.reason = plan::Reason::kOffSurface;
   EXPECT_FALSE(analytic.passed());
 }
 
 TEST(ReportTest, TheAnalyticReasonComesBeforeThatOfTheReplay) {
   ReportStep step = MakeStep(0, "hold", 12);
-  EXPECT_EQ(step.reason(), Reason::kNone);
-  step.replay->reason = Reason::kContactLost;
-  EXPECT_EQ(step.reason(), Reason::kContactLost);
-  step.check.reason = Reason::kWrongNormal;
-  EXPECT_EQ(step.reason(), Reason::kWrongNormal);
+  EXPECT_EQ(step.reason(), plan::Reason::kNone);
+  step.replay->reason = plan::Reason::kContactLost;
+  EXPECT_EQ(step.reason(), plan::Reason::kContactLost);
+  step.check.reason = plan::Reason::kWrongNormal;
+  EXPECT_EQ(step.reason(), plan::Reason::kWrongNormal);
   step.skipped = true;
-  EXPECT_EQ(step.reason(), Reason::kNone);
+  EXPECT_EQ(step.reason(), plan::Reason::kNone);
   EXPECT_EQ(step.verdict(), Verdict::kSkipped);
 }
 
@@ -120,7 +120,7 @@ TEST(ReportTest, ContactRegionsAreInTheJsonTheTableAndTheWarningsWhereThereAreAn
   Report report = MakeReport();
   EXPECT_THAT(FormatReportJson(report), Not(HasSubstr("region")));
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("region")));
-  report.steps[1].region = SwitchRegion{0.125, std::nullopt, true};
+  report.steps[1].region = plan::SwitchRegion{0.125, std::nullopt, true};
   Json json = ParseJson(FormatReportJson(report), "report");
   EXPECT_EQ(json["steps"][1]["region"]["half_width"], 0.125);
   EXPECT_TRUE(json["steps"][1]["region"]["claimed"].is_null());
@@ -128,7 +128,7 @@ TEST(ReportTest, ContactRegionsAreInTheJsonTheTableAndTheWarningsWhereThereAreAn
   EXPECT_FALSE(json["steps"][2].contains("region"));
   EXPECT_THAT(FormatReportTable(report), HasSubstr("0.12"));
   EXPECT_TRUE(report.warnings().empty());
-  report.steps[1].region = SwitchRegion{0.125, 0.25, false};
+  report.steps[1].region = plan::SwitchRegion{0.125, 0.25, false};
   json = ParseJson(FormatReportJson(report), "report");
   EXPECT_EQ(json["steps"][1]["region"]["claimed"], 0.25);
   EXPECT_EQ(json["steps"][1]["region"]["holds"], false);
@@ -170,8 +170,8 @@ TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {
 
 TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   const sim::CubeCase cube;
-  Plan plan = sim::MakePlan(cube.Start(), 25);
-  plan.goal = ContactsOf(plan.initial);
+  plan::Plan plan = sim::MakePlan(cube.Start(), 25);
+  plan.goal = plan::ContactsOf(plan.initial);
   sim::ReplayOptions options;
   options.protocol = sim::Protocol::kBoth;
   const Report agreed = Validate(cube.object, plan, {}, options);
@@ -187,7 +187,7 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed squeeze fails, likely cause: "));
 
   options.shake = 0.01;
-  CheckOptions check;
+  plan::CheckOptions check;
   check.half_angle = Radians(5.6);
   const Report weak = Validate(cube.object, plan, check, options);
   EXPECT_FALSE(weak.passed());

@@ -9,7 +9,7 @@ TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
   sim::TrialSummary summary;
   summary.options.count = 12;
   summary.passed = 9;
-  summary.reasons = {{Reason::kSlipped, 2}, {Reason::kContactLost, 1}};
+  summary.reasons = {{plan::Reason::kSlipped, 2}, {plan::Reason::kContactLost, 1}};
   summary.steps = {{1, 3}};
   const Json json = TrialsJson(summary);
   EXPECT_EQ(json["count"], 12);

@@ -10,7 +10,7 @@ namespace regrasp::sim {
 /// The cube of CubeCase, held, at rest, and monitored from there.
 struct HeldCube {
   CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
+  plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayObserver observer;
   ReplayWorld world;
 

@@ -11,12 +11,14 @@
 
 namespace regrasp::sim {
 
-inline FingerContact OnEdge(const Polygon& polygon, int finger, int edge, double share) {
+inline plan::FingerContact OnEdge(const object::Polygon& polygon, int finger, int edge,
+                                  double share) {
   return {finger, OnEdge(polygon, edge, share)};
 }
 
 /// A contact drawn evenly over the boundary.
-inline FingerContact DrawOnBoundary(const Polygon& polygon, int finger, std::mt19937& random) {
+inline plan::FingerContact DrawOnBoundary(const object::Polygon& polygon, int finger,
+                                          std::mt19937& random) {
   std::vector<double> lengths;
   for (int edge = 0; edge < polygon.face_count(); ++edge) {
     lengths.push_back(polygon.face_measure(edge));
@@ -26,21 +28,23 @@ inline FingerContact DrawOnBoundary(const Polygon& polygon, int finger, std::mt1
 }
 
 /// Of a hand with four fingers.
-inline Plan MakePlanarPlan(FingerGrasp initial, double half_angle_deg, int fingers = 4) {
-  Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
+inline plan::Plan MakePlanarPlan(plan::FingerGrasp initial, double half_angle_deg,
+                                 int fingers = 4) {
+  plan::Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
   plan.dimension = 2;
   return plan;
 }
 
 /// An L with arms of 80 mm, 40 mm wide, whose inner corner is at (0.04, 0.04): edges 2 (below it,
 /// inward normal −y) and 3 (beside it, inward normal −x) meet there.
-inline Polygon MakeL() {
-  return Polygon::FromWkt("POLYGON((0 0, .08 0, .08 .04, .04 .04, .04 .08, 0 .08, 0 0))", "L");
+inline object::Polygon MakeL() {
+  return object::Polygon::FromWkt("POLYGON((0 0, .08 0, .08 .04, .04 .04, .04 .08, 0 .08, 0 0))",
+                                  "L");
 }
 
 /// A square of side 80 mm with a square hole of side 40 mm: edges 4 to 7 are the hole's.
-inline Polygon MakeFrame() {
-  return Polygon::FromWkt(
+inline object::Polygon MakeFrame() {
+  return object::Polygon::FromWkt(
       "POLYGON((-.04 -.04, .04 -.04, .04 .04, -.04 .04, -.04 -.04),"
       "(-.02 -.02, -.02 .02, .02 .02, .02 -.02, -.02 -.02))",
       "frame");

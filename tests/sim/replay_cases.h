@@ -13,21 +13,22 @@
 
 namespace regrasp::sim {
 
-inline ObjectFile ReadModel(const std::string& name) {
-  return ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+inline object::ObjectFile ReadModel(const std::string& name) {
+  return object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
 }
 
 /// The contact at `p` on the face whose inward normal is `n`; face −1 where there is none.
-inline Contact ContactAt(const Object& object, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-  Contact contact{p, n.normalized(), -1};
-  for (const int face : object.FacesNear(p, kPointTolerance * object.diameter())) {
+inline grasp::Contact grasp::ContactAt(const object::Object& object, const Eigen::Vector3d& p,
+                                       const Eigen::Vector3d& n) {
+  grasp::Contact contact{p, n.normalized(), -1};
+  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - contact.n).norm() < 1e-6) contact.face = face;
   }
   return contact;
 }
 
-inline Plan MakePlan(FingerGrasp initial, double half_angle_deg, int fingers = 5) {
-  Plan plan;
+inline plan::Plan MakePlan(plan::FingerGrasp initial, double half_angle_deg, int fingers = 5) {
+  plan::Plan plan;
   plan.half_angle = Radians(half_angle_deg);
   plan.fingers = fingers;
   plan.initial = std::move(initial);
@@ -35,7 +36,7 @@ inline Plan MakePlan(FingerGrasp initial, double half_angle_deg, int fingers = 5
 }
 
 /// A point drawn evenly over the surface.
-inline Contact DrawContact(const Polyhedron& body, std::mt19937& random) {
+inline grasp::Contact DrawContact(const object::Polyhedron& body, std::mt19937& random) {
   const auto corners = [&](std::size_t t) {
     const auto& [a, b, c] = body.triangles()[t];
     return std::array{body.vertices()[a], body.vertices()[b], body.vertices()[c]};
@@ -56,17 +57,17 @@ inline Contact DrawContact(const Polyhedron& body, std::mt19937& random) {
 
 /// The cube of models/cube.obj held about its middle, and grasps near it.
 struct CubeCase {
-  ObjectFile file = ReadModel("cube.obj");
-  const Object& object = *file.object;
+  object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& object = *file.object;
 
-  [[nodiscard]] FingerContact At(int finger, double x, double y, double z) const {
+  [[nodiscard]] plan::FingerContact At(int finger, double x, double y, double z) const {
     const Eigen::Vector3d p(x, y, z);
     Eigen::Index axis = 0;
     p.cwiseAbs().maxCoeff(&axis);
-    return {finger,
-            ContactAt(object, p, -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
+    return {finger, grasp::ContactAt(object, p,
+                                     -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
   }
-  [[nodiscard]] FingerGrasp Start() const {
+  [[nodiscard]] plan::FingerGrasp Start() const {
     return {At(0, 0.03, 0.004, 0.002), At(1, -0.03, 0.002, -0.004), At(2, 0.003, 0.03, 0.004),
             At(3, -0.002, -0.03, 0.001)};
   }

@@ -4,7 +4,7 @@
 
 namespace regrasp::contour {
 
-Boundary::Boundary(const Polygon& polygon) : polygon_(polygon) {
+Boundary::Boundary(const object::Polygon& polygon) : polygon_(polygon) {
   int edge = 0;
   for (std::size_t ring = 0; ring < polygon.rings().size(); ++ring) {
     const int count = static_cast<int>(polygon.rings()[ring].size());
@@ -24,13 +24,13 @@ Boundary::Boundary(const Polygon& polygon) : polygon_(polygon) {
   first_edges_.push_back(edge);
 }
 
-double Boundary::PlaceOf(const Contact& contact) const {
+double Boundary::PlaceOf(const grasp::Contact& contact) const {
   const auto [from, to] = polygon_.edge(contact.face);
   const double along = (contact.p - from).dot(to - from) / polygon_.face_measure(contact.face);
   return std::clamp(begin(contact.face) + along, begin(contact.face), end(contact.face));
 }
 
-Contact Boundary::ContactAt(int edge, double place) const {
+grasp::Contact Boundary::ContactAt(int edge, double place) const {
   const auto [from, to] = polygon_.edge(edge);
   // Divided by this difference, the end of an edge is its vertex to the last bit.
   const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);

@@ -13,9 +13,9 @@ namespace regrasp::contour {
 class Boundary {
  public:
   /// `polygon` must outlive this object.
-  explicit Boundary(const Polygon& polygon);
+  explicit Boundary(const object::Polygon& polygon);
 
-  [[nodiscard]] const Polygon& polygon() const { return polygon_; }
+  [[nodiscard]] const object::Polygon& polygon() const { return polygon_; }
 
   [[nodiscard]] int edge_count() const { return static_cast<int>(ring_of_.size()); }
   [[nodiscard]] int ring_count() const { return static_cast<int>(perimeters_.size()); }
@@ -33,13 +33,13 @@ class Boundary {
   [[nodiscard]] double end(int edge) const { return ends_[edge]; }
 
   /// The place of a contact that knows its edge.
-  [[nodiscard]] double PlaceOf(const Contact& contact) const;
+  [[nodiscard]] double PlaceOf(const grasp::Contact& contact) const;
 
   /// The contact on an edge at a place within begin(edge) to end(edge); rounding is cut off.
-  [[nodiscard]] Contact ContactAt(int edge, double place) const;
+  [[nodiscard]] grasp::Contact ContactAt(int edge, double place) const;
 
  private:
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   std::vector<int> ring_of_;
   std::vector<int> first_edges_;
   std::vector<double> perimeters_;

@@ -28,7 +28,7 @@ double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 /// The four forms that are positive on a piece: how far one contact is inside the border of the
 /// other's cone. They rise with both places or fall with both, so their lines fall.
 std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece& piece) {
-  const Polygon& polygon = graph.boundary().polygon();
+  const object::Polygon& polygon = graph.boundary().polygon();
   const double angle = std::atan(graph.tangent());
   const double sign = piece.stretching ? -1 : 1;
   std::array<Vector2d, 2> starts, along;
@@ -95,7 +95,7 @@ void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
 
 /// In places counted from where the edges begin.
 std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPiece& piece) {
-  const Polygon& polygon = graph.boundary().polygon();
+  const object::Polygon& polygon = graph.boundary().polygon();
   const double width = polygon.face_measure(piece.edges[0]);
   const double height = polygon.face_measure(piece.edges[1]);
   std::vector<TaggedCorner> outline = {{{0, 0}}, {{width, 0}}, {{width, height}}, {{0, height}}};
@@ -114,7 +114,7 @@ Vector2d Origin(const ContourGraph& graph, const GraspPiece& piece) {
 /// makes a grasp of the piece; nullopt where doubles know none.
 std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece& piece, int k,
                                     bool at_end) {
-  const Polygon& polygon = graph.boundary().polygon();
+  const object::Polygon& polygon = graph.boundary().polygon();
   const int other = piece.edges[1 - k];
   const double length = polygon.face_measure(other);
   PlaceRange range = {0, length};

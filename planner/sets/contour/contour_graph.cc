@@ -44,7 +44,8 @@ std::int64_t CountCombinations(const std::vector<GraspPiece>& pieces) {
 
 }  // namespace
 
-ContourGraph::ContourGraph(const Polygon& polygon, double half_angle, const Deadline& deadline)
+ContourGraph::ContourGraph(const object::Polygon& polygon, double half_angle,
+                           const Deadline& deadline)
     : boundary_(polygon), tangent_(std::tan(half_angle)) {
   if (!(half_angle > 0 && half_angle < std::numbers::pi / 2)) {
     throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
@@ -73,9 +74,9 @@ ContourGraph::ContourGraph(const Polygon& polygon, double half_angle, const Dead
 
 void ContourGraph::GroupPieces() {
   const int count = static_cast<int>(pieces_.size());
-  Components sets = FindComponents(count, static_cast<int>(passages_.size()), [&](int passage) {
-    return std::span<const int>(passages_[passage].pieces);
-  });
+  search::Components sets = search::FindComponents(
+      count, static_cast<int>(passages_.size()),
+      [&](int passage) { return std::span<const int>(passages_[passage].pieces); });
   set_of_ = std::move(sets.of_vertex);
   Grouping by_set = Group(
       sets.count(), count, [&](int piece) { return set_of_[piece]; }, std::identity());
@@ -100,9 +101,9 @@ std::vector<int> ContourGraph::PiecesOn(int edge, int other) const {
   return pieces;
 }
 
-Components ContourGraph::components() const {
-  return FindComponents(vertex_count(), static_cast<int>(switches_.size()),
-                        [&](int i) { return std::span<const int>(switches_[i]); });
+search::Components ContourGraph::components() const {
+  return search::FindComponents(vertex_count(), static_cast<int>(switches_.size()),
+                                [&](int i) { return std::span<const int>(switches_[i]); });
 }
 
 void ContourGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const {

@@ -50,13 +50,13 @@ struct PiecePassage {
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90°, or when its edges are numbered from another vertex; no grasp is lost when θ grows. Cutting
 /// an edge in two changes no component and no switch.
-class ContourGraph final : public SwitchingGraph {
+class ContourGraph final : public search::SwitchingGraph {
  public:
   /// @param polygon     must outlive this object.
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
-  ContourGraph(const Polygon& polygon, double half_angle, const Deadline& deadline = {});
+  ContourGraph(const object::Polygon& polygon, double half_angle, const Deadline& deadline = {});
 
   [[nodiscard]] const Boundary& boundary() const { return boundary_; }
   /// tan θ.
@@ -84,7 +84,7 @@ class ContourGraph final : public SwitchingGraph {
   [[nodiscard]] std::int64_t combination_count() const { return combinations_; }
   [[nodiscard]] std::int64_t switch_count() const { return std::ssize(switches_); }
   [[nodiscard]] const std::vector<std::array<int, 2>>& switches() const { return switches_; }
-  [[nodiscard]] Components components() const;
+  [[nodiscard]] search::Components components() const;
 
   /// Wall time that the vertices and the edges took.
   [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }

@@ -20,26 +20,25 @@ std::optional<SetSwitch<PlacedGrasp>> EndsOf(const std::optional<ContourSwitch>&
 
 }  // namespace
 
-Grasp ContourModel::Draw(int set, RandomStream& random) {
+grasp::Grasp ContourModel::Draw(int set, RandomStream& random) {
   const auto place = geometry_.Draw(set, random);
-  return place ? GraspOf(*place) : Grasp();
+  return place ? GraspOf(*place) : grasp::Grasp();
 }
 
 std::vector<Attachment<PlacedGrasp>> ContourModel::Attach(
-    const Grasp& grasp, const GraspEvaluator& /*evaluator*/) const {
+    const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) const {
   const auto place = geometry_.Locate(grasp);
   if (!place) return {};
   return {{*place}};
 }
 
-std::string ContourModel::WhyUnattached(const Grasp& /*grasp*/) const {
+std::string ContourModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
   return "too near to its limit: in none of the " + std::to_string(graph().vertex_count()) + " " +
          sets_name();
 }
 
-std::optional<SetSwitch<PlacedGrasp>> ContourModel::FindSwitch(int from, int to,
-                                                               const SwitchEnds<Place>& ends,
-                                                               const GraspEvaluator& evaluator) {
+std::optional<SetSwitch<PlacedGrasp>> ContourModel::FindSwitch(
+    int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator) {
   const PlacedScore margin = [this](const Place& place) { return geometry_.AngleMarginOf(place); };
   if (ends.before != nullptr && ends.after != nullptr) {
     return EndsOf(FindSwitchBetween(graph(), *ends.before, *ends.after));
@@ -53,8 +52,8 @@ std::optional<SetSwitch<PlacedGrasp>> ContourModel::FindSwitch(int from, int to,
 }
 
 std::optional<double> ContourModel::Refine(SetSwitch<Place>& change,
-                                           const GraspEvaluator& evaluator) {
-  if (objective_ == Objective::kRegions) {
+                                           const criteria::GraspEvaluator& evaluator) {
+  if (objective_ == planning::Objective::kRegions) {
     const int from = SetOf(change.before);
     const int to = SetOf(change.after);
     const auto [known, is_new] = largest_.try_emplace({from, to});
@@ -81,7 +80,8 @@ double ContourModel::RegionOf(const SetSwitch<Place>& change) {
   return std::min(geometry_.SizeAt(change.before), geometry_.SizeAt(change.after));
 }
 
-bool ContourModel::IsGood(const SetSwitch<Place>& change, const GraspEvaluator& evaluator) const {
+bool ContourModel::IsGood(const SetSwitch<Place>& change,
+                          const criteria::GraspEvaluator& evaluator) const {
   return evaluator.IsGood(GraspOf(change.before)) && evaluator.IsGood(GraspOf(change.after));
 }
 

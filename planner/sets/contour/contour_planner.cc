@@ -9,18 +9,19 @@
 namespace regrasp::contour {
 
 ContourPlanner::ContourPlanner()
-    : Planner({.name = "contour",
-               .what = "2-finger grasps of the whole boundary",
-               .in_plane = PlannerScope{kContourFingers, {2, 2}, {2, 2}},
-               .options = {PlanOption::kRegions}}) {}
+    : planning::Planner({.name = "contour",
+                         .what = "2-finger grasps of the whole boundary",
+                         .in_plane = planning::PlannerScope{kContourFingers, {2, 2}, {2, 2}},
+                         .options = {planning::PlanOption::kRegions}}) {}
 
-std::optional<MemoryNeed> ContourPlanner::EstimateMemory(const PlanRequest& request) const {
-  return EstimateContourPlan(dynamic_cast<const Polygon&>(*request.object),
+std::optional<MemoryNeed> ContourPlanner::EstimateMemory(
+    const planning::PlanRequest& request) const {
+  return EstimateContourPlan(dynamic_cast<const object::Polygon&>(*request.object),
                              request.criteria.half_angle);
 }
 
-PlanResult ContourPlanner::Plan(const PlanRequest& request) const {
-  const auto& polygon = dynamic_cast<const Polygon&>(*request.object);
+planning::PlanResult ContourPlanner::Plan(const planning::PlanRequest& request) const {
+  const auto& polygon = dynamic_cast<const object::Polygon&>(*request.object);
   request.progress("building the switching graph");
   const ContourGraph graph(polygon, request.criteria.half_angle, request.deadline);
   ContourModel model(graph, request);

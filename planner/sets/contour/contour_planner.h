@@ -11,11 +11,12 @@ namespace regrasp::contour {
 /// Contacts that a switch places carry the half-width of the smaller contact region of its two
 /// grasps, rounded down. Law: along the same path of sets Objective::kRegions gives every switch a
 /// region at least as large as it has otherwise.
-class ContourPlanner final : public Planner {
+class ContourPlanner final : public planning::Planner {
  public:
   ContourPlanner();
-  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const override;
-  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
+      const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 };
 
 }  // namespace regrasp::contour

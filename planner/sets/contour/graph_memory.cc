@@ -63,9 +63,9 @@ Joins CountJoins(const polygon::EdgeTable& edges, const Boundary& boundary,
   }
   const std::vector<GraspPiece> pieces = FindPieces(edges, candidates);
   const std::vector<PiecePassage> passages = FindPassages(edges, boundary, pieces);
-  const Components sets =
-      FindComponents(static_cast<int>(pieces.size()), static_cast<int>(passages.size()),
-                     [&](int passage) { return std::span<const int>(passages[passage].pieces); });
+  const search::Components sets = search::FindComponents(
+      static_cast<int>(pieces.size()), static_cast<int>(passages.size()),
+      [&](int passage) { return std::span<const int>(passages[passage].pieces); });
   std::vector<std::vector<int>> pieces_of(sets.count());
   for (int piece = 0; piece < std::ssize(pieces); ++piece) {
     pieces_of[sets.of_vertex[piece]].push_back(piece);
@@ -75,7 +75,7 @@ Joins CountJoins(const polygon::EdgeTable& edges, const Boundary& boundary,
   return {static_cast<double>(candidates.size()), static_cast<double>(joins.size())};
 }
 
-MemoryNeed Estimate(const Polygon& polygon, double half_angle, double bytes_of_piece) {
+MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, double bytes_of_piece) {
   const double tangent = std::tan(half_angle);  // before the processor rounds upward
   const polygon::IntervalScope scope;
   const polygon::EdgeTable edges(polygon, tangent);
@@ -102,11 +102,11 @@ MemoryNeed Estimate(const Polygon& polygon, double half_angle, double bytes_of_p
 
 }  // namespace
 
-MemoryNeed EstimateContourGraph(const Polygon& polygon, double half_angle) {
+MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle) {
   return Estimate(polygon, half_angle, kBytesOfPiece);
 }
 
-MemoryNeed EstimateContourPlan(const Polygon& polygon, double half_angle) {
+MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle) {
   return Estimate(polygon, half_angle, kBytesOfPiece + kBytesOfOutline);
 }
 

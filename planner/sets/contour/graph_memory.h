@@ -13,9 +13,9 @@ namespace regrasp::contour {
 /// third power. What a piece and a join take was measured.
 ///
 /// Law: the same polygon gives the same number.
-[[nodiscard]] MemoryNeed EstimateContourGraph(const Polygon& polygon, double half_angle);
+[[nodiscard]] MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle);
 
 /// The same for what PlanOnContour takes: also the geometry of the sets that it looks at.
-[[nodiscard]] MemoryNeed EstimateContourPlan(const Polygon& polygon, double half_angle);
+[[nodiscard]] MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle);
 
 }  // namespace regrasp::contour

@@ -307,7 +307,7 @@ Site Shift(Site site, const Vector2d& by) {
 /// contact is: half of that.
 double LargestSize(const ContourGraph& graph, int set) {
   std::vector<double> widths(graph.boundary().edge_count());
-  const Polygon& polygon = graph.boundary().polygon();
+  const object::Polygon& polygon = graph.boundary().polygon();
   for (const int piece : graph.pieces_of(set)) {
     const auto& edges = graph.pieces()[piece].edges;
     for (int k = 0; k < 2; ++k) widths[edges[k]] += polygon.face_measure(edges[1 - k]);

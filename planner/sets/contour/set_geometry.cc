@@ -63,11 +63,11 @@ double SetGeometry::SizeAt(const PlacedGrasp& grasp) {
 
 double SetGeometry::AngleMarginOf(const PlacedGrasp& grasp) const {
   deadline_.Check();
-  const Grasp contacts = GraspOf(grasp);
+  const grasp::Grasp contacts = GraspOf(grasp);
   const bool stretching = graph_.pieces()[grasp.piece].stretching;
   const Eigen::Vector3d line = (stretching ? -1 : 1) * (contacts[1].p - contacts[0].p);
-  return std::atan(graph_.tangent()) -
-         std::max(AngleBetween(contacts[0].n, line), AngleBetween(contacts[1].n, -line));
+  return std::atan(graph_.tangent()) - std::max(grasp::AngleBetween(contacts[0].n, line),
+                                                grasp::AngleBetween(contacts[1].n, -line));
 }
 
 std::optional<PlaceRange> SetGeometry::RangeOf(int piece, int k) {
@@ -116,11 +116,11 @@ std::optional<PlacedGrasp> SetGeometry::Draw(int set, RandomStream& random) {
   return std::nullopt;
 }
 
-std::optional<PlacedGrasp> SetGeometry::Locate(const Grasp& grasp) const {
+std::optional<PlacedGrasp> SetGeometry::Locate(const grasp::Grasp& grasp) const {
   const Boundary& boundary = graph_.boundary();
   const bool ascending = grasp[0].face < grasp[1].face;
-  const Contact& first = grasp[ascending ? 0 : 1];
-  const Contact& second = grasp[ascending ? 1 : 0];
+  const grasp::Contact& first = grasp[ascending ? 0 : 1];
+  const grasp::Contact& second = grasp[ascending ? 1 : 0];
   const bool stretching = first.n.dot(second.p - first.p) < 0;
   for (const int piece : graph_.PiecesOn(first.face, second.face)) {
     if (graph_.pieces()[piece].stretching != stretching) continue;
@@ -129,7 +129,7 @@ std::optional<PlacedGrasp> SetGeometry::Locate(const Grasp& grasp) const {
   return std::nullopt;
 }
 
-Grasp SetGeometry::GraspOf(const PlacedGrasp& grasp) const {
+grasp::Grasp SetGeometry::GraspOf(const PlacedGrasp& grasp) const {
   const auto& [a, b] = graph_.pieces()[grasp.piece].edges;
   const Boundary& boundary = graph_.boundary();
   return {boundary.ContactAt(a, grasp.places[0]), boundary.ContactAt(b, grasp.places[1])};

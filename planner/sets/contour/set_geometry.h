@@ -52,9 +52,9 @@ class SetGeometry {
 
   /// The point of contact space of a grasp whose contacts know their edges; nullopt where the exact
   /// decision knows no such grasp.
-  [[nodiscard]] std::optional<PlacedGrasp> Locate(const Grasp& grasp) const;
+  [[nodiscard]] std::optional<PlacedGrasp> Locate(const grasp::Grasp& grasp) const;
 
-  [[nodiscard]] Grasp GraspOf(const PlacedGrasp& grasp) const;
+  [[nodiscard]] grasp::Grasp GraspOf(const PlacedGrasp& grasp) const;
 
  private:
   struct Diagram {

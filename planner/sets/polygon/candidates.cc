@@ -44,13 +44,13 @@ std::vector<int> SortByAngle(const EdgeTable& edges) {
 
 /// True iff the turn from the normal of `a` counter-clockwise to that of `b` is positive and below
 /// π, or below π − 2θ.
-bool IsGap(const EdgeTable& edges, int a, int b, Spanning spanning) {
+bool IsGap(const EdgeTable& edges, int a, int b, planning::Spanning spanning) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
     const EdgeFrame<NT> from = edges.frame<NT>(a);
     const EdgeFrame<NT> to = edges.frame<NT>(b);
     if (Sign(Cross(from.along, to.along)) <= 0) return false;
-    return spanning == Spanning::kAdaptive || Sign(Cross(from.right, to.left)) > 0;
+    return spanning == planning::Spanning::kAdaptive || Sign(Cross(from.right, to.left)) > 0;
   });
 }
 
@@ -155,7 +155,8 @@ class OpposedEdges {
 
 }  // namespace
 
-std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges, Spanning spanning,
+std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges,
+                                                          planning::Spanning spanning,
                                                           const Deadline& deadline) {
   const std::vector<int> order = SortByAngle(edges);
   const int n = edges.size();
@@ -167,7 +168,7 @@ std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges
     for (int s = 0; s < n; ++s) {
       if (r == s) continue;
       gap[r][s] = IsGap(edges, order[r], order[s], spanning);
-      if (gap[r][s] && spanning == Spanning::kAdaptive) {
+      if (gap[r][s] && spanning == planning::Spanning::kAdaptive) {
         limit[r][s] = SpanningTangent(edges, order[r], order[s]);
       }
     }

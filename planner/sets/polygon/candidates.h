@@ -36,7 +36,7 @@ struct ParallelCandidate {
 /// IntervalScope, as the others.
 /// @throws TimeUp  the deadline came, as the others.
 [[nodiscard]] std::vector<ConcurrentCandidate> FindConcurrentCandidates(
-    const EdgeTable& edges, Spanning spanning, const Deadline& deadline = {});
+    const EdgeTable& edges, planning::Spanning spanning, const Deadline& deadline = {});
 
 /// The pairs whose normals are within 2θ of being opposite: the cones C(n_a) and −C(n_b) have a
 /// common interior.

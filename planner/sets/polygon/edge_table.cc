@@ -2,7 +2,7 @@
 
 namespace regrasp::polygon {
 
-EdgeTable::EdgeTable(const Polygon& polygon, double tangent) : tangent_(tangent) {
+EdgeTable::EdgeTable(const object::Polygon& polygon, double tangent) : tangent_(tangent) {
   int first = 0;
   for (const auto& ring : polygon.rings()) {
     const int n = static_cast<int>(ring.size());

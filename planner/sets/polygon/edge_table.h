@@ -12,7 +12,7 @@ namespace regrasp::polygon {
 class EdgeTable {
  public:
   /// @param tangent  tan θ of the friction half-angle.
-  EdgeTable(const Polygon& polygon, double tangent);
+  EdgeTable(const object::Polygon& polygon, double tangent);
 
   /// The table of some of the edges, as though the polygon had no others.
   /// @param edges  ascending; they get the numbers 0, 1, …

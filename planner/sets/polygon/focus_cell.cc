@@ -30,7 +30,8 @@ double Quotient(const Exact& numerator, const Exact& denominator) {
 
 }  // namespace
 
-std::vector<std::vector<Eigen::Vector2d>> FocusCell(const Polygon& polygon, const GraspSet& set) {
+std::vector<std::vector<Eigen::Vector2d>> FocusCell(const object::Polygon& polygon,
+                                                    const GraspSet& set) {
   if (set.type != GraspType::kConcurrent || set.edges.size() != 3) {
     throw std::invalid_argument("a focus cell needs a concurrent set");
   }

@@ -13,7 +13,7 @@ namespace regrasp::polygon {
 ///
 /// At φ = φ* a cell may reach infinity; what is farther than `kFarthestFocus` diameters from the
 /// centroid is cut off.
-[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> FocusCell(const Polygon& polygon,
+[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> FocusCell(const object::Polygon& polygon,
                                                                   const GraspSet& set);
 
 inline constexpr double kFarthestFocus = 100;  ///< over D

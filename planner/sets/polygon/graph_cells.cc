@@ -58,7 +58,7 @@ std::vector<std::vector<int>> SubsetsOf(int count) {
 using FixedParameters = std::vector<std::optional<double>>;
 
 /// All ways to keep contacts of a grasp in a set on these edges, none among them.
-std::vector<FixedParameters> ChooseKept(const Polygon& polygon, const Grasp& grasp,
+std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                         const std::vector<int>& edges) {
   std::vector<FixedParameters> choices = {FixedParameters()};
   for (const int edge : edges) {
@@ -66,10 +66,10 @@ std::vector<FixedParameters> ChooseKept(const Polygon& polygon, const Grasp& gra
     for (const FixedParameters& choice : choices) {
       longer.push_back(choice);
       longer.back().push_back(std::nullopt);
-      for (const Contact& contact : grasp) {
+      for (const grasp::Contact& contact : grasp) {
         if (contact.face != edge) continue;
         longer.push_back(choice);
-        longer.back().push_back(ParameterOf(polygon, contact));
+        longer.back().push_back(grasp::ParameterOf(polygon, contact));
       }
     }
     choices = std::move(longer);
@@ -120,7 +120,7 @@ double GraphCells::WidthOf(int vertex) {
   return *width;
 }
 
-std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const Grasp& grasp) {
+std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const grasp::Grasp& grasp) {
   std::vector<Attachment<PolygonPlace>> attachments;
   for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {
     std::sort(contacts.begin(), contacts.end(),
@@ -128,7 +128,8 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const Grasp& g
     std::vector<int> edges;
     VectorXd parameters(static_cast<Eigen::Index>(contacts.size()));
     for (const int contact : contacts) {
-      parameters[static_cast<Eigen::Index>(edges.size())] = ParameterOf(polygon_, grasp[contact]);
+      parameters[static_cast<Eigen::Index>(edges.size())] =
+          grasp::ParameterOf(polygon_, grasp[contact]);
       edges.push_back(grasp[contact].face);
     }
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
@@ -140,7 +141,8 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const Grasp& g
   return attachments;
 }
 
-std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const Grasp& grasp, int fingers) {
+std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const grasp::Grasp& grasp,
+                                                               int fingers) {
   std::vector<Attachment<PolygonPlace>> attachments;
   for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
     const std::vector<int>& edges = graph_.sets()[vertex].edges;
@@ -160,13 +162,13 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const Grasp& gras
   return attachments;
 }
 
-Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
+grasp::Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
   const std::vector<GraspCell>& cells = of(vertex).cells();
-  Grasp grasp;
+  grasp::Grasp grasp;
   if (cells.empty()) return grasp;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);
   for (const int edge : graph_.sets()[vertex].edges) {
-    grasp.push_back(ContactAt(polygon_, edge, z[static_cast<Eigen::Index>(grasp.size())]));
+    grasp.push_back(grasp::ContactAt(polygon_, edge, z[static_cast<Eigen::Index>(grasp.size())]));
   }
   return grasp;
 }

@@ -20,7 +20,7 @@ struct PolygonPlace {
 class GraphCells {
  public:
   /// @param deadline  when whatever asks for cells makes an end, by TimeUp.
-  GraphCells(const Polygon& polygon, const PolygonGraph& graph, Deadline deadline = {})
+  GraphCells(const object::Polygon& polygon, const PolygonGraph& graph, Deadline deadline = {})
       : polygon_(polygon),
         graph_(graph),
         deadline_(std::move(deadline)),
@@ -34,18 +34,19 @@ class GraphCells {
 
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
-  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindAttachments(const Grasp& grasp);
+  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindAttachments(const grasp::Grasp& grasp);
 
   /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
   /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
   /// to no set.
-  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindSwitches(const Grasp& grasp, int fingers);
+  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindSwitches(const grasp::Grasp& grasp,
+                                                                   int fingers);
 
   /// A grasp of the set, anywhere in it.
-  [[nodiscard]] Grasp DrawGrasp(int vertex, RandomStream& random);
+  [[nodiscard]] grasp::Grasp DrawGrasp(int vertex, RandomStream& random);
 
  private:
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   const PolygonGraph& graph_;
   Deadline deadline_;
   std::vector<std::optional<SetCells>> cells_;

@@ -41,7 +41,7 @@ struct Counts {
   double on_two = 0, on_three = 0;  ///< vertices on so many edges
 };
 
-Counts CountOn(const EdgeTable& edges, Spanning spanning) {
+Counts CountOn(const EdgeTable& edges, planning::Spanning spanning) {
   Counts counts;
   ConcurrentCellFinder finder(edges);
   for (const ConcurrentCandidate& candidate : FindConcurrentCandidates(edges, spanning)) {
@@ -66,7 +66,8 @@ Counts CountOn(const EdgeTable& edges, Spanning spanning) {
 
 }  // namespace
 
-MemoryNeed EstimatePolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning) {
+MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angle,
+                                planning::Spanning spanning) {
   const double tangent = std::tan(half_angle);  // before the processor rounds upward
   const IntervalScope scope;
   const std::vector<int> drawn = DrawEdges(polygon.face_count());

@@ -14,7 +14,7 @@ namespace regrasp::polygon {
 ///
 /// Laws: the same polygon gives the same number; a polygon of forty edges or fewer is counted
 /// whole.
-[[nodiscard]] MemoryNeed EstimatePolygonGraph(const Polygon& polygon, double half_angle,
-                                              Spanning spanning);
+[[nodiscard]] MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angle,
+                                              planning::Spanning spanning);
 
 }  // namespace regrasp::polygon

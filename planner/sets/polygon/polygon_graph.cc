@@ -76,7 +76,8 @@ class PairCache {
 class GraphBuilder {
  public:
   /// @param deadline  outlives this object.
-  GraphBuilder(const Polygon& polygon, double tangent, Spanning spanning, const Deadline& deadline)
+  GraphBuilder(const object::Polygon& polygon, double tangent, planning::Spanning spanning,
+               const Deadline& deadline)
       : spanning_(spanning), edges_(polygon, tangent), deadline_(deadline) {}
 
   void FindVertices(std::array<GraspTypeCounts, kGraspTypes>& counts) {
@@ -116,7 +117,7 @@ class GraphBuilder {
     pairs_.resize(first_parallel_ + parallel_.size());
     JoinByPairs();
     JoinTwoFinger();
-    if (spanning_ == Spanning::kAdaptive) JoinSameTriples();
+    if (spanning_ == planning::Spanning::kAdaptive) JoinSameTriples();
     return std::move(joins_);
   }
 
@@ -231,7 +232,8 @@ class GraphBuilder {
 
   /// Whether two three-finger vertices with two edges in common, or more, can switch over them.
   bool CanSwitch(int v, int w) {
-    if (IsConcurrent(v) != IsConcurrent(w) && spanning_ == Spanning::kUniform) return false;
+    if (IsConcurrent(v) != IsConcurrent(w) && spanning_ == planning::Spanning::kUniform)
+      return false;
     const CommonEdges common = FindCommonEdges(EdgesOf(v), EdgesOf(w));
     if (common.size() != 2) return false;
     if (IsConcurrent(v) && IsConcurrent(w)) {
@@ -290,7 +292,7 @@ class GraphBuilder {
     FilteredRange range;
   };
 
-  Spanning spanning_;
+  planning::Spanning spanning_;
   EdgeTable edges_;
   const Deadline& deadline_;
   std::vector<ConcurrentVertex> concurrent_;
@@ -310,8 +312,8 @@ double SecondsSince(std::chrono::steady_clock::time_point begin) {
 
 }  // namespace
 
-PolygonGraph::PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning,
-                           const Deadline& deadline) {
+PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
+                           planning::Spanning spanning, const Deadline& deadline) {
   if (!(half_angle > 0 && half_angle < std::numbers::pi / 2)) {
     throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
   }
@@ -351,14 +353,14 @@ std::int64_t PolygonGraph::edge_count(GraspType a, GraspType b) const {
   return a == b ? count / 2 : count;
 }
 
-Components PolygonGraph::components() const {
+search::Components PolygonGraph::components() const {
   std::vector<int> two_finger;
   for (int v = 0; v < vertex_count(); ++v) {
     if (sets_[v].type == GraspType::kTwoFinger) two_finger.push_back(v);
   }
   const int pairs = static_cast<int>(edges_.size());
   const bool any = !two_finger.empty();
-  return FindComponents(vertex_count(), pairs + (any ? 1 : 0), [&](int group) {
+  return search::FindComponents(vertex_count(), pairs + (any ? 1 : 0), [&](int group) {
     return group < pairs ? std::span<const int>(edges_[group]) : std::span<const int>(two_finger);
   });
 }
@@ -369,9 +371,9 @@ std::int64_t PolygonGraph::CountComponents(GraspType type) const {
   std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(inside), [&](const auto& edge) {
     return sets_[edge[0]].type == type && sets_[edge[1]].type == type;
   });
-  const Components all =
-      FindComponents(vertex_count(), static_cast<int>(inside.size()),
-                     [&](int group) { return std::span<const int>(inside[group]); });
+  const search::Components all =
+      search::FindComponents(vertex_count(), static_cast<int>(inside.size()),
+                             [&](int group) { return std::span<const int>(inside[group]); });
   // Vertices of other types are components of their own.
   return all.count() - (vertex_count() - counts(type).vertices);
 }

@@ -41,12 +41,12 @@ struct GraspTypeCounts {
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90° or when its edges are numbered from another vertex; under Spanning::kAdaptive no grasp is
 /// lost when the friction grows.
-class PolygonGraph final : public SwitchingGraph {
+class PolygonGraph final : public search::SwitchingGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
-  PolygonGraph(const Polygon& polygon, double half_angle, Spanning spanning,
+  PolygonGraph(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
                const Deadline& deadline = {});
 
   /// Concurrent sets first, then two-finger, then parallel ones; of each type by their edges.
@@ -56,7 +56,7 @@ class PolygonGraph final : public SwitchingGraph {
   }
   /// Unordered pairs of joined vertices of these two types.
   [[nodiscard]] std::int64_t edge_count(GraspType a, GraspType b) const;
-  [[nodiscard]] Components components() const;
+  [[nodiscard]] search::Components components() const;
   /// The vertices on exactly these edges (ascending), of any type.
   [[nodiscard]] std::vector<int> SetsOn(const std::vector<int>& edges) const;
 

@@ -32,17 +32,17 @@ std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchS
 
 }  // namespace
 
-Grasp PolygonModel::GraspOf(const Place& place) const {
-  Grasp grasp;
+grasp::Grasp PolygonModel::GraspOf(const Place& place) const {
+  grasp::Grasp grasp;
   for (const int edge : graph_.sets()[place.set].edges) {
     const auto k = static_cast<Eigen::Index>(grasp.size());
-    grasp.push_back(ContactAt(polygon_, edge, place.parameters[k]));
+    grasp.push_back(grasp::ContactAt(polygon_, edge, place.parameters[k]));
   }
   return grasp;
 }
 
-std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(const Grasp& grasp,
-                                                           const GraspEvaluator& evaluator) {
+std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(
+    const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) {
   using Scored = std::pair<double, Attachment<Place>>;
   std::vector<Scored> scored;
   const auto add = [&](std::vector<Attachment<Place>> attachments) {
@@ -65,7 +65,7 @@ std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(const Grasp& grasp,
 }
 
 /// Sets are open: no grasp in them has a contact at the end of an edge.
-std::string PolygonModel::WhyUnattached(const Grasp& grasp) const {
+std::string PolygonModel::WhyUnattached(const grasp::Grasp& grasp) const {
   std::string why = "in none of the " + std::to_string(graph_.vertex_count()) +
                     " sets of concurrent, 2-finger and parallel grasps that the planner polygon "
                     "switches between, nor one switch away";
@@ -77,9 +77,8 @@ std::string PolygonModel::WhyUnattached(const Grasp& grasp) const {
   return why;
 }
 
-std::optional<SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(int from, int to,
-                                                                const SwitchEnds<Place>& ends,
-                                                                const GraspEvaluator& evaluator) {
+std::optional<SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(
+    int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator) {
   const auto side = [&](int set, const Place* fixed) {
     return SwitchSide{&graph_.sets()[set], &cells_.of(set),
                       fixed == nullptr ? std::nullopt : std::optional(fixed->parameters)};

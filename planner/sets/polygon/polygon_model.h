@@ -16,31 +16,32 @@ class PolygonModel {
   using Place = PolygonPlace;
 
   /// All outlive this object.
-  PolygonModel(const Polygon& polygon, const PolygonGraph& graph, const Deadline& deadline)
+  PolygonModel(const object::Polygon& polygon, const PolygonGraph& graph, const Deadline& deadline)
       : polygon_(polygon), graph_(graph), cells_(polygon, graph, deadline) {}
 
   [[nodiscard]] const PolygonGraph& graph() const { return graph_; }
-  [[nodiscard]] Components components() const { return graph_.components(); }
+  [[nodiscard]] search::Components components() const { return graph_.components(); }
   [[nodiscard]] static std::string sets_name() { return "sets of grasps"; }
   [[nodiscard]] double WidthOf(int set) { return cells_.WidthOf(set); }
-  [[nodiscard]] Grasp Draw(int set, RandomStream& random) { return cells_.DrawGrasp(set, random); }
+  [[nodiscard]] grasp::Grasp Draw(int set, RandomStream& random) {
+    return cells_.DrawGrasp(set, random);
+  }
 
   [[nodiscard]] static int SetOf(const Place& place) { return place.set; }
-  [[nodiscard]] Grasp GraspOf(const Place& place) const;
+  [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const;
   /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
   /// which, the hand rests well.
-  [[nodiscard]] std::vector<Attachment<Place>> Attach(const Grasp& grasp,
-                                                      const GraspEvaluator& evaluator);
-  [[nodiscard]] std::string WhyUnattached(const Grasp& grasp) const;
+  [[nodiscard]] std::vector<Attachment<Place>> Attach(const grasp::Grasp& grasp,
+                                                      const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Of the switches with at least half of the best score the one that keeps the most contacts.
-  [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(int from, int to,
-                                                           const SwitchEnds<Place>& ends,
-                                                           const GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(
+      int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   const PolygonGraph& graph_;
   GraphCells cells_;
 };

@@ -10,23 +10,25 @@ namespace regrasp::polygon {
 
 namespace {
 
-const Polygon& PolygonOf(const PlanRequest& request) {
-  return dynamic_cast<const Polygon&>(*request.object);
+const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
+  return dynamic_cast<const object::Polygon&>(*request.object);
 }
 
 }  // namespace
 
 PolygonPlanner::PolygonPlanner()
-    : Planner({.name = "polygon",
-               .what = "concurrent, 2-finger and parallel grasps",
-               .in_plane = PlannerScope{kPolygonFingers, {2, kPolygonFingers}, {2, 3}},
-               .options = {PlanOption::kUniformSpanning}}) {}
+    : planning::Planner(
+          {.name = "polygon",
+           .what = "concurrent, 2-finger and parallel grasps",
+           .in_plane = planning::PlannerScope{kPolygonFingers, {2, kPolygonFingers}, {2, 3}},
+           .options = {planning::PlanOption::kUniformSpanning}}) {}
 
-std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(const PlanRequest& request) const {
+std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(
+    const planning::PlanRequest& request) const {
   return EstimatePolygonGraph(PolygonOf(request), request.criteria.half_angle, request.spanning);
 }
 
-PlanResult PolygonPlanner::Plan(const PlanRequest& request) const {
+planning::PlanResult PolygonPlanner::Plan(const planning::PlanRequest& request) const {
   request.progress("building the switching graph");
   const PolygonGraph graph(PolygonOf(request), request.criteria.half_angle, request.spanning,
                            request.deadline);

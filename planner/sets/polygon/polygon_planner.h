@@ -11,11 +11,12 @@ namespace regrasp::polygon {
 ///
 /// A grasp is joined to the sets that contain it, or contain two or three of its contacts: the
 /// others are then released first or placed last.
-class PolygonPlanner final : public Planner {
+class PolygonPlanner final : public planning::Planner {
  public:
   PolygonPlanner();
-  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const override;
-  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
+      const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 };
 
 }  // namespace regrasp::polygon

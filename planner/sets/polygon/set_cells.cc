@@ -33,7 +33,7 @@ struct Edge {
 /// What makes the cells of one set.
 class CellMaker {
  public:
-  CellMaker(const Polygon& polygon, const GraspSet& set) : set_(set) {
+  CellMaker(const object::Polygon& polygon, const GraspSet& set) : set_(set) {
     const Vector2d centre = polygon.mass_properties().centroid.head<2>();
     const double d = polygon.diameter();
     for (const int e : set.edges) {
@@ -244,7 +244,7 @@ class CellMaker {
 
 }  // namespace
 
-SetCells::SetCells(const Polygon& polygon, const GraspSet& set)
+SetCells::SetCells(const object::Polygon& polygon, const GraspSet& set)
     : polygon_(polygon), set_(set), cells_(CellMaker(polygon, set).Make()) {}
 
 std::optional<VectorXd> SetCells::Passage(int from, int to) const {
@@ -274,7 +274,7 @@ double SetCells::width() const {
   return width;
 }
 
-double ClearWidth(const Polygon& polygon, const GraspSet& parallel) {
+double ClearWidth(const object::Polygon& polygon, const GraspSet& parallel) {
   return CellMaker(polygon, parallel).ClearWidth();
 }
 

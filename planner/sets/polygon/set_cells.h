@@ -28,7 +28,7 @@ class SetCells {
  public:
   /// In doubles: existence was decided when the set was found, and what is too thin for doubles is
   /// left out here. Polygon and set must outlive the cells.
-  SetCells(const Polygon& polygon, const GraspSet& set);
+  SetCells(const object::Polygon& polygon, const GraspSet& set);
 
   [[nodiscard]] const std::vector<GraspCell>& cells() const { return cells_; }
 
@@ -46,14 +46,14 @@ class SetCells {
   }
 
  private:
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   const GraspSet& set_;
   std::vector<GraspCell> cells_;
 };
 
 /// The largest slack of a parallel set's grasps whose outer contacts are on different sides of the
 /// whole common cone; 0 where there are none. Two linear programs a centre instead of eight.
-[[nodiscard]] double ClearWidth(const Polygon& polygon, const GraspSet& parallel);
+[[nodiscard]] double ClearWidth(const object::Polygon& polygon, const GraspSet& parallel);
 
 /// Slacks up to this, over D, count as none: a few hundred roundings of the inequalities.
 inline constexpr double kNoSlack = 1e-12;

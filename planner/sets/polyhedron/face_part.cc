@@ -23,8 +23,8 @@ constexpr double kStraight = 1e-9;
 /// The parts of one face as rings of vertices.
 class FaceSplitter {
  public:
-  FaceSplitter(const Polyhedron& solid, int face) : solid_(solid) {
-    const Polyhedron::Face& f = solid.faces()[face];
+  FaceSplitter(const object::Polyhedron& solid, int face) : solid_(solid) {
+    const object::Polyhedron::Face& f = solid.faces()[face];
     frame_.face = face;
     frame_.origin = f.point;
     frame_.normal = f.inward_normal;
@@ -155,14 +155,14 @@ class FaceSplitter {
     return true;
   }
 
-  const Polyhedron& solid_;
+  const object::Polyhedron& solid_;
   FacePart frame_;
   std::vector<Ring> rings_;
 };
 
 }  // namespace
 
-FaceParts SplitFaces(const Polyhedron& solid) {
+FaceParts SplitFaces(const object::Polyhedron& solid) {
   FaceParts parts;
   for (int face = 0; face < solid.face_count(); ++face) {
     parts.first.push_back(static_cast<int>(parts.parts.size()));

@@ -38,6 +38,6 @@ struct FaceParts {
 /// Cuts faces that are not convex, or have holes, into convex parts: the face's triangles, joined
 /// across their sides while the union stays convex (Hertel and Mehlhorn 1983): at most four times
 /// as many as needed, one where the face is convex.
-[[nodiscard]] FaceParts SplitFaces(const Polyhedron& solid);
+[[nodiscard]] FaceParts SplitFaces(const object::Polyhedron& solid);
 
 }  // namespace regrasp::polyhedron

@@ -61,7 +61,7 @@ Cut LargestOnPart(std::span<const UnionVolume> volumes, const UnionVolume::Shape
 
 }  // namespace
 
-FocusCellFinder::FocusCellFinder(const Polyhedron& solid, double tangent)
+FocusCellFinder::FocusCellFinder(const object::Polyhedron& solid, double tangent)
     : solid_(solid),
       parts_(SplitFaces(solid)),
       shapes_(ShapesOf(parts_)),

@@ -33,7 +33,7 @@ struct FocusCell {
 class FocusCellFinder {
  public:
   /// @param tangent  tan θ. `solid` must outlive this object.
-  FocusCellFinder(const Polyhedron& solid, double tangent);
+  FocusCellFinder(const object::Polyhedron& solid, double tangent);
 
   /// The components of the focus cell of a candidate; empty where it has no interior.
   [[nodiscard]] std::vector<FocusCell> Find(const QuadrupleCandidate& candidate);
@@ -95,7 +95,7 @@ class FocusCellFinder {
     int joint;
   };
 
-  const Polyhedron& solid_;
+  const object::Polyhedron& solid_;
   FaceParts parts_;
   std::vector<UnionVolume::Shape> shapes_;        ///< of the parts, then of the hulls
   std::vector<UnionVolume::Shape> joint_shapes_;  ///< segments

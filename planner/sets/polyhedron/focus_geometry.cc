@@ -18,7 +18,7 @@ namespace {
 constexpr int kContactSteps = 16;
 
 /// A contact this far outside a part, over the diameter, is on it.
-constexpr double kOnPart = kPointTolerance;
+constexpr double kOnPart = object::kPointTolerance;
 
 /// Random focus points: steps of a walk (Smith 1984), and halvings to find where a step must end.
 constexpr int kWalkSteps = 8;
@@ -97,9 +97,9 @@ std::size_t OwnFace(const FocusCell& cell, const FocusCell& other) {
 
 }  // namespace
 
-Grasp FocusGeometry::GraspOf(const FocusGrasp& grasp) const {
+grasp::Grasp FocusGeometry::GraspOf(const FocusGrasp& grasp) const {
   const FocusCell& cell = graph_.cells()[grasp.cell];
-  Grasp contacts;
+  grasp::Grasp contacts;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     contacts.push_back({grasp.points[k], solid_.inward_normal(cell.faces[k]), cell.faces[k]});
   }
@@ -126,9 +126,9 @@ bool FocusGeometry::ContainsContact(int half, const Vector3d& contact) const {
   return DepthIn(shape, FootOn(shape, contact)) >= -kOnPart * solid_.diameter();
 }
 
-std::vector<FocusGrasp> FocusGeometry::Locate(const Grasp& grasp) {
-  std::vector<Contact> contacts = grasp;
-  std::ranges::sort(contacts, {}, &Contact::face);
+std::vector<FocusGrasp> FocusGeometry::Locate(const grasp::Grasp& grasp) {
+  std::vector<grasp::Contact> contacts = grasp;
+  std::ranges::sort(contacts, {}, &grasp::Contact::face);
   std::array<int, 4> faces;
   for (std::size_t k = 0; k < faces.size(); ++k) faces[k] = contacts[k].face;
   std::vector<FocusGrasp> located;

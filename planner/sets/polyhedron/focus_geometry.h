@@ -31,17 +31,18 @@ using FocusSwitch = SetSwitch<FocusGrasp>;
 class FocusGeometry {
  public:
   /// Both must outlive this object.
-  FocusGeometry(const Polyhedron& solid, PolyhedronGraph& graph) : solid_(solid), graph_(graph) {}
+  FocusGeometry(const object::Polyhedron& solid, PolyhedronGraph& graph)
+      : solid_(solid), graph_(graph) {}
 
   [[nodiscard]] const PolyhedronGraph& graph() const { return graph_; }
-  [[nodiscard]] Grasp GraspOf(const FocusGrasp& grasp) const;
+  [[nodiscard]] grasp::Grasp GraspOf(const FocusGrasp& grasp) const;
 
   /// How deep the deepest focus point of a cell is inside the volumes of its faces, a length.
   [[nodiscard]] double WidthOf(int cell);
 
   /// The cells that a grasp of four contacts, which know their faces, belongs to, each with the
   /// focus point deepest inside the contacts' cones.
-  [[nodiscard]] std::vector<FocusGrasp> Locate(const Grasp& grasp);
+  [[nodiscard]] std::vector<FocusGrasp> Locate(const grasp::Grasp& grasp);
 
   /// The switch between two linked cells whose focus point is deepest inside all five volumes.
   [[nodiscard]] std::optional<FocusSwitch> FindSwitch(int from, int to);
@@ -65,7 +66,7 @@ class FocusGeometry {
                                            const Eigen::Vector3d& focus) const;
   [[nodiscard]] bool ContainsContact(int half, const Eigen::Vector3d& contact) const;
 
-  const Polyhedron& solid_;
+  const object::Polyhedron& solid_;
   PolyhedronGraph& graph_;
   std::map<int, double> widths_;
 };

@@ -53,18 +53,18 @@ std::vector<Vector3d> ContactRegion(const Shape& shape, const Vector3d& focus, d
 
 }  // namespace
 
-std::optional<FocusView> DescribeFocus(const Polyhedron& solid, const Grasp& grasp,
+std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid, const grasp::Grasp& grasp,
                                        double half_angle) {
   if (grasp.size() != kContacts) return std::nullopt;
   std::vector<Vector3d> normals;
-  for (const Contact& contact : grasp) normals.push_back(solid.inward_normal(contact.face));
+  for (const grasp::Contact& contact : grasp) normals.push_back(solid.inward_normal(contact.face));
   const auto candidates =
-      FindQuadrupleCandidates(normals, std::tan(half_angle), Spanning::kAdaptive);
+      FindQuadrupleCandidates(normals, std::tan(half_angle), planning::Spanning::kAdaptive);
   if (candidates.empty()) return std::nullopt;
   const double tangent = candidates.front().tangent;
   FocusCellFinder finder(solid, tangent);
   std::vector<Shape> contacts;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     contacts.emplace_back(finder.parts().parts[finder.parts().first[contact.face]], contact.p);
   }
   std::optional<FocusView> view;
@@ -80,7 +80,7 @@ std::optional<FocusView> DescribeFocus(const Polyhedron& solid, const Grasp& gra
     view = FocusView{deepest->point, {}};
   }
   if (!view) return std::nullopt;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     const auto& first = finder.parts().first;
     for (int part = first[contact.face]; part < first[contact.face + 1]; ++part) {
       auto region = ContactRegion(finder.ShapeOf(2 * part), view->focus, tangent);

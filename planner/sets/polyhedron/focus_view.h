@@ -22,7 +22,7 @@ struct FocusView {
 /// The focus point of four contacts that know their faces, with cones of half-angle φ = min(θ, φ*);
 /// nullopt where there is none: the grasp is not concurrent, or has not four contacts.
 /// @param half_angle  θ, radians.
-[[nodiscard]] std::optional<FocusView> DescribeFocus(const Polyhedron& solid, const Grasp& grasp,
-                                                     double half_angle);
+[[nodiscard]] std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid,
+                                                     const grasp::Grasp& grasp, double half_angle);
 
 }  // namespace regrasp::polyhedron

@@ -27,7 +27,7 @@ constexpr double kCellsOfCandidate = 0.75;
 /// Links times the third power of the faces over the square of the cells: 75 to 150 on the same.
 constexpr double kLinksOfSquaredCells = 100;
 
-std::vector<Eigen::Vector3d> DrawNormals(const Polyhedron& solid) {
+std::vector<Eigen::Vector3d> DrawNormals(const object::Polyhedron& solid) {
   const int count = solid.face_count();
   RandomStream random(0, RandomUse::kCountedFaces);
   std::vector<Eigen::Vector3d> normals;
@@ -39,7 +39,8 @@ std::vector<Eigen::Vector3d> DrawNormals(const Polyhedron& solid) {
 
 }  // namespace
 
-MemoryNeed EstimatePolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning) {
+MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+                                   planning::Spanning spanning) {
   const std::vector<Eigen::Vector3d> normals = DrawNormals(solid);
   const auto counted = FindQuadrupleCandidates(normals, std::tan(half_angle), spanning).size();
   const double m = static_cast<double>(normals.size());

@@ -14,7 +14,7 @@ namespace regrasp::polyhedron {
 ///
 /// Laws: the same solid gives the same number; a solid of sixty faces or fewer has its candidates
 /// counted whole.
-[[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const Polyhedron& solid, double half_angle,
-                                                 Spanning spanning);
+[[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+                                                 planning::Spanning spanning);
 
 }  // namespace regrasp::polyhedron

@@ -44,12 +44,13 @@ double PlaneDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 class QuadrupleFinder {
  public:
   /// @param deadline  outlives this object.
-  QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, Spanning spanning,
+  QuadrupleFinder(const std::vector<Vector3d>& normals, double tangent, planning::Spanning spanning,
                   const Deadline& deadline)
       : normals_(normals),
         tangent_(tangent),
         deadline_(deadline),
-        least_(spanning == Spanning::kUniform ? tangent / std::sqrt(1 + tangent * tangent) : 0),
+        least_(spanning == planning::Spanning::kUniform ? tangent / std::sqrt(1 + tangent * tangent)
+                                                        : 0),
         left_(normals.size()),
         right_(normals.size()) {
     const std::size_t n = normals.size();
@@ -132,13 +133,13 @@ class QuadrupleFinder {
 }  // namespace
 
 std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const std::vector<Vector3d>& normals,
-                                                        double tangent, Spanning spanning,
+                                                        double tangent, planning::Spanning spanning,
                                                         const Deadline& deadline) {
   return QuadrupleFinder(normals, tangent, spanning, deadline).Find();
 }
 
-std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const Polyhedron& solid, double tangent,
-                                                        Spanning spanning,
+std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const object::Polyhedron& solid,
+                                                        double tangent, planning::Spanning spanning,
                                                         const Deadline& deadline) {
   std::vector<int> faces;
   std::vector<Vector3d> normals;

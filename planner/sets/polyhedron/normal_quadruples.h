@@ -28,11 +28,12 @@ struct QuadrupleCandidate {
 /// @param normals  unit. Normals that are coplanar up to rounding do not span.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
-    const std::vector<Eigen::Vector3d>& normals, double tangent, Spanning spanning,
+    const std::vector<Eigen::Vector3d>& normals, double tangent, planning::Spanning spanning,
     const Deadline& deadline = {});
 
 /// Those of the faces of a solid that a finger can come to: the walls of sealed cavities are not.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
-    const Polyhedron& solid, double tangent, Spanning spanning, const Deadline& deadline = {});
+    const object::Polyhedron& solid, double tangent, planning::Spanning spanning,
+    const Deadline& deadline = {});
 
 }  // namespace regrasp::polyhedron

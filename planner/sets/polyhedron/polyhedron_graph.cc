@@ -29,8 +29,8 @@ struct OfTriple {
 
 }  // namespace
 
-PolyhedronGraph::PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning,
-                                 const Deadline& deadline)
+PolyhedronGraph::PolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+                                 planning::Spanning spanning, const Deadline& deadline)
     : finder_(solid, CheckedTangent(half_angle)) {
   const auto begin = std::chrono::steady_clock::now();
   const auto candidates =
@@ -83,9 +83,9 @@ void PolyhedronGraph::FindLinks(const Deadline& deadline) {
   for (std::vector<int>& list : neighbours_) std::sort(list.begin(), list.end());
 }
 
-Components PolyhedronGraph::components() const {
-  return FindComponents(vertex_count(), static_cast<int>(links_.size()),
-                        [&](int i) { return std::span<const int>(links_[i]); });
+search::Components PolyhedronGraph::components() const {
+  return search::FindComponents(vertex_count(), static_cast<int>(links_.size()),
+                                [&](int i) { return std::span<const int>(links_[i]); });
 }
 
 void PolyhedronGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const {

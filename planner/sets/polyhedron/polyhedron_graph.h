@@ -25,12 +25,12 @@ inline constexpr int kPolyhedronFingers = 5;
 /// Laws: the counts don't change when the solid is moved, scaled or mirrored, nor with the order of
 /// its facets, as far as nothing is too close to call; under Spanning::kAdaptive no grasp is lost
 /// when the friction grows.
-class PolyhedronGraph final : public SwitchingGraph {
+class PolyhedronGraph final : public search::SwitchingGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
-  PolyhedronGraph(const Polyhedron& solid, double half_angle, Spanning spanning,
+  PolyhedronGraph(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
                   const Deadline& deadline = {});
 
   /// By their faces.
@@ -43,7 +43,7 @@ class PolyhedronGraph final : public SwitchingGraph {
   [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }
   [[nodiscard]] std::int64_t combination_count() const { return combinations_; }
   [[nodiscard]] std::int64_t unclear_count() const { return finder_.unclear_count(); }
-  [[nodiscard]] Components components() const;
+  [[nodiscard]] search::Components components() const;
 
   /// Wall time that the vertices and the edges took.
   [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }

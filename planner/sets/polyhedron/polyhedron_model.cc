@@ -2,19 +2,19 @@
 
 namespace regrasp::polyhedron {
 
-Grasp PolyhedronModel::Draw(int cell, RandomStream& random) {
+grasp::Grasp PolyhedronModel::Draw(int cell, RandomStream& random) {
   const auto place = geometry_.Draw(cell, random);
-  return place ? GraspOf(*place) : Grasp();
+  return place ? GraspOf(*place) : grasp::Grasp();
 }
 
-std::vector<Attachment<FocusGrasp>> PolyhedronModel::Attach(const Grasp& grasp,
-                                                            const GraspEvaluator& /*evaluator*/) {
+std::vector<Attachment<FocusGrasp>> PolyhedronModel::Attach(
+    const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) {
   std::vector<Attachment<FocusGrasp>> attachments;
   for (const FocusGrasp& place : geometry_.Locate(grasp)) attachments.push_back({place});
   return attachments;
 }
 
-std::string PolyhedronModel::WhyUnattached(const Grasp& /*grasp*/) const {
+std::string PolyhedronModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
   if (graph().vertex_count() == 0) {
     return "four contacts on this body are nowhere concurrent at this friction, and the planner "
            "polyhedron plans between concurrent grasps only";
@@ -24,7 +24,8 @@ std::string PolyhedronModel::WhyUnattached(const Grasp& /*grasp*/) const {
 }
 
 std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindSwitch(
-    int from, int to, const SwitchEnds<Place>& ends, const GraspEvaluator& /*evaluator*/) {
+    int from, int to, const SwitchEnds<Place>& ends,
+    const criteria::GraspEvaluator& /*evaluator*/) {
   if (ends.before != nullptr && ends.after != nullptr) {
     return geometry_.FindSwitchBetween(*ends.before, *ends.after);
   }

@@ -9,19 +9,20 @@
 namespace regrasp::polyhedron {
 
 PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
-    : Planner({.name = "polyhedron",
-               .what = "concurrent grasps of four faces",
-               .in_space = PlannerScope{kPolyhedronFingers, {4, 4}, {4, 4}},
-               .options = {PlanOption::kUniformSpanning}}),
+    : planning::Planner({.name = "polyhedron",
+                         .what = "concurrent grasps of four faces",
+                         .in_space = planning::PlannerScope{kPolyhedronFingers, {4, 4}, {4, 4}},
+                         .options = {planning::PlanOption::kUniformSpanning}}),
       graph_(graph) {}
 
-std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(const PlanRequest& request) const {
-  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
+    const planning::PlanRequest& request) const {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   return EstimatePolyhedronGraph(solid, request.criteria.half_angle, request.spanning);
 }
 
-PlanResult PolyhedronPlanner::Plan(const PlanRequest& request) const {
-  const auto& solid = dynamic_cast<const Polyhedron&>(*request.object);
+planning::PlanResult PolyhedronPlanner::Plan(const planning::PlanRequest& request) const {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   std::optional<PolyhedronGraph> own;
   if (graph_ == nullptr) {
     request.progress("building the switching graph");

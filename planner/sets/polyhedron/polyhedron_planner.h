@@ -8,13 +8,14 @@ namespace regrasp::polyhedron {
 /// Plans between concurrent grasps of four fingers on four faces of a solid, on its switching graph
 /// (Phoka 2010, chapter V), with a hand of kPolyhedronFingers fingers: of these grasps it knows
 /// every set and every switch, but for what is too close to call.
-class PolyhedronPlanner final : public Planner {
+class PolyhedronPlanner final : public planning::Planner {
  public:
   /// @param graph  that is built already, with the half-angle and the spanning of all requests that
   ///               follow: many queries, one graph. nullptr: each builds its own.
   explicit PolyhedronPlanner(PolyhedronGraph* graph = nullptr);
-  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const override;
-  [[nodiscard]] PlanResult Plan(const PlanRequest& request) const override;
+  [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
+      const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
 
  private:
   PolyhedronGraph* graph_;

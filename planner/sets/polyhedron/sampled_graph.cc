@@ -21,7 +21,7 @@ constexpr double kRegionAccuracy = 1e-3;
 /// Moves one side of a box outwards until no focus point of a piece is beyond it.
 class RegionGrower {
  public:
-  RegionGrower(const Polyhedron& solid, PolyhedronGraph& graph)
+  RegionGrower(const object::Polyhedron& solid, PolyhedronGraph& graph)
       : finder_(graph.finder()), step_(kRegionAccuracy * solid.diameter()) {}
 
   void Include(const FocusCell& cell, const FocusPiece& piece, AlignedBox3d& box) {
@@ -69,7 +69,7 @@ class RegionGrower {
 /// The quadruples that points see, with the halves of faces that they see them from.
 class Sampler {
  public:
-  Sampler(const Polyhedron& solid, double half_angle, Spanning spanning)
+  Sampler(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning)
       : finder_(solid, std::tan(half_angle)), tangent_(std::tan(half_angle)) {
     candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning);
     found_.assign(candidates_.size(), 0);
@@ -107,10 +107,11 @@ class Sampler {
       graph.links.push_back({number[link >> 32], number[link & 0xffffffff]});
     }
     std::ranges::sort(graph.links);
-    graph.components = FindComponents(static_cast<int>(graph.quadruples.size()),
-                                      static_cast<int>(graph.links.size()),
-                                      [&](int i) { return std::span<const int>(graph.links[i]); })
-                           .count();
+    graph.components =
+        search::FindComponents(static_cast<int>(graph.quadruples.size()),
+                               static_cast<int>(graph.links.size()),
+                               [&](int i) { return std::span<const int>(graph.links[i]); })
+            .count();
     return graph;
   }
 
@@ -159,7 +160,7 @@ class Sampler {
 
 }  // namespace
 
-AlignedBox3d FindSamplingRegion(const Polyhedron& solid, PolyhedronGraph& graph) {
+AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph& graph) {
   AlignedBox3d box;
   RegionGrower grower(solid, graph);
   for (const FocusCell& cell : graph.cells()) {
@@ -168,8 +169,9 @@ AlignedBox3d FindSamplingRegion(const Polyhedron& solid, PolyhedronGraph& graph)
   return box;
 }
 
-SampledGraph SamplePolyhedron(const Polyhedron& solid, double half_angle, Spanning spanning,
-                              const AlignedBox3d& region, int points, std::uint64_t seed) {
+SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
+                              planning::Spanning spanning, const AlignedBox3d& region, int points,
+                              std::uint64_t seed) {
   Sampler sampler(solid, half_angle, spanning);
   RandomStream random(seed, RandomUse::kFocusPoints);
   for (int i = 0; i < points && !region.isEmpty(); ++i) {

@@ -12,7 +12,7 @@ namespace regrasp::polyhedron {
 /// A box that contains the focus points of all cells of a graph. Its sides are bounds by cutting
 /// planes of the cells' own intersections, within a thousandth of its size; empty where the graph
 /// is.
-[[nodiscard]] Eigen::AlignedBox3d FindSamplingRegion(const Polyhedron& solid,
+[[nodiscard]] Eigen::AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid,
                                                      PolyhedronGraph& graph);
 
 /// What random focus points find of the switching graph (Phoka 2010, section 5.3.4.2): a quadruple
@@ -26,9 +26,10 @@ struct SampledGraph {
 };
 
 /// @param points  drawn evenly in `region`, the same for the same seed.
-[[nodiscard]] SampledGraph SamplePolyhedron(const Polyhedron& solid, double half_angle,
-                                            Spanning spanning, const Eigen::AlignedBox3d& region,
-                                            int points, std::uint64_t seed);
+[[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
+                                            planning::Spanning spanning,
+                                            const Eigen::AlignedBox3d& region, int points,
+                                            std::uint64_t seed);
 
 /// How much of the direct graph sampling found. Quadruples, as sampling does not tell components of
 /// one quadruple apart.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 using testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST(BatchSummaryTest, NamesOfAnyBytesBreakNothing) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -9,7 +9,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ TEST_F(PlanLibraryTest, AFolderWithoutPlansAndNamesThatAreNoFoldersAreRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

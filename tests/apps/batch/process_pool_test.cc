@@ -18,7 +18,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 /// Far above what any child here needs; one that hangs is ended by it and fails the test.
@@ -254,4 +254,4 @@ TEST(ProcessPoolTest, ExitCodesArriveWhereThisProcessIgnoresItsChildren) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -5,7 +5,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::apps {
 namespace {
 
 using testing::HasSubstr;
@@ -81,4 +81,4 @@ TEST(ReportSummaryTest, WhatIsNoReportIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::apps

@@ -11,20 +11,22 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  const regrasp::ObjectFile file = regrasp::ReadObject(argv[1]);
-  const regrasp::Object& cube = *file.object;
+  const regrasp::object::ObjectFile file = regrasp::object::ReadObject(argv[1]);
+  const regrasp::object::Object& cube = *file.object;
   const double half = 0.03;  // of the cube's edge
   const double half_angle = regrasp::Radians(30);
-  const regrasp::Grasp grasp = {{{-half, 0, 0}, {1, 0, 0}},
-                                {{half, 0, 0}, {-1, 0, 0}},
-                                {{0, -half, 0}, {0, 1, 0}},
-                                {{0, half, 0.0}, {0, -1, 0}}};
-  const bool closed = regrasp::IsForceClosure(grasp, cube.wrench_frame(), half_angle);
-  regrasp::Plan hold = regrasp::report::MakeHoldPlan(cube, grasp, half_angle, 1);
+  const regrasp::grasp::Grasp grasp = {{{-half, 0, 0}, {1, 0, 0}},
+                                       {{half, 0, 0}, {-1, 0, 0}},
+                                       {{0, -half, 0}, {0, 1, 0}},
+                                       {{0, half, 0.0}, {0, -1, 0}}};
+  const bool closed = regrasp::grasp::IsForceClosure(grasp, cube.wrench_frame(), half_angle);
+  regrasp::plan::Plan hold = regrasp::report::MakeHoldPlan(cube, grasp, half_angle, 1);
   hold.object_file = file.file;
   hold.object_sha256 = file.sha256;
-  const regrasp::Plan plan = regrasp::ParsePlan(regrasp::FormatPlan(hold), "hold.json");
-  const bool scene = !regrasp::sim::SceneMjcf(cube, regrasp::LocatePlan(cube, plan), {}).empty();
+  const regrasp::plan::Plan plan =
+      regrasp::plan::ParsePlan(regrasp::plan::FormatPlan(hold), "hold.json");
+  const bool scene =
+      !regrasp::sim::SceneMjcf(cube, regrasp::plan::LocatePlan(cube, plan), {}).empty();
   const bool passed = regrasp::report::Validate(cube, plan, {}, {}).passed();
   std::printf("force closure %d, scene %d, passed %d\n", closed, scene, passed);
   return closed && scene && passed ? 0 : 1;

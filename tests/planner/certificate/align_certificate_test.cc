@@ -9,7 +9,7 @@
 #include "planner/object/object.h"
 #include "tests/planner/motion/random_boxes.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,31 +17,31 @@ using Eigen::Vector3d;
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-FingerGrasp Held(const Grasp& grasp) {
-  FingerGrasp held;
+plan::FingerGrasp Held(const grasp::Grasp& grasp) {
+  plan::FingerGrasp held;
   for (std::size_t i = 0; i < grasp.size(); ++i) held.push_back({static_cast<int>(i), grasp[i]});
   return held;
 }
 
 /// Two ways over the sides of a cube; the waypoints name the fingers in different orders.
-Align MakeAlign() {
-  Grasp middle = CrossedGrasp();
+plan::Align MakeAlign() {
+  grasp::Grasp middle = CrossedGrasp();
   middle[0].p.y() += 0.1;
   middle[3].p.z() -= 0.1;
-  Grasp end = middle;
+  grasp::Grasp end = middle;
   end[2].p.x() -= 0.1;
-  Align align{{Held(CrossedGrasp()), Held(middle), Held(end)}};
+  plan::Align align{{Held(CrossedGrasp()), Held(middle), Held(end)}};
   std::ranges::reverse(align.waypoints[1]);
   std::ranges::rotate(align.waypoints[2], align.waypoints[2].begin() + 1);
   return align;
 }
 
 TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
-  const Align align = MakeAlign();
+  const plan::Align align = MakeAlign();
   const auto certificate = FindAlignCertificate(align, 3, kHalfAngle);
   ASSERT_TRUE(certificate);
   ASSERT_EQ(certificate->size(), 2U);
-  const ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, *certificate);
+  const motion::ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, *certificate);
   EXPECT_TRUE(verdict.proves()) << verdict.why;
   // The force of the finger that the waypoint names first pushes along that finger's normal.
   for (std::size_t w = 0; w < certificate->size(); ++w) {
@@ -53,18 +53,18 @@ TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
 }
 
 TEST(AlignCertificateTest, ForcesInAnotherOrderProveNothing) {
-  const Align align = MakeAlign();
-  AlignCertificate wrong = *FindAlignCertificate(align, 3, kHalfAngle);
+  const plan::Align align = MakeAlign();
+  plan::AlignCertificate wrong = *FindAlignCertificate(align, 3, kHalfAngle);
   std::ranges::reverse(wrong[1][0].start);
-  const ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, wrong);
+  const motion::ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, wrong);
   EXPECT_FALSE(verdict.proves());
   EXPECT_NE(verdict.why.find("waypoint 1"), std::string::npos) << verdict.why;
 }
 
 TEST(AlignCertificateTest, OfAnotherAlignOrLessFrictionOrTooFewWaysProvesNothing) {
-  const Align align = MakeAlign();
-  const AlignCertificate certificate = *FindAlignCertificate(align, 3, kHalfAngle);
-  Align other = align;
+  const plan::Align align = MakeAlign();
+  const plan::AlignCertificate certificate = *FindAlignCertificate(align, 3, kHalfAngle);
+  plan::Align other = align;
   other.waypoints[1][0].contact.p.x() += 0.85;
   EXPECT_FALSE(CheckAlignCertificate(other, 3, kMu, certificate).proves());
   other = align;
@@ -77,24 +77,26 @@ TEST(AlignCertificateTest, OfAnotherAlignOrLessFrictionOrTooFewWaysProvesNothing
 }
 
 TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
-  const ObjectFile cube = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::ObjectFile cube = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
   const double side = cube.object->diameter() / std::sqrt(12.0);
-  Plan plan;
+  plan::Plan plan;
   plan.half_angle = kHalfAngle;
   plan.fingers = 5;
-  Align align = MakeAlign();
-  for (FingerGrasp& waypoint : align.waypoints) {
-    for (FingerContact& held : waypoint) held.contact.p *= side;
+  plan::Align align = MakeAlign();
+  for (plan::FingerGrasp& waypoint : align.waypoints) {
+    for (plan::FingerContact& held : waypoint) held.contact.p *= side;
   }
-  Align too_far = align;
+  plan::Align too_far = align;
   too_far.waypoints[1][0].contact.p.x() = 0.99 * side;
   too_far.waypoints[1][3].contact.p.y() = 0.99 * side;
-  Align claimed = align;
+  plan::Align claimed = align;
   claimed.certificate.emplace();
   plan.initial = align.waypoints[0];
-  plan.steps = {align, too_far, claimed, Switch{{}, {0}}};
+  plan.steps = {align, too_far, claimed, plan::Switch{{}, {0}}};
   AddCertificates(*cube.object, plan);
-  const auto certificate = [&](int step) { return std::get<Align>(plan.steps[step]).certificate; };
+  const auto certificate = [&](int step) {
+    return std::get<plan::Align>(plan.steps[step]).certificate;
+  };
   ASSERT_TRUE(certificate(0));
   EXPECT_TRUE(CheckAlignCertificate(align, 3, kMu, *certificate(0)).proves());
   EXPECT_FALSE(certificate(1)) << "force closure is lost on the way";
@@ -102,4 +104,4 @@ TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::certificate

@@ -10,43 +10,43 @@
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 namespace {
 
 using Eigen::Vector3d;
-using Kind = ProofVerdict::Kind;
+using Kind = motion::ProofVerdict::Kind;
 
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, -1}; }
+grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, -1}; }
 
 /// A hold of a cube of side 2 by two crossed pairs, a switch of one finger, and an align.
-Plan MakeCubePlan() {
-  Plan plan;
+plan::Plan MakeCubePlan() {
+  plan::Plan plan;
   plan.half_angle = kHalfAngle;
   plan.fingers = 5;
   plan.initial = {{0, At({1, 0.1, 0}, -Vector3d::UnitX())},
                   {1, At({-1, 0, 0.1}, Vector3d::UnitX())},
                   {2, At({0, 1, -0.1}, -Vector3d::UnitY())},
                   {3, At({0.1, -1, 0}, Vector3d::UnitY())}};
-  plan.steps.push_back(Switch{{{4, At({1, -0.1, 0.1}, -Vector3d::UnitX())}}, {0}});
-  const FingerGrasp before = GraspAfter(plan.initial, plan.steps[0]);
-  FingerGrasp after = before;
+  plan.steps.push_back(plan::Switch{{{4, At({1, -0.1, 0.1}, -Vector3d::UnitX())}}, {0}});
+  const plan::FingerGrasp before = plan::GraspAfter(plan.initial, plan.steps[0]);
+  plan::FingerGrasp after = before;
   after[0].contact.p.y() += 0.1;
   after[2].contact.p.z() -= 0.1;
-  plan.steps.push_back(Align{{before, after}});
-  plan.goal = ContactsOf(after);
+  plan.steps.push_back(plan::Align{{before, after}});
+  plan.goal = plan::ContactsOf(after);
   return plan;
 }
 
 EntryProof WrittenAndRead(const EntryProof& proof) {
   const Json json = ParseJson(FormatJson(EntryProofJson(proof, 3)), "proof");
-  return ReadEntryProof(JsonReader(json, "proof"), 3);
+  return ReadEntryProof(plan::JsonReader(json, "proof"), 3);
 }
 
 TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
-  const Plan plan = MakeCubePlan();
+  const plan::Plan plan = MakeCubePlan();
   std::vector<EntryProof> proofs = FindPlanProofs(plan, kHalfAngle, 3);
   ASSERT_EQ(proofs.size(), 3U);
   ASSERT_EQ(proofs[2].ways.size(), 1U);
@@ -61,9 +61,9 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
 
 /// An align of four contacts on four sides of a cube of side 2 `half`, in one plane that leans,
 /// from where they are opposite to `apart` times half a side off that.
-Plan AlignInOnePlane(double half, double lean, double apart) {
+plan::Plan AlignInOnePlane(double half, double lean, double apart) {
   const auto grasp = [&](double off) {
-    FingerGrasp held;
+    plan::FingerGrasp held;
     for (int f = 0; f < 4; ++f) {
       Vector3d p = Vector3d::Zero();
       p[f % 2] = f < 2 ? half : -half;
@@ -74,28 +74,28 @@ Plan AlignInOnePlane(double half, double lean, double apart) {
     }
     return held;
   };
-  Plan plan;
+  plan::Plan plan;
   plan.half_angle = Radians(45);
   plan.fingers = 5;
   plan.initial = grasp(0.1 * apart);
-  plan.steps = {Align{{plan.initial, grasp(apart)}}};
-  plan.goal = ContactsOf(grasp(apart));
+  plan.steps = {plan::Align{{plan.initial, grasp(apart)}}};
+  plan.goal = plan::ContactsOf(grasp(apart));
   return plan;
 }
 
 TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
-  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
   const double half = file.object->diameter() / std::sqrt(12.0);
   // Contacts in one plane, and such as come near to what the friction bears.
   int checked = 0;
   for (const double lean : {0.0, 0.1, 0.3, 0.5}) {
     for (const double apart : {0.1, 0.3}) {
       for (const double above : {1e-6, 1e-3, 0.1}) {
-        Plan plan = AlignInOnePlane(half, lean, apart);
-        const auto needed = CheckPlan(*file.object, plan).steps[1].required;
+        plan::Plan plan = AlignInOnePlane(half, lean, apart);
+        const auto needed = plan::CheckPlan(*file.object, plan).steps[1].required;
         ASSERT_TRUE(needed);
         plan.half_angle = needed->upper + above;
-        const PlanCheck check = CheckPlan(*file.object, plan);
+        const plan::PlanCheck check = plan::CheckPlan(*file.object, plan);
         ASSERT_TRUE(check.passed()) << check.steps[1].detail;
         std::vector<EntryProof> proofs = FindPlanProofs(check.located, plan.half_angle, 2);
         for (EntryProof& proof : proofs) proof = WrittenAndRead(proof);
@@ -103,7 +103,7 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
              CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
           SCOPED_TRACE(testing::Message() << lean << " " << apart << " " << above);
           EXPECT_TRUE(verdict.rest.proves()) << verdict.index << verdict.rest.why;
-          for (const ProofVerdict& way : verdict.ways) EXPECT_TRUE(way.proves()) << way.why;
+          for (const motion::ProofVerdict& way : verdict.ways) EXPECT_TRUE(way.proves()) << way.why;
         }
         ++checked;
       }
@@ -113,12 +113,12 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
 }
 
 TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
-  Plan plan = MakeCubePlan();
-  auto& align = std::get<Align>(plan.steps[1]);
+  plan::Plan plan = MakeCubePlan();
+  auto& align = std::get<plan::Align>(plan.steps[1]);
   align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].ways;
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= 0.5;
   for (Vector3d& force : (*align.certificate)[0][0].end) force *= 0.5;
-  const MotionSegment given = (*align.certificate)[0][0];
+  const motion::MotionSegment given = (*align.certificate)[0][0];
   EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].ways[0][0].start, given.start);
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= -1;
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
@@ -127,16 +127,16 @@ TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
 }
 
 TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
-  const Plan plan = MakeCubePlan();
+  const plan::Plan plan = MakeCubePlan();
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
-  Plan other = plan;
+  plan::Plan other = plan;
   other.initial[0].contact.p.y() += 0.7;
   EXPECT_FALSE(CheckPlanProofs(other, kMu, proofs)[0].proved());
   EXPECT_FALSE(CheckPlanProofs(plan, kMu / 10, proofs)[1].proved());
 }
 
 TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
-  const Plan plan = MakeCubePlan();
+  const plan::Plan plan = MakeCubePlan();
   auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
   proofs[2].ways.clear();
   const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
@@ -145,15 +145,15 @@ TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
 }
 
 TEST(PlanProofTest, AGraspThatLosesTheObjectIsRefuted) {
-  Plan plan = MakeCubePlan();
-  plan.steps[0] = Switch{{}, {0, 1}};
+  plan::Plan plan = MakeCubePlan();
+  plan.steps[0] = plan::Switch{{}, {0, 1}};
   plan.steps.pop_back();
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 2);
   for (const auto& proof : {proofs[1], WrittenAndRead(proofs[1])}) {
     const std::vector<EntryProof> both = {proofs[0], proof};
     EXPECT_EQ(CheckPlanProofs(plan, kMu, both)[1].rest.kind, Kind::kNotForceClosure);
   }
-  plan.steps[0] = Switch{{}, {2}};
+  plan.steps[0] = plan::Switch{{}, {2}};
   plan.initial[1].contact.p.y() = 0.9;
   const auto three = FindPlanProofs(plan, kHalfAngle, 2);
   EXPECT_EQ(CheckPlanProofs(plan, kMu, three)[1].rest.kind, Kind::kNotForceClosure);
@@ -169,11 +169,11 @@ TEST(PlanProofTest, BrokenProofsAreBadInput) {
         R"({"rest": {"line": [1]}})", R"({"rest": {"line": [-1, 2]}})",
         R"({"rest": null, "ways": [[{"from": 0}]]})", R"({"rest": {"twist": {"v": [0, 0, 0]}}})"}) {
     const Json json = ParseJson(text, "proof");
-    EXPECT_THROW((void)ReadEntryProof(JsonReader(json, "proof"), 3), InputError) << text;
+    EXPECT_THROW((void)ReadEntryProof(plan::JsonReader(json, "proof"), 3), InputError) << text;
   }
-  const Plan plan = MakeCubePlan();
+  const plan::Plan plan = MakeCubePlan();
   EXPECT_THROW((void)CheckPlanProofs(plan, kMu, std::vector<EntryProof>(4)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::certificate

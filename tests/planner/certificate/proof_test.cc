@@ -10,11 +10,11 @@
 #include "planner/grasp/required_half_angle.h"
 #include "tests/planner/motion/random_boxes.h"
 
-namespace regrasp {
+namespace regrasp::certificate {
 namespace {
 
 using Eigen::Vector3d;
-using Kind = ProofVerdict::Kind;
+using Kind = motion::ProofVerdict::Kind;
 
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
@@ -24,19 +24,19 @@ void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
   int proved = 0;
   int refuted = 0;
   for (int i = 0; i < 300; ++i) {
-    const Grasp grasp = random.Draw(contacts);
-    const ForceClosure test = TestForceClosure(grasp, FrameOf(dimension), kHalfAngle);
+    const grasp::Grasp grasp = random.Draw(contacts);
+    const grasp::ForceClosure test = grasp::TestForceClosure(grasp, FrameOf(dimension), kHalfAngle);
     const GraspProof proof = FindGraspProof(grasp, dimension, kHalfAngle);
-    const ProofVerdict verdict = CheckGraspProof(grasp, dimension, kMu, proof);
+    const motion::ProofVerdict verdict = CheckGraspProof(grasp, dimension, kMu, proof);
     if (verdict.kind == Kind::kForceClosure) {
-      EXPECT_EQ(test.decision, Decision::kYes);
+      EXPECT_EQ(test.decision, grasp::Decision::kYes);
       ++proved;
     } else if (verdict.kind == Kind::kNotForceClosure) {
-      EXPECT_EQ(test.decision, Decision::kNo);
+      EXPECT_EQ(test.decision, grasp::Decision::kNo);
       ++refuted;
     } else {
       // Contacts on two parallel sides of a box, say, that only a line of touching twists refutes.
-      EXPECT_NE(test.decision, Decision::kYes) << verdict.why;
+      EXPECT_NE(test.decision, grasp::Decision::kYes) << verdict.why;
     }
   }
   EXPECT_GT(proved, 20) << dimension << " " << contacts;
@@ -51,12 +51,12 @@ TEST(ProofTest, ProofsOfRandomGraspsHoldExactlyAndAgreeWithTheTest) {
 }
 
 TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
-  const Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   ASSERT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
   // More friction never takes a proof away.
   EXPECT_EQ(CheckGraspProof(grasp, 3, 2 * kMu, proof).kind, Kind::kForceClosure);
-  const auto required = ComputeRequiredHalfAngle(grasp, {Vector3d::Zero(), 1, 3});
+  const auto required = grasp::ComputeRequiredHalfAngle(grasp, {Vector3d::Zero(), 1, 3});
   ASSERT_TRUE(required);
   for (const double above : {1e-2, 1e-4, 1e-6}) {
     const double half_angle = required->upper + above;
@@ -73,7 +73,7 @@ TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
 }
 
 TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
-  const Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   GraspProof wrong = proof;
   wrong.forces[2] += Vector3d(0.5, 0, 0);  // out of balance by much: so is what makes up for it
@@ -90,22 +90,22 @@ TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
   wrong = proof;
   wrong.forces[0].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, wrong).kind, Kind::kNothing);
-  Grasp moved = grasp;
+  grasp::Grasp moved = grasp;
   moved[0].p += Vector3d(0, 0.8, 0);
   EXPECT_EQ(CheckGraspProof(moved, 3, kMu, proof).kind, Kind::kNothing);
 }
 
 TEST(ProofTest, WrittenDecimalsStillProve) {
-  const Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = CrossedGrasp();
   GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   for (Vector3d& force : proof.forces) force = (force * 1e6).array().round() / 1e6;
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
 }
 
 TEST(ProofTest, ContactsOnOneLineProveNothing) {
-  const Grasp grasp = {{Vector3d(1, 0, 0), -Vector3d::UnitX()},
-                       {Vector3d(-1, 0, 0), Vector3d::UnitX()},
-                       {Vector3d(-1, 0, 0), Vector3d::UnitX()}};
+  const grasp::Grasp grasp = {{Vector3d(1, 0, 0), -Vector3d::UnitX()},
+                              {Vector3d(-1, 0, 0), Vector3d::UnitX()},
+                              {Vector3d(-1, 0, 0), Vector3d::UnitX()}};
   GraspProof proof;
   proof.kind = GraspProof::Kind::kForces;
   proof.forces = {Vector3d(-2, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 0)};
@@ -113,7 +113,7 @@ TEST(ProofTest, ContactsOnOneLineProveNothing) {
 }
 
 TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
-  const Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = CrossedGrasp();
   GraspProof proof;
   proof.kind = GraspProof::Kind::kTwist;
   proof.v = Vector3d(1, 0, 0);
@@ -128,4 +128,4 @@ TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::certificate

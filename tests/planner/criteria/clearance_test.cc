@@ -6,21 +6,21 @@
 
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 namespace {
 
 /// An L with its inner corner at (1, 1); its edges from (1, 1) go up and to the right.
-Polygon MakeL() {
-  return Polygon::FromRings({{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}}, "L");
+object::Polygon MakeL() {
+  return object::Polygon::FromRings({{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}}, "L");
 }
 
 /// On the edge from (2, 1) to (1, 1), a distance from its end in the inner corner.
-Contact NearInnerCorner(const Polygon& polygon, double distance) {
+grasp::Contact NearInnerCorner(const object::Polygon& polygon, double distance) {
   return {{1 + distance, 1, 0}, polygon.inward_normal(2), 2};
 }
 
 TEST(FingertipClearance, EndsWhereTheBallTouchesTheOtherSideOfAConcaveCorner) {
-  const Polygon polygon = MakeL();
+  const object::Polygon polygon = MakeL();
   // At a right angle the ball's radius is the distance.
   const double radius = kFingertipClearance * polygon.diameter();
   EXPECT_FALSE(HasClearance(polygon, NearInnerCorner(polygon, 0)));
@@ -29,10 +29,11 @@ TEST(FingertipClearance, EndsWhereTheBallTouchesTheOtherSideOfAConcaveCorner) {
 }
 
 TEST(FingertipClearance, IsThereAtConvexCornersAndBetweenCollinearEdges) {
-  const Polygon polygon = MakeL();
+  const object::Polygon polygon = MakeL();
   EXPECT_TRUE(HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(2), 2}));
   EXPECT_TRUE(HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(1), 1}));
-  const Polygon cut = Polygon::FromRings({{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}}, "cut");
+  const object::Polygon cut =
+      object::Polygon::FromRings({{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}}, "cut");
   for (const double x : {1.0, 1.0 - 1e-9, 1.0 - 1e-4}) {
     EXPECT_TRUE(HasClearance(cut, {{x, 0, 0}, cut.inward_normal(0), 0})) << x;
   }
@@ -42,14 +43,15 @@ TEST(FingertipClearance, DoesNotDependOnTheUnitOfLength) {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     std::vector<Eigen::Vector2d> ring = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     for (Eigen::Vector2d& p : ring) p *= scale;
-    const Polygon polygon = Polygon::FromRings({ring}, "L");
+    const object::Polygon polygon = object::Polygon::FromRings({ring}, "L");
     const double radius = kFingertipClearance * polygon.diameter();
     for (const double share : {0.9, 1.1}) {
-      const Contact contact = {{scale + share * radius, scale, 0}, polygon.inward_normal(2), 2};
+      const grasp::Contact contact = {
+          {scale + share * radius, scale, 0}, polygon.inward_normal(2), 2};
       EXPECT_EQ(HasClearance(polygon, contact), share > 1) << scale;
     }
   }
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::criteria

@@ -7,16 +7,16 @@
 #include "planner/base/angle.h"
 #include "tests/fixtures/polygons.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 namespace {
 
 /// Contacts at shares of the unit square's width.
-Grasp Across(const Polygon& square, double bottom, double top) {
+grasp::Grasp Across(const object::Polygon& square, double bottom, double top) {
   return {{{bottom, 0, 0}, square.inward_normal(0), 0}, {{top, 1, 0}, square.inward_normal(2), 2}};
 }
 
 TEST(GraspEvaluator, ScoresGoodGraspsByTheirMargin) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   EXPECT_TRUE(evaluator.IsGood(Across(square, 0.5, 0.5)));
   EXPECT_NEAR(evaluator.Score(Across(square, 0.5, 0.5)), Radians(30), 1e-4);
@@ -24,17 +24,17 @@ TEST(GraspEvaluator, ScoresGoodGraspsByTheirMargin) {
 }
 
 TEST(GraspEvaluator, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   // tan 30° = 0.577.
-  const Grasp weak = Across(square, 0.22, 0.79);
-  const Grasp weaker = Across(square, 0.22, 0.796);
+  const grasp::Grasp weak = Across(square, 0.22, 0.79);
+  const grasp::Grasp weaker = Across(square, 0.22, 0.796);
   EXPECT_FALSE(evaluator.IsGood(weak));
   EXPECT_GT(evaluator.Quality(weak), 0);
   EXPECT_LT(evaluator.Score(weak), 0);
   EXPECT_LT(evaluator.Score(weaker), evaluator.Score(weak));
   EXPECT_GT(evaluator.Score(weaker), -1);
-  const Grasp open = Across(square, 0.2, 0.8);
+  const grasp::Grasp open = Across(square, 0.2, 0.8);
   EXPECT_FALSE(evaluator.IsGood(open));
   EXPECT_EQ(evaluator.Score(open), -1);
   // Asked for nothing, the weak grasp is good.
@@ -43,9 +43,9 @@ TEST(GraspEvaluator, ScoresGraspsBelowTheQualityNegativelyByTheirQuality) {
 }
 
 TEST(GraspEvaluator, TwoContactsAtOnePointAreNoGrasp) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   const GraspEvaluator evaluator(square, {Radians(30), 0.01});
-  Grasp grasp = Across(square, 0.5, 0.5);
+  grasp::Grasp grasp = Across(square, 0.5, 0.5);
   grasp.push_back(Across(square, 0.5 + 1e-7, 0.5)[0]);
   EXPECT_FALSE(evaluator.IsGood(grasp));
   EXPECT_EQ(evaluator.Score(grasp), -1);
@@ -54,10 +54,10 @@ TEST(GraspEvaluator, TwoContactsAtOnePointAreNoGrasp) {
 }
 
 TEST(GraspEvaluator, FingersOfARadiusNeedClearance) {
-  const Polygon square = Square(2);
-  const Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
-                       {{1.4, 0, 0}, square.inward_normal(0), 0},
-                       {{1, 2, 0}, square.inward_normal(2), 2}};
+  const object::Polygon square = Square(2);
+  const grasp::Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
+                              {{1.4, 0, 0}, square.inward_normal(0), 0},
+                              {{1, 2, 0}, square.inward_normal(2), 2}};
   EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0.01}).IsReachable(grasp));
   EXPECT_TRUE(
       GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).IsReachable(grasp));
@@ -70,7 +70,7 @@ TEST(GraspEvaluator, FingersOfARadiusNeedClearance) {
 }
 
 TEST(GraspEvaluator, RemembersTheScoreOfEachGraspApart) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   const GraspEvaluator evaluator(square, {Radians(30), 0.01});
   const double first = evaluator.Score(Across(square, 0.5, 0.5));
   const double second = evaluator.Score(Across(square, 0.4, 0.6));
@@ -80,4 +80,4 @@ TEST(GraspEvaluator, RemembersTheScoreOfEachGraspApart) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::criteria

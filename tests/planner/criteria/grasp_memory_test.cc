@@ -11,16 +11,18 @@
 #include "planner/grasp/quality.h"
 #include "planner/object/polygon.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 namespace {
 
 constexpr int kSteps = 8;
 
-Polygon UnitSquare() { return Polygon::FromRings({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, "square"); }
+object::Polygon UnitSquare() {
+  return object::Polygon::FromRings({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, "square");
+}
 
 /// Contacts at kSteps places of the bottom of the unit square, then as many of its top.
-std::vector<Contact> BottomAndTop(const Polygon& square) {
-  std::vector<Contact> contacts;
+std::vector<grasp::Contact> BottomAndTop(const object::Polygon& square) {
+  std::vector<grasp::Contact> contacts;
   for (const int face : {0, 2}) {
     for (int i = 1; i <= kSteps; ++i) {
       const Eigen::Vector3d p(i / (kSteps + 1.0), face == 0 ? 0 : 1, 0);
@@ -32,7 +34,7 @@ std::vector<Contact> BottomAndTop(const Polygon& square) {
 
 class GraspMemoryTest : public testing::Test {
  protected:
-  [[nodiscard]] GraspMemory Memory(double degrees, double min_quality, const Hand& hand = {},
+  [[nodiscard]] GraspMemory Memory(double degrees, double min_quality, const hand::Hand& hand = {},
                                    QualityTest quality = QualityTest::kExact) const {
     GraspMemory memory(square_.wrench_frame(), kSamePoint, {Radians(degrees), min_quality}, hand,
                        quality);
@@ -48,14 +50,14 @@ class GraspMemoryTest : public testing::Test {
     return pairs;
   }
   [[nodiscard]] bool IsGood(const ContactSet& pair, double degrees, double min_quality) const {
-    const Grasp grasp = {contacts_[pair[0]], contacts_[pair[1]]};
-    const WrenchFrame frame = square_.wrench_frame();
-    return IsForceClosure(grasp, frame, Radians(degrees)) &&
-           QualityAtLeast(grasp, frame, Radians(degrees), min_quality);
+    const grasp::Grasp grasp = {contacts_[pair[0]], contacts_[pair[1]]};
+    const object::WrenchFrame frame = square_.wrench_frame();
+    return grasp::IsForceClosure(grasp, frame, Radians(degrees)) &&
+           grasp::QualityAtLeast(grasp, frame, Radians(degrees), min_quality);
   }
 
-  const Polygon square_ = UnitSquare();
-  const std::vector<Contact> contacts_ = BottomAndTop(square_);
+  const object::Polygon square_ = UnitSquare();
+  const std::vector<grasp::Contact> contacts_ = BottomAndTop(square_);
 };
 
 TEST_F(GraspMemoryTest, AdmitsWhatMeetsTheCriteriaAndTestsEachGraspOnce) {
@@ -138,7 +140,7 @@ TEST_F(GraspMemoryTest, TheQuickTestAdmitsNothingThatTheExactOneDoesNot) {
 TEST_F(GraspMemoryTest, ToldContactsAgainHaveTheirOldNumbers) {
   GraspMemory memory = Memory(20, 0);
   EXPECT_EQ(memory.Add(contacts_[5]), 5);
-  Contact other = contacts_[5];
+  grasp::Contact other = contacts_[5];
   other.p.x() += 1e-3;
   EXPECT_EQ(memory.Add(other), std::ssize(contacts_));
   EXPECT_EQ(memory.count(), std::ssize(contacts_) + 1);
@@ -153,4 +155,4 @@ TEST_F(GraspMemoryTest, RequiredHalfAngleIsTheAngleOfTheLineBetweenTwoContacts) 
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::criteria

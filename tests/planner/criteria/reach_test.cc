@@ -10,14 +10,14 @@
 #include "planner/object/polygon.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::criteria {
 namespace {
 
 using Eigen::Vector3d;
 
 /// The contact at `p` on the face whose inward normal is `n`.
-Contact At(const Object& object, const Vector3d& p, const Vector3d& n) {
-  for (const int face : object.FacesNear(p, kPointTolerance * object.diameter())) {
+grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
+  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - n).norm() < 1e-9) return {p, n, face};
   }
   ADD_FAILURE() << "no face with normal " << n.transpose() << " at " << p.transpose();
@@ -25,7 +25,7 @@ Contact At(const Object& object, const Vector3d& p, const Vector3d& n) {
 }
 
 TEST(Reach, EndsAtAnInnerCornerWhereTheBallTouchesTheOtherWall) {
-  const Polyhedron l = MakeLBlock();
+  const object::Polyhedron l = MakeLBlock();
   const auto near_corner = [&](double distance) {
     return At(l, {1 + distance, 1, 0.5}, {0, -1, 0});
   };
@@ -37,7 +37,7 @@ TEST(Reach, EndsAtAnInnerCornerWhereTheBallTouchesTheOtherWall) {
 }
 
 TEST(Reach, IsFreeAtConvexEdgesAndOnConvexBodies) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   for (const double x : {0.0, 0.5, 0.999, 1.0}) {
     for (const double radius : {1e-9, 0.1, 1.0, 10.0}) {
       EXPECT_TRUE(CanReach(cube, At(cube, {x, 0.3, 1}, {0, 0, -1}), radius)) << x << " " << radius;
@@ -46,16 +46,16 @@ TEST(Reach, IsFreeAtConvexEdgesAndOnConvexBodies) {
 }
 
 TEST(Reach, IsBlockedByTheOppositeWallOfAHole) {
-  const Polyhedron ring = MakeRing();
-  const Contact inside = At(ring, {1, 0, 0.5}, {1, 0, 0});
+  const object::Polyhedron ring = MakeRing();
+  const grasp::Contact inside = At(ring, {1, 0, 0.5}, {1, 0, 0});
   for (const double radius : {1e-6, 0.1, 0.9, 1.1}) EXPECT_FALSE(CanReach(ring, inside, radius));
-  const Contact outside = At(ring, {3, 0, 0.5}, {-1, 0, 0});
+  const grasp::Contact outside = At(ring, {3, 0, 0.5}, {-1, 0, 0});
   EXPECT_TRUE(CanReach(ring, outside, 1.1));
 }
 
 TEST(Reach, SaysWhatFitsOrHowFarTheWayIsFree) {
-  const Polyhedron ring = MakeRing();
-  const Contact inside = At(ring, {1, 0, 0.5}, {1, 0, 0});
+  const object::Polyhedron ring = MakeRing();
+  const grasp::Contact inside = At(ring, {1, 0, 0.5}, {1, 0, 0});
   EXPECT_FALSE(FindObstacle(ring, At(ring, {3, 0, 0.5}, {-1, 0, 0}), 0.5).has_value());
   // Between the walls, 2 apart, a ball of radius 0.1 can go 1.8.
   const std::string way = FindObstacle(ring, inside, 0.1).value_or("");
@@ -67,55 +67,57 @@ TEST(Reach, SaysWhatFitsOrHowFarTheWayIsFree) {
 }
 
 TEST(Reach, HoldsInThePlaneForDiscs) {
-  const Polygon l = Polygon::FromRings({{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}}, "l");
+  const object::Polygon l =
+      object::Polygon::FromRings({{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}}, "l");
   EXPECT_FALSE(CanReach(l, At(l, {1.29, 1, 0}, {0, -1, 0}), 0.3));
   EXPECT_TRUE(CanReach(l, At(l, {1.31, 1, 0}, {0, -1, 0}), 0.3));
-  const Polygon frame = Polygon::FromRings(
+  const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}}, "frame");
   EXPECT_FALSE(CanReach(frame, At(frame, {2, 1, 0}, {0, -1, 0}), 0.01));
   EXPECT_TRUE(CanReach(frame, At(frame, {2, 0, 0}, {0, 1, 0}), 0.01));
 }
 
 TEST(Reach, FingersKeepTheirDiameterApart) {
-  const Polyhedron cube = MakeCube();
-  const Contact a = At(cube, {0, 0, 1}, {0, 0, -1});
-  const Contact b = At(cube, {0.4, 0, 1}, {0, 0, -1});
-  EXPECT_TRUE(KeepApart(Grasp{a, b}, 0));
-  EXPECT_TRUE(KeepApart(Grasp{a, b}, 0.2)) << "touching is allowed";
-  EXPECT_FALSE(KeepApart(Grasp{a, b}, 0.201));
-  EXPECT_FALSE(KeepApart(Grasp{b, a}, 0.201));
-  EXPECT_TRUE(KeepApart(Grasp{a}, 100));
-  EXPECT_FALSE(CanHold(cube, Grasp{a, b}, 0.201));
-  EXPECT_TRUE(CanHold(cube, Grasp{a, b}, 0.199));
+  const object::Polyhedron cube = MakeCube();
+  const grasp::Contact a = At(cube, {0, 0, 1}, {0, 0, -1});
+  const grasp::Contact b = At(cube, {0.4, 0, 1}, {0, 0, -1});
+  EXPECT_TRUE(KeepApart(grasp::Grasp{a, b}, 0));
+  EXPECT_TRUE(KeepApart(grasp::Grasp{a, b}, 0.2)) << "touching is allowed";
+  EXPECT_FALSE(KeepApart(grasp::Grasp{a, b}, 0.201));
+  EXPECT_FALSE(KeepApart(grasp::Grasp{b, a}, 0.201));
+  EXPECT_TRUE(KeepApart(grasp::Grasp{a}, 100));
+  EXPECT_FALSE(CanHold(cube, grasp::Grasp{a, b}, 0.201));
+  EXPECT_TRUE(CanHold(cube, grasp::Grasp{a, b}, 0.199));
 }
 
 TEST(Reach, FingersOnTheTwoSidesOfAThinWallDoNotMeet) {
-  const Polygon wall = Polygon::FromRings({{{0, 0}, {4, 0}, {4, 0.01}, {0, 0.01}}}, "wall");
-  const Grasp pinch = {At(wall, {2, 0, 0}, {0, 1, 0}), At(wall, {2, 0.01, 0}, {0, -1, 0})};
+  const object::Polygon wall =
+      object::Polygon::FromRings({{{0, 0}, {4, 0}, {4, 0.01}, {0, 0.01}}}, "wall");
+  const grasp::Grasp pinch = {At(wall, {2, 0, 0}, {0, 1, 0}), At(wall, {2, 0.01, 0}, {0, -1, 0})};
   EXPECT_TRUE(KeepApart(pinch, 0.5));
 }
 
 TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
-  const Polyhedron hollow = MakeHollowCube();
-  const Contact inside = At(hollow, {0.5, 0, 0}, {1, 0, 0});
-  const Contact outside = At(hollow, {1, 0, 0}, {-1, 0, 0});
+  const object::Polyhedron hollow = MakeHollowCube();
+  const grasp::Contact inside = At(hollow, {0.5, 0, 0}, {1, 0, 0});
+  const grasp::Contact outside = At(hollow, {1, 0, 0}, {-1, 0, 0});
   for (const double radius : {0.0, 1e-9, 0.1}) {
     EXPECT_FALSE(CanReach(hollow, inside, radius));
-    EXPECT_FALSE(CanHold(hollow, Grasp{outside, inside}, radius));
+    EXPECT_FALSE(CanHold(hollow, grasp::Grasp{outside, inside}, radius));
     EXPECT_EQ(FindObstacle(hollow, inside, radius).value_or(""),
               "its contact lies in a sealed cavity, where no finger comes from outside");
     EXPECT_TRUE(CanReach(hollow, outside, radius));
   }
   // A hole of a polygon is a hole through a prism: fingers come from above.
-  const Polygon frame = Polygon::FromRings(
+  const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}}, "frame");
   EXPECT_TRUE(CanReach(frame, At(frame, {2, 1, 0}, {0, -1, 0}), 0));
 }
 
 /// The least distance of any of `samples` points of the faces but the contact's own from the
 /// segment about which the finger sweeps.
-double SampledClearance(const Polyhedron& body, const Contact& contact, double radius,
-                        std::mt19937_64& random) {
+double SampledClearance(const object::Polyhedron& body, const grasp::Contact& contact,
+                        double radius, std::mt19937_64& random) {
   constexpr int kSamples = 4000;
   std::uniform_real_distribution<double> uniform(0, 1);
   const Vector3d rest = BallCentre(contact, radius);
@@ -139,16 +141,17 @@ TEST(Reach, AgreesWithSampledPointsOfTheSurface) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
   int free = 0, blocked = 0;
-  for (const Polyhedron& body : {MakeLBlock(), MakeRing()}) {
+  for (const object::Polyhedron& body : {MakeLBlock(), MakeRing()}) {
     for (int draw = 0; draw < 150; ++draw) {
       const int t = static_cast<int>(uniform(random) * std::ssize(body.triangles()));
       const auto& [i, j, k] = body.triangles()[t];
       double u = uniform(random), v = uniform(random);
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const int face = body.face_of_triangle(t);
-      const Contact contact = {body.vertices()[i] + u * (body.vertices()[j] - body.vertices()[i]) +
-                                   v * (body.vertices()[k] - body.vertices()[i]),
-                               body.inward_normal(face), face};
+      const grasp::Contact contact = {body.vertices()[i] +
+                                          u * (body.vertices()[j] - body.vertices()[i]) +
+                                          v * (body.vertices()[k] - body.vertices()[i]),
+                                      body.inward_normal(face), face};
       const double radius = 0.02 + 0.5 * uniform(random);
       // Sampled points lie on the surface: one inside the capsule refutes, and where even a capsule
       // that is thicker by the samples' spacing holds none, nothing else does.
@@ -170,10 +173,10 @@ TEST(Reach, AgreesWithSampledPointsOfTheSurface) {
 TEST(Reach, AThickerFingerReachesNoMoreAndTheUnitOfLengthDoesNotMatter) {
   int changes = 0;
   for (const double size : {1e-3, 1.0, 1e3}) {
-    const Polygon l = Polygon::FromRings(
+    const object::Polygon l = object::Polygon::FromRings(
         {{{0, 0}, {3 * size, 0}, {3 * size, size}, {size, size}, {size, 3 * size}, {0, 3 * size}}},
         "l");
-    const Contact contact = At(l, {1.5 * size, size, 0}, {0, -1, 0});
+    const grasp::Contact contact = At(l, {1.5 * size, size, 0}, {0, -1, 0});
     bool before = true;
     for (int step = 1; step <= 20; ++step) {
       const bool now = CanReach(l, contact, step * 0.049 * size);
@@ -187,4 +190,4 @@ TEST(Reach, AThickerFingerReachesNoMoreAndTheUnitOfLengthDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::criteria

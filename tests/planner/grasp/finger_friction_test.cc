@@ -10,12 +10,12 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_half_angle.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Eigen::Vector3d;
 
-const WrenchFrame kPlane = {{0, 0, 0}, 1, 2};
+const object::WrenchFrame kPlane = {{0, 0, 0}, 1, 2};
 
 Vector3d Direction(double degrees) {
   return {std::cos(Radians(degrees)), std::sin(Radians(degrees)), 0};
@@ -69,7 +69,7 @@ TEST(FingerFrictionTest, TheFirstOfEqualFingersIsTheWeakest) {
 
 TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
   RandomStream random(5, RandomUse::kStart);
-  const WrenchFrame frame = {{0, 0, 0}, 1, 3};
+  const object::WrenchFrame frame = {{0, 0, 0}, 1, 3};
   const Eigen::Isometry3d motion =
       Eigen::Translation3d(1, -2, 3) * Eigen::AngleAxisd(1.1, Vector3d(1, 2, 2).normalized());
   int checked = 0;
@@ -103,4 +103,4 @@ TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

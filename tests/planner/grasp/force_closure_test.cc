@@ -12,7 +12,7 @@
 #include "pyramid_program.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 constexpr int kSides = 64;
@@ -260,7 +260,7 @@ TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
 
 TEST(ForceClosureTest, BadArgumentsThrow) {
   const Grasp good = Tetrahedron();
-  const WrenchFrame frame = UnitFrame(3);
+  const object::WrenchFrame frame = UnitFrame(3);
   EXPECT_NO_THROW((void)TestForceClosure(good, frame, 0.3));
   for (const double angle : {0.0, -0.1, std::numbers::pi / 2, std::nan("")}) {
     EXPECT_THROW((void)TestForceClosure(good, frame, angle), std::invalid_argument) << angle;
@@ -278,4 +278,4 @@ TEST(ForceClosureTest, BadArgumentsThrow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -11,7 +11,7 @@
 #include "pyramid_program.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 constexpr double kTotal = 7.5;      // newtons, the total normal force of these tests
@@ -25,7 +25,7 @@ Wrench RandomLoad(RandomGrasps& random, int dimension, double size) {
   return load;
 }
 
-double Unbalanced(const Grasp& grasp, const WrenchFrame& frame, const GraspForces& result,
+double Unbalanced(const Grasp& grasp, const object::WrenchFrame& frame, const GraspForces& result,
                   const Wrench& load) {
   Eigen::Vector3d force = load.force;
   Eigen::Vector3d torque = load.torque_over_radius;
@@ -57,7 +57,7 @@ TEST(GraspForcesTest, BalanceTheLoadInsideTheConesWithTheMarginThatTheyReport) {
     const int count = dimension + trial % 4;
     const Grasp grasp =
         trial % 3 == 0 ? random.OnBox(count, dimension) : random.OnBall(count, dimension);
-    const WrenchFrame frame = UnitFrame(dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
     const double half_angle = Radians(random.Uniform(5, 50));
     const Wrench load = RandomLoad(random, dimension, trial % 4 == 0 ? 0 : 0.01 * kTotal);
     const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, kTotal);
@@ -90,7 +90,7 @@ TEST(GraspForcesTest, TheMarginIsTheOptimumOfTheLinearProgram) {
   for (int trial = 0; trial < 800; ++trial) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(dimension + 1 + trial % 3, dimension);
-    const WrenchFrame frame = UnitFrame(dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
     const double half_angle = Radians(random.Uniform(10, 50));
     const Wrench load = RandomLoad(random, dimension, 0.02);
     const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, 1);
@@ -145,4 +145,4 @@ TEST(GraspForcesTest, BadArgumentsThrow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

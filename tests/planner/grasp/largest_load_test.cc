@@ -9,7 +9,7 @@
 #include "planner/base/angle.h"
 #include "planner/grasp/quality.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,8 +19,8 @@ constexpr double kSqueeze = 50;
 /// Far above the gap of the search, far below any load that is told apart.
 constexpr double kNear = 1e-7;
 
-const WrenchFrame kPlane{Vector3d::Zero(), 2, 2};
-const WrenchFrame kSpace{Vector3d::Zero(), 2, 3};
+const object::WrenchFrame kPlane{Vector3d::Zero(), 2, 2};
+const object::WrenchFrame kSpace{Vector3d::Zero(), 2, 3};
 
 Wrench Force(double x, double y, double z) { return {{x, y, z}, Vector3d::Zero()}; }
 Wrench Torque(double x, double y, double z) { return {Vector3d::Zero(), {x, y, z}}; }
@@ -36,7 +36,7 @@ Grasp FourOnACube() {
           {{0, -1, 0}, {0, 1, 0}}};
 }
 
-double Largest(const Grasp& grasp, const WrenchFrame& frame, const Wrench& load,
+double Largest(const Grasp& grasp, const object::WrenchFrame& frame, const Wrench& load,
                const Wrench& direction, double half_angle = kHalfAngle) {
   const auto found = ComputeLargestLoad(grasp, frame, half_angle, load, direction, kSqueeze);
   if (!found) return -1;
@@ -129,4 +129,4 @@ TEST(LargestLoadTest, WhatIsNoQuestionIsRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -102,4 +102,4 @@ std::optional<double> PyramidMargin(std::span<const Contact> contacts, const Wre
   return program.Maximise(program.AddColumn(inset, 1, kLeastMargin));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

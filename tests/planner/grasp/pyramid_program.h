@@ -7,7 +7,7 @@
 #include "planner/grasp/grasp_forces.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 
 /// Friction cones replaced by pyramids, solved by GLPK: a second route to what the library computes
 /// with true cones.
@@ -19,7 +19,8 @@ struct Pyramid {
 /// The largest m such that forces with Σ n·f = 1 balance `load` and every f_i − (m/k) n_i lies in
 /// its pyramid; m may be negative. nullopt where nothing balances.
 [[nodiscard]] std::optional<double> PyramidMargin(std::span<const Contact> contacts,
-                                                  const WrenchFrame& frame, double half_angle,
-                                                  const Pyramid& pyramid, const Wrench& load);
+                                                  const object::WrenchFrame& frame,
+                                                  double half_angle, const Pyramid& pyramid,
+                                                  const Wrench& load);
 
-}  // namespace regrasp
+}  // namespace regrasp::grasp

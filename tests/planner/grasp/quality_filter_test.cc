@@ -7,7 +7,7 @@
 #include "planner/grasp/quality.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 struct Counts {
@@ -21,7 +21,7 @@ struct Counts {
 Counts Ask(int dimension, double half_angle, QualityFilter& filter) {
   constexpr double kSame = 0.05;
   RandomGrasps random(17);
-  const WrenchFrame frame = UnitFrame(dimension);
+  const object::WrenchFrame frame = UnitFrame(dimension);
   Counts counts;
   for (int trial = 0; trial < 80; ++trial) {
     const Grasp grasp = random.OnBall(dimension + 1, dimension);
@@ -49,7 +49,7 @@ TEST(QualityFilterTest, SaysYesOnlyWhereTheQualityIsThereAndSeldomNoWhereItIs) {
 
 TEST(QualityFilterTest, TwistsThatRefutedSomeRefuteMostOthers) {
   RandomGrasps random(23);
-  const WrenchFrame frame = UnitFrame(3);
+  const object::WrenchFrame frame = UnitFrame(3);
   QualityFilter filter(frame, Radians(20));
   int asked = 0;
   for (int trial = 0; trial < 800; ++trial) {
@@ -64,4 +64,4 @@ TEST(QualityFilterTest, TwistsThatRefutedSomeRefuteMostOthers) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

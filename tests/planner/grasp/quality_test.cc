@@ -12,11 +12,11 @@
 #include "planner/grasp/required_half_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// The support of the wrench set in a direction, written out once more.
-double Support(const Grasp& grasp, const WrenchFrame& frame, double half_angle,
+double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
                const Eigen::Vector3d& v, const Eigen::Vector3d& omega) {
   double best = 0;
   for (const Contact& contact : grasp) {
@@ -47,7 +47,7 @@ TEST(QualityTest, BoundsNestAndTheUpperBoundIsNoMoreThanAnySupport) {
   for (int trial = 0; trial < 60; ++trial) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(dimension + 1, dimension);
-    const WrenchFrame frame = UnitFrame(dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
     const double half_angle = Radians(random.Uniform(15, 45));
     if (!IsForceClosure(grasp, frame, half_angle)) continue;
     const QualityBounds coarse = ComputeQuality(grasp, frame, half_angle, 0.2);
@@ -78,7 +78,7 @@ TEST(QualityTest, AtLeastAgreesWithTheBounds) {
   for (int trial = 0; trial < 100; ++trial) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = trial % 4 == 1 ? random.OnBox(4, dimension) : random.OnBall(4, dimension);
-    const WrenchFrame frame = UnitFrame(dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
     const double half_angle = Radians(random.Uniform(10, 40));
     const QualityBounds bounds = ComputeQuality(grasp, frame, half_angle, 0.1);
     for (const double threshold : {0.5 * bounds.lower, 0.95 * bounds.lower}) {
@@ -182,4 +182,4 @@ TEST(QualityTest, BadArgumentsThrow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

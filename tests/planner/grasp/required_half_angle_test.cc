@@ -10,7 +10,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 /// Well above what the bounds may differ by next to an angle that is too close to call.
@@ -64,7 +64,7 @@ TEST(RequiredHalfAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow
     const int dimension = 2 + trial % 2;
     const Grasp grasp = trial % 3 == 0 ? random.OnBox(2 + trial % 4, dimension)
                                        : random.OnBall(2 + trial % 4, dimension);
-    const WrenchFrame frame = UnitFrame(dimension);
+    const object::WrenchFrame frame = UnitFrame(dimension);
     const auto required = ComputeRequiredHalfAngle(grasp, frame);
     if (!required) {
       EXPECT_FALSE(IsForceClosure(grasp, frame, Radians(89.99)));
@@ -118,4 +118,4 @@ TEST(RequiredHalfAngleTest, BadArgumentsThrow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

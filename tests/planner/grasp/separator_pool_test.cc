@@ -11,7 +11,7 @@
 #include "planner/grasp/cone_support.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Word = SeparatorPool::Word;
@@ -125,4 +125,4 @@ TEST(SeparatorPoolTest, AContactThatIsTouchedIsNotHeldOff) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

@@ -6,7 +6,7 @@
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 
-namespace regrasp {
+namespace regrasp::grasp {
 namespace {
 
 using Subsets = std::vector<std::array<int, 4>>;
@@ -80,4 +80,4 @@ TEST(SubsetForceClosureTest, BadArgumentsThrow) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::grasp

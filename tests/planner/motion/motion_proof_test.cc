@@ -10,7 +10,7 @@
 #include "planner/motion/find_motion_proof.h"
 #include "tests/planner/motion/random_boxes.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 namespace {
 
 using Eigen::Vector3d;
@@ -31,13 +31,14 @@ struct Counts {
 /// Whether no instant was found that is not force closure.
 bool SeemsToHold(const GraspMotion& motion, int dimension) {
   for (int k = 0; k <= 200; ++k) {
-    if (!IsForceClosure(GraspAt(motion, k / 200.0), FrameOf(dimension), kHalfAngle)) return false;
+    if (!grasp::IsForceClosure(GraspAt(motion, k / 200.0), FrameOf(dimension), kHalfAngle))
+      return false;
   }
   return true;
 }
 
 /// Proves one motion, and expects that only true ones are proved.
-void Count(const Grasp& from, const Grasp& to, int dimension, Counts& counts) {
+void Count(const grasp::Grasp& from, const grasp::Grasp& to, int dimension, Counts& counts) {
   const GraspMotion motion = MotionOf(from, to);
   const bool holds = SeemsToHold(motion, dimension);
   const auto pieces = FindMotionProof(motion, dimension, kHalfAngle);
@@ -55,7 +56,7 @@ void ExpectMotionsProved(int dimension, int contacts, double reach) {
   RandomBoxes random(dimension);
   Counts counts;
   for (int i = 0; i < 300; ++i) {
-    const Grasp from = random.Draw(contacts);
+    const grasp::Grasp from = random.Draw(contacts);
     Count(from, random.Moved(from, reach), dimension, counts);
   }
   EXPECT_GT(counts.proved, 15);
@@ -72,7 +73,7 @@ TEST(MotionProofTest, StraightMotionsAreProvedAllAlong) {
 }
 
 TEST(MotionProofTest, MotionsOfNoLengthAreProvedInOnePiece) {
-  const Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = CrossedGrasp();
   const auto pieces = FindMotionProof(MotionOf(grasp, grasp), 3, kHalfAngle);
   ASSERT_TRUE(pieces);
   EXPECT_EQ(pieces->size(), 1U);
@@ -80,9 +81,9 @@ TEST(MotionProofTest, MotionsOfNoLengthAreProvedInOnePiece) {
 }
 
 TEST(MotionProofTest, VeryShortMotionsAreProved) {
-  const Grasp from = CrossedGrasp();
+  const grasp::Grasp from = CrossedGrasp();
   for (const double length : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    Grasp to = from;
+    grasp::Grasp to = from;
     to[0].p.y() += length;
     to[3].p.z() -= length;
     const auto pieces = FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
@@ -92,9 +93,9 @@ TEST(MotionProofTest, VeryShortMotionsAreProved) {
 }
 
 /// Every finger turns its normal by up to `most` radians, and some move too.
-Grasp Turned(const Grasp& grasp, int dimension, double most, RandomBoxes& random) {
-  Grasp turned = grasp;
-  for (Contact& contact : turned) {
+grasp::Grasp Turned(const grasp::Grasp& grasp, int dimension, double most, RandomBoxes& random) {
+  grasp::Grasp turned = grasp;
+  for (grasp::Contact& contact : turned) {
     const Vector3d axis = dimension == 3 ? contact.n.unitOrthogonal() : Vector3d::UnitZ();
     contact.n = Eigen::AngleAxisd(most * random.Uniform(), axis) * contact.n;
   }
@@ -106,8 +107,8 @@ TEST(MotionProofTest, TurningNormalsAreProvedAllAlong) {
     RandomBoxes random(dimension);
     Counts counts;
     for (int i = 0; i < 300; ++i) {
-      const Grasp from = random.Draw(dimension + 1);
-      const Grasp to = random.Moved(Turned(from, dimension, Radians(30), random), 0.1);
+      const grasp::Grasp from = random.Draw(dimension + 1);
+      const grasp::Grasp to = random.Moved(Turned(from, dimension, Radians(30), random), 0.1);
       Count(from, to, dimension, counts);
     }
     EXPECT_GT(counts.proved, 15) << dimension;
@@ -119,10 +120,10 @@ TEST(MotionProofTest, TurningNormalsAreProvedAllAlong) {
 /// A finger that turns around the corner of a square by a right angle, at a friction at which every
 /// grasp on the way holds.
 struct Corner {
-  Grasp from = {{Vector3d(1, 1, 0), -Vector3d::UnitX()},
-                {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},
-                {Vector3d(-0.5, -1, 0), Vector3d::UnitY()}};
-  Grasp to = from;
+  grasp::Grasp from = {{Vector3d(1, 1, 0), -Vector3d::UnitX()},
+                       {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},
+                       {Vector3d(-0.5, -1, 0), Vector3d::UnitY()}};
+  grasp::Grasp to = from;
   double half_angle = Radians(50);
   Corner() { to[0].n = -Vector3d::UnitY(); }
 };
@@ -148,8 +149,8 @@ TEST(MotionProofTest, ConesOfTurningNormalsAreTakenNarrower) {
                           1,
                           {Vector3d(-1, -1, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)},
                           {Vector3d(-1, -1, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}}};
-  Grasp from = corner.from;
-  Grasp to = corner.to;
+  grasp::Grasp from = corner.from;
+  grasp::Grasp to = corner.to;
   from[1].p = to[1].p = Vector3d(-1, 1, 0);
   from[2].p = to[2].p = Vector3d(1, -1, 0);
   const auto at = [&](double beyond) {
@@ -167,7 +168,7 @@ TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
   one[0].to = 1;
   const auto verdict = CheckMotionProof(corner.from, corner.to, 2, std::tan(Radians(46)), one);
   EXPECT_EQ(verdict.kind, Kind::kNothing);
-  Grasp flipped = corner.to;
+  grasp::Grasp flipped = corner.to;
   flipped[0].n = Vector3d::UnitX();
   EXPECT_EQ(CheckMotionProof(corner.from, flipped, 2, kMu, pieces).kind, Kind::kNothing);
   EXPECT_FALSE(FindMotionProof(MotionOf(corner.from, flipped), 2, corner.half_angle));
@@ -179,11 +180,11 @@ TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
   // their fingers, and between the ends both pairs turn the square the same way.
   const double apart = 0.4, weak = 0.1;
   const Vector3d up = Vector3d::UnitY(), below(0, -1, 0), above(0, 1, 0), x = Vector3d::UnitX();
-  const Grasp from = {{below - 0.5 * x, up},
-                      {above - 0.5 * x, -up},
-                      {below + 0.5 * x, up},
-                      {above + (0.5 + apart) * x, -up}};
-  Grasp to = from;
+  const grasp::Grasp from = {{below - 0.5 * x, up},
+                             {above - 0.5 * x, -up},
+                             {below + 0.5 * x, up},
+                             {above + (0.5 + apart) * x, -up}};
+  grasp::Grasp to = from;
   to[1].p += apart * x;
   to[3].p -= apart * x;
   const Vector3d slanted = weak * (up + apart / 2 * x);
@@ -209,8 +210,8 @@ class PiecesTest : public testing::Test {
     return CheckMotionProof(from, to, 3, kMu, some).kind;
   }
 
-  Grasp from = CrossedGrasp();
-  Grasp to = from;
+  grasp::Grasp from = CrossedGrasp();
+  grasp::Grasp to = from;
   Pieces pieces;
 };
 
@@ -245,13 +246,13 @@ TEST_F(PiecesTest, ForcesMustFit) {
 }
 
 TEST_F(PiecesTest, BelongToOneMotion) {
-  Grasp farther = to;
+  grasp::Grasp farther = to;
   farther[0].p.y() += 3;
   EXPECT_EQ(CheckMotionProof(from, farther, 3, kMu, pieces).kind, Kind::kNothing);
-  Grasp turned = to;
+  grasp::Grasp turned = to;
   turned[0].n = Vector3d(-1, 0.6, 0).normalized();
   EXPECT_EQ(CheckMotionProof(from, turned, 3, kMu, pieces).kind, Kind::kNothing);
-  Grasp fewer = to;
+  grasp::Grasp fewer = to;
   fewer.pop_back();
   EXPECT_EQ(CheckMotionProof(from, fewer, 3, kMu, pieces).kind, Kind::kNothing);
   EXPECT_EQ(CheckMotionProof(from, to, 3, kMu / 10, pieces).kind, Kind::kNothing);
@@ -267,4 +268,4 @@ TEST_F(PiecesTest, WrittenAsShortDecimalsStillProve) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::motion

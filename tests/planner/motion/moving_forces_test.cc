@@ -9,7 +9,7 @@
 #include "planner/base/angle.h"
 #include "tests/planner/motion/random_boxes.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,9 +19,9 @@ constexpr double kHalfAngle = Radians(20);
 /// What rounding may leave of the balance of forces up to 1 on arms up to a few radii.
 constexpr double kRounding = 1e-11;
 
-MovingContacts MovingContactsOf(const Grasp& from, const Grasp& to) {
+MovingContacts MovingContactsOf(const grasp::Grasp& from, const grasp::Grasp& to) {
   Vector3d centre = Vector3d::Zero();
-  for (const Contact& contact : from) centre += contact.p / static_cast<double>(from.size());
+  for (const grasp::Contact& contact : from) centre += contact.p / static_cast<double>(from.size());
   MovingContacts contacts;
   for (std::size_t i = 0; i < from.size(); ++i) {
     contacts.push_back({from[i].p - centre, to[i].p - centre, to[i].p - from[i].p, from[i].n,
@@ -64,7 +64,7 @@ std::array<int, 2> Prove(int contacts) {
   RandomBoxes random(kSpace);
   std::array<int, 2> proved = {0, 0};
   for (int i = 0; i < 500; ++i) {
-    const Grasp from = random.Draw(contacts);
+    const grasp::Grasp from = random.Draw(contacts);
     const MovingContacts moving = MovingContactsOf(from, random.Moved(from, 0.4));
     MovingForces<1> first;
     MovingForces<2> second;
@@ -91,8 +91,8 @@ TEST(MovingForcesTest, BalanceAtEveryInstantInsideTheCones) {
 
 TEST(MovingForcesTest, AreNotFoundWhereAnInstantIsNotForceClosure) {
   // Both pairs come to be out of line, one after the other.
-  const Grasp from = CrossedGrasp();
-  Grasp to = from;
+  const grasp::Grasp from = CrossedGrasp();
+  grasp::Grasp to = from;
   to[0].p.y() += 0.85;
   to[2].p.z() -= 0.85;
   MovingForces<1> forces;
@@ -101,4 +101,4 @@ TEST(MovingForcesTest, AreNotFoundWhereAnInstantIsNotForceClosure) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::motion

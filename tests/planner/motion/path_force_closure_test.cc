@@ -11,7 +11,7 @@
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/find_motion_proof.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 namespace {
 
 constexpr unsigned kSeed = 20;
@@ -38,8 +38,8 @@ class RandomMotions {
   double Sign() { return Uniform(-1, 1) < 0 ? -1 : 1; }
 
   /// A point of the face ±axis of the cube or square.
-  Contact OnFace(int axis, double sign) {
-    Contact contact;
+  grasp::Contact OnFace(int axis, double sign) {
+    grasp::Contact contact;
     for (int k = 0; k < dimension_; ++k) contact.p[k] = Uniform(-1, 1);
     contact.p[axis] = sign;
     contact.n[axis] = -sign;
@@ -49,8 +49,8 @@ class RandomMotions {
   ContactMotion Slide() {
     const int axis = Axis();
     const double sign = Sign();
-    const Contact from = OnFace(axis, sign);
-    Contact to = OnFace(axis, sign);
+    const grasp::Contact from = OnFace(axis, sign);
+    grasp::Contact to = OnFace(axis, sign);
     to.p = from.p + Uniform(0, 1) * (to.p - from.p);
     return {from, to};
   }
@@ -58,8 +58,8 @@ class RandomMotions {
   ContactMotion Turn() {
     const int axis = Axis();
     const int other = (axis + 1) % dimension_;
-    Contact from = OnFace(axis, Sign());
-    Contact to = from;
+    grasp::Contact from = OnFace(axis, Sign());
+    grasp::Contact to = from;
     from.p[other] = to.p[other] = Sign();
     to.n.setZero();
     to.n[other] = -to.p[other];
@@ -71,16 +71,16 @@ class RandomMotions {
   std::mt19937 random_{kSeed};
 };
 
-WrenchFrame FrameOf(int dimension) {
+object::WrenchFrame FrameOf(int dimension) {
   return {Eigen::Vector3d::Zero(), std::sqrt(static_cast<double>(dimension)), dimension};
 }
 
 class PathForceClosureIn : public testing::TestWithParam<int> {
  protected:
   int dimension() const { return GetParam(); }
-  WrenchFrame frame() const { return FrameOf(dimension()); }
+  object::WrenchFrame frame() const { return FrameOf(dimension()); }
   bool HoldsAt(const GraspMotion& motion, double t, double half_angle) const {
-    return IsForceClosure(GraspAt(motion, t), frame(), half_angle);
+    return grasp::IsForceClosure(GraspAt(motion, t), frame(), half_angle);
   }
 };
 
@@ -90,7 +90,7 @@ bool IsProved(const GraspMotion& motion, int dimension, double half_angle, doubl
   if (!proof) return false;
   EXPECT_EQ(proof->from, from);
   EXPECT_EQ(proof->to, to);
-  const Grasp start = GraspAt(motion, 0), end = GraspAt(motion, 1);
+  const grasp::Grasp start = GraspAt(motion, 0), end = GraspAt(motion, 1);
   return CheckSegmentProof(start, end, dimension, std::tan(half_angle), *proof).proves();
 }
 
@@ -111,7 +111,7 @@ TEST_P(PathForceClosureIn, ProvesOnlyWhatDenseSamplingConfirms) {
   for (int i = 0; i < 1000; ++i) {
     const GraspMotion motion = motions.Next(dimension() + i % 3);
     // Close to the limit, where a proof that claims too much is found out.
-    const auto required = ComputeRequiredHalfAngle(GraspAt(motion, 0.5), frame(), 1e-6);
+    const auto required = grasp::ComputeRequiredHalfAngle(GraspAt(motion, 0.5), frame(), 1e-6);
     if (!required) continue;
     const double half_angle = required->upper + std::pow(10, motions.Uniform(-4, -0.5));
     if (!(half_angle < Radians(85))) continue;
@@ -159,7 +159,7 @@ TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
     double largest = 0;
     bool none = false;
     for (int k = 0; k <= 100; ++k) {
-      const auto there = ComputeRequiredHalfAngle(GraspAt(motion, k / 100.0), frame(), 1e-7);
+      const auto there = grasp::ComputeRequiredHalfAngle(GraspAt(motion, k / 100.0), frame(), 1e-7);
       none = none || !there;
       if (there) largest = std::max(largest, there->lower);
     }
@@ -184,7 +184,7 @@ struct Accuracy {
   int accurate = 0;
 };
 
-Accuracy CountAccurate(RandomMotions motions, int contacts, const WrenchFrame& frame) {
+Accuracy CountAccurate(RandomMotions motions, int contacts, const object::WrenchFrame& frame) {
   Accuracy count;
   for (int i = 0; i < 60; ++i) {
     const GraspMotion motion = motions.Next(contacts);
@@ -209,11 +209,11 @@ TEST_P(PathForceClosureIn, BoundsAreNearlyAlwaysAsNearAsPromised) {
 
 TEST(PathForceClosure, BoundsAnAlignThatWeakerProofsBoundByTheFrictionItWasPlannedWith) {
   const auto contact = [](double x, double y, double z, const Eigen::Vector3d& n) {
-    return Contact{{x, y, z}, n};
+    return grasp::Contact{{x, y, z}, n};
   };
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
-  const Contact third = contact(-0.03, -0.028, 0.025, x),
-                fourth = contact(0.03, -0.0275, 0.026, -x);
+  const grasp::Contact third = contact(-0.03, -0.028, 0.025, x),
+                       fourth = contact(0.03, -0.0275, 0.026, -x);
   const GraspMotion motion = {
       {contact(-0.03, -0.0155, -0.0255, x), contact(-0.03, 0.0063, 0.0296, x)},
       {contact(-0.0152, 0.03, -0.014, -y), contact(0.0003, 0.03, -0.0229, -y)},
@@ -231,9 +231,9 @@ struct Peak {
   double angle = 0;
 };
 
-std::optional<Peak> FindInnerPeak(const GraspMotion& motion, const WrenchFrame& frame) {
+std::optional<Peak> FindInnerPeak(const GraspMotion& motion, const object::WrenchFrame& frame) {
   const auto angle_at = [&](double t) {
-    const auto required = ComputeRequiredHalfAngle(GraspAt(motion, t), frame, 1e-12);
+    const auto required = grasp::ComputeRequiredHalfAngle(GraspAt(motion, t), frame, 1e-12);
     return required ? required->upper : 2.0;
   };
   constexpr int kSamples = 24;
@@ -267,8 +267,10 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
     const std::optional<Peak> peak = FindInnerPeak(motion, frame());
     if (!peak) continue;
     // Just too little friction at 5e-5 to either side of the peak.
-    const auto before = ComputeRequiredHalfAngle(GraspAt(motion, peak->at - 5e-5), frame(), 1e-12);
-    const auto after = ComputeRequiredHalfAngle(GraspAt(motion, peak->at + 5e-5), frame(), 1e-12);
+    const auto before =
+        grasp::ComputeRequiredHalfAngle(GraspAt(motion, peak->at - 5e-5), frame(), 1e-12);
+    const auto after =
+        grasp::ComputeRequiredHalfAngle(GraspAt(motion, peak->at + 5e-5), frame(), 1e-12);
     if (!before || !after) continue;
     const double half_angle = std::max(before->upper, after->upper) + 1e-11;
     if (!(half_angle < peak->angle - 1e-9)) continue;
@@ -278,14 +280,14 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
     EXPECT_TRUE(HoldsAt(motion, peak->at + 6e-5, half_angle));
     EXPECT_TRUE(HoldsAt(motion, 1, half_angle));
     const PathForceClosure path = DecidePathForceClosure(motion, frame(), half_angle);
-    EXPECT_EQ(path.decision, Decision::kNo) << i;
+    EXPECT_EQ(path.decision, grasp::Decision::kNo) << i;
     EXPECT_NEAR(path.at, peak->at, 6e-5);
     if (DecidePathForceClosure(motion, frame(), peak->angle + kPathAngleAccuracy).holds()) ++held;
     // The peak is at least as high as it was found to be, and lost for an instant only.
     for (const double loss : {1e-7, 1e-10}) {
       const PathForceClosure close = DecidePathForceClosure(motion, frame(), peak->angle - loss);
       EXPECT_FALSE(close.holds()) << i << ", " << loss;
-      if (close.decision != Decision::kTooClose) continue;
+      if (close.decision != grasp::Decision::kTooClose) continue;
       ++undecided;
       EXPECT_GT(close.undecided, 0);
       EXPECT_NEAR(close.at, peak->at, 1e-3);
@@ -301,7 +303,7 @@ TEST(PathForceClosure, RefusesAMotionThatKeepsTooCloseToTheLimit) {
   // Finger 1 moves along x = 1, finger 0's normal turns with the direction to it, evenly: the angle
   // between them is 0.3 + atan t − t, within 1e-9 of its largest for the first thousandth.
   const auto contact = [](double x, double y, double angle) {
-    return Contact{{x, y, 0}, {std::cos(angle), std::sin(angle), 0}};
+    return grasp::Contact{{x, y, 0}, {std::cos(angle), std::sin(angle), 0}};
   };
   const double pi = Radians(180);
   const GraspMotion motion = {{contact(0, 0, -0.3), contact(0, 0, 0.7)},
@@ -309,11 +311,11 @@ TEST(PathForceClosure, RefusesAMotionThatKeepsTooCloseToTheLimit) {
   const double close = 0.3 + 1e-9;
   int sampled = 0;
   for (int k = 0; k <= 1000; ++k, ++sampled) {
-    EXPECT_TRUE(IsForceClosure(GraspAt(motion, k / 1000.0), FrameOf(2), close));
+    EXPECT_TRUE(grasp::IsForceClosure(GraspAt(motion, k / 1000.0), FrameOf(2), close));
   }
   EXPECT_EQ(sampled, 1001);
   const PathForceClosure refused = DecidePathForceClosure(motion, FrameOf(2), close);
-  EXPECT_EQ(refused.decision, Decision::kTooClose);
+  EXPECT_EQ(refused.decision, grasp::Decision::kTooClose);
   EXPECT_TRUE(refused.ended_early);
   EXPECT_EQ(refused.undecided, kMostUndecided + 1);
   const PathForceClosure control = DecidePathForceClosure(motion, FrameOf(2), 0.3 + 1e-4);
@@ -323,7 +325,7 @@ TEST(PathForceClosure, RefusesAMotionThatKeepsTooCloseToTheLimit) {
 
 TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   RandomMotions motions(3, 0);
-  const WrenchFrame frame = FrameOf(3);
+  const object::WrenchFrame frame = FrameOf(3);
   GraspMotion motion = motions.Next(6);
   while (!DecidePathForceClosure(motion, frame, Radians(50)).holds()) motion = motions.Next(6);
   ProofBudget enough(1'000'000);
@@ -335,7 +337,7 @@ TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   EXPECT_TRUE(DecidePathForceClosure(motion, frame, Radians(50), shared).holds());
   static_cast<void>(DecidePathForceClosure(motion, frame, Radians(50), shared));
   const PathForceClosure ended = DecidePathForceClosure(motion, frame, Radians(50), shared);
-  EXPECT_EQ(ended.decision, Decision::kTooClose);
+  EXPECT_EQ(ended.decision, grasp::Decision::kTooClose);
   EXPECT_TRUE(ended.ended_early);
   EXPECT_EQ(ended.undecided, 0);
   const auto bounds = ComputePathRequiredHalfAngle(motion, frame, Radians(50), shared);
@@ -376,7 +378,7 @@ class CoplanarMotions {
         Eigen::Vector3d p = Eigen::Vector3d::Zero();
         p[axis] = sign;
         p[1 - axis] = place;
-        return Contact{turn * p + shift, (turn * normal).normalized()};
+        return grasp::Contact{turn * p + shift, (turn * normal).normalized()};
       };
       const bool opposite = family_ == Family::kPointSymmetric && i >= 2;
       const auto& [from, to] = along[opposite ? i - 2 : i];
@@ -395,7 +397,7 @@ class CoplanarMotions {
 
 TEST(PathForceClosure, BoundsMotionsInOnePlaneAsNearAsOthers) {
   using Family = CoplanarMotions::Family;
-  const WrenchFrame frame = FrameOf(3);
+  const object::WrenchFrame frame = FrameOf(3);
   for (const Family family : {Family::kFree, Family::kParallel, Family::kPointSymmetric}) {
     for (const bool turned : {false, true}) {
       CoplanarMotions motions(family, turned);
@@ -406,7 +408,8 @@ TEST(PathForceClosure, BoundsMotionsInOnePlaneAsNearAsOthers) {
         ASSERT_TRUE(bounds);
         double largest = 0;
         for (int k = 0; k <= 200; ++k) {
-          const auto there = ComputeRequiredHalfAngle(GraspAt(motion, k / 200.0), frame, 1e-7);
+          const auto there =
+              grasp::ComputeRequiredHalfAngle(GraspAt(motion, k / 200.0), frame, 1e-7);
           ASSERT_TRUE(there);
           largest = std::max(largest, there->lower);
         }
@@ -425,4 +428,4 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, PathForceClosureIn, testing::Values(2, 3),
                          [](const auto& info) { return info.param == 2 ? "Plane" : "Space"; });
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::motion

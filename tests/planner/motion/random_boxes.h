@@ -7,20 +7,20 @@
 #include "planner/motion/contact_motion.h"
 #include "planner/object/wrench_frame.h"
 
-namespace regrasp {
+namespace regrasp::motion {
 
 /// Random grasps of a box away from the origin; planar ones of a square.
 class RandomBoxes {
  public:
   explicit RandomBoxes(int dimension) : dimension_(dimension) {}
 
-  Grasp Draw(int count) {
-    Grasp grasp;
+  grasp::Grasp Draw(int count) {
+    grasp::Grasp grasp;
     for (int i = 0; i < count; ++i) grasp.push_back(DrawContact());
     return grasp;
   }
-  Contact DrawContact() {
-    Contact contact;
+  grasp::Contact DrawContact() {
+    grasp::Contact contact;
     for (int axis = 0; axis < dimension_; ++axis) contact.p[axis] = uniform_(engine_);
     const int axis = std::uniform_int_distribution<int>(0, dimension_ - 1)(engine_);
     const double side = uniform_(engine_) < 0 ? -1 : 1;
@@ -30,9 +30,9 @@ class RandomBoxes {
     return contact;
   }
   /// Elsewhere on the same sides.
-  Grasp Moved(const Grasp& grasp, double reach) {
-    Grasp moved = grasp;
-    for (Contact& contact : moved) {
+  grasp::Grasp Moved(const grasp::Grasp& grasp, double reach) {
+    grasp::Grasp moved = grasp;
+    for (grasp::Contact& contact : moved) {
       for (int axis = 0; axis < dimension_; ++axis) {
         if (std::abs(contact.n[axis]) < 0.5) contact.p[axis] += reach * uniform_(engine_);
       }
@@ -48,20 +48,22 @@ class RandomBoxes {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-inline WrenchFrame FrameOf(int dimension) { return {Eigen::Vector3d(5, -3, 0), 1.5, dimension}; }
+inline object::WrenchFrame FrameOf(int dimension) {
+  return {Eigen::Vector3d(5, -3, 0), 1.5, dimension};
+}
 
 /// Two pairs of opposite fingers on the sides of a cube.
-inline Grasp CrossedGrasp() {
+inline grasp::Grasp CrossedGrasp() {
   return {{Eigen::Vector3d(1, 0.1, 0), -Eigen::Vector3d::UnitX()},
           {Eigen::Vector3d(-1, 0, 0.1), Eigen::Vector3d::UnitX()},
           {Eigen::Vector3d(0, 1, -0.1), -Eigen::Vector3d::UnitY()},
           {Eigen::Vector3d(0.1, -1, 0), Eigen::Vector3d::UnitY()}};
 }
 
-inline GraspMotion MotionOf(const Grasp& from, const Grasp& to) {
+inline GraspMotion MotionOf(const grasp::Grasp& from, const grasp::Grasp& to) {
   GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
   return motion;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::motion

@@ -15,7 +15,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using ::testing::EndsWith;
@@ -248,4 +248,4 @@ TEST(BadFiles, DeepOrLongTextIsRefusedWithoutRecursion) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -8,7 +8,7 @@
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/soups.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Matrix3d;
@@ -117,4 +117,4 @@ TEST(Diameter, IsTheLargestDistanceOfAllPairs) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

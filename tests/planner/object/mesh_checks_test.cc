@@ -14,7 +14,7 @@
 #include "planner/object/size_limits.h"
 #include "tests/fixtures/soups.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector3d;
@@ -307,4 +307,4 @@ TEST(MeshChecks, ALargeMeshIsReadAndAHugeOneRefused) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -17,7 +17,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/object/soup_bytes.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector3d;
@@ -179,4 +179,4 @@ TEST(SoupBytes, ComeBackAsTheyWereAndAreRefusedWhenCut) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -16,7 +16,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector3d;
@@ -68,12 +68,12 @@ std::filesystem::path ModelPath(const std::string& file) {
 }
 
 /// The contacts of a grasp file, on the faces that they name.
-Grasp ReadModelGrasp(const Model& model, const Object& object, const std::string& which) {
+grasp::Grasp ReadModelGrasp(const Model& model, const Object& object, const std::string& which) {
   const auto path = ModelPath(model.file).replace_extension(which + ".json");
-  Grasp grasp;
+  grasp::Grasp grasp;
   const Json file = ParseJson(ReadFile(path), path.string());
   for (const Json& entry : file.at("contacts")) {
-    Contact contact;
+    grasp::Contact contact;
     for (int i = 0; i < object.dimension(); ++i) {
       contact.p[i] = entry.at("point").at(i);
       contact.n[i] = entry.at("normal").at(i);
@@ -159,13 +159,13 @@ TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
     const ObjectFile file = ReadObject(ModelPath(model.file));
     for (const std::string which : {"start", "goal"}) {
       SCOPED_TRACE(model.file + " " + which);
-      const Grasp grasp = ReadModelGrasp(model, *file.object, which);
+      const grasp::Grasp grasp = ReadModelGrasp(model, *file.object, which);
       if (IsSolid(model)) {
         EXPECT_EQ(grasp.size(), 4u);
       } else {
         EXPECT_TRUE(grasp.size() == 2 || grasp.size() == 3);
       }
-      for (const Contact& contact : grasp) {
+      for (const grasp::Contact& contact : grasp) {
         EXPECT_NEAR((file.object->inward_normal(contact.face) - contact.n).norm(), 0, 1e-6);
         EXPECT_GE(file.object->DistanceToBorder(contact.face, contact.p), from_border);
         ++contacts;
@@ -183,12 +183,12 @@ TEST(Models, GraspsAreForceClosureAtTwentyDegreesWithAClearMargin) {
     const WrenchFrame frame = file.object->wrench_frame();
     for (const std::string which : {"start", "goal"}) {
       SCOPED_TRACE(model.file + " " + which);
-      const Grasp grasp = ReadModelGrasp(model, *file.object, which);
-      EXPECT_TRUE(IsForceClosure(grasp, frame, kHalfAngle));
-      const auto required = ComputeRequiredHalfAngle(grasp, frame);
+      const grasp::Grasp grasp = ReadModelGrasp(model, *file.object, which);
+      EXPECT_TRUE(grasp::IsForceClosure(grasp, frame, kHalfAngle));
+      const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame);
       ASSERT_TRUE(required.has_value());
       EXPECT_LE(Degrees(required->upper), 15);
-      EXPECT_GE(ComputeQuality(grasp, frame, kHalfAngle).lower, 0.02);
+      EXPECT_GE(grasp::ComputeQuality(grasp, frame, kHalfAngle).lower, 0.02);
     }
   }
 }
@@ -198,10 +198,10 @@ TEST(Models, StartAndGoalShareNoContact) {
   int compared = 0;
   for (const Model& model : kModels) {
     const ObjectFile file = ReadObject(ModelPath(model.file));
-    const Grasp start = ReadModelGrasp(model, *file.object, "start");
-    const Grasp goal = ReadModelGrasp(model, *file.object, "goal");
-    for (const Contact& a : start) {
-      for (const Contact& b : goal) {
+    const grasp::Grasp start = ReadModelGrasp(model, *file.object, "start");
+    const grasp::Grasp goal = ReadModelGrasp(model, *file.object, "goal");
+    for (const grasp::Contact& a : start) {
+      for (const grasp::Contact& b : goal) {
         EXPECT_TRUE((a.p - b.p).norm() >= kApart || a.face != b.face) << model.file;
         ++compared;
       }
@@ -211,13 +211,13 @@ TEST(Models, StartAndGoalShareNoContact) {
 }
 
 /// Counts contacts that a line of sight from outside the body's hull would not reach.
-int ContactsIn(const std::string& file, bool (*inside)(const Contact&)) {
+int ContactsIn(const std::string& file, bool (*inside)(const grasp::Contact&)) {
   const Model& model =
       *std::ranges::find_if(kModels, [&](const Model& m) { return m.file == file; });
   const ObjectFile read = ReadObject(ModelPath(file));
   int count = 0;
   for (const std::string which : {"start", "goal"}) {
-    const Grasp grasp = ReadModelGrasp(model, *read.object, which);
+    const grasp::Grasp grasp = ReadModelGrasp(model, *read.object, which);
     count += static_cast<int>(std::ranges::count_if(grasp, inside));
   }
   return count;
@@ -225,18 +225,19 @@ int ContactsIn(const std::string& file, bool (*inside)(const Contact&)) {
 
 TEST(Models, SomeContactsAreOnInnerFaces) {
   // The two faces of the L's inner corner lie 4 cm from the axes.
-  EXPECT_GE(ContactsIn("l_block.obj",
-                       [](const Contact& c) { return std::abs(-c.n.dot(c.p) - 0.04) < 1e-9; }),
-            1);
+  EXPECT_GE(
+      ContactsIn("l_block.obj",
+                 [](const grasp::Contact& c) { return std::abs(-c.n.dot(c.p) - 0.04) < 1e-9; }),
+      1);
   EXPECT_GE(ContactsIn("hole_block.obj",
-                       [](const Contact& c) {
+                       [](const grasp::Contact& c) {
                          return std::abs(c.n.z()) < 0.5 &&
                                 c.p.head<2>().cwiseAbs().maxCoeff() < 0.03;
                        }),
             1);
   // The walls of the channel face each other, its ground lies 2 cm up.
   EXPECT_GE(ContactsIn("u_channel.obj",
-                       [](const Contact& c) {
+                       [](const grasp::Contact& c) {
                          return std::abs(c.n.z()) < 0.5 && c.p.y() > 0.019 &&
                                 std::abs(c.p.x() - 0.05) < 0.031;
                        }),
@@ -244,4 +245,4 @@ TEST(Models, SomeContactsAreOnInnerFaces) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -9,7 +9,7 @@
 
 #include "planner/base/error.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector2d;
@@ -223,4 +223,4 @@ TEST(Polygon, APolygonOfManyEdgesIsRead) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 TEST(TriangulatePolygon, TrianglesCoverThePolygonAndNotItsHole) {
@@ -26,4 +26,4 @@ TEST(TriangulatePolygon, TrianglesCoverThePolygonAndNotItsHole) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

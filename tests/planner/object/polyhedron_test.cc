@@ -10,7 +10,7 @@
 
 #include "tests/fixtures/soups.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector3d;
@@ -275,4 +275,4 @@ TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -13,7 +13,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST_F(FilesBesideTest, AnObjectIsReadFromItsFileOnce) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -9,7 +9,7 @@
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/counted_deadline.h"
 
-namespace regrasp {
+namespace regrasp::object {
 namespace {
 
 using ::testing::AllOf;
@@ -95,4 +95,4 @@ TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -9,7 +9,7 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 /// A plan whose only step aligns from the first to the last of the waypoints.
@@ -20,7 +20,7 @@ Plan AlignPlan(Plan plan, std::vector<FingerGrasp> waypoints) {
   return plan;
 }
 
-Reason ReasonOf(const Object& object, const Plan& plan) {
+Reason ReasonOf(const object::Object& object, const Plan& plan) {
   const PlanCheck check = CheckPlan(object, plan);
   EXPECT_EQ(check.steps[0].reason, Reason::kNone) << check.steps[0].detail;
   return check.steps[1].reason;
@@ -38,7 +38,7 @@ Plan SlideOnTop(const Eigen::Vector2d& hold, const Eigen::Vector3d& from,
 }
 
 TEST(CheckAlign, KeepsFingersInsideAFaceThatIsNotConvex) {
-  const Polyhedron block = MakeLBlock();
+  const object::Polyhedron block = MakeLBlock();
   const Eigen::Vector2d hold(0.5, 0.4);
   const Eigen::Vector3d arm(0.5, 2.5, 1);
   EXPECT_EQ(ReasonOf(block, SlideOnTop(hold, arm, {0.6, 0.5, 1})), Reason::kNone);
@@ -50,7 +50,7 @@ TEST(CheckAlign, KeepsFingersInsideAFaceThatIsNotConvex) {
 TEST(CheckAlign, DoesNotBeginBeyondASlit) {
   // Narrower than points are known to.
   const double width = 1e-6;
-  const Polyhedron block =
+  const object::Polyhedron block =
       MakePrism({{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
   Plan plan = SlideOnTop({1.5, 1.5}, {1 + width, 0.5, 1}, {2, 0.5, 1});
   plan.half_angle = Radians(60);
@@ -62,7 +62,7 @@ TEST(CheckAlign, DoesNotBeginBeyondASlit) {
 }
 
 TEST(CheckAlign, KeepsFingersFromCrossingAHoleOfAFace) {
-  const Polyhedron ring = MakeRing();
+  const object::Polyhedron ring = MakeRing();
   const Eigen::Vector2d hold(-2, 0.5);
   const Eigen::Vector3d left(-2, 0, 1);
   EXPECT_EQ(ReasonOf(ring, SlideOnTop(hold, left, {0, 2, 1})), Reason::kNone);
@@ -76,7 +76,7 @@ TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
   const auto grasp = [](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
     return FingerGrasp{{0, {{1, 0, 0}, {-1, 0, 0}}}, {1, {{-1, 0, 0}, {1, 0, 0}}}, {2, {p, n}}};
   };
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const FingerGrasp back = grasp({0, 1, 0.8}, {0, -1, 0});
   const FingerGrasp edge_back = grasp({0, 1, 1}, {0, -1, 0});
   const FingerGrasp edge_top = grasp({0, 1, 1}, {0, 0, -1});
@@ -93,7 +93,7 @@ TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
   // Finger 1 turns at the corner (1, 1) of a square from the right edge to the upper one, against
   // finger 0 in the opposite corner: with normals on the diagonal friction of 0 would do, at the
   // ends of the turn it must be 45°.
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const auto grasp = [](const Eigen::Vector3d& n0, const Eigen::Vector3d& n1) {
     return FingerGrasp{{0, {{-1, -1, 0}, n0}}, {1, {{1, 1, 0}, n1}}};
   };
@@ -124,7 +124,7 @@ TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
   const auto grasp = [](double x) {
     return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
   };
-  const Polygon square = MakeSquare(1, true);
+  const object::Polygon square = MakeSquare(1, true);
   const Plan plan = EmptyPlan(2, 4, 30);
   for (const double sign : {1.0, -1.0}) {
     const auto over = AlignPlan(plan, {grasp(-0.3 * sign), grasp(0), grasp(0), grasp(0.3 * sign)});
@@ -146,7 +146,7 @@ FingerGrasp Pair(double below, double above) {
 }
 
 TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const Plan plan = EmptyPlan(2, 4, 20);
   // Finger 1 follows only when finger 0 has arrived: opposite before and after, apart between.
   const PlanCheck late =
@@ -162,7 +162,7 @@ TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
 }
 
 TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
   plan.half_angle = std::atan(0.25);
   EXPECT_FALSE(CheckPlan(square, plan).passed());
@@ -181,7 +181,7 @@ Plan CollinearForAnInstant(double from, double to) {
 }
 
 TEST(CheckAlign, DoesNotPassWhatItCannotProve) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const PlanCheck check = CheckPlan(cube, CollinearForAnInstant(-0.3, 0.4));
   const StepCheck& step = check.steps[1];
   EXPECT_FALSE(check.passed());
@@ -197,7 +197,7 @@ TEST(CheckAlign, DoesNotPassWhatItCannotProve) {
 }
 
 TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const CheckOptions allowed = {.allow_undecided = true};
   const PlanCheck check = CheckPlan(cube, CollinearForAnInstant(-0.3, 0.4), allowed);
   EXPECT_TRUE(check.passed());
@@ -224,8 +224,8 @@ TEST(CheckAlign, PassesWhatItCannotProveWhereThatIsAllowed) {
 /// The others, a little above finger 1, do not help.
 struct TurnAndSlide {
   static constexpr double kTurn = 0.3;
-  Polygon body =
-      Polygon::FromRings({{{0, 0}, {0, -1}, {1, -1}, {1, 1}, {std::tan(kTurn), 1}}}, "body");
+  object::Polygon body = object::Polygon::FromRings(
+      {{{0, 0}, {0, -1}, {1, -1}, {1, 1}, {std::tan(kTurn), 1}}}, "body");
   Plan plan;
 
   TurnAndSlide(int fingers, double above) {
@@ -275,7 +275,7 @@ TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
   // Opposite before and after; on the way the fingers are far apart, and need 42°.
   const Plan plan =
       AlignPlan(EmptyPlan(2, 4, 60), {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)});
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   EXPECT_TRUE(CheckPlan(square, plan).passed());
   const StepCheck less = CheckPlan(square, plan, {.half_angle = Radians(40)}).steps[1];
   EXPECT_EQ(less.reason, Reason::kNotForceClosure);
@@ -286,7 +286,7 @@ TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
 }
 
 TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   // At friction hardly above the critical one the bounds of single grasps are wider than the gap.
   int passed = 0;
   for (const double above : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3}) {
@@ -305,4 +305,4 @@ TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

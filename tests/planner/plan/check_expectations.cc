@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace regrasp {
+namespace regrasp::plan {
 
 void ExpectFails(const PlanCheck& check, int index, Reason reason, const std::string& name) {
   SCOPED_TRACE(name);
@@ -28,4 +28,4 @@ void ExpectPasses(const PlanCheck& check, const std::string& name) {
   }
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -11,12 +11,12 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
   // Two opposite fingers a distance s apart sideways hold a square of side 2 iff s/2 < tan θ.
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   Plan plan = EmptyPlan(2, 4, 20);
   const double limit = 2 * std::tan(plan.half_angle);
   for (const double share : {1 - 1e-6, 1 + 1e-6}) {
@@ -34,7 +34,7 @@ TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
 }
 
 TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   // The finger on +x, moved towards a corner: bisection finds the place where the grasp is lost.
   const auto with_shift = [](double shift) {
     Plan plan = CubePlan();
@@ -56,7 +56,7 @@ TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
 }
 
 TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const FingerGrasp apart = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{-0.3, 1, 0}, {0, -1, 0}}}};
   const FingerGrasp opposite = {{2, {{1, 0, 0}, {-1, 0, 0}}}, {3, {{-1, 0, 0}, {1, 0, 0}}}};
   Plan plan = EmptyPlan(2, 4, 20);
@@ -75,7 +75,7 @@ TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
 }
 
 TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   int passed = 0;
   for (int i = 1; i <= 40; ++i) {
     Plan plan = EmptyPlan(2, 4, 40);
@@ -100,7 +100,8 @@ TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
 /// angle: required half-angles are looked for up to 1e-6 below it.
 struct Strip {
   static constexpr double kHeight = 8e-7;
-  Polygon polygon = Polygon::FromRings({{{0, 0}, {1, 0}, {1, kHeight}, {0, kHeight}}}, "strip");
+  object::Polygon polygon =
+      object::Polygon::FromRings({{{0, 0}, {1, 0}, {1, kHeight}, {0, kHeight}}}, "strip");
 
   /// A finger below and one above, this far apart along the strip.
   static FingerGrasp Held(double apart) {
@@ -132,7 +133,7 @@ TEST(CheckPlan, WhatHoldsAtNoHalfAngleThatIsLookedForIsNotProved) {
 }
 
 TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const Plan plan = CubePlan();
   const PlanCheck check = CheckPlan(cube, plan);
   int checked = 0;
@@ -151,4 +152,4 @@ TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -9,7 +9,7 @@
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 /// The cube's plan and changes of it that fail, so that laws are tested on both verdicts.
@@ -38,7 +38,7 @@ void ForEachFinger(Plan& plan, const std::function<void(int&)>& change) {
   }
 }
 
-void ForEachContact(Plan& plan, const std::function<void(Contact&)>& change) {
+void ForEachContact(Plan& plan, const std::function<void(grasp::Contact&)>& change) {
   for (FingerContact& held : plan.initial) change(held.contact);
   for (Step& step : plan.steps) {
     if (auto* finger_switch = std::get_if<Switch>(&step)) {
@@ -49,7 +49,7 @@ void ForEachContact(Plan& plan, const std::function<void(Contact&)>& change) {
       }
     }
   }
-  for (Contact& contact : plan.goal) change(contact);
+  for (grasp::Contact& contact : plan.goal) change(contact);
 }
 
 void ExpectSameVerdict(const PlanCheck& a, const PlanCheck& b) {
@@ -66,7 +66,7 @@ void ExpectSameVerdict(const PlanCheck& a, const PlanCheck& b) {
 }
 
 TEST(CheckLaws, TheNumberingOfFingersDoesNotMatter) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   int passed = 0, failed = 0;
   for (const Plan& plan : Plans()) {
     const PlanCheck expected = CheckPlan(cube, plan);
@@ -80,7 +80,7 @@ TEST(CheckLaws, TheNumberingOfFingersDoesNotMatter) {
 }
 
 TEST(CheckLaws, TheOrderOfContactsDoesNotMatter) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   for (const Plan& plan : Plans()) {
     Plan reordered = plan;
     std::ranges::reverse(reordered.initial);
@@ -96,24 +96,25 @@ TEST(CheckLaws, TheOrderOfContactsDoesNotMatter) {
 }
 
 TEST(CheckLaws, MovingAndScalingObjectAndPlanDoesNotMatter) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const double size = 0.037;
   const Eigen::Vector3d offset(0.3, -0.1, 0.2);
-  const Polyhedron moved = MakeCube(size, offset);
+  const object::Polyhedron moved = MakeCube(size, offset);
   for (const Plan& plan : Plans()) {
     Plan changed = plan;
-    ForEachContact(changed, [&](Contact& contact) { contact.p = size * contact.p + offset; });
+    ForEachContact(changed,
+                   [&](grasp::Contact& contact) { contact.p = size * contact.p + offset; });
     ExpectSameVerdict(CheckPlan(moved, changed), CheckPlan(cube, plan));
   }
 }
 
 TEST(CheckLaws, TurningThePlanOnTheCubeDoesNotMatter) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   Eigen::Matrix3d turn;
   turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   for (const Plan& plan : Plans()) {
     Plan turned = plan;
-    ForEachContact(turned, [&](Contact& contact) {
+    ForEachContact(turned, [&](grasp::Contact& contact) {
       contact.p = turn * contact.p;
       contact.n = turn * contact.n;
     });
@@ -122,7 +123,7 @@ TEST(CheckLaws, TurningThePlanOnTheCubeDoesNotMatter) {
 }
 
 TEST(CheckLaws, MoreFrictionNeverTurnsPassIntoFail) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   int changes = 0;
   for (const Plan& plan : Plans()) {
     bool passed = false;
@@ -139,4 +140,4 @@ TEST(CheckLaws, MoreFrictionNeverTurnsPassIntoFail) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

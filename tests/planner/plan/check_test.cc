@@ -12,7 +12,7 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 /// One change that makes a passing plan fail, where, and why.
@@ -23,7 +23,7 @@ struct Control {
   Reason reason;
 };
 
-void ExpectControlsFail(const Object& object, const Plan& plan,
+void ExpectControlsFail(const object::Object& object, const Plan& plan,
                         const std::vector<Control>& controls) {
   ExpectPasses(CheckPlan(object, plan), "the plan that passes");
   int checked = 0;
@@ -226,7 +226,7 @@ TEST(CheckPlan, AcceptsContactsWithinTheTolerances) {
 }
 
 TEST(CheckPlan, TolerancesAreThoseOfTheFormat) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const double point = 1e-6 * cube.diameter();
   // Each change is of the size of a tolerance, times a share.
   struct Case {
@@ -272,11 +272,11 @@ TEST(CheckPlan, TolerancesAreThoseOfTheFormat) {
 }
 
 TEST(CheckPlan, ComparesStartAndGoalWithTheGivenGrasps) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const Plan plan = CubePlan();
-  Grasp start = ContactsOf(plan.initial);
+  grasp::Grasp start = ContactsOf(plan.initial);
   std::swap(start[0], start[3]);
-  Grasp goal = plan.goal;
+  grasp::Grasp goal = plan.goal;
   std::swap(goal[1], goal[2]);
   ExpectPasses(CheckPlan(cube, plan, {.start = &start, .goal = &goal}), "in another order");
   start[1].p.y() += 1e-3;
@@ -308,7 +308,9 @@ TEST(CheckPlan, LetsFingersMeetOnlyWhileASwitchIsUnderWay) {
 }
 
 TEST(CheckPlan, LetsNoFingerIntoASealedCavity) {
-  const auto inside = [](const Contact& contact) { return Contact{contact.p / 2, -contact.n}; };
+  const auto inside = [](const grasp::Contact& contact) {
+    return grasp::Contact{contact.p / 2, -contact.n};
+  };
   ExpectControlsFail(
       MakeHollowCube(), CubePlan(),
       {{"holds from inside",
@@ -348,4 +350,4 @@ TEST(CheckPlan, ProjectsContactsOntoTheirFaces) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -15,7 +15,7 @@
 #include "planner/plan/switch_region.h"
 #include "tests/fixtures/polygons.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 /// An uneven outline around a circle, convex and concave corners.
@@ -30,12 +30,12 @@ Ring DrawRing(int edges, std::mt19937& random) {
   return ring;
 }
 
-double Measure(const Polygon& polygon, const Grasp& grasp, double degrees) {
+double Measure(const object::Polygon& polygon, const grasp::Grasp& grasp, double degrees) {
   return MeasureContactRegion(polygon, grasp, Radians(degrees), polygon.diameter());
 }
 
 /// The contact `way` farther along the outer ring.
-Contact Along(const Polygon& polygon, Contact contact, double way) {
+grasp::Contact Along(const object::Polygon& polygon, grasp::Contact contact, double way) {
   const int count = polygon.face_count();
   const auto [from, to] = polygon.edge(contact.face);
   double at = (contact.p - from).norm() + way;
@@ -52,13 +52,13 @@ Contact Along(const Polygon& polygon, Contact contact, double way) {
 }
 
 TEST(ContactRegion, OfOppositeContactsOnASquareIsGivenByTheConesOrTheCorners) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const double accuracy = kRegionAccuracy * square.diameter();
   int checked = 0;
   for (const double degrees : {1.0, 10.0, 20.0, 30.0, 40.0}) {
     for (const double height : {0.0, 0.3, 0.7, -0.95}) {
-      const Grasp grasp = {OnEdge(square, 1, (1 + height) / 2),
-                           OnEdge(square, 3, (1 - height) / 2)};
+      const grasp::Grasp grasp = {OnEdge(square, 1, (1 + height) / 2),
+                                  OnEdge(square, 3, (1 - height) / 2)};
       // Both off by h, opposite ways: the line between them rises by 2 h over the width of 2.
       const double expected = std::min(std::tan(Radians(degrees)), 1 - std::abs(height));
       EXPECT_NEAR(Measure(square, grasp, degrees), expected, 2 * accuracy) << degrees;
@@ -69,8 +69,8 @@ TEST(ContactRegion, OfOppositeContactsOnASquareIsGivenByTheConesOrTheCorners) {
 }
 
 TEST(ContactRegion, OfSkewContactsIsWhatTheConeHasLeft) {
-  const Polygon square = MakeSquare();
-  const Grasp grasp = {OnEdge(square, 1, 0.55), OnEdge(square, 3, 0.55)};
+  const object::Polygon square = MakeSquare();
+  const grasp::Grasp grasp = {OnEdge(square, 1, 0.55), OnEdge(square, 3, 0.55)};
   EXPECT_NEAR(Measure(square, grasp, 20), std::tan(Radians(20)) - 0.1,
               2 * kRegionAccuracy * square.diameter());
 }
@@ -78,10 +78,10 @@ TEST(ContactRegion, OfSkewContactsIsWhatTheConeHasLeft) {
 TEST(ContactRegion, CrossesVerticesAndTheRingsFirstOne) {
   // A strip whose long sides are cut in uneven pieces that meet in straight angles; the ring's
   // first vertex lies within the region of the lower contact.
-  const Polygon strip = Polygon::FromRings(
+  const object::Polygon strip = object::Polygon::FromRings(
       {{{0, 0}, {0.1, 0}, {0.13, 0}, {3, 0}, {3, 1}, {0.2, 1}, {-0.05, 1}, {-3, 1}, {-3, 0}}},
       "strip");
-  const Grasp grasp = {OnEdge(strip, 0, 0.4), OnEdge(strip, 5, 0.64)};
+  const grasp::Grasp grasp = {OnEdge(strip, 0, 0.4), OnEdge(strip, 5, 0.64)};
   ASSERT_NEAR(grasp[0].p.x(), grasp[1].p.x(), 1e-12);
   EXPECT_NEAR(Measure(strip, grasp, 20), std::tan(Radians(20)) / 2,
               2 * kRegionAccuracy * strip.diameter());
@@ -89,9 +89,9 @@ TEST(ContactRegion, CrossesVerticesAndTheRingsFirstOne) {
 
 TEST(ContactRegion, OfADiscIsAboutTheHalfAngleTimesTheRadius) {
   constexpr int kEdges = 120;
-  const Polygon disc = MakeDisc(kEdges, 2);
+  const object::Polygon disc = MakeDisc(kEdges, 2);
   for (const double degrees : {10.0, 15.0, 20.0}) {
-    const Grasp grasp = {OnEdge(disc, 7, 0.5), OnEdge(disc, 7 + kEdges / 2, 0.5)};
+    const grasp::Grasp grasp = {OnEdge(disc, 7, 0.5), OnEdge(disc, 7 + kEdges / 2, 0.5)};
     // Contacts off by h and −h tilt the line by h/r; normals are right to half an edge's angle.
     const double slack = 2 * std::numbers::pi / kEdges * 2;
     EXPECT_NEAR(Measure(disc, grasp, degrees), 2 * Radians(degrees), slack);
@@ -99,7 +99,7 @@ TEST(ContactRegion, OfADiscIsAboutTheHalfAngleTimesTheRadius) {
 }
 
 TEST(ContactRegion, OfAFingerInAHoleStretchesBetweenItsSides) {
-  const Polygon frame = Polygon::FromRings(
+  const object::Polygon frame = object::Polygon::FromRings(
       {{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}}, "frame");
   int left = -1, right = -1, outside = -1;
   for (int edge = 0; edge < frame.face_count(); ++edge) {
@@ -118,7 +118,7 @@ TEST(ContactRegion, OfAFingerInAHoleStretchesBetweenItsSides) {
 }
 
 TEST(ContactRegion, IsZeroAtTheEndOfTheSetAndWithoutForceClosure) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   EXPECT_EQ(Measure(square, {OnEdge(square, 1, 0.5), OnEdge(square, 3, 0.9)}, 20), 0);
   EXPECT_EQ(Measure(square, {OnEdge(square, 1, 0.5), OnEdge(square, 2, 0.5)}, 20), 0);
   // Held across the corner of an edge and the top, at a vertex: from there on nothing holds.
@@ -126,11 +126,11 @@ TEST(ContactRegion, IsZeroAtTheEndOfTheSetAndWithoutForceClosure) {
 }
 
 TEST(ContactRegion, GivesNoMoreThanTheLimitAndRefusesWhatIsNoGrasp) {
-  const Polygon square = MakeSquare();
-  const Grasp grasp = {OnEdge(square, 1, 0.5), OnEdge(square, 3, 0.5)};
+  const object::Polygon square = MakeSquare();
+  const grasp::Grasp grasp = {OnEdge(square, 1, 0.5), OnEdge(square, 3, 0.5)};
   EXPECT_EQ(MeasureContactRegion(square, grasp, Radians(20), 0.125), 0.125);
   EXPECT_EQ(MeasureContactRegion(square, grasp, Radians(20), 0), 0);
-  const auto refuses = [&](const Grasp& bad, double limit) {
+  const auto refuses = [&](const grasp::Grasp& bad, double limit) {
     EXPECT_THROW(static_cast<void>(MeasureContactRegion(square, bad, Radians(20), limit)),
                  std::invalid_argument);
   };
@@ -144,8 +144,8 @@ TEST(ContactRegion, GivesNoMoreThanTheLimitAndRefusesWhatIsNoGrasp) {
 
 /// Random grasps that hold, on random outlines.
 struct RandomCase {
-  Polygon polygon;
-  Grasp grasp;
+  object::Polygon polygon;
+  grasp::Grasp grasp;
   double degrees;
 };
 
@@ -154,14 +154,15 @@ std::vector<RandomCase> DrawCases() {
   std::vector<RandomCase> cases;
   for (const int edges : {7, 15, 40, 90}) {
     for (const double degrees : {10.0, 20.0, 35.0}) {
-      const Polygon polygon = Polygon::FromRings({DrawRing(edges, random)}, "outline");
+      const object::Polygon polygon =
+          object::Polygon::FromRings({DrawRing(edges, random)}, "outline");
       std::uniform_int_distribution<int> edge(0, edges - 1);
       std::uniform_real_distribution<double> share(0, 1);
       int found = 0;
       while (found < 5) {
-        const Grasp grasp = {OnEdge(polygon, edge(random), share(random)),
-                             OnEdge(polygon, edge(random), share(random))};
-        if (!IsForceClosure(grasp, polygon.wrench_frame(), Radians(degrees))) continue;
+        const grasp::Grasp grasp = {OnEdge(polygon, edge(random), share(random)),
+                                    OnEdge(polygon, edge(random), share(random))};
+        if (!grasp::IsForceClosure(grasp, polygon.wrench_frame(), Radians(degrees))) continue;
         cases.push_back({polygon, grasp, degrees});
         ++found;
       }
@@ -176,11 +177,11 @@ TEST(ContactRegion, HoldsEveryGraspInsideAndNotAllALittleOutside) {
   int ended = 0, checked = 0;
   for (const RandomCase& one : DrawCases()) {
     const double h = Measure(one.polygon, one.grasp, one.degrees);
-    const WrenchFrame frame = one.polygon.wrench_frame();
+    const object::WrenchFrame frame = one.polygon.wrench_frame();
     const auto holds = [&](double a, double b) {
-      return IsForceClosure(
-          Grasp{Along(one.polygon, one.grasp[0], a), Along(one.polygon, one.grasp[1], b)}, frame,
-          Radians(one.degrees));
+      return grasp::IsForceClosure(
+          grasp::Grasp{Along(one.polygon, one.grasp[0], a), Along(one.polygon, one.grasp[1], b)},
+          frame, Radians(one.degrees));
     };
     for (int i = 0; i <= kGrid; ++i) {
       for (int j = 0; j <= kGrid; ++j) {
@@ -214,9 +215,9 @@ TEST(ContactRegion, IsTheSameUnderRigidMotionScaleAndOrderAndGrowsWithFriction) 
     for (const Eigen::Vector2d& p : one.polygon.rings().front()) {
       moved.emplace_back(scale * (turn * p) + Eigen::Vector2d(5, -8));
     }
-    const Polygon other = Polygon::FromRings({moved}, "moved");
-    Grasp grasp;
-    for (const Contact& contact : one.grasp) {
+    const object::Polygon other = object::Polygon::FromRings({moved}, "moved");
+    grasp::Grasp grasp;
+    for (const grasp::Contact& contact : one.grasp) {
       const auto [from, to] = one.polygon.edge(contact.face);
       grasp.push_back(OnEdge(other, contact.face, (contact.p - from).norm() / (to - from).norm()));
     }
@@ -233,7 +234,7 @@ TEST(ContactRegion, IsTheSameUnderRigidMotionScaleAndOrderAndGrowsWithFriction) 
 }
 
 TEST(SwitchRegion, IsTheSmallerOneOfBothGraspsAndHoldsTheClaimAgainstIt) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const FingerGrasp before = {{0, OnEdge(square, 1, 0.5)}, {1, OnEdge(square, 3, 0.5)}};
   Switch step{{{2, OnEdge(square, 3, 0.55)}}, {1}};
   const double expected = std::tan(Radians(20)) - 0.05;
@@ -250,11 +251,11 @@ TEST(SwitchRegion, IsTheSmallerOneOfBothGraspsAndHoldsTheClaimAgainstIt) {
 }
 
 TEST(SwitchRegion, IsOnlyOfSwitchesBetweenGraspsOfTwoContacts) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const FingerGrasp before = {{0, OnEdge(square, 1, 0.5)}, {1, OnEdge(square, 3, 0.5)}};
   const Switch step{{{2, OnEdge(square, 0, 0.5)}}, {}};
   EXPECT_FALSE(MeasureSwitchRegion(square, before, step, Radians(20)).has_value());
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

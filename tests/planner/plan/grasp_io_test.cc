@@ -8,14 +8,14 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 std::string File(const std::string& contacts) {
   return R"({"format": "regrasp-grasp", "version": 1, "contacts": [)" + contacts + "]}";
 }
 
-std::string Complaint(const std::string& contacts, const Object& object) {
+std::string Complaint(const std::string& contacts, const object::Object& object) {
   try {
     static_cast<void>(ParseGrasp(File(contacts), "grasp.json", object));
   } catch (const InputError& error) {
@@ -25,23 +25,24 @@ std::string Complaint(const std::string& contacts, const Object& object) {
 }
 
 TEST(GraspIo, PlacesContactsOnTheirFaces) {
-  const Polyhedron cube = MakeCube();
-  const Grasp grasp = ParseGrasp(
+  const object::Polyhedron cube = MakeCube();
+  const grasp::Grasp grasp = ParseGrasp(
       File(R"({"point": [1.0000001, 0.2, 0], "normal": [-1, 0.0001, 0]}, {"point": [0, 0.5, -1]})"),
       "grasp.json", cube);
   ASSERT_EQ(grasp.size(), 2u);
   EXPECT_EQ(grasp[0].p, Eigen::Vector3d(1, 0.2, 0));
   EXPECT_EQ(grasp[0].n, Eigen::Vector3d(-1, 0, 0));
   EXPECT_EQ(grasp[1].n, Eigen::Vector3d(0, 0, 1));
-  for (const Contact& contact : grasp) EXPECT_EQ(cube.inward_normal(contact.face), contact.n);
+  for (const grasp::Contact& contact : grasp)
+    EXPECT_EQ(cube.inward_normal(contact.face), contact.n);
 }
 
 TEST(GraspIo, ReadsWhatItWrites) {
-  const Polygon square = MakeSquare();
-  const Grasp grasp =
+  const object::Polygon square = MakeSquare();
+  const grasp::Grasp grasp =
       ParseGrasp(File(R"({"point": [1, 0.3]}, {"point": [-0.1, -1]})"), "g", square);
   const std::string text = FormatGrasp(grasp, 2);
-  const Grasp again = ParseGrasp(text, "g", square);
+  const grasp::Grasp again = ParseGrasp(text, "g", square);
   ASSERT_EQ(again.size(), 2u);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(again[i].p, grasp[i].p);
@@ -51,7 +52,7 @@ TEST(GraspIo, ReadsWhatItWrites) {
 }
 
 TEST(GraspIo, TheNormalChoosesTheFaceOnABorder) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const std::string edge = R"({"point": [1, 1, 0], "normal": )";
   EXPECT_EQ(ParseGrasp(File(edge + "[-1, 0, 0]}"), "g", cube)[0].n, Eigen::Vector3d(-1, 0, 0));
   EXPECT_EQ(ParseGrasp(File(edge + "[0, -1, 0]}"), "g", cube)[0].n, Eigen::Vector3d(0, -1, 0));
@@ -60,8 +61,8 @@ TEST(GraspIo, TheNormalChoosesTheFaceOnABorder) {
 }
 
 TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
-  const Polyhedron cube = MakeCube();
-  const Polygon square = MakeSquare();
+  const object::Polyhedron cube = MakeCube();
+  const object::Polygon square = MakeSquare();
   const std::string good = R"({"point": [1, 0, 0], "normal": [-1, 0, 0]})";
   ASSERT_EQ(Complaint(good, cube), "");
   EXPECT_EQ(Complaint(R"({"point": [1.001, 0, 0], "normal": [-1, 0, 0]})", cube),
@@ -78,4 +79,4 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -16,7 +16,7 @@
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 struct Outcome {
@@ -31,7 +31,7 @@ void ExpectOneLineAbout(const std::string& message, const std::string& name) {
 }
 
 /// Reads a plan, and checks it where `check` says so.
-Outcome TryPlan(const std::string& text, const Object* check = nullptr) {
+Outcome TryPlan(const std::string& text, const object::Object* check = nullptr) {
   try {
     const Plan plan = ParsePlan(text, "hostile.json");
     if (check != nullptr && plan.dimension == check->dimension()) {
@@ -44,7 +44,7 @@ Outcome TryPlan(const std::string& text, const Object* check = nullptr) {
   }
 }
 
-Outcome TryGrasp(const std::string& text, const Object& object) {
+Outcome TryGrasp(const std::string& text, const object::Object& object) {
   try {
     static_cast<void>(ParseGrasp(text, "hostile.json", object));
     return {true, ""};
@@ -117,7 +117,7 @@ TEST(HostileFiles, TruncatedAnywhereIsRefused) {
     refused += !TryPlan(plan.substr(0, length)).read;
   }
   EXPECT_EQ(refused, std::ssize(plan) - 1);
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const std::string grasp = GraspText();
   ASSERT_TRUE(TryGrasp(grasp, cube).read);
   for (std::size_t length = 0; length < grasp.size(); ++length) {
@@ -126,7 +126,7 @@ TEST(HostileFiles, TruncatedAnywhereIsRefused) {
 }
 
 TEST(HostileFiles, RandomBytesAreRefusedOrHarmless) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const std::string plan = FormatPlan(CubePlan());
   const std::string grasp = GraspText();
   std::mt19937 random(11);
@@ -181,11 +181,11 @@ const std::vector<Json>& Replacements() {
 }
 
 TEST(HostileFiles, AnyPartLeftOutOrReplacedIsRefusedOrJudged) {
-  const Polyhedron cube = MakeCube();
-  const Polygon square = MakeSquare();
+  const object::Polyhedron cube = MakeCube();
+  const object::Polygon square = MakeSquare();
   int tried = 0, refused = 0;
   for (const bool planar : {false, true}) {
-    const Object& object = planar ? static_cast<const Object&>(square) : cube;
+    const object::Object& object = planar ? static_cast<const object::Object&>(square) : cube;
     const Json plan = Json::parse(FormatPlan(planar ? SquarePlan() : CubePlan()));
     std::vector<Json::json_pointer> pointers;
     CollectPointers(plan, Json::json_pointer(), pointers);
@@ -206,7 +206,7 @@ TEST(HostileFiles, AnyPartLeftOutOrReplacedIsRefusedOrJudged) {
 }
 
 TEST(HostileFiles, AnyPartOfAGraspLeftOutOrReplacedIsRefusedOrRead) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const Json grasp = Json::parse(GraspText());
   std::vector<Json::json_pointer> pointers;
   CollectPointers(grasp, Json::json_pointer(), pointers);
@@ -228,7 +228,7 @@ TEST(HostileFiles, AnyPartOfAGraspLeftOutOrReplacedIsRefusedOrRead) {
 TEST(HostileFiles, GraspsOfFarTooManyFingersAreJudged) {
   // Comparing all pairs of so many contacts would take hours.
   constexpr int kContacts = 100'000;
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   FingerGrasp crowd;
   for (int finger = 0; finger < kContacts; ++finger) {
     crowd.push_back({finger, {{1, -1 + 2.0 * finger / kContacts, 0}, {-1, 0, 0}}});
@@ -284,4 +284,4 @@ TEST(HostileFiles, RequiredFieldsCannotBeLeftOut) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -6,31 +6,31 @@
 
 #include "planner/object/object.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 using Eigen::Vector3d;
 
 /// One finger that turns over an edge, at two points that should be one.
-Align TurnOver(const Object& object, int face, const FaceBorder& edge, const Vector3d& p,
-               const Vector3d& q) {
+Align TurnOver(const object::Object& object, int face, const object::FaceBorder& edge,
+               const Vector3d& p, const Vector3d& q) {
   return {{{{0, {p, object.inward_normal(face), -1}}},
            {{0, {q, object.inward_normal(edge.beyond), -1}}}}};
 }
 
 TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
   constexpr int kPoints = 16;
-  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/stone.obj");
-  const Object& stone = *file.object;
+  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/stone.obj");
+  const object::Object& stone = *file.object;
   int rounded = 0;
   for (int face = 0; face < stone.face_count(); ++face) {
-    for (const FaceBorder& edge : stone.BordersOf(face)) {
+    for (const object::FaceBorder& edge : stone.BordersOf(face)) {
       for (int i = 1; i < kPoints; ++i) {
         const Vector3d p = edge.a + static_cast<double>(i) / kPoints * (edge.b - edge.a);
         Align align = TurnOver(stone, face, edge, p, p);
         LocateAlign(stone, align);
-        const Contact& before = align.waypoints[0][0].contact;
-        const Contact& after = align.waypoints[1][0].contact;
+        const grasp::Contact& before = align.waypoints[0][0].contact;
+        const grasp::Contact& after = align.waypoints[1][0].contact;
         EXPECT_EQ(before.face, face);
         EXPECT_EQ(after.face, edge.beyond);
         EXPECT_EQ(before.p, after.p);
@@ -42,9 +42,9 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
 }
 
 TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
-  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
-  const Object& cube = *file.object;
-  const FaceBorder edge = cube.BordersOf(0).front();
+  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
+  const object::Object& cube = *file.object;
+  const object::FaceBorder edge = cube.BordersOf(0).front();
   const Vector3d p = (edge.a + edge.b) / 2;
   const double off = 1e-8 * cube.diameter();
   Align align = TurnOver(cube, 0, edge, p, p + off * (edge.b - edge.a).normalized());
@@ -54,4 +54,4 @@ TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -10,20 +10,20 @@
 #include "planner/plan/locate.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// Where a file that says so puts a finger.
-Contact At(const Object& object, const Vector3d& p, const Vector3d& n) {
+grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
   const LocatedContact located = LocateContact(object, {p, n.normalized()});
   EXPECT_EQ(located.reason, Reason::kNone) << located.detail;
   return located.contact;
 }
 
-bool MayMove(const Object& object, const Contact& from, const Contact& to) {
+bool MayMove(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to) {
   const bool there = !FindMotionFault(object, from, to).has_value();
   EXPECT_EQ(there, !FindMotionFault(object, to, from).has_value());
   return there;
@@ -38,15 +38,15 @@ TEST(MotionFault, AThinWallIsNoEdgeToTurnAt) {
   // Turns of 179.4°, which an edge allows.
   const double angle = Radians(0.6);
   for (const double thin : {8e-7, 5e-7, 1.5e-7}) {
-    const auto across = [&](const Object& blade, double x, double z) {
+    const auto across = [&](const object::Object& blade, double x, double z) {
       const Vector3d upper_normal(std::sin(angle), -std::cos(angle), 0);
-      const Contact lower = At(blade, {x, 0, z}, {0, 1, 0});
-      const Contact upper = At(blade, {x, thin + x * std::tan(angle), z}, upper_normal);
+      const grasp::Contact lower = At(blade, {x, 0, z}, {0, 1, 0});
+      const grasp::Contact upper = At(blade, {x, thin + x * std::tan(angle), z}, upper_normal);
       EXPECT_NE(lower.face, upper.face);
       EXPECT_LE((lower.p - upper.p).norm(), 1e-6 * blade.diameter());
       return MayMove(blade, lower, upper);
     };
-    EXPECT_FALSE(across(Polygon::FromRings({Blade(thin, angle)}, "blade"), 1e-5, 0));
+    EXPECT_FALSE(across(object::Polygon::FromRings({Blade(thin, angle)}, "blade"), 1e-5, 0));
     EXPECT_FALSE(across(MakePrism(Blade(thin, angle)), 1e-5, 0.5));
     // Where it ends there is an edge of its own between the two sides.
     EXPECT_FALSE(across(MakePrism(Blade(thin, angle)), 0, 0.5));
@@ -57,11 +57,11 @@ TEST(MotionFault, AFingerTurnsAtTheRealEdgesOfAThinWall) {
   const double angle = Radians(0.6);
   const double thin = 5e-7;
   const Vector3d lower(0, 1, 0), end(1, 0, 0), upper(std::sin(angle), -std::cos(angle), 0);
-  const Polyhedron blade = MakePrism(Blade(thin, angle));
-  const Polygon flat = Polygon::FromRings({Blade(thin, angle)}, "blade");
+  const object::Polyhedron blade = MakePrism(Blade(thin, angle));
+  const object::Polygon flat = object::Polygon::FromRings({Blade(thin, angle)}, "blade");
   const double half = 0.5;
   for (const auto& [object, z] :
-       std::vector<std::pair<const Object*, double>>{{&blade, half}, {&flat, 0.0}}) {
+       std::vector<std::pair<const object::Object*, double>>{{&blade, half}, {&flat, 0.0}}) {
     EXPECT_TRUE(MayMove(*object, At(*object, {0, 0, z}, lower), At(*object, {0, 0, z}, end)));
     EXPECT_TRUE(MayMove(*object, At(*object, {0, thin, z}, upper), At(*object, {0, thin, z}, end)));
     // As a file with rounded numbers has them.
@@ -71,10 +71,10 @@ TEST(MotionFault, AFingerTurnsAtTheRealEdgesOfAThinWall) {
 
 TEST(MotionFault, ASharpEdgeIsToBeReachedBeforeItIsTurnedAt) {
   const double angle = Radians(0.6);
-  const Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
+  const object::Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
   const auto turns = [&](double x) {
-    const Contact lower = At(blade, {x, 0, 0.5}, {0, 1, 0});
-    const Contact upper =
+    const grasp::Contact lower = At(blade, {x, 0, 0.5}, {0, 1, 0});
+    const grasp::Contact upper =
         At(blade, {x, x * std::tan(angle), 0.5}, {std::sin(angle), -std::cos(angle), 0});
     return MayMove(blade, lower, upper);
   };
@@ -87,9 +87,9 @@ TEST(MotionFault, NothingTurnsAtAnEdgeAsSharpAsNormalsAreKnown) {
   // Between opposite normals there is no shortest turn; they are known to 0.1°.
   for (const auto& [degrees, turns] : {std::pair{0.09, false}, {0.11, true}}) {
     const double angle = Radians(degrees);
-    const Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
-    const Contact lower = At(blade, {0, 0, 0.5}, {0, 1, 0});
-    const Contact upper = At(blade, {0, 0, 0.5}, {std::sin(angle), -std::cos(angle), 0});
+    const object::Polyhedron blade = MakePrism({{0, 0}, {1, 0}, {1, std::tan(angle)}});
+    const grasp::Contact lower = At(blade, {0, 0, 0.5}, {0, 1, 0});
+    const grasp::Contact upper = At(blade, {0, 0, 0.5}, {std::sin(angle), -std::cos(angle), 0});
     EXPECT_NE(lower.face, upper.face);
     EXPECT_EQ(MayMove(blade, lower, upper), turns) << degrees;
   }
@@ -97,25 +97,25 @@ TEST(MotionFault, NothingTurnsAtAnEdgeAsSharpAsNormalsAreKnown) {
 
 TEST(MotionFault, FacesThatOnlyShareACornerMeetThere) {
   // A pyramid of four sides: opposite ones share its top.
-  PolygonSoup soup;
+  object::PolygonSoup soup;
   soup.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
   soup.facets = {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-  const Polyhedron pyramid = Polyhedron::FromSoup(soup, "pyramid");
-  const Contact left = At(pyramid, {0, 0, 1}, {1, 0, -1});
-  const Contact right = At(pyramid, {0, 0, 1}, {-1, 0, -1});
+  const object::Polyhedron pyramid = object::Polyhedron::FromSoup(soup, "pyramid");
+  const grasp::Contact left = At(pyramid, {0, 0, 1}, {1, 0, -1});
+  const grasp::Contact right = At(pyramid, {0, 0, 1}, {-1, 0, -1});
   EXPECT_NE(left.face, right.face);
   EXPECT_TRUE(MayMove(pyramid, left, right));
 }
 
 /// A block of 3 × 2 × 1 with a slit of this width from y = 0 to y = 1 at x = 1, through along z.
-Polyhedron SlitBlock(double width) {
+object::Polyhedron SlitBlock(double width) {
   return MakePrism(
       {{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
 }
 
 TEST(MotionFault, SlitsAreNotCrossedHoweverNarrow) {
   for (const double width : {1e-4, 1.1e-5, 9e-6, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 2e-11}) {
-    const Polyhedron block = SlitBlock(width);
+    const object::Polyhedron block = SlitBlock(width);
     const auto top = [&](double x, double y) { return At(block, {x, y, 1}, {0, 0, -1}); };
     EXPECT_FALSE(MayMove(block, top(0.5, 0.5), top(2.5, 0.5))) << width;
     EXPECT_FALSE(MayMove(block, top(1, 0.5), top(1 + width, 0.5))) << width;
@@ -134,7 +134,7 @@ TEST(MotionFault, SlitsAreNotCrossedHoweverNarrow) {
 }
 
 TEST(MotionFault, RoundedNumbersMayShaveACorner) {
-  const Polyhedron block = MakeLBlock();
+  const object::Polyhedron block = MakeLBlock();
   const auto top = [&](double x, double y) { return At(block, {x, y, 1}, {0, 0, -1}); };
   // Past the inner corner (1, 1), or off it by less than points are known to.
   EXPECT_TRUE(MayMove(block, top(1.5, 0.5), top(0.5, 1.5)));
@@ -143,4 +143,4 @@ TEST(MotionFault, RoundedNumbersMayShaveACorner) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -10,10 +10,10 @@
 #include "planner/base/json.h"
 #include "sample_plans.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
-void ExpectSameContact(const Contact& a, const Contact& b) {
+void ExpectSameContact(const grasp::Contact& a, const grasp::Contact& b) {
   EXPECT_EQ(a.p, b.p);
   EXPECT_EQ(a.n, b.n);
 }
@@ -35,8 +35,8 @@ void ExpectSameCertificate(const std::optional<AlignCertificate>& a,
   for (std::size_t w = 0; w < a->size(); ++w) {
     ASSERT_EQ((*a)[w].size(), (*b)[w].size());
     for (std::size_t k = 0; k < (*a)[w].size(); ++k) {
-      const MotionSegment& one = (*a)[w][k];
-      const MotionSegment& other = (*b)[w][k];
+      const motion::MotionSegment& one = (*a)[w][k];
+      const motion::MotionSegment& other = (*b)[w][k];
       EXPECT_EQ(one.from, other.from);
       EXPECT_EQ(one.to, other.to);
       EXPECT_EQ(one.start, other.start);
@@ -271,4 +271,4 @@ TEST(PlanIo, AFileThatIsNotThereIsBadInput) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -6,13 +6,13 @@
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 namespace {
 
 using Eigen::Vector3d;
 
-FingerContact At(const Object& object, int finger, const Vector3d& p, const Vector3d& n) {
-  for (const int face : object.FacesNear(p, kPointTolerance * object.diameter())) {
+FingerContact At(const object::Object& object, int finger, const Vector3d& p, const Vector3d& n) {
+  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - n).norm() < 1e-9) return {finger, {p, n, face}};
   }
   ADD_FAILURE() << "no face with normal " << n.transpose() << " at " << p.transpose();
@@ -20,8 +20,8 @@ FingerContact At(const Object& object, int finger, const Vector3d& p, const Vect
 }
 
 /// [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
-Polyhedron MakePostPlate() {
-  PolygonSoup soup;
+object::Polyhedron MakePostPlate() {
+  object::PolygonSoup soup;
   const auto add_square = [&](double half, double z) {
     soup.vertices.insert(soup.vertices.end(),
                          {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
@@ -37,13 +37,13 @@ Polyhedron MakePostPlate() {
   }
   soup.facets.push_back({3, 2, 1, 0});
   soup.facets.push_back({12, 13, 14, 15});
-  return Polyhedron::FromSoup(soup, "post");
+  return object::Polyhedron::FromSoup(soup, "post");
 }
 
 const Vector3d kDown(0, 0, -1);
 
 TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
-  const Polyhedron l = MakeLBlock();
+  const object::Polyhedron l = MakeLBlock();
   const FingerGrasp grasp = {At(l, 3, {1.2, 1, 0.5}, {0, -1, 0}),
                              At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
   EXPECT_FALSE(FindRestObstacle(l, grasp, 0).has_value());
@@ -58,7 +58,7 @@ TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
 }
 
 TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const FingerGrasp before = {At(cube, 0, {0, 0, 1}, kDown), At(cube, 1, {0, 0, -1}, -kDown)};
   const Step step = Switch{{At(cube, 2, {0.3, 0, 1}, kDown)}, {0}};
   EXPECT_FALSE(FindStepObstacle(cube, before, step, 0.1).has_value());
@@ -70,7 +70,7 @@ TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
 }
 
 TEST(PlanReach, AFingerThatSlidesPastAPostNeedsRoomAllTheWay) {
-  const Polyhedron body = MakePostPlate();
+  const object::Polyhedron body = MakePostPlate();
   const FingerGrasp before = {At(body, 0, {-2, 0.8, 1}, kDown)};
   const FingerGrasp after = {At(body, 0, {2, 0.8, 1}, kDown)};
   const Step slide = Align{{before, after}};
@@ -87,7 +87,7 @@ TEST(PlanReach, AFingerThatSlidesPastAPostNeedsRoomAllTheWay) {
 }
 
 TEST(PlanReach, FingersThatCrossMeetOnTheWay) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const FingerGrasp before = {At(cube, 0, {-0.8, -0.1, 1}, kDown),
                               At(cube, 1, {0.8, 0.1, 1}, kDown)};
   const FingerGrasp after = {At(cube, 0, {0.8, -0.1, 1}, kDown),
@@ -100,14 +100,14 @@ TEST(PlanReach, FingersThatCrossMeetOnTheWay) {
 }
 
 TEST(PlanReach, AFingerTurnsFreelyAroundAConvexEdge) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   const FingerGrasp top = {At(cube, 0, {0.5, 0, 1}, kDown)};
   const FingerGrasp edge = {At(cube, 0, {1, 0, 1}, kDown)};
   const FingerGrasp turned = {At(cube, 0, {1, 0, 1}, {-1, 0, 0})};
   const FingerGrasp side = {At(cube, 0, {1, 0, 0.5}, {-1, 0, 0})};
   EXPECT_FALSE(FindStepObstacle(cube, top, Align{{top, edge, turned, side}}, 0.5).has_value());
   // Around the edge it comes close to the finger that holds the side.
-  const Polyhedron l = MakeLBlock();
+  const object::Polyhedron l = MakeLBlock();
   const FingerGrasp arm = {At(l, 0, {2.9, 1, 0.5}, {0, -1, 0}),
                            At(l, 1, {3, 0.1, 0.5}, {-1, 0, 0})};
   EXPECT_FALSE(FindRestObstacle(l, arm, 0.4).has_value());
@@ -118,7 +118,7 @@ TEST(PlanReach, AFingerTurnsFreelyAroundAConvexEdge) {
 }
 
 TEST(PlanReach, NamesTheFirstEntryOfASequence) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   Plan plan = CubePlan();
   plan = CheckPlan(cube, plan).located;
   EXPECT_FALSE(FindPlanObstacle(cube, plan.initial, plan.steps, 0.05).has_value());
@@ -133,7 +133,7 @@ TEST(PlanReach, NamesTheFirstEntryOfASequence) {
 }
 
 TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   Plan plan = CubePlan();
   EXPECT_TRUE(CheckPlan(cube, plan).passed());
   EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.01}).passed());
@@ -151,7 +151,7 @@ TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
 }
 
 TEST(PlanReach, TheCheckReportsAnAlignOnWhoseWayThereIsNoRoom) {
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   Plan plan = EmptyPlan(3, 5, 40);
   plan.initial = {At(cube, 0, {1, 0, 0}, {-1, 0, 0}), At(cube, 1, {-1, 0, 0}, {1, 0, 0}),
                   At(cube, 2, {-0.8, -0.1, 1}, kDown), At(cube, 3, {0.8, 0.1, 1}, kDown),
@@ -170,14 +170,14 @@ TEST(PlanReach, TheCheckReportsAnAlignOnWhoseWayThereIsNoRoom) {
 
 TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
   // Points are read to a millionth of the diameter: fingers that overlap by less touch.
-  const Polyhedron cube = MakeCube();
+  const object::Polyhedron cube = MakeCube();
   Plan plan = CubePlan();
   double least = 1e9;
   for (std::size_t i = 0; i < plan.initial.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       // Two balls of radius r, their centres r outward along the normals.
-      const Contact& a = plan.initial[i].contact;
-      const Contact& b = plan.initial[j].contact;
+      const grasp::Contact& a = plan.initial[i].contact;
+      const grasp::Contact& b = plan.initial[j].contact;
       double low = 0, high = 10;
       for (int round = 0; round < 100; ++round) {
         const double r = (low + high) / 2;
@@ -188,10 +188,10 @@ TEST(PlanReach, TheCheckAllowsWhatReadingRounds) {
   }
   plan.steps.clear();
   plan.goal = ContactsOf(plan.initial);
-  const double tolerance = kPointTolerance * cube.diameter();
+  const double tolerance = object::kPointTolerance * cube.diameter();
   EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = least + 0.5 * tolerance}).passed());
   EXPECT_FALSE(CheckPlan(cube, plan, {.finger_radius = least + 20 * tolerance}).passed());
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::plan

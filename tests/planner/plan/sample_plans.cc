@@ -2,7 +2,7 @@
 
 #include "planner/base/angle.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 namespace {
 
@@ -61,4 +61,4 @@ Plan SquarePlan() {
   return plan;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

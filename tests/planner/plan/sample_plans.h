@@ -2,7 +2,7 @@
 
 #include "planner/plan/plan.h"
 
-namespace regrasp {
+namespace regrasp::plan {
 
 // Plans that pass, from which the tests make plans that fail.
 
@@ -17,4 +17,4 @@ Plan SquarePlan();
 /// A plan with a sha256, a scale and so on, but neither contacts nor steps.
 Plan EmptyPlan(int dimension, int fingers, double half_angle_deg);
 
-}  // namespace regrasp
+}  // namespace regrasp::plan

@@ -13,7 +13,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::planning {
 namespace {
 
 using testing::HasSubstr;
@@ -24,10 +24,10 @@ constexpr double kHalf = 0.03;
 /// Two fingers on each of two opposite faces of the cube, `lean` apart along z at the second pair,
 /// so that the grasp needs some friction.
 GraspChoice OppositePairs(double lean) {
-  const Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, 0},
-                       {{-kHalf, -0.01, 0}, {1, 0, 0}, 0},
-                       {{kHalf, 0.01, lean}, {-1, 0, 0}, 1},
-                       {{kHalf, -0.01, lean}, {-1, 0, 0}, 1}};
+  const grasp::Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, 0},
+                              {{-kHalf, -0.01, 0}, {1, 0, 0}, 0},
+                              {{kHalf, 0.01, lean}, {-1, 0, 0}, 1},
+                              {{kHalf, -0.01, lean}, {-1, 0, 0}, 1}};
   return {GraspChoice::Kind::kGiven, grasp, "given.json"};
 }
 
@@ -35,7 +35,7 @@ GraspChoice OppositePairs(double lean) {
 class StubPlanner final : public Planner {
  public:
   using Task = std::function<PlanResult(const PlanRequest&)>;
-  explicit StubPlanner(ContactLimits contacts = {4, 4}, Task task = {})
+  explicit StubPlanner(sampling::ContactLimits contacts = {4, 4}, Task task = {})
       : Planner({.name = "stub", .in_space = PlannerScope{5, contacts, contacts}}),
         task_(std::move(task)) {}
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest&) const override {
@@ -50,11 +50,11 @@ class StubPlanner final : public Planner {
 };
 
 PlanResult SolveOnCube(const Planner& planner, const GraspChoice& choice, PlanRequest request) {
-  static const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  static const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   return PlanWith(planner, cube, choice, choice, std::move(request));
 }
 
-void Check(const GraspChoice& choice, double degrees, ContactLimits contacts = {4, 4}) {
+void Check(const GraspChoice& choice, double degrees, sampling::ContactLimits contacts = {4, 4}) {
   (void)SolveOnCube(StubPlanner(contacts), choice, RequestAt(degrees));
 }
 
@@ -73,7 +73,8 @@ TEST(Solve, GivesThePlannerAHandAndDrawnGraspsButLeavesItItsOwn) {
 }
 
 TEST(Solve, TurnsNoGraspAndTimeUpIntoAnswers) {
-  const StubPlanner none({4, 4}, [](const PlanRequest&) -> PlanResult { throw NoGrasp{"none"}; });
+  const StubPlanner none({4, 4},
+                         [](const PlanRequest&) -> PlanResult { throw sampling::NoGrasp{"none"}; });
   const PlanResult no_grasp = SolveOnCube(none, Random(), RequestAt(20));
   EXPECT_EQ(no_grasp.status, PlanResult::Status::kNoGrasp);
   EXPECT_EQ(no_grasp.message, "none");
@@ -153,4 +154,4 @@ TEST(Solve, RefusesTwoContactsAtOnePoint) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::planning

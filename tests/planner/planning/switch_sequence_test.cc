@@ -5,70 +5,70 @@
 
 #include <stdexcept>
 
-namespace regrasp {
+namespace regrasp::planning {
 namespace {
 
 using testing::ElementsAre;
 
 /// A contact that is told from others by one number.
-Contact At(double x) { return {{x, 0, 0}, {1, 0, 0}, 0}; }
+grasp::Contact At(double x) { return {{x, 0, 0}, {1, 0, 0}, 0}; }
 
-std::vector<int> Fingers(const FingerGrasp& grasp) {
+std::vector<int> Fingers(const plan::FingerGrasp& grasp) {
   std::vector<int> fingers;
-  for (const FingerContact& contact : grasp) fingers.push_back(contact.finger);
+  for (const plan::FingerContact& contact : grasp) fingers.push_back(contact.finger);
   return fingers;
 }
 
-std::vector<double> Places(const FingerGrasp& grasp) {
+std::vector<double> Places(const plan::FingerGrasp& grasp) {
   std::vector<double> places;
-  for (const FingerContact& contact : grasp) places.push_back(contact.contact.p.x());
+  for (const plan::FingerContact& contact : grasp) places.push_back(contact.contact.p.x());
   return places;
 }
 
 TEST(MakeSwitchSequence, GivesTheFreeFingerTheNewContactAndReleasesTheOldOne) {
-  const std::vector<Grasp> grasps = {
+  const std::vector<grasp::Grasp> grasps = {
       {At(1), At(2), At(3), At(4)}, {At(3), At(5), At(1), At(4)}, {At(5), At(6), At(3), At(4)}};
   const Sequence sequence = MakeSwitchSequence(grasps, 5);
   EXPECT_THAT(Fingers(sequence.initial), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(Places(sequence.initial), ElementsAre(1, 2, 3, 4));
   ASSERT_EQ(sequence.steps.size(), 2u);
-  const auto& first = std::get<Switch>(sequence.steps[0]);
+  const auto& first = std::get<plan::Switch>(sequence.steps[0]);
   EXPECT_THAT(Fingers(first.place), ElementsAre(4));
   EXPECT_THAT(Places(first.place), ElementsAre(5));
   EXPECT_THAT(first.release, ElementsAre(1));
-  const auto& second = std::get<Switch>(sequence.steps[1]);
+  const auto& second = std::get<plan::Switch>(sequence.steps[1]);
   EXPECT_THAT(Fingers(second.place), ElementsAre(1));
   EXPECT_THAT(Places(second.place), ElementsAre(6));
   EXPECT_THAT(second.release, ElementsAre(0));
 }
 
 TEST(MakeSwitchSequence, SwitchesSeveralFingersWhereTheHandHasThem) {
-  const std::vector<Grasp> grasps = {{At(1), At(2)}, {At(3), At(4)}};
+  const std::vector<grasp::Grasp> grasps = {{At(1), At(2)}, {At(3), At(4)}};
   const Sequence sequence = MakeSwitchSequence(grasps, 4);
   ASSERT_EQ(sequence.steps.size(), 1u);
-  const auto& step = std::get<Switch>(sequence.steps[0]);
+  const auto& step = std::get<plan::Switch>(sequence.steps[0]);
   EXPECT_THAT(Fingers(step.place), ElementsAre(2, 3));
   EXPECT_THAT(step.release, ElementsAre(0, 1));
   EXPECT_THROW((void)MakeSwitchSequence(grasps, 3), std::invalid_argument);
 }
 
 TEST(MakeSwitchSequence, TellsContactsAtOnePointByTheirNormals) {
-  Contact turned = At(1);
+  grasp::Contact turned = At(1);
   turned.n = {0, 1, 0};
-  const std::vector<Grasp> grasps = {{At(1), At(2)}, {turned, At(2)}};
+  const std::vector<grasp::Grasp> grasps = {{At(1), At(2)}, {turned, At(2)}};
   EXPECT_EQ(MakeSwitchSequence(grasps, 3).steps.size(), 1u);
 }
 
 TEST(MakeSwitchSequence, HasNoStepForTheSameGraspInAnotherOrder) {
-  const std::vector<Grasp> grasps = {{At(1), At(2), At(3)}, {At(3), At(1), At(2)}};
+  const std::vector<grasp::Grasp> grasps = {{At(1), At(2), At(3)}, {At(3), At(1), At(2)}};
   EXPECT_TRUE(MakeSwitchSequence(grasps, 3).steps.empty());
 }
 
 TEST(MakeSwitchSequence, RefusesNothingAndHandsThatAreTooSmall) {
   EXPECT_THROW((void)MakeSwitchSequence({}, 5), std::invalid_argument);
-  const std::vector<Grasp> grasps = {{At(1), At(2), At(3)}};
+  const std::vector<grasp::Grasp> grasps = {{At(1), At(2), At(3)}};
   EXPECT_THROW((void)MakeSwitchSequence(grasps, 2), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::planning

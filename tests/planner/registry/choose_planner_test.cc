@@ -8,7 +8,7 @@
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/tree/search_cases.h"
 
-namespace regrasp {
+namespace regrasp::registry {
 namespace {
 
 using ::testing::AllOf;
@@ -16,18 +16,18 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-const Object& Solid() {
-  static const ObjectFile file = tree::ReadModel("stone.obj");
+const object::Object& Solid() {
+  static const object::ObjectFile file = tree::ReadModel("stone.obj");
   return *file.object;
 }
 
-const Object& Planar() {
-  static const ObjectFile file = tree::ReadModel("polygon15.wkt");
+const object::Object& Planar() {
+  static const object::ObjectFile file = tree::ReadModel("polygon15.wkt");
   return *file.object;
 }
 
-PlanRequest On(const Object& object) {
-  PlanRequest request = RequestAt(20);
+planning::PlanRequest On(const object::Object& object) {
+  planning::PlanRequest request = RequestAt(20);
   request.object = &object;
   request.object_name = "file.obj";
   return request;
@@ -35,7 +35,7 @@ PlanRequest On(const Object& object) {
 
 TEST(Registry, EveryPlannerIsFoundByItsNameAndHasOneOfItsOwn) {
   std::set<std::string> names;
-  for (const Planner* planner : AllPlanners()) {
+  for (const planning::Planner* planner : AllPlanners()) {
     EXPECT_EQ(FindPlanner(planner->name()), planner);
     EXPECT_TRUE(planner->traits().in_plane || planner->traits().in_space) << planner->name();
     names.insert(planner->name());
@@ -52,37 +52,37 @@ TEST(ChoosePlanner, TakesGeneralWhereNothingElseIsAskedFor) {
 }
 
 TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
-  PlanRequest regions = On(Planar());
-  regions.objective = Objective::kRegions;
+  planning::PlanRequest regions = On(Planar());
+  regions.objective = planning::Objective::kRegions;
   EXPECT_EQ(ChoosePlanner(regions).name(), "contour");
-  for (const Object* object : {&Planar(), &Solid()}) {
-    PlanRequest uniform = On(*object);
-    uniform.spanning = Spanning::kUniform;
+  for (const object::Object* object : {&Planar(), &Solid()}) {
+    planning::PlanRequest uniform = On(*object);
+    uniform.spanning = planning::Spanning::kUniform;
     EXPECT_EQ(ChoosePlanner(uniform).name(), object == &Planar() ? "polygon" : "polyhedron");
   }
-  PlanRequest points = On(Solid());
+  planning::PlanRequest points = On(Solid());
   points.contact_points = 30;
   EXPECT_EQ(ChoosePlanner(points).name(), "roadmap");
-  PlanRequest travel = On(Solid());
-  travel.objective = Objective::kTravel;
+  planning::PlanRequest travel = On(Solid());
+  travel.objective = planning::Objective::kTravel;
   EXPECT_EQ(ChoosePlanner(travel).name(), "general");
 }
 
 TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
-  PlanRequest request = On(Planar());
-  request.objective = Objective::kRegions;
+  planning::PlanRequest request = On(Planar());
+  request.objective = planning::Objective::kRegions;
   request.explain = true;
   EXPECT_THAT([&] { (void)ChoosePlanner(request); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("--optimize regions (contour)"),
                                               HasSubstr("--explain (general)"))));
   request = On(Solid());
-  request.objective = Objective::kRegions;
+  request.objective = planning::Objective::kRegions;
   EXPECT_THAT([&] { (void)ChoosePlanner(request); },
               ThrowsMessage<InputError>(HasSubstr("--optimize regions (no planner) for a solid")));
 }
 
 TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
-  PlanRequest request = On(Planar());
+  planning::PlanRequest request = On(Planar());
   request.effort = 5;
   EXPECT_EQ(PlannerFor("general", request).name(), "general");
   EXPECT_THAT(
@@ -97,7 +97,7 @@ TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
 }
 
 TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
-  PlanRequest request = On(Solid());
+  planning::PlanRequest request = On(Solid());
   request.hand.fingers = 4;
   EXPECT_THAT([&] { (void)PlannerFor("polyhedron", request); },
               ThrowsMessage<InputError>(HasSubstr("needs a hand of 5 fingers")));
@@ -107,10 +107,11 @@ TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
 
 TEST(Registry, EveryPlannerPlansBetweenRandomGraspsOfWhatItServes) {
   int plans = 0;
-  for (const Planner* planner : AllPlanners()) {
-    for (const Object* object : {&Planar(), &Solid()}) {
+  for (const planning::Planner* planner : AllPlanners()) {
+    for (const object::Object* object : {&Planar(), &Solid()}) {
       if (!planner->ScopeIn(object->dimension())) continue;
-      const PlanResult result = PlanWith(*planner, *object, Random(), Random(), RequestAt(20, 1));
+      const planning::PlanResult result =
+          PlanWith(*planner, *object, Random(), Random(), RequestAt(20, 1));
       ASSERT_TRUE(result.plan) << planner->name() << ": " << result.message;
       EXPECT_EQ(result.plan->planner, planner->name());
       EXPECT_EQ(result.plan->fingers, planner->ScopeIn(object->dimension())->fingers);
@@ -121,4 +122,4 @@ TEST(Registry, EveryPlannerPlansBetweenRandomGraspsOfWhatItServes) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::registry

@@ -17,8 +17,8 @@ using By = ContactChain::By;
 
 /// A clustered roadmap of a small mesh and all grasps of its contacts.
 struct Problem {
-  Problem(const Polyhedron& solid, double degrees, int clusters)
-      : same_point(kSamePoint * solid.diameter()),
+  Problem(const object::Polyhedron& solid, double degrees, int clusters)
+      : same_point(criteria::kSamePoint * solid.diameter()),
         // As many contact points as triangles: their centroids.
         roadmap(solid, {.half_angle = Radians(degrees),
                         .contacts = static_cast<int>(solid.triangles().size()),
@@ -143,9 +143,9 @@ TEST(FindContactChain, OfAGraspToItselfEndsWhereItStarts) {
 
 TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
   for (const char* name : {"ellipsoid500", "mug500", "spanner500"}) {
-    const Polyhedron solid = ReadMesh(name);
+    const object::Polyhedron solid = ReadMesh(name);
     const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
-    const double same_point = kSamePoint * solid.diameter();
+    const double same_point = criteria::kSamePoint * solid.diameter();
     const auto is_grasp =
         ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle);
     int found = 0;
@@ -161,9 +161,9 @@ TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
 }
 
 TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
-  const Polyhedron solid = ReadMesh("spanner500");
+  const object::Polyhedron solid = ReadMesh("spanner500");
   const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
-  const double same_point = kSamePoint * solid.diameter();
+  const double same_point = criteria::kSamePoint * solid.diameter();
   int by_roadmap = 0;
   int by_last_resort = 0;
   const auto with = RunRandomQueries(roadmap, same_point, 30, 1, true);
@@ -186,8 +186,8 @@ TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
 }
 
 TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
-  const Polyhedron solid = ReadMesh("mug500");
-  const double same_point = kSamePoint * solid.diameter();
+  const object::Polyhedron solid = ReadMesh("mug500");
+  const double same_point = criteria::kSamePoint * solid.diameter();
   const auto ends = [&](int clusters, std::uint64_t seed) {
     const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = clusters});
     std::vector<std::pair<Quadruple, Quadruple>> ends;
@@ -202,8 +202,8 @@ TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
 }
 
 TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {
-  const Polyhedron solid = MakeConvexBody(20, 3);
-  const double same_point = kSamePoint * solid.diameter();
+  const object::Polyhedron solid = MakeConvexBody(20, 3);
+  const double same_point = criteria::kSamePoint * solid.diameter();
   const ClusteredRoadmapOptions options = {
       .half_angle = Radians(10), .contacts = 36, .clusters = 6};
   const ClusteredRoadmap roadmap(solid, options);

@@ -13,7 +13,7 @@
 namespace regrasp::roadmap {
 namespace {
 
-ContactClusters ClustersOf(const Polyhedron& solid, int clusters, std::uint64_t seed = 0) {
+ContactClusters ClustersOf(const object::Polyhedron& solid, int clusters, std::uint64_t seed = 0) {
   return {Centroids(solid), solid.wrench_frame(), Radians(10), clusters, seed};
 }
 
@@ -78,11 +78,11 @@ TEST(ContactClusters, DistancesAreThoseOfOneSpace) {
 }
 
 TEST(ContactClusters, ContactsOfAClusterActMoreAlikeThanOthers) {
-  const Polyhedron duck = ReadMesh("duck500");
-  const std::vector<Contact> contacts = Centroids(duck);
+  const object::Polyhedron duck = ReadMesh("duck500");
+  const std::vector<grasp::Contact> contacts = Centroids(duck);
   const ContactClusters clusters = ClustersOf(duck, 30);
   std::vector<WrenchPyramid> pyramids;
-  for (const Contact& contact : contacts) {
+  for (const grasp::Contact& contact : contacts) {
     pyramids.push_back(PyramidOf(contact, duck.wrench_frame(), Radians(10), contacts));
   }
   const Eigen::MatrixXd distances = WrenchDistances(pyramids);
@@ -101,11 +101,11 @@ TEST(ContactClusters, ContactsOfAClusterActMoreAlikeThanOthers) {
 }
 
 TEST(ContactClusters, PlaceAnAddedCopyWhereItsOriginalIs) {
-  const Polyhedron duck = ReadMesh("duck500");
+  const object::Polyhedron duck = ReadMesh("duck500");
   ContactClusters clusters = ClustersOf(duck, 30);
   const std::vector<int> before = Partition(clusters);
   for (int i = 0; i < 500; i += 7) {
-    const Contact original = clusters.contacts()[i];
+    const grasp::Contact original = clusters.contacts()[i];
     const int added = clusters.Add(original);
     EXPECT_EQ(added, static_cast<int>(clusters.contacts().size()) - 1);
     EXPECT_EQ(clusters.cluster_of(added), clusters.cluster_of(i));
@@ -120,10 +120,10 @@ TEST(ContactClusters, PlaceAnAddedCopyWhereItsOriginalIs) {
 }
 
 TEST(ContactClusters, PlaceAnAddedNeighbourNearby) {
-  const Polyhedron duck = ReadMesh("duck500");
+  const object::Polyhedron duck = ReadMesh("duck500");
   ContactClusters clusters = ClustersOf(duck, 30);
-  const Contact original = clusters.contacts()[11];
-  Contact neighbour = original;
+  const grasp::Contact original = clusters.contacts()[11];
+  grasp::Contact neighbour = original;
   neighbour.p += 1e-3 * duck.diameter() * original.n.unitOrthogonal();
   const int added = clusters.Add(neighbour);
   EXPECT_LT(clusters.Distance(added, 11), 0.1);
@@ -131,7 +131,7 @@ TEST(ContactClusters, PlaceAnAddedNeighbourNearby) {
 }
 
 TEST(ContactClusters, AreTheSameForTheSameSeedOnly) {
-  const Polyhedron star = ReadMesh("star500");
+  const object::Polyhedron star = ReadMesh("star500");
   const ContactClusters a = ClustersOf(star, 30, 4);
   const ContactClusters b = ClustersOf(star, 30, 4);
   const ContactClusters c = ClustersOf(star, 30, 5);
@@ -144,7 +144,7 @@ TEST(ContactClusters, AreTheSameForTheSameSeedOnly) {
 TEST(ContactClusters, DependNeitherOnTheUnitOfLengthNorOnThePose) {
   int checked = 0;
   for (const char* name : {"duck500", "star500"}) {
-    const Polyhedron solid = ReadMesh(name);
+    const object::Polyhedron solid = ReadMesh(name);
     const ContactClusters clusters = ClustersOf(solid, 30);
     for (const double unit : {1.0, 1000.0}) {
       const ContactClusters moved = ClustersOf(Moved(solid, MotionAndUnit(unit)), 30);
@@ -158,7 +158,7 @@ TEST(ContactClusters, DependNeitherOnTheUnitOfLengthNorOnThePose) {
 }
 
 TEST(ContactClusters, RefuseAsManyClustersAsContacts) {
-  const Polyhedron body = MakeConvexBody(10, 1);
+  const object::Polyhedron body = MakeConvexBody(10, 1);
   EXPECT_THROW(ClustersOf(body, 0), std::invalid_argument);
   EXPECT_THROW(ClustersOf(body, 16), std::invalid_argument);
   EXPECT_EQ(ClustersOf(body, 15).cluster_count(), 15);

@@ -7,7 +7,7 @@ namespace {
 
 TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
   const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
-  const std::vector<Contact> points = {
+  const std::vector<grasp::Contact> points = {
       {{0, 0, 0}, n, 4}, {{0, 0, 0}, n, 5}, {{1e-3, 0, 0}, n, 5}, {{1e-3, 1e-4, 0}, n, 5}};
   const auto find = [&](const Eigen::Vector3d& p, int face, double tolerance) {
     return FindContact(points, {p, n, face}, tolerance);

@@ -56,11 +56,12 @@ class GraspGraph {
 using IsGrasp = std::function<bool(const Quadruple&)>;
 
 /// Force-closure grasps of the contacts, asked one by one.
-inline IsGrasp ForceClosureOf(const std::vector<Contact>& contacts, const WrenchFrame& frame,
-                              double half_angle) {
+inline IsGrasp ForceClosureOf(const std::vector<grasp::Contact>& contacts,
+                              const object::WrenchFrame& frame, double half_angle) {
   return [&contacts, frame, half_angle](const Quadruple& g) {
-    return IsForceClosure(Grasp{contacts[g[0]], contacts[g[1]], contacts[g[2]], contacts[g[3]]},
-                          frame, half_angle);
+    return grasp::IsForceClosure(
+        grasp::Grasp{contacts[g[0]], contacts[g[1]], contacts[g[2]], contacts[g[3]]}, frame,
+        half_angle);
   };
 }
 

@@ -17,9 +17,9 @@ namespace {
 constexpr double kNear = 1e-7;
 
 struct Body {
-  Polyhedron solid = MakeConvexBody(11, 2);
-  std::vector<Contact> contacts = Centroids(solid);
-  WrenchFrame frame = solid.wrench_frame();
+  object::Polyhedron solid = MakeConvexBody(11, 2);
+  std::vector<grasp::Contact> contacts = Centroids(solid);
+  object::WrenchFrame frame = solid.wrench_frame();
   GraspOracle Oracle(double min_quality = 0) const {
     return {contacts, frame, kNear, {Radians(20), min_quality}};
   }
@@ -53,7 +53,7 @@ TEST(GraspOracle, AdmitsForceClosureGraspsAndTestsEachOnce) {
   const std::vector<Quadruple> all = AllQuadruples(18);
   for (int round = 0; round < 2; ++round) {
     for (const Quadruple& grasp : all) {
-      const bool expected = IsForceClosure(oracle.GraspOf(grasp), body.frame, Radians(20));
+      const bool expected = grasp::IsForceClosure(oracle.GraspOf(grasp), body.frame, Radians(20));
       EXPECT_EQ(oracle.Admits(grasp), expected);
       if (expected) ++admitted;
     }
@@ -74,8 +74,8 @@ TEST(GraspOracle, AsksOfForceClosureGraspsOnlyWhetherTheyMeetTheCriteria) {
   for (const Quadruple& grasp : AllQuadruples(18)) {
     const bool holds = plain.Admits(grasp);
     if (holds) ++force_closure;
-    EXPECT_EQ(picky.Admits(grasp),
-              holds && QualityAtLeast(plain.GraspOf(grasp), body.frame, Radians(20), kQuality));
+    EXPECT_EQ(picky.Admits(grasp), holds && grasp::QualityAtLeast(plain.GraspOf(grasp), body.frame,
+                                                                  Radians(20), kQuality));
     if (holds && !picky.Admits(grasp)) ++refused;
   }
   EXPECT_EQ(picky.counts().criteria, force_closure);
@@ -105,13 +105,13 @@ TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
   Body body;
   GraspOracle plain = body.Oracle();
   // A twin of contact 0, a hair off and leaning.
-  Contact twin = body.contacts[0];
+  grasp::Contact twin = body.contacts[0];
   twin.n = (twin.n + 0.1 * twin.n.unitOrthogonal()).normalized();
   twin.p += 0.5 * kNear * twin.n.unitOrthogonal();
   body.contacts.push_back(twin);
   GraspOracle oracle = body.Oracle();
-  const Contact away = {twin.p + 3 * kNear * twin.n.unitOrthogonal(), twin.n, twin.face};
-  std::vector<Contact> apart = body.contacts;
+  const grasp::Contact away = {twin.p + 3 * kNear * twin.n.unitOrthogonal(), twin.n, twin.face};
+  std::vector<grasp::Contact> apart = body.contacts;
   apart.back() = away;
   GraspOracle farther(apart, body.frame, kNear, {Radians(20), 0});
   int refused = 0;
@@ -128,7 +128,7 @@ TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
 
 TEST(GraspOracle, RefusesMoreContactsThanSetsHaveNumbers) {
   const Body body;
-  const std::vector<Contact> many(ContactSet::kMostNumbers + 1, body.contacts[0]);
+  const std::vector<grasp::Contact> many(criteria::ContactSet::kMostNumbers + 1, body.contacts[0]);
   EXPECT_THROW(GraspOracle(many, body.frame, kNear, {Radians(20), 0}), std::invalid_argument);
 }
 

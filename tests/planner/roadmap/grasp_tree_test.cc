@@ -18,7 +18,7 @@ constexpr std::int64_t kEnoughSteps = std::numeric_limits<std::int64_t>::max();
 
 /// A mesh of at most forty triangles and all grasps of their centroids.
 struct Problem {
-  Problem(const Polyhedron& solid, double degrees)
+  Problem(const object::Polyhedron& solid, double degrees)
       : contacts(Centroids(solid)),
         frame(solid.wrench_frame()),
         half_angle(Radians(degrees)),
@@ -38,8 +38,8 @@ struct Problem {
         [this](int a, int b) { return Distance(a, b); }, most_steps, oracle);
   }
 
-  std::vector<Contact> contacts;
-  WrenchFrame frame;
+  std::vector<grasp::Contact> contacts;
+  object::WrenchFrame frame;
   double half_angle;
   IsGrasp is_grasp;
   std::vector<int> numbers;
@@ -69,7 +69,7 @@ TEST(JoinGrasps, FindsAWayWhereverThereIsOneAndSaysSoWhereNot) {
   int apart = 0;
   int split = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Polyhedron body = MakeConvexBody(14 + 2 * static_cast<int>(seed), seed);
+    const object::Polyhedron body = MakeConvexBody(14 + 2 * static_cast<int>(seed), seed);
     ASSERT_LE(body.triangles().size(), 40u);
     for (const double degrees : {5.0, 8.0, 12.0, 18.0, 25.0}) {
       Problem problem(body, degrees);
@@ -167,7 +167,7 @@ TEST(JoinGrasps, MovesNoFingerToItsOwnPoint) {
   // before another leaves the other.
   Problem problem(MakeConvexBody(16, 5), 25);
   const int twin = static_cast<int>(problem.contacts.size());
-  Contact leaning = problem.contacts[0];
+  grasp::Contact leaning = problem.contacts[0];
   leaning.n = (leaning.n + 0.01 * leaning.n.unitOrthogonal()).normalized();
   problem.contacts.push_back(leaning);
   problem.numbers.push_back(twin);

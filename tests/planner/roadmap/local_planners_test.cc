@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kNear = 1e-9;
 
-std::vector<Contact> RepresentativesOf(const ContactClusters& clusters) {
-  std::vector<Contact> points;
+std::vector<grasp::Contact> RepresentativesOf(const ContactClusters& clusters) {
+  std::vector<grasp::Contact> points;
   for (const int contact : clusters.representatives()) {
     points.push_back(clusters.contacts()[contact]);
   }
@@ -25,7 +25,7 @@ std::vector<Contact> RepresentativesOf(const ContactClusters& clusters) {
 
 /// The clusters of a small mesh, their roadmap, and the same once more by brute force.
 struct Problem {
-  Problem(const Polyhedron& solid, double degrees, int cluster_count)
+  Problem(const object::Polyhedron& solid, double degrees, int cluster_count)
       : frame(solid.wrench_frame()),
         half_angle(Radians(degrees)),
         clusters(Centroids(solid), frame, half_angle, cluster_count, 1),
@@ -86,7 +86,7 @@ struct Problem {
     return Product(sets, is_grasp);
   }
 
-  WrenchFrame frame;
+  object::WrenchFrame frame;
   double half_angle;
   ContactClusters clusters;
   Roadmap roadmap;

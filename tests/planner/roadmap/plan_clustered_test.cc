@@ -23,11 +23,11 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
-PlanRequest Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
-  PlanRequest options;
+planning::PlanRequest Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.contact_points = 1000;
   options.clusters = clusters;
@@ -41,13 +41,14 @@ INSTANTIATE_TEST_SUITE_P(Models, PlanOnModel,
                          [](const auto& model) { return std::string(model.param); });
 
 TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
-  const Polyhedron solid = ReadMesh(GetParam());
+  const object::Polyhedron solid = ReadMesh(GetParam());
   constexpr int kQueries = 3;
   for (std::uint64_t seed = 0; seed < kQueries; ++seed) {
-    for (const GraspChoice& choice : {Random(), RandomAny()}) {
-      const PlanResult result = PlanWith(RoadmapPlanner(), solid, choice, choice, Options(seed));
+    for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
+      const planning::PlanResult result =
+          PlanWith(RoadmapPlanner(), solid, choice, choice, Options(seed));
       ASSERT_EQ(result.status, Status::kFound) << "seed " << seed << ": " << result.message;
-      EXPECT_TRUE(CheckPlan(solid, *result.plan).passed()) << "seed " << seed;
+      EXPECT_TRUE(plan::CheckPlan(solid, *result.plan).passed()) << "seed " << seed;
       EXPECT_FALSE(result.plan->steps.empty());
       EXPECT_GE(result.margin, 0);
       EXPECT_EQ(result.plan->planner, "roadmap");
@@ -61,28 +62,29 @@ TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
     }
   }
   // The checker is no rubber stamp.
-  Plan plan = *PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options()).plan;
+  plan::Plan plan = *PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options()).plan;
   plan.half_angle = Radians(0.5);
-  EXPECT_FALSE(CheckPlan(solid, plan).passed());
+  EXPECT_FALSE(plan::CheckPlan(solid, plan).passed());
 }
 
 TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
-  const Polyhedron solid = ReadMesh(GetParam());
+  const object::Polyhedron solid = ReadMesh(GetParam());
   int good = 0;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const PlanRequest options = Options(seed);
-    const PlanResult result = PlanWith(RoadmapPlanner(), solid, Random(), Random(), options);
+    const planning::PlanRequest options = Options(seed);
+    const planning::PlanResult result =
+        PlanWith(RoadmapPlanner(), solid, Random(), Random(), options);
     ASSERT_EQ(result.status, Status::kFound) << result.message;
-    FingerGrasp holding = result.plan->initial;
+    plan::FingerGrasp holding = result.plan->initial;
     bool all_good = true;
     const auto look = [&] {
-      all_good =
-          all_good && QualityAtLeast(ContactsOf(holding), solid.wrench_frame(),
-                                     options.criteria.half_angle, options.criteria.min_quality);
+      all_good = all_good &&
+                 grasp::QualityAtLeast(plan::ContactsOf(holding), solid.wrench_frame(),
+                                       options.criteria.half_angle, options.criteria.min_quality);
     };
     look();
-    for (const Step& step : result.plan->steps) {
-      holding = GraspAfter(holding, step);
+    for (const plan::Step& step : result.plan->steps) {
+      holding = plan::GraspAfter(holding, step);
       look();
     }
     EXPECT_EQ(result.warnings.empty(), all_good) << "seed " << seed;
@@ -92,18 +94,19 @@ TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
 }
 
 TEST(PlanOnClusters, GivesTheSameBytesForTheSameSeed) {
-  const Polyhedron mug = ReadMesh("mug500");
+  const object::Polyhedron mug = ReadMesh("mug500");
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(*PlanWith(RoadmapPlanner(), mug, Random(), RandomAny(), Options(seed)).plan);
+    return plan::FormatPlan(
+        *PlanWith(RoadmapPlanner(), mug, Random(), RandomAny(), Options(seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
   EXPECT_NE(plan(3), plan(4));
 }
 
 /// The grasp on a mesh that was moved.
-Grasp Moved(const Grasp& grasp, const Eigen::Affine3d& motion) {
-  Grasp moved = grasp;
-  for (Contact& contact : moved) {
+grasp::Grasp Moved(const grasp::Grasp& grasp, const Eigen::Affine3d& motion) {
+  grasp::Grasp moved = grasp;
+  for (grasp::Contact& contact : moved) {
     contact.p = motion * contact.p;
     contact.n = (motion.linear() * contact.n).normalized();
   }
@@ -113,24 +116,25 @@ Grasp Moved(const Grasp& grasp, const Eigen::Affine3d& motion) {
 TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
   int checked = 0;
   for (const char* name : {"duck500", "star500"}) {
-    const Polyhedron solid = ReadMesh(name);
-    const PlanResult here = PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options(2));
+    const object::Polyhedron solid = ReadMesh(name);
+    const planning::PlanResult here =
+        PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options(2));
     ASSERT_EQ(here.status, Status::kFound) << here.message;
     for (const double unit : {1.0, 1000.0}) {
       const Eigen::Affine3d motion = MotionAndUnit(unit);
-      const Polyhedron moved = roadmap::Moved(solid, motion);
-      const PlanResult there =
-          PlanWith(RoadmapPlanner(), moved, Given(Moved(ContactsOf(here.plan->initial), motion)),
-                   Given(Moved(here.plan->goal, motion)), Options(2));
+      const object::Polyhedron moved = roadmap::Moved(solid, motion);
+      const planning::PlanResult there = PlanWith(
+          RoadmapPlanner(), moved, Given(Moved(plan::ContactsOf(here.plan->initial), motion)),
+          Given(Moved(here.plan->goal, motion)), Options(2));
       ASSERT_EQ(there.status, Status::kFound) << there.message;
       ASSERT_EQ(there.plan->steps.size(), here.plan->steps.size());
-      FingerGrasp a = here.plan->initial;
-      FingerGrasp b = there.plan->initial;
+      plan::FingerGrasp a = here.plan->initial;
+      plan::FingerGrasp b = there.plan->initial;
       for (std::size_t i = 0; i < here.plan->steps.size(); ++i) {
-        a = GraspAfter(a, here.plan->steps[i]);
-        b = GraspAfter(b, there.plan->steps[i]);
-        const Grasp expected = Moved(ContactsOf(a), motion);
-        const Grasp actual = ContactsOf(b);
+        a = plan::GraspAfter(a, here.plan->steps[i]);
+        b = plan::GraspAfter(b, there.plan->steps[i]);
+        const grasp::Grasp expected = Moved(plan::ContactsOf(a), motion);
+        const grasp::Grasp actual = plan::ContactsOf(b);
         ASSERT_EQ(actual.size(), expected.size());
         for (std::size_t k = 0; k < actual.size(); ++k) {
           EXPECT_EQ(b[k].finger, a[k].finger);
@@ -138,7 +142,7 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
         }
       }
       EXPECT_NEAR(there.margin, here.margin, 1e-6);
-      EXPECT_TRUE(CheckPlan(moved, *there.plan).passed());
+      EXPECT_TRUE(plan::CheckPlan(moved, *there.plan).passed());
       ++checked;
     }
   }
@@ -146,31 +150,32 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
 }
 
 TEST(PlanOnClusters, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const Polyhedron mug = ReadMesh("mug500");
-  const Grasp start =
-      ContactsOf(PlanWith(RoadmapPlanner(), mug, Random(), Random(), Options()).plan->initial);
-  Grasp goal = start;
+  const object::Polyhedron mug = ReadMesh("mug500");
+  const grasp::Grasp start = plan::ContactsOf(
+      PlanWith(RoadmapPlanner(), mug, Random(), Random(), Options()).plan->initial);
+  grasp::Grasp goal = start;
   std::reverse(goal.begin(), goal.end());
-  const PlanResult result = PlanWith(RoadmapPlanner(), mug, Given(start), Given(goal), Options());
+  const planning::PlanResult result =
+      PlanWith(RoadmapPlanner(), mug, Given(start), Given(goal), Options());
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
-  EXPECT_TRUE(CheckPlan(mug, *result.plan).passed());
+  EXPECT_TRUE(plan::CheckPlan(mug, *result.plan).passed());
 }
 
 /// A cube with two grasps of so little friction that no contact of either can be replaced unless
 /// one stands on its very line of force.
 struct Isolated {
-  Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 8);
-  Contact On(int axis, int sign, double u, double v) const {
-    Contact contact;
+  object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 8);
+  grasp::Contact On(int axis, int sign, double u, double v) const {
+    grasp::Contact contact;
     contact.p[axis] = sign * 0.03;
     contact.p[(axis + 1) % 3] = u;
     contact.p[(axis + 2) % 3] = v;
-    contact.face = cube.FacesNear(contact.p, kPointTolerance * cube.diameter()).front();
+    contact.face = cube.FacesNear(contact.p, object::kPointTolerance * cube.diameter()).front();
     contact.n = cube.inward_normal(contact.face);
     return contact;
   }
-  Grasp Pinwheel(int axis) const {
+  grasp::Grasp Pinwheel(int axis) const {
     constexpr double kArm = 0.0201;
     const int other = (axis + 1) % 3;
     return {On(axis, 1, kArm, 0), On(axis, -1, -kArm, 0), On(other, 1, 0, kArm),
@@ -180,16 +185,18 @@ struct Isolated {
 
 TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
   const Isolated isolated;
-  PlanRequest options = Options(0, 0.5, 10);
+  planning::PlanRequest options = Options(0, 0.5, 10);
   options.contact_points = 100;
-  const PlanResult result = PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
-                                     Given(isolated.Pinwheel(1)), options);
+  const planning::PlanResult result =
+      PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
+               Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(result.status, Status::kNoSequence);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("there is none: the last resort reached all of 1 grasps"));
   options.last_resort = false;
-  const PlanResult without = PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
-                                      Given(isolated.Pinwheel(1)), options);
+  const planning::PlanResult without =
+      PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
+               Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(without.status, Status::kNoSequence);
   EXPECT_THAT(without.message, Not(HasSubstr("last resort")));
   options.criteria.half_angle = Radians(20);
@@ -200,13 +207,14 @@ TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
 }
 
 TEST(PlanOnClusters, WithoutTheLastResortCanFailWhereItFinds) {
-  const Polyhedron spanner = ReadMesh("spanner500");
+  const object::Polyhedron spanner = ReadMesh("spanner500");
   int failed = 0;
   int found = 0;
   for (std::uint64_t seed = 0; seed < 30 && (found == 0 || failed == 0); ++seed) {
-    PlanRequest options = Options(seed);
+    planning::PlanRequest options = Options(seed);
     options.last_resort = false;
-    const PlanResult without = PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options);
+    const planning::PlanResult without =
+        PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options);
     ++(without.status == Status::kFound ? found : failed);
     options.last_resort = true;
     EXPECT_EQ(PlanWith(RoadmapPlanner(), spanner, Random(), RandomAny(), options).status,
@@ -219,11 +227,11 @@ TEST(PlanOnClusters, WithoutTheLastResortCanFailWhereItFinds) {
 TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
   const Isolated isolated;
   // A contact on the border of two faces of the cube, with either normal.
-  Grasp start = {isolated.On(0, 1, 0.03, 0.0), isolated.On(0, -1, 0.02, 0.001),
-                 isolated.On(1, 1, 0.013, 0.012), isolated.On(1, -1, -0.013, 0.011)};
-  Grasp goal = start;
+  grasp::Grasp start = {isolated.On(0, 1, 0.03, 0.0), isolated.On(0, -1, 0.02, 0.001),
+                        isolated.On(1, 1, 0.013, 0.012), isolated.On(1, -1, -0.013, 0.011)};
+  grasp::Grasp goal = start;
   const auto face_of = [&](int axis) {
-    const auto faces = isolated.cube.FacesNear(start[0].p, kPointTolerance * 0.1);
+    const auto faces = isolated.cube.FacesNear(start[0].p, object::kPointTolerance * 0.1);
     return *std::find_if(faces.begin(), faces.end(),
                          [&](int face) { return isolated.cube.inward_normal(face)[axis] < -0.9; });
   };
@@ -231,28 +239,28 @@ TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
   start[0].n = isolated.cube.inward_normal(start[0].face);
   goal[0].face = face_of(1);
   goal[0].n = isolated.cube.inward_normal(goal[0].face);
-  PlanRequest options = Options(0, 40, 10);
+  planning::PlanRequest options = Options(0, 40, 10);
   options.contact_points = 100;
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), isolated.cube, Given(start), Given(goal), options);
   ASSERT_EQ(result.status, Status::kFound) << result.message;
   EXPECT_GT(result.plan->steps.size(), 1u);
-  EXPECT_TRUE(CheckPlan(isolated.cube, *result.plan).passed());
+  EXPECT_TRUE(plan::CheckPlan(isolated.cube, *result.plan).passed());
 }
 
 TEST(PlanOnClusters, CannotDrawAGraspBetterThanAll) {
-  PlanRequest options = Options();
+  planning::PlanRequest options = Options();
   options.criteria.min_quality = 0.9;
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), ReadMesh("mug500"), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(result.message, HasSubstr("500 contact points"));
 }
 
 TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
-  const Polyhedron body = MakeConvexBody(22, 1);
+  const object::Polyhedron body = MakeConvexBody(22, 1);
   const auto plan = [&](int contacts, int clusters) {
-    PlanRequest options = Options(0, 20, clusters);
+    planning::PlanRequest options = Options(0, 20, clusters);
     options.contact_points = contacts;
     return PlanWith(RoadmapPlanner(), body, Random(), Random(), options);
   };
@@ -264,14 +272,14 @@ TEST(PlanOnClusters, RefusesOptionsOutOfRange) {
 }
 
 TEST(RoadmapSizeOf, ClustersMeshesAndManyContacts) {
-  const auto sizes = [](const Polyhedron& solid, std::optional<int> contacts,
+  const auto sizes = [](const object::Polyhedron& solid, std::optional<int> contacts,
                         std::optional<int> clusters) {
     const RoadmapSize size =
         SizeOf({.object = &solid, .contact_points = contacts, .clusters = clusters});
     return std::pair(size.contacts, size.clusters);
   };
-  const Polyhedron few = MakeConvexBody(22, 1);
-  const Polyhedron many = ReadMesh("mug500");
+  const object::Polyhedron few = MakeConvexBody(22, 1);
+  const object::Polyhedron many = ReadMesh("mug500");
   EXPECT_EQ(sizes(few, {}, {}), std::pair(60, 0));
   EXPECT_EQ(sizes(many, {}, {}), std::pair(1000, 50));
   EXPECT_EQ(sizes(few, {}, 20), std::pair(1000, 20));
@@ -281,9 +289,9 @@ TEST(RoadmapSizeOf, ClustersMeshesAndManyContacts) {
 }
 
 TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
-  const Polyhedron body = MakeConvexBody(22, 1);
+  const object::Polyhedron body = MakeConvexBody(22, 1);
   for (const int contacts : {4, 5, 8}) {
-    PlanRequest options = Options(0, 20, 50);
+    planning::PlanRequest options = Options(0, 20, 50);
     options.contact_points = contacts;
     options.object = &body;
     const ClusteredRoadmap roadmap = BuildClusteredRoadmap(options);
@@ -295,9 +303,9 @@ TEST(PlanOnClusters, HasNoMoreClustersThanContacts) {
 
 TEST(PlanOnClusters, RefusesAStartThatIsNotForceClosure) {
   const Isolated isolated;
-  PlanRequest options = Options(0, 0.5, 10);
+  planning::PlanRequest options = Options(0, 0.5, 10);
   options.contact_points = 100;
-  Grasp start = isolated.Pinwheel(0);
+  grasp::Grasp start = isolated.Pinwheel(0);
   start[2] = isolated.On(0, 1, -0.01, 0.01);
   EXPECT_THROW((void)PlanWith(RoadmapPlanner(), isolated.cube, Given(start),
                               Given(isolated.Pinwheel(1)), options),

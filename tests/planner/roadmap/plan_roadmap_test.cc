@@ -24,30 +24,30 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
 constexpr double kHalf = 0.03;
 
 /// A contact on the face of the cube whose outward normal is `axis` times `sign`.
-Contact OnCube(const Polyhedron& cube, int axis, int sign, double u, double v) {
-  Contact contact;
+grasp::Contact OnCube(const object::Polyhedron& cube, int axis, int sign, double u, double v) {
+  grasp::Contact contact;
   contact.p[axis] = sign * kHalf;
   contact.p[(axis + 1) % 3] = u;
   contact.p[(axis + 2) % 3] = v;
-  contact.face = cube.FacesNear(contact.p, kPointTolerance * cube.diameter()).front();
+  contact.face = cube.FacesNear(contact.p, object::kPointTolerance * cube.diameter()).front();
   contact.n = cube.inward_normal(contact.face);
   return contact;
 }
 
 /// Two and two fingers on the faces across an axis.
-Grasp AcrossAxis(const Polyhedron& cube, int axis, double offset = 0) {
+grasp::Grasp AcrossAxis(const object::Polyhedron& cube, int axis, double offset = 0) {
   return {OnCube(cube, axis, -1, 0.012 + offset, 0.003), OnCube(cube, axis, -1, -0.012, -0.002),
           OnCube(cube, axis, 1, 0.012, 0.002), OnCube(cube, axis, 1, -0.012 + offset, -0.003)};
 }
 
-PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
-  PlanRequest options;
+planning::PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.contact_points = contacts;
   options.clusters = 0;
@@ -55,25 +55,25 @@ PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
   return options;
 }
 
-std::vector<Grasp> GraspsOf(const Plan& plan) {
-  std::vector<Grasp> grasps = {ContactsOf(plan.initial)};
-  FingerGrasp holding = plan.initial;
-  for (const Step& step : plan.steps) {
-    holding = GraspAfter(holding, step);
-    grasps.push_back(ContactsOf(holding));
+std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan) {
+  std::vector<grasp::Grasp> grasps = {plan::ContactsOf(plan.initial)};
+  plan::FingerGrasp holding = plan.initial;
+  for (const plan::Step& step : plan.steps) {
+    holding = plan::GraspAfter(holding, step);
+    grasps.push_back(plan::ContactsOf(holding));
   }
   return grasps;
 }
 
-double Margin(const Polyhedron& solid, const Grasp& grasp, double half_angle) {
-  return half_angle - ComputeRequiredHalfAngle(grasp, solid.wrench_frame()).value().upper;
+double Margin(const object::Polyhedron& solid, const grasp::Grasp& grasp, double half_angle) {
+  return half_angle - grasp::ComputeRequiredHalfAngle(grasp, solid.wrench_frame()).value().upper;
 }
 
-std::vector<int> JoinedVertex(const Roadmap& roadmap, const Grasp& grasp) {
+std::vector<int> JoinedVertex(const Roadmap& roadmap, const grasp::Grasp& grasp) {
   std::vector<int> points;
-  for (const Contact& contact : grasp) {
+  for (const grasp::Contact& contact : grasp) {
     const auto found = std::find_if(roadmap.points().begin(), roadmap.points().end(),
-                                    [&](const Contact& c) { return c.p == contact.p; });
+                                    [&](const grasp::Contact& c) { return c.p == contact.p; });
     points.push_back(static_cast<int>(found - roadmap.points().begin()));
   }
   return points;
@@ -86,8 +86,8 @@ struct BestSequence {
   double margin = -std::numeric_limits<double>::infinity();
 };
 
-BestSequence FindByBruteForce(const Polyhedron& solid, const Roadmap& roadmap, int start, int goal,
-                              double half_angle, double min_quality) {
+BestSequence FindByBruteForce(const object::Polyhedron& solid, const Roadmap& roadmap, int start,
+                              int goal, double half_angle, double min_quality) {
   const int count = roadmap.vertex_count();
   std::vector<double> best(count, -std::numeric_limits<double>::infinity());
   std::vector<bool> seen(count, false);
@@ -103,9 +103,10 @@ BestSequence FindByBruteForce(const Polyhedron& solid, const Roadmap& roadmap, i
       for (const int n : neighbours) {
         const bool is_next = std::find(next.begin(), next.end(), n) != next.end();
         if (seen[n] && !is_next) continue;
-        const Grasp grasp = roadmap.grasp(n);
+        const grasp::Grasp grasp = roadmap.grasp(n);
         if (!is_next) {
-          if (n != goal && !QualityAtLeast(grasp, solid.wrench_frame(), half_angle, min_quality)) {
+          if (n != goal &&
+              !grasp::QualityAtLeast(grasp, solid.wrench_frame(), half_angle, min_quality)) {
             continue;
           }
           seen[n] = true;
@@ -121,15 +122,15 @@ BestSequence FindByBruteForce(const Polyhedron& solid, const Roadmap& roadmap, i
 }
 
 TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int checked = 0;
   int detours = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    PlanRequest options = Options(8, seed, 14);
+    planning::PlanRequest options = Options(8, seed, 14);
     options.object = &cube;
-    const Grasp start = AcrossAxis(cube, 0);
-    const Grasp goal = AcrossAxis(cube, 1 + int(seed % 2), 0.001 * double(seed));
-    std::vector<Contact> joined = start;
+    const grasp::Grasp start = AcrossAxis(cube, 0);
+    const grasp::Grasp goal = AcrossAxis(cube, 1 + int(seed % 2), 0.001 * double(seed));
+    std::vector<grasp::Contact> joined = start;
     joined.insert(joined.end(), goal.begin(), goal.end());
     const Roadmap roadmap = BuildRoadmap(options, SpreadContacts(options), joined);
     const BestSequence best =
@@ -137,7 +138,8 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
                          roadmap.Find(JoinedVertex(roadmap, goal)).value(),
                          options.criteria.half_angle, options.criteria.min_quality);
     if (best.switches < 0) continue;
-    const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), options);
+    const planning::PlanResult result =
+        PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), options);
     ASSERT_EQ(result.status, Status::kFound);
     EXPECT_THAT(result.plan->steps, SizeIs(best.switches)) << "seed " << seed;
     EXPECT_NEAR(result.margin, best.margin, 2 * kMarginTolerance) << "seed " << seed;
@@ -149,29 +151,30 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
 }
 
 TEST(PlanOnRoadmap, MarginIsTheSmallestOfThePlansGrasps) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
-                                     Given(AcrossAxis(cube, 2)), Options(24));
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const planning::PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
+                                               Given(AcrossAxis(cube, 2)), Options(24));
   ASSERT_EQ(result.status, Status::kFound);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Grasp& grasp : GraspsOf(*result.plan)) {
+  for (const grasp::Grasp& grasp : GraspsOf(*result.plan)) {
     smallest = std::min(smallest, Margin(cube, grasp, Radians(20)));
-    EXPECT_TRUE(QualityAtLeast(grasp, cube.wrench_frame(), Radians(20), 0.01));
+    EXPECT_TRUE(grasp::QualityAtLeast(grasp, cube.wrench_frame(), Radians(20), 0.01));
   }
   EXPECT_NEAR(result.margin, smallest, kMarginTolerance);
   EXPECT_THAT(result.warnings, IsEmpty());
 }
 
 TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
-  const Polyhedron box = MakeBox({0.08, 0.05, 0.06});
+  const object::Polyhedron box = MakeBox({0.08, 0.05, 0.06});
   int passed = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    for (const GraspChoice& choice : {Random(), RandomAny()}) {
-      const PlanResult result = PlanWith(RoadmapPlanner(), box, choice, choice, Options(30, seed));
+    for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
+      const planning::PlanResult result =
+          PlanWith(RoadmapPlanner(), box, choice, choice, Options(30, seed));
       ASSERT_EQ(result.status, Status::kFound) << result.message;
       EXPECT_THAT(result.warnings, IsEmpty());
       EXPECT_FALSE(result.plan->steps.empty());
-      const PlanCheck check = CheckPlan(box, *result.plan);
+      const plan::PlanCheck check = plan::CheckPlan(box, *result.plan);
       EXPECT_TRUE(check.passed()) << "seed " << seed;
       passed += check.passed() ? 1 : 0;
     }
@@ -180,9 +183,9 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
 }
 
 TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(
+    return plan::FormatPlan(
         *PlanWith(RoadmapPlanner(), cube, Random(), RandomAny(), Options(20, seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
@@ -190,24 +193,24 @@ TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
 }
 
 TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const Grasp start = AcrossAxis(cube, 0);
-  Grasp goal = start;
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const grasp::Grasp start = AcrossAxis(cube, 0);
+  grasp::Grasp goal = start;
   std::reverse(goal.begin(), goal.end());
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), Options(10));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
   EXPECT_THAT(result.plan->initial, SizeIs(4));
   EXPECT_EQ(result.plan->goal.front().p, start.back().p);
-  EXPECT_TRUE(CheckPlan(cube, *result.plan).passed());
+  EXPECT_TRUE(plan::CheckPlan(cube, *result.plan).passed());
 }
 
 TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  Grasp start = AcrossAxis(cube, 0);
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  grasp::Grasp start = AcrossAxis(cube, 0);
   std::reverse(start.begin(), start.end());
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), cube, Given(start), Given(AcrossAxis(cube, 1)), Options(20));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_EQ(result.plan->fingers, 5);
@@ -218,7 +221,7 @@ TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
 }
 
 TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   // Two pairs whose torques cancel, so that hardly any friction holds and no contact can leave
   // unless another takes its very line of force.
   const auto pinwheel = [&](int axis) {
@@ -227,8 +230,9 @@ TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
     return Given({OnCube(cube, axis, 1, kArm, 0), OnCube(cube, axis, -1, -kArm, 0),
                   OnCube(cube, other, 1, 0, kArm), OnCube(cube, other, -1, 0, -kArm)});
   };
-  PlanRequest options = Options(4, 0, 2);
-  const PlanResult result = PlanWith(RoadmapPlanner(), cube, pinwheel(0), pinwheel(1), options);
+  planning::PlanRequest options = Options(4, 0, 2);
+  const planning::PlanResult result =
+      PlanWith(RoadmapPlanner(), cube, pinwheel(0), pinwheel(1), options);
   ASSERT_EQ(result.status, Status::kNoSequence);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("12 contact points, 495 subsets of four"));
@@ -240,11 +244,11 @@ TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
 }
 
 TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  PlanRequest options = Options(20);
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  planning::PlanRequest options = Options(20);
   options.criteria.min_quality = 0.9;  // more than any grasp of the cube has at this friction
-  const PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
-                                     Given(AcrossAxis(cube, 1)), options);
+  const planning::PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
+                                               Given(AcrossAxis(cube, 1)), options);
   ASSERT_EQ(result.status, Status::kFound);
   ASSERT_THAT(result.warnings, SizeIs(1));
   EXPECT_THAT(result.warnings[0], HasSubstr("below the quality 0.9"));
@@ -252,19 +256,19 @@ TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
 }
 
 TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
-  PlanRequest options = Options(10);
+  planning::PlanRequest options = Options(10);
   options.criteria.min_quality = 0.9;
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(result.message, HasSubstr("random: none of"));
 }
 
 TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(9, seed, 12));
     if (result.status == Status::kNoGrasp) continue;
     EXPECT_EQ(result.status, Status::kFound) << "seed " << seed;
@@ -274,7 +278,7 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
 }
 
 TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   EXPECT_THROW((void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(3)),
                std::invalid_argument);
   EXPECT_THROW(
@@ -285,8 +289,8 @@ TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
 }
 
 TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  Grasp start = AcrossAxis(cube, 0);
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  grasp::Grasp start = AcrossAxis(cube, 0);
   start[2] = start[0];
   start[2].p.y() += 0.01;
   start[3] = start[0];

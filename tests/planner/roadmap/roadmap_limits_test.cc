@@ -16,28 +16,28 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const GraspChoice kRandom = {GraspChoice::Kind::kRandom, {}, "random"};
+const planning::GraspChoice kRandom = {planning::GraspChoice::Kind::kRandom, {}, "random"};
 
-PlanRequest Options(int contacts, int clusters, double degrees) {
-  PlanRequest options;
+planning::PlanRequest Options(int contacts, int clusters, double degrees) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.contact_points = contacts;
   options.clusters = clusters;
   return options;
 }
 
-MemoryNeed NeedOf(const Polyhedron& body, PlanRequest request) {
+MemoryNeed NeedOf(const object::Polyhedron& body, planning::PlanRequest request) {
   request.object = &body;
   return EstimateRoadmap(request);
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
 TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
-  const Polyhedron box = MakeBox({0.06, 0.05, 0.03});
-  const Polyhedron mesh = MakeConvexBody(100, 1);
+  const object::Polyhedron box = MakeBox({0.06, 0.05, 0.03});
+  const object::Polyhedron mesh = MakeConvexBody(100, 1);
   struct Case {
-    const Polyhedron& body;
-    PlanRequest options;
+    const object::Polyhedron& body;
+    planning::PlanRequest options;
   };
   for (const auto& [body, options] :
        {Case{box, Options(80, 0, 60)}, Case{box, Options(100, 0, 20)},
@@ -70,9 +70,9 @@ TEST(RoadmapMemory, TheEstimateGrowsWithTheContactPointsAndNotWithTheMesh) {
 }
 
 TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
-  PlanRequest options = Options(kMaxRoadmapContacts, 0, 40);
+  planning::PlanRequest options = Options(kMaxRoadmapContacts, 0, 40);
   options.memory = 1e8;
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 200 contact points"));
@@ -85,7 +85,7 @@ TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
 
 TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
   for (const int clusters : {0, 10}) {
-    PlanRequest options = Options(clusters > 0 ? 60 : 14, clusters, 30);
+    planning::PlanRequest options = Options(clusters > 0 ? 60 : 14, clusters, 30);
     const CountedDeadline never;
     options.deadline = never.deadline();
     ASSERT_TRUE(
@@ -94,7 +94,7 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
     EXPECT_GT(never.looks(), 80) << clusters;  // at every pair of contact points
     for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
       options.deadline = CountedDeadline(look).deadline();
-      const PlanResult result =
+      const planning::PlanResult result =
           PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
       EXPECT_FALSE(result.plan.has_value()) << look;
       EXPECT_THAT(result.message, HasSubstr("the planner roadmap when the time was up"));

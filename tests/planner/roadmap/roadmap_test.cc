@@ -16,18 +16,19 @@
 namespace regrasp::roadmap {
 namespace {
 
-constexpr double kSamePoint = 1e-7;
+constexpr double criteria::kSamePoint = 1e-7;
 
-Roadmap MakeRoadmap(const std::vector<Contact>& points, double degrees) {
-  return Roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(degrees), kSamePoint);
+Roadmap MakeRoadmap(const std::vector<grasp::Contact>& points, double degrees) {
+  return Roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(degrees),
+                 criteria::kSamePoint);
 }
 
-std::vector<Contact> CubePoints(int count, std::uint64_t seed = 1) {
-  return SpreadContactPoints(MakeBox({0.06, 0.06, 0.06}), count, seed);
+std::vector<grasp::Contact> CubePoints(int count, std::uint64_t seed = 1) {
+  return sampling::SpreadContactPoints(MakeBox({0.06, 0.06, 0.06}), count, seed);
 }
 
 TEST(Roadmap, HasOneVertexPerForceClosureGraspOfFour) {
-  const std::vector<Contact> points = CubePoints(14);
+  const std::vector<grasp::Contact> points = CubePoints(14);
   const Roadmap roadmap = MakeRoadmap(points, 20);
   int force_closure = 0;
   int others = 0;
@@ -35,9 +36,9 @@ TEST(Roadmap, HasOneVertexPerForceClosureGraspOfFour) {
     for (int b = a + 1; b < 14; ++b) {
       for (int c = b + 1; c < 14; ++c) {
         for (int d = c + 1; d < 14; ++d) {
-          const Grasp grasp = {points[a], points[b], points[c], points[d]};
+          const grasp::Grasp grasp = {points[a], points[b], points[c], points[d]};
           const bool expected =
-              IsForceClosure(grasp, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(20));
+              grasp::IsForceClosure(grasp, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(20));
           EXPECT_EQ(roadmap.Find(std::array{d, b, a, c}).has_value(), expected);
           ++(expected ? force_closure : others);
         }
@@ -72,9 +73,9 @@ TEST(Roadmap, ComponentsAreWhatASequenceCanReach) {
   int split = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Roadmap roadmap = MakeRoadmap(CubePoints(9, seed), 12);
-    const Components components = roadmap.components();
+    const search::Components components = roadmap.components();
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
-      const auto reached = ReachableVertices(roadmap, v, [](int) { return true; });
+      const auto reached = search::ReachableVertices(roadmap, v, [](int) { return true; });
       EXPECT_EQ(components.sizes[components.of_vertex[v]], std::ssize(reached));
     }
     if (components.count() > 1) ++split;
@@ -92,10 +93,10 @@ TEST(Roadmap, CountsContactsThatAreNotShared) {
 }
 
 TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
-  std::vector<Contact> points = CubePoints(12);
+  std::vector<grasp::Contact> points = CubePoints(12);
   const Roadmap plain = MakeRoadmap(points, 30);
   // The same point with a normal that leans a little, as on a border of two faces.
-  Contact twin = points[0];
+  grasp::Contact twin = points[0];
   twin.n = (twin.n + 0.2 * points[0].p.unitOrthogonal().cross(twin.n)).normalized();
   points.push_back(twin);
   const Roadmap roadmap = MakeRoadmap(points, 30);
@@ -121,39 +122,42 @@ TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
 }
 
 TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
-  const std::vector<Contact> points = CubePoints(22);
+  const std::vector<grasp::Contact> points = CubePoints(22);
   const Roadmap plain = MakeRoadmap(points, 25);
   int left_out = 0;
   std::int64_t cut = 0;
   for (const double radius : {0.006, 0.012}) {
     const Roadmap roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(25),
-                          kSamePoint, radius);
+                          criteria::kSamePoint, radius);
     int kept = 0;
     for (int v = 0; v < plain.vertex_count(); ++v) {
-      const bool apart = KeepApart(plain.grasp(v), radius);
+      const bool apart = criteria::KeepApart(plain.grasp(v), radius);
       EXPECT_EQ(roadmap.Find(plain.vertex(v)).has_value(), apart);
       ++(apart ? kept : left_out);
     }
     EXPECT_EQ(roadmap.vertex_count(), kept);
     std::int64_t edges = 0;
     std::vector<int> neighbours;
-    const Components components = roadmap.components();
+    const search::Components components = roadmap.components();
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
       roadmap.GetNeighbours(v, neighbours);
       std::int64_t expected = 0;
       for (int other = 0; other < roadmap.vertex_count(); ++other) {
         if (roadmap.MinSwitches(v, other) != 1) continue;
-        Grasp during = roadmap.grasp(v);
-        const Grasp after = roadmap.grasp(other);
+        grasp::Grasp during = roadmap.grasp(v);
+        const grasp::Grasp after = roadmap.grasp(other);
         during.insert(during.end(), after.begin(), after.end());
-        std::sort(during.begin(), during.end(), [](const Contact& a, const Contact& b) {
-          return std::lexicographical_compare(a.p.begin(), a.p.end(), b.p.begin(), b.p.end());
-        });
+        std::sort(
+            during.begin(), during.end(), [](const grasp::Contact& a, const grasp::Contact& b) {
+              return std::lexicographical_compare(a.p.begin(), a.p.end(), b.p.begin(), b.p.end());
+            });
         during.erase(std::unique(during.begin(), during.end(),
-                                 [](const Contact& a, const Contact& b) { return a.p == b.p; }),
+                                 [](const grasp::Contact& a, const grasp::Contact& b) {
+                                   return a.p == b.p;
+                                 }),
                      during.end());
         const bool joined = std::ranges::count(neighbours, other) > 0;
-        EXPECT_EQ(joined, KeepApart(during, radius));
+        EXPECT_EQ(joined, criteria::KeepApart(during, radius));
         EXPECT_TRUE(!joined || components.of_vertex[v] == components.of_vertex[other]);
         ++(joined ? expected : cut);
       }
@@ -167,7 +171,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
       if (seen[v]) continue;
       ++found;
-      for (const int other : ReachableVertices(roadmap, v, [](int) { return true; })) {
+      for (const int other : search::ReachableVertices(roadmap, v, [](int) { return true; })) {
         seen[other] = true;
       }
     }
@@ -178,8 +182,8 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
 }
 
 TEST(Roadmap, IsEmptyWithoutForceClosure) {
-  std::vector<Contact> one_face;
-  for (const Contact& contact : CubePoints(60)) {
+  std::vector<grasp::Contact> one_face;
+  for (const grasp::Contact& contact : CubePoints(60)) {
     if (contact.face == 0) one_face.push_back(contact);
   }
   ASSERT_GT(one_face.size(), 4u);

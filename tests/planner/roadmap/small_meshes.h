@@ -19,10 +19,10 @@ inline Eigen::Vector3d DrawDirection(RandomStream& random) {
 
 /// The convex hull of points on an ellipsoid of some centimetres: 2 · corners − 4 triangles. Facets
 /// are the triples of points that have all others behind them.
-inline Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
-                                 const Eigen::Vector3d& axes = {0.05, 0.03, 0.04}) {
+inline object::Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
+                                         const Eigen::Vector3d& axes = {0.05, 0.03, 0.04}) {
   RandomStream random(seed, RandomUse::kContactPoints);
-  PolygonSoup soup;
+  object::PolygonSoup soup;
   while (std::ssize(soup.vertices) < corners) {
     soup.vertices.push_back(DrawDirection(random).cwiseProduct(axes));
   }
@@ -41,10 +41,10 @@ inline Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
       for (int c = b + 1; c < corners; ++c) add_if_facet(a, b, c);
     }
   }
-  return Polyhedron::FromSoup(soup, "convex body");
+  return object::Polyhedron::FromSoup(soup, "convex body");
 }
 
-inline std::vector<Contact> Centroids(const Polyhedron& solid) {
+inline std::vector<Contact> Centroids(const object::Polyhedron& solid) {
   std::vector<Contact> contacts;
   for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
@@ -56,17 +56,17 @@ inline std::vector<Contact> Centroids(const Polyhedron& solid) {
 }
 
 /// A mesh of models/ by its name.
-inline Polyhedron ReadMesh(const std::string& name) {
-  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/" + name + ".obj");
-  return dynamic_cast<const Polyhedron&>(*file.object);
+inline object::Polyhedron ReadMesh(const std::string& name) {
+  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/" + name + ".obj");
+  return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
 /// The same mesh, every vertex moved.
-inline Polyhedron Moved(const Polyhedron& solid, const Eigen::Affine3d& motion) {
-  PolygonSoup soup;
+inline object::Polyhedron Moved(const object::Polyhedron& solid, const Eigen::Affine3d& motion) {
+  object::PolygonSoup soup;
   for (const Eigen::Vector3d& vertex : solid.vertices()) soup.vertices.push_back(motion * vertex);
   for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
-  return Polyhedron::FromSoup(soup, "moved");
+  return object::Polyhedron::FromSoup(soup, "moved");
 }
 
 /// A rigid motion and another unit of length, of no round numbers.

@@ -33,18 +33,18 @@ double DistanceByShifts(const WrenchPyramid& a, const WrenchPyramid& b) {
   return least;
 }
 
-std::vector<WrenchPyramid> PyramidsOf(const Polyhedron& solid) {
-  const std::vector<Contact> contacts = Centroids(solid);
+std::vector<WrenchPyramid> PyramidsOf(const object::Polyhedron& solid) {
+  const std::vector<grasp::Contact> contacts = Centroids(solid);
   std::vector<WrenchPyramid> pyramids;
-  for (const Contact& contact : contacts) {
+  for (const grasp::Contact& contact : contacts) {
     pyramids.push_back(PyramidOf(contact, solid.wrench_frame(), kHalfAngle, contacts));
   }
   return pyramids;
 }
 
 TEST(PyramidOf, HasUnitWrenchesOfForcesOnTheCone) {
-  const WrenchFrame frame{{0.01, 0, 0}, 0.05, 3};
-  const Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
+  const object::WrenchFrame frame{{0.01, 0, 0}, 0.05, 3};
+  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
   const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, Eigen::Vector3d::UnitY());
   const Eigen::Vector3d arm = (contact.p - frame.origin) / frame.radius;
   for (int side = 0; side < kPyramidSides; ++side) {
@@ -62,10 +62,10 @@ TEST(PyramidOf, HasUnitWrenchesOfForcesOnTheCone) {
 }
 
 TEST(PyramidOf, TakesTheOthersWhereTheContactIsStraightAboveTheOrigin) {
-  const WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
-  const Contact above{{0, 0, 0.05}, -Eigen::Vector3d::UnitZ(), 0};
-  const Contact aside{{0.02, 0, 0.03}, -Eigen::Vector3d::UnitZ(), 0};
-  const std::vector<Contact> others = {above, aside};
+  const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
+  const grasp::Contact above{{0, 0, 0.05}, -Eigen::Vector3d::UnitZ(), 0};
+  const grasp::Contact aside{{0.02, 0, 0.03}, -Eigen::Vector3d::UnitZ(), 0};
+  const std::vector<grasp::Contact> others = {above, aside};
   const WrenchPyramid pyramid = PyramidOf(above, frame, kHalfAngle, others);
   EXPECT_TRUE(pyramid.isApprox(PyramidOf(above, frame, kHalfAngle, Eigen::Vector3d::UnitX())));
   const WrenchPyramid alone = PyramidOf(above, frame, kHalfAngle, std::span(others).first(1));
@@ -89,11 +89,11 @@ TEST(WrenchDistance, IsThatOfAllShiftsWithTheLibrarysArccosine) {
 TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
   // At the origin there is no torque, and both pyramids start along the axis of the turn, so that
   // all forces turn by the angle times the sine of their own angle to that axis.
-  const WrenchFrame frame{Eigen::Vector3d::Zero(), 1, 3};
+  const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 1, 3};
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   for (const double turn : {0.0, 0.05, 0.3, 1.0}) {
-    const Contact a{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0};
-    const Contact b{Eigen::Vector3d::Zero(), Eigen::AngleAxisd(turn, axis) * a.n, 0};
+    const grasp::Contact a{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0};
+    const grasp::Contact b{Eigen::Vector3d::Zero(), Eigen::AngleAxisd(turn, axis) * a.n, 0};
     double expected = 0;
     for (int k = 0; k < kPyramidSides; ++k) {
       const double along_axis =
@@ -108,8 +108,8 @@ TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
 }
 
 TEST(WrenchDistance, OfAPyramidTurnedByWholeSidesIsZero) {
-  const WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
-  const Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
+  const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
+  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
   const Eigen::Vector3d towards = contact.n.unitOrthogonal();
   const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, towards);
   const auto turned = [&](double sides) {
@@ -138,15 +138,15 @@ TEST(WrenchDistance, IsSymmetricAndZeroToItselfOnly) {
 }
 
 TEST(WrenchDistance, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
-  const Polyhedron body = MakeConvexBody(20, 3);
+  const object::Polyhedron body = MakeConvexBody(20, 3);
   const Eigen::MatrixXd distances = WrenchDistances(PyramidsOf(body));
   for (const double unit : {1.0, 1000.0, 0.003}) {
-    const Polyhedron moved = Moved(body, MotionAndUnit(unit));
+    const object::Polyhedron moved = Moved(body, MotionAndUnit(unit));
     EXPECT_TRUE(WrenchDistances(PyramidsOf(moved)).isApprox(distances, 1e-7)) << unit;
   }
   // Torques that are not divided by the radius would make the unit count.
-  WrenchFrame frame = body.wrench_frame();
-  const std::vector<Contact> contacts = Centroids(body);
+  object::WrenchFrame frame = body.wrench_frame();
+  const std::vector<grasp::Contact> contacts = Centroids(body);
   const auto distance = [&] {
     return WrenchDistance(PyramidOf(contacts[0], frame, kHalfAngle, contacts),
                           PyramidOf(contacts[1], frame, kHalfAngle, contacts));

@@ -9,17 +9,17 @@
 
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 namespace {
 
 /// Rounding of a projection onto a face, relative to the diameter.
 constexpr double kOnFace = 1e-12;
 
 TEST(SpreadContactPoints, LieOnTheirFacesWithRoomToTheBorder) {
-  const Polyhedron box = MakeBox({0.1, 0.06, 0.03});
-  const std::vector<Contact> points = SpreadContactPoints(box, 60, 1);
+  const object::Polyhedron box = MakeBox({0.1, 0.06, 0.03});
+  const std::vector<grasp::Contact> points = SpreadContactPoints(box, 60, 1);
   ASSERT_EQ(points.size(), 60u);
-  for (const Contact& c : points) {
+  for (const grasp::Contact& c : points) {
     EXPECT_LE((box.ClosestPoint(c.face, c.p) - c.p).norm(), kOnFace * box.diameter());
     EXPECT_EQ(c.n, box.inward_normal(c.face));
     EXPECT_GE(box.DistanceToBorder(c.face, c.p), kBorderMargin * box.diameter());
@@ -27,33 +27,33 @@ TEST(SpreadContactPoints, LieOnTheirFacesWithRoomToTheBorder) {
 }
 
 TEST(SpreadContactPoints, GiveEachFaceItsShareOfTheArea) {
-  const Polyhedron box = MakeBox({0.1, 0.06, 0.03});
-  const std::vector<Contact> points = SpreadContactPoints(box, 100, 2);
+  const object::Polyhedron box = MakeBox({0.1, 0.06, 0.03});
+  const std::vector<grasp::Contact> points = SpreadContactPoints(box, 100, 2);
   double area = 0;
   for (int face = 0; face < box.face_count(); ++face) area += box.face_measure(face);
   for (int face = 0; face < box.face_count(); ++face) {
     const auto count = std::count_if(points.begin(), points.end(),
-                                     [&](const Contact& c) { return c.face == face; });
+                                     [&](const grasp::Contact& c) { return c.face == face; });
     // Purely random points would be off by more than four in one face out of three.
     EXPECT_NEAR(count, 100 * box.face_measure(face) / area, 4) << "face " << face;
   }
 }
 
 TEST(SpreadContactPoints, AreTheSameForTheSameSeedOnly) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const std::vector<Contact> a = SpreadContactPoints(cube, 30, 5);
-  const std::vector<Contact> b = SpreadContactPoints(cube, 30, 5);
-  const std::vector<Contact> c = SpreadContactPoints(cube, 30, 6);
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const std::vector<grasp::Contact> a = SpreadContactPoints(cube, 30, 5);
+  const std::vector<grasp::Contact> b = SpreadContactPoints(cube, 30, 5);
+  const std::vector<grasp::Contact> c = SpreadContactPoints(cube, 30, 6);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].p, b[i].p);
   EXPECT_NE(a[0].p, c[0].p);
 }
 
 TEST(SpreadContactPoints, AreCentroidsOfTheTrianglesWhereTheMeshIsFine) {
-  const auto off_centroids = [](const Polyhedron& solid, int count) {
-    const std::vector<Contact> points = SpreadContactPoints(solid, count, 1);
+  const auto off_centroids = [](const object::Polyhedron& solid, int count) {
+    const std::vector<grasp::Contact> points = SpreadContactPoints(solid, count, 1);
     EXPECT_EQ(static_cast<int>(points.size()), count);
-    return std::count_if(points.begin(), points.end(), [&](const Contact& c) {
+    return std::count_if(points.begin(), points.end(), [&](const grasp::Contact& c) {
       return std::none_of(solid.triangles().begin(), solid.triangles().end(),
                           [&](const auto& triangle) {
                             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -67,8 +67,8 @@ TEST(SpreadContactPoints, AreCentroidsOfTheTrianglesWhereTheMeshIsFine) {
 }
 
 TEST(SpreadContactPoints, DoNotDependOnTheUnitOfLength) {
-  const std::vector<Contact> metres = SpreadContactPoints(MakeBox({1, 2, 4}), 20, 3);
-  const std::vector<Contact> halves = SpreadContactPoints(MakeBox({2, 4, 8}), 20, 3);
+  const std::vector<grasp::Contact> metres = SpreadContactPoints(MakeBox({1, 2, 4}), 20, 3);
+  const std::vector<grasp::Contact> halves = SpreadContactPoints(MakeBox({2, 4, 8}), 20, 3);
   ASSERT_EQ(metres.size(), halves.size());
   for (std::size_t i = 0; i < metres.size(); ++i) EXPECT_EQ(2 * metres[i].p, halves[i].p);
 }
@@ -79,17 +79,17 @@ TEST(SpreadContactPoints, RefusesNone) {
 
 /// The same solid, every vertex mapped.
 template <typename Map>
-Polyhedron Moved(const Polyhedron& solid, const Map& map) {
-  PolygonSoup soup;
+object::Polyhedron Moved(const object::Polyhedron& solid, const Map& map) {
+  object::PolygonSoup soup;
   for (const Eigen::Vector3d& v : solid.vertices()) soup.vertices.push_back(map(v));
   for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
-  return Polyhedron::FromSoup(soup, "moved");
+  return object::Polyhedron::FromSoup(soup, "moved");
 }
 
 constexpr int kPotatoTriangles = 6 * 4 * 4 * 2;
 
 /// A box of four cells along each edge blown up to a potato, so that no two triangles are coplanar.
-Polyhedron MakePotato() {
+object::Polyhedron MakePotato() {
   return Moved(MakeBox({2, 3, 4}, 4), [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     const Eigen::Vector3d n = v.normalized();
     return (1 + 0.1 * std::sin(2 * n.x() + 3 * n.y() + n.z())) * n;
@@ -97,9 +97,9 @@ Polyhedron MakePotato() {
 }
 
 TEST(MeshContacts, AreTheCentroidsOfAllTrianglesInTheirOrder) {
-  const Polyhedron potato = MakePotato();
+  const object::Polyhedron potato = MakePotato();
   ASSERT_EQ(potato.face_count(), kPotatoTriangles);
-  const std::vector<Contact> points = MeshContacts(potato, kPotatoTriangles, 1);
+  const std::vector<grasp::Contact> points = MeshContacts(potato, kPotatoTriangles, 1);
   ASSERT_EQ(points.size(), std::size_t{kPotatoTriangles});
   for (int i = 0; i < kPotatoTriangles; ++i) {
     const auto& [a, b, c] = potato.triangles()[i];
@@ -116,10 +116,10 @@ TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
   const auto map = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     return 37.5 * (turn * v) + Eigen::Vector3d(3, -8, 21);
   };
-  const Polyhedron potato = MakePotato();
-  const Polyhedron moved = Moved(potato, map);
-  const std::vector<Contact> before = MeshContacts(potato, 300, 1);
-  const std::vector<Contact> after = MeshContacts(moved, 300, 2);
+  const object::Polyhedron potato = MakePotato();
+  const object::Polyhedron moved = Moved(potato, map);
+  const std::vector<grasp::Contact> before = MeshContacts(potato, 300, 1);
+  const std::vector<grasp::Contact> after = MeshContacts(moved, 300, 2);
   ASSERT_EQ(before.size(), std::size_t{kPotatoTriangles});
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -129,7 +129,7 @@ TEST(MeshContacts, MoveAndGrowWithTheSolidWhateverTheSeed) {
 }
 
 TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrFacesTooFew) {
-  const Polyhedron potato = MakePotato();
+  const object::Polyhedron potato = MakePotato();
   struct Case {
     int most;
     bool centroids;
@@ -138,12 +138,12 @@ TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrFacesTooFew) {
   for (const auto& [most, centroids] :
        {Case{kPotatoTriangles - 1, false}, Case{kPotatoTriangles, true},
         Case{kFewFaces * kPotatoTriangles, true}, Case{kFewFaces * kPotatoTriangles + 1, false}}) {
-    const std::vector<Contact> points = MeshContacts(potato, most, 1);
+    const std::vector<grasp::Contact> points = MeshContacts(potato, most, 1);
     if (centroids) {
       EXPECT_EQ(points.size(), std::size_t{kPotatoTriangles}) << most;
       continue;
     }
-    const std::vector<Contact> expected = SpreadContactPoints(potato, most, 1);
+    const std::vector<grasp::Contact> expected = SpreadContactPoints(potato, most, 1);
     ASSERT_EQ(points.size(), static_cast<std::size_t>(most));
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].p, expected[i].p);
     ++spread;
@@ -152,7 +152,7 @@ TEST(MeshContacts, AreSpreadWhereTrianglesAreTooManyOrFacesTooFew) {
 }
 
 TEST(MeshContacts, AreSpreadOnFlatFacesHoweverTheseAreCut) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 4);
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06}, 4);
   ASSERT_EQ(cube.triangles().size(), std::size_t{kPotatoTriangles});
   EXPECT_EQ(MeshContacts(cube, 300, 1).size(), 300u);
   EXPECT_EQ(MeshContacts(MakeBox({0.06, 0.06, 0.06}), 300, 1).size(), 300u);
@@ -163,4 +163,4 @@ TEST(MeshContacts, RefusesNone) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -12,7 +12,7 @@
 #include "planner/object/polygon.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 namespace {
 
 constexpr ContactLimits kFour = {4, 4};
@@ -30,10 +30,10 @@ std::string Refusal(const std::function<void()>& draw) {
 TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) {
   // The normals of an equilateral triangle's edges are 60 degrees from opposed: two contacts need a
   // half-angle of more than 30 degrees.
-  const ObjectFile file = ReadObject(REGRASP_SOURCE_DIR "/models/triangle.wkt");
-  const Object& triangle = *file.object;
+  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/triangle.wkt");
+  const object::Object& triangle = *file.object;
   for (const double degrees : {5.0, 25.0, 29.9, 31.0, 50.0}) {
-    const GraspEvaluator evaluator(triangle, {Radians(degrees), 0});
+    const criteria::GraspEvaluator evaluator(triangle, {Radians(degrees), 0});
     RandomStream random(3, RandomUse::kStart);
     RandomStream same(3, RandomUse::kStart);
     const std::string refusal = Refusal([&] {
@@ -49,17 +49,17 @@ TEST(DrawOnSurface, DrawsNoTwoContactsOnATriangleWhoseEdgesAreNotOpposedEnough) 
 }
 
 TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const GraspEvaluator evaluator(cube, {Radians(20), 0.02});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const criteria::GraspEvaluator evaluator(cube, {Radians(20), 0.02});
   RandomStream random(1, RandomUse::kStart);
   std::vector<int> on_face(cube.face_count(), 0);
   constexpr int kGrasps = 48;
   for (int i = 0; i < kGrasps; ++i) {
-    const Grasp grasp = DrawOnSurface(cube, kFour, evaluator, random, "start");
+    const grasp::Grasp grasp = DrawOnSurface(cube, kFour, evaluator, random, "start");
     ASSERT_EQ(grasp.size(), 4u);
-    EXPECT_TRUE(IsForceClosure(grasp, cube.wrench_frame(), Radians(20)));
-    EXPECT_GE(ComputeQuality(grasp, cube.wrench_frame(), Radians(20)).upper, 0.02);
-    for (const Contact& contact : grasp) ++on_face[contact.face];
+    EXPECT_TRUE(grasp::IsForceClosure(grasp, cube.wrench_frame(), Radians(20)));
+    EXPECT_GE(grasp::ComputeQuality(grasp, cube.wrench_frame(), Radians(20)).upper, 0.02);
+    for (const grasp::Contact& contact : grasp) ++on_face[contact.face];
   }
   // By symmetry a sixth each; the contacts of one grasp are not independent, hence the wide bound.
   for (const int count : on_face) EXPECT_NEAR(count, 4 * kGrasps / 6, 4 * kGrasps / 12);
@@ -67,11 +67,11 @@ TEST(DrawOnSurface, GivesGoodForceClosureGraspsEvenlyOverTheFaces) {
 
 TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
   // No grasp resists more than its whole squeeze.
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const ObjectFile square = ReadObject(REGRASP_SOURCE_DIR "/models/square.wkt");
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const object::ObjectFile square = object::ReadObject(REGRASP_SOURCE_DIR "/models/square.wkt");
   RandomStream random(1, RandomUse::kStart);
-  const auto refusal = [&](const Object& object, const ContactLimits& contacts) {
-    const GraspEvaluator evaluator(object, {Radians(5), 1.1});
+  const auto refusal = [&](const object::Object& object, const ContactLimits& contacts) {
+    const criteria::GraspEvaluator evaluator(object, {Radians(5), 1.1});
     return Refusal([&] { (void)DrawOnSurface(object, contacts, evaluator, random, "start"); });
   };
   EXPECT_EQ(refusal(cube, kFour),
@@ -90,22 +90,22 @@ TEST(DrawOnSurface, SaysThatFingersReachNothing) {
     const double angle = std::numbers::pi * i / kTeeth;
     ring.push_back((i % 2 == 0 ? 1.0 : 0.9) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
-  const Polygon saw = Polygon::FromRings({ring}, "saw");
+  const object::Polygon saw = object::Polygon::FromRings({ring}, "saw");
   RandomStream random(1, RandomUse::kStart);
-  const GraspEvaluator thick(saw, {Radians(30), 0}, {.fingertip_radius = 0.5});
+  const criteria::GraspEvaluator thick(saw, {Radians(30), 0}, {.fingertip_radius = 0.5});
   EXPECT_EQ(Refusal([&] {
               (void)DrawOnSurface(saw, {2, 3}, thick, random, "start");
             }),
             "start: a finger of radius 0.5 reaches none of 1000 points drawn on the surface");
-  const GraspEvaluator thin(saw, {Radians(30), 0}, {.fingertip_radius = 0.001});
-  const Grasp grasp = DrawOnSurface(saw, {2, 3}, thin, random, "start");
+  const criteria::GraspEvaluator thin(saw, {Radians(30), 0}, {.fingertip_radius = 0.001});
+  const grasp::Grasp grasp = DrawOnSurface(saw, {2, 3}, thin, random, "start");
   EXPECT_TRUE(thin.IsGood(grasp));
   EXPECT_FALSE(thick.IsGood(grasp));
 }
 
 TEST(DrawOnSurface, MakesAnEndWhereItIsTold) {
-  const Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const GraspEvaluator evaluator(cube, {Radians(5), 1.1});
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  const criteria::GraspEvaluator evaluator(cube, {Radians(5), 1.1});
   RandomStream random(1, RandomUse::kStart);
   int draws = 0;
   const auto stop = [&] {
@@ -116,4 +116,4 @@ TEST(DrawOnSurface, MakesAnEndWhereItIsTold) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -8,15 +8,15 @@
 
 #include "planner/base/random.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 namespace {
 
 constexpr int kKept = 50;
 
 /// Contacts drawn in the unit square, normals up.
-std::vector<Contact> DrawInSquare(int count) {
+std::vector<grasp::Contact> DrawInSquare(int count) {
   RandomStream random(3, RandomUse::kContactPoints);
-  std::vector<Contact> contacts;
+  std::vector<grasp::Contact> contacts;
   for (int i = 0; i < count; ++i) {
     const double x = random.Uniform();
     contacts.push_back({{x, random.Uniform(), 0}, {0, 0, 1}, 0});
@@ -24,7 +24,7 @@ std::vector<Contact> DrawInSquare(int count) {
   return contacts;
 }
 
-double SmallestDistance(const std::vector<Contact>& contacts) {
+double SmallestDistance(const std::vector<grasp::Contact>& contacts) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -35,32 +35,33 @@ double SmallestDistance(const std::vector<Contact>& contacts) {
 }
 
 TEST(EliminateSamples, KeepsThatManyOfTheContactsInTheirOrder) {
-  const std::vector<Contact> all = DrawInSquare(600);
-  const std::vector<Contact> kept = EliminateSamples(all, kKept, 1);
+  const std::vector<grasp::Contact> all = DrawInSquare(600);
+  const std::vector<grasp::Contact> kept = EliminateSamples(all, kKept, 1);
   ASSERT_EQ(kept.size(), std::size_t{kKept});
   auto place = all.begin();
-  for (const Contact& contact : kept) {
-    place = std::find_if(place, all.end(), [&](const Contact& c) { return c.p == contact.p; });
+  for (const grasp::Contact& contact : kept) {
+    place =
+        std::find_if(place, all.end(), [&](const grasp::Contact& c) { return c.p == contact.p; });
     ASSERT_NE(place, all.end());
     ++place;
   }
 }
 
 TEST(EliminateSamples, SpreadsThemFarBetterThanChance) {
-  const std::vector<Contact> all = DrawInSquare(600);
-  const std::vector<Contact> by_chance(all.begin(), all.begin() + kKept);
+  const std::vector<grasp::Contact> all = DrawInSquare(600);
+  const std::vector<grasp::Contact> by_chance(all.begin(), all.begin() + kKept);
   // Fifty equal discs in a unit square are at most 0.15 apart; blue noise reaches about two thirds.
   EXPECT_GT(SmallestDistance(EliminateSamples(all, kKept, 1)), 0.09);
   EXPECT_LT(SmallestDistance(by_chance), 0.05);
 }
 
 /// The same rule, every pair looked at and the most crowded found by looking at all.
-std::vector<Contact> EliminatePlainly(const std::vector<Contact>& contacts, int count,
-                                      double area) {
+std::vector<grasp::Contact> EliminatePlainly(const std::vector<grasp::Contact>& contacts, int count,
+                                             double area) {
   const double reach = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * count));
   const double share = double(count) / double(contacts.size());
   const double floor = reach * (1 - std::pow(share, 1.5)) * 0.65;
-  std::vector<Contact> kept = contacts;
+  std::vector<grasp::Contact> kept = contacts;
   while (kept.size() > static_cast<std::size_t>(count)) {
     std::vector<double> weight(kept.size(), 0);
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -76,9 +77,9 @@ std::vector<Contact> EliminatePlainly(const std::vector<Contact>& contacts, int 
 }
 
 TEST(EliminateSamples, TakesTheMostCrowdedFirst) {
-  const std::vector<Contact> all = DrawInSquare(150);
-  const std::vector<Contact> kept = EliminateSamples(all, 20, 1);
-  const std::vector<Contact> expected = EliminatePlainly(all, 20, 1);
+  const std::vector<grasp::Contact> all = DrawInSquare(150);
+  const std::vector<grasp::Contact> kept = EliminateSamples(all, 20, 1);
+  const std::vector<grasp::Contact> expected = EliminatePlainly(all, 20, 1);
   ASSERT_EQ(kept.size(), 20u);
   ASSERT_EQ(expected.size(), 20u);
   for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].p, expected[i].p);
@@ -92,16 +93,16 @@ TEST(EliminateSamples, KeepsAllWhereThereAreNoMore) {
 
 TEST(EliminateSamples, DoesNotLetTheTwoSidesOfAPlateCrowdEachOther) {
   // Five points, each on both sides of a plate of no thickness; the fifth is beside the fourth.
-  std::vector<Contact> plate;
+  std::vector<grasp::Contact> plate;
   for (const double x : {0.0, 1.0, 2.0, 3.0, 3.1}) {
     plate.push_back({{x, 0, 0}, {0, 0, 1}, 0});
     plate.push_back({{x, 0, 0}, {0, 0, -1}, 1});
   }
-  const std::vector<Contact> kept = EliminateSamples(plate, 8, 8);
+  const std::vector<grasp::Contact> kept = EliminateSamples(plate, 8, 8);
   ASSERT_EQ(kept.size(), 8u);
   const auto up = std::count_if(kept.begin(), kept.end(), [](auto& c) { return c.n.z() > 0; });
   EXPECT_EQ(up, 4);
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -8,16 +8,16 @@
 #include "planner/object/polygon.h"
 #include "tests/fixtures/solids.h"
 
-namespace regrasp {
+namespace regrasp::sampling {
 namespace {
 
 /// Shares of the faces in contacts drawn anywhere, which lie on their faces.
-std::vector<double> DrawnShares(const Object& object, int draws) {
+std::vector<double> DrawnShares(const object::Object& object, int draws) {
   const SurfaceSampler sampler(object);
   RandomStream random(4, RandomUse::kStart);
   std::vector<double> shares(object.face_count(), 0);
   for (int i = 0; i < draws; ++i) {
-    const Contact contact = sampler.DrawAnywhere(random);
+    const grasp::Contact contact = sampler.DrawAnywhere(random);
     EXPECT_LT((object.ClosestPoint(contact.face, contact.p) - contact.p).norm(), 1e-12);
     EXPECT_EQ(contact.n, object.inward_normal(contact.face));
     shares[contact.face] += 1.0 / draws;
@@ -25,7 +25,7 @@ std::vector<double> DrawnShares(const Object& object, int draws) {
   return shares;
 }
 
-void ExpectSharesOfTheMeasure(const Object& object) {
+void ExpectSharesOfTheMeasure(const object::Object& object) {
   const std::vector<double> shares = DrawnShares(object, 4000);
   const double whole = SurfaceSampler(object).measure();
   double sum = 0;
@@ -37,9 +37,9 @@ void ExpectSharesOfTheMeasure(const Object& object) {
   EXPECT_NEAR(sum, whole, 1e-9 * whole);
 }
 
-Polygon MakeNotched() {
-  return Polygon::FromRings({{{0, 0}, {4, 0}, {4, 2}, {1, 2}, {1, 1}, {0.5, 3}, {0, 3}}},
-                            "notched");
+object::Polygon MakeNotched() {
+  return object::Polygon::FromRings({{{0, 0}, {4, 0}, {4, 2}, {1, 2}, {1, 1}, {0.5, 3}, {0, 3}}},
+                                    "notched");
 }
 
 TEST(SurfaceSampler, DrawsEvenlyOverFacesInSpaceAndInThePlane) {
@@ -48,7 +48,7 @@ TEST(SurfaceSampler, DrawsEvenlyOverFacesInSpaceAndInThePlane) {
 }
 
 TEST(SurfaceSampler, DrawsFacetsByTheirMeasure) {
-  const Polygon polygon = MakeNotched();
+  const object::Polygon polygon = MakeNotched();
   const SurfaceSampler sampler(polygon);
   RandomStream random(4, RandomUse::kStart);
   int first = 0;
@@ -57,14 +57,14 @@ TEST(SurfaceSampler, DrawsFacetsByTheirMeasure) {
 }
 
 TEST(SurfaceSampler, DrawsValidContactsAwayFromBordersAndCorners) {
-  const Polygon polygon = MakeNotched();
+  const object::Polygon polygon = MakeNotched();
   const SurfaceSampler sampler(polygon, 0.2);
   RandomStream random(4, RandomUse::kStart);
   int invalid = 0;
   for (int i = 0; i < 300; ++i) {
-    const Contact contact = sampler.Draw(random);
+    const grasp::Contact contact = sampler.Draw(random);
     EXPECT_TRUE(sampler.IsValid(contact));
-    EXPECT_TRUE(HasClearance(polygon, contact));
+    EXPECT_TRUE(criteria::HasClearance(polygon, contact));
     EXPECT_GE(polygon.DistanceToBorder(contact.face, contact.p),
               SurfaceSampler::kFromBorder * polygon.diameter());
     EXPECT_EQ(sampler.DrawOn(2, random).face, 2);
@@ -74,7 +74,7 @@ TEST(SurfaceSampler, DrawsValidContactsAwayFromBordersAndCorners) {
 }
 
 TEST(SurfaceSampler, SaysWhereNothingIsValid) {
-  const Polygon polygon = MakeNotched();
+  const object::Polygon polygon = MakeNotched();
   RandomStream random(4, RandomUse::kStart);
   EXPECT_TRUE(SurfaceSampler(polygon).TryDraw(random));
   // No point of an edge is as far from its border as the polygon is wide.
@@ -84,4 +84,4 @@ TEST(SurfaceSampler, SaysWhereNothingIsValid) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::sampling

@@ -5,7 +5,7 @@
 #include "planner/search/fewest_switches.h"
 #include "tests/planner/search/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 namespace {
 
 Components Find(int vertices, const std::vector<std::vector<int>>& groups) {
@@ -50,4 +50,4 @@ TEST(FindComponents, AgreesWithFloods) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -4,7 +4,7 @@
 
 #include "tests/planner/search/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 namespace {
 
 bool AdmitAll(int) { return true; }
@@ -98,4 +98,4 @@ TEST(ReachableVertices, AreThoseAtFiniteDistance) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::search

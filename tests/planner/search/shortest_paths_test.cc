@@ -4,7 +4,7 @@
 
 #include "tests/planner/search/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 namespace {
 
 /// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no way.
@@ -67,4 +67,4 @@ TEST(ShortestPaths, OfAVertexToItselfAreItself) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::search

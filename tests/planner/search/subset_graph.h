@@ -7,7 +7,7 @@
 
 #include "planner/search/switching_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 
 /// A small graph whose vertices are sets of four things, given as bits; sets that share three are
 /// joined. What a roadmap is, without the geometry.
@@ -42,4 +42,4 @@ class SubsetGraph final : public SwitchingGraph {
   std::vector<unsigned> sets_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::search

@@ -6,7 +6,7 @@
 
 #include "tests/planner/search/subset_graph.h"
 
-namespace regrasp {
+namespace regrasp::search {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -109,4 +109,4 @@ TEST(WidestPath, IsEmptyWhereNoSequenceHasThatManySwitches) {
 }
 
 }  // namespace
-}  // namespace regrasp
+}  // namespace regrasp::search

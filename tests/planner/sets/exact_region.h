@@ -38,7 +38,7 @@ struct Edge {
 };
 
 template <class Number>
-Edge<Number> MakeEdge(const Polygon& polygon, int edge, double tangent) {
+Edge<Number> MakeEdge(const object::Polygon& polygon, int edge, double tangent) {
   const auto [from, to] = polygon.edge(edge);
   const Vec<Number> a = {Number(from.x()), Number(from.y())};
   const Vec<Number> along = Vec<Number>{Number(to.x()), Number(to.y())} - a;

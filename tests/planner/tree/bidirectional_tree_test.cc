@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::int64_t kEffort = 300'000;
 
-Plan PlanOf(const GraspPath& path, const Grasp& from, const Grasp& to, const SearchSpace& space) {
-  const CandidateSequence draft = MakeCandidate(path, from, space);
-  Plan plan;
+plan::Plan PlanOf(const GraspPath& path, const grasp::Grasp& from, const grasp::Grasp& to,
+                  const SearchSpace& space) {
+  const planning::CandidateSequence draft = MakeCandidate(path, from, space);
+  plan::Plan plan;
   plan.dimension = space.dimension();
   plan.half_angle = space.criteria().half_angle;
   plan.fingers = space.fingers();
@@ -32,12 +33,12 @@ int CheckAligns(const GraspPath& path, const SearchSpace& space) {
   for (const PathStep& step : path.steps) {
     if (!step.align) continue;
     ++aligns;
-    const std::vector<Grasp> waypoints = WaypointsOf(*step.align, space);
+    const std::vector<grasp::Grasp> waypoints = WaypointsOf(*step.align, space);
     for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
-      EXPECT_EQ(CheckMotionProof(waypoints[w], waypoints[w + 1], space.dimension(),
-                                 std::tan(space.half_angle()), step.align->proof.at(w))
+      EXPECT_EQ(motion::CheckMotionProof(waypoints[w], waypoints[w + 1], space.dimension(),
+                                         std::tan(space.half_angle()), step.align->proof.at(w))
                     .kind,
-                ProofVerdict::Kind::kForceClosure);
+                motion::ProofVerdict::Kind::kForceClosure);
     }
   }
   return aligns;
@@ -59,15 +60,15 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BidirectionalTreeCases,
                          [](const auto& test) { return "case" + std::to_string(test.index); });
 
 TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
-  const ObjectFile file = ReadModel(GetParam().model);
-  const Object& object = *file.object;
-  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
-  const SurfaceSampler source(object);
+  const object::ObjectFile file = ReadModel(GetParam().model);
+  const object::Object& object = *file.object;
+  const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
+  const sampling::SurfaceSampler source(object);
   RandomStream draws(11, RandomUse::kStart);
   int joined = 0;
   for (std::uint64_t i = 0; i < 6; ++i) {
-    const Grasp from = DrawGrasp(object, GetParam().contacts, criteria, draws);
-    const Grasp to = DrawGrasp(object, GetParam().contacts, criteria, draws);
+    const grasp::Grasp from = DrawGrasp(object, GetParam().contacts, criteria, draws);
+    const grasp::Grasp to = DrawGrasp(object, GetParam().contacts, criteria, draws);
     SearchSpace space(object, criteria);
     space.SetLimits({.most_tests = kEffort});
     RandomStream random(i, RandomUse::kCandidates);
@@ -76,33 +77,33 @@ TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
     ASSERT_TRUE(path) << i << ": " << trees.tree(0).size() << " and " << trees.tree(1).size();
     ++joined;
     CheckAligns(*path, space);
-    EXPECT_TRUE(CheckPlan(object, PlanOf(*path, from, to, space)).passed()) << i;
+    EXPECT_TRUE(plan::CheckPlan(object, PlanOf(*path, from, to, space)).passed()) << i;
 
     const GraspPath shorter = ShortcutPath(*path, source, random, space);
     CheckAligns(shorter, space);
     EXPECT_LE(shorter.steps.size(), path->steps.size());
-    const PlanCheck checked = CheckPlan(object, PlanOf(shorter, from, to, space));
+    const plan::PlanCheck checked = plan::CheckPlan(object, PlanOf(shorter, from, to, space));
     EXPECT_TRUE(checked.passed()) << i;
 
     const GraspPath wider = MaximiseMargin(shorter, 0, source, random, space);
     EXPECT_LE(wider.steps.size(), shorter.steps.size());
     EXPECT_LE(RequiredHalfAngleOf(wider, space), RequiredHalfAngleOf(shorter, space) + 1e-6);
     CheckAligns(wider, space);
-    EXPECT_TRUE(CheckPlan(object, PlanOf(wider, from, to, space)).passed()) << i;
+    EXPECT_TRUE(plan::CheckPlan(object, PlanOf(wider, from, to, space)).passed()) << i;
   }
   EXPECT_EQ(joined, 6);
 }
 
 TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
   // At 0.1 degrees a cube's faces allow next to nothing; the ends are taken as they are.
-  const ObjectFile file = ReadModel("cube.obj");
+  const object::ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
-  const Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  const grasp::Grasp from = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  const grasp::Grasp to = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
   SearchSpace space(*file.object, {Radians(0.1), 0});
   space.SetLimits({.most_tests = 2000});
   RandomStream random(0, RandomUse::kCandidates);
-  const SurfaceSampler source(*file.object);
+  const sampling::SurfaceSampler source(*file.object);
   BidirectionalTree trees(Take(from, space), Take(to, space), source, random, space);
   EXPECT_FALSE(trees.Join());
   EXPECT_GE(space.tests(), 2000);
@@ -110,13 +111,13 @@ TEST(BidirectionalTree, WithTooLittleFrictionReachNothingElse) {
 }
 
 TEST(BidirectionalTree, AGraspIsJoinedToItselfWithoutAStep) {
-  const ObjectFile file = ReadModel("cube.obj");
+  const object::ObjectFile file = ReadModel("cube.obj");
   RandomStream draws(2, RandomUse::kStart);
-  const Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
+  const grasp::Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
   SearchSpace space(*file.object, {Radians(25), 0});
   RandomStream random(0, RandomUse::kCandidates);
-  const SurfaceSampler source(*file.object);
-  const ContactSet set = Take(grasp, space);
+  const sampling::SurfaceSampler source(*file.object);
+  const criteria::ContactSet set = Take(grasp, space);
   const auto path = BidirectionalTree(set, set, source, random, space).Join();
   ASSERT_TRUE(path);
   EXPECT_TRUE(path->steps.empty());

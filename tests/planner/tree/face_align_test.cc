@@ -19,13 +19,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-GraspMotion MotionOf(const Grasp& from, const Grasp& to) {
-  GraspMotion motion;
+motion::GraspMotion MotionOf(const grasp::Grasp& from, const grasp::Grasp& to) {
+  motion::GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
   return motion;
 }
 
-int TurnsOf(const std::vector<Grasp>& waypoints) {
+int TurnsOf(const std::vector<grasp::Grasp>& waypoints) {
   int turns = 0;
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
     for (std::size_t i = 0; i < waypoints[w].size(); ++i) {
@@ -39,31 +39,31 @@ int TurnsOf(const std::vector<Grasp>& waypoints) {
 /// in exact arithmetic.
 void ExpectSound(const FaceAlign& align, const SearchSpace& space) {
   constexpr int kInstants = 64;
-  const std::vector<Grasp> waypoints = WaypointsOf(align, space);
+  const std::vector<grasp::Grasp> waypoints = WaypointsOf(align, space);
   ASSERT_EQ(align.proof.size() + 1, waypoints.size());
   for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
-    const Grasp& from = waypoints[w];
-    const Grasp& to = waypoints[w + 1];
+    const grasp::Grasp& from = waypoints[w];
+    const grasp::Grasp& to = waypoints[w + 1];
     int turns = 0;
     int moves = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-      EXPECT_EQ(FindMotionFault(space.object(), from[i], to[i]), std::nullopt);
+      EXPECT_EQ(plan::FindMotionFault(space.object(), from[i], to[i]), std::nullopt);
       turns += from[i].face != to[i].face ? 1 : 0;
       moves += from[i].p != to[i].p ? 1 : 0;
     }
     EXPECT_TRUE(turns == 0 || (turns == 1 && moves == 0)) << "the others stand still";
-    const GraspMotion motion = MotionOf(from, to);
+    const motion::GraspMotion motion = MotionOf(from, to);
     for (int k = 0; k <= kInstants; ++k) {
-      EXPECT_TRUE(IsForceClosure(GraspAt(motion, static_cast<double>(k) / kInstants),
-                                 space.object().wrench_frame(), space.half_angle()));
+      EXPECT_TRUE(grasp::IsForceClosure(motion::GraspAt(motion, static_cast<double>(k) / kInstants),
+                                        space.object().wrench_frame(), space.half_angle()));
     }
-    const auto verdict =
-        CheckMotionProof(from, to, space.dimension(), std::tan(space.half_angle()), align.proof[w]);
+    const auto verdict = motion::CheckMotionProof(from, to, space.dimension(),
+                                                  std::tan(space.half_angle()), align.proof[w]);
     EXPECT_TRUE(verdict.proves()) << verdict.why;
   }
 }
 
-void ExpectSameContacts(const Grasp& a, const Grasp& b) {
+void ExpectSameContacts(const grasp::Grasp& a, const grasp::Grasp& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].p, b[i].p);
@@ -87,30 +87,30 @@ INSTANTIATE_TEST_SUITE_P(Bodies, FaceAlignCases,
                          [](const auto& test) { return "case" + std::to_string(test.index); });
 
 TEST_P(FaceAlignCases, AlignsAcrossEdgesAreProvedAndLegalBothWays) {
-  const ObjectFile file = ReadModel(GetParam().model);
-  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
-  const SurfaceSampler source(*file.object);
+  const object::ObjectFile file = ReadModel(GetParam().model);
+  const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
+  const sampling::SurfaceSampler source(*file.object);
   RandomStream random(11, RandomUse::kStart);
   int across = 0;
   for (int i = 0; i < 400 && across < 20; ++i) {
     SearchSpace space(*file.object, criteria);
-    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
-    Grasp other = grasp;
+    const grasp::Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
+    grasp::Grasp other = grasp;
     for (int k = 0; k <= i % 3; ++k) {
       other[k] = source.DrawAround(grasp[k], file.object->diameter() / 4, random);
     }
     if (!space.IsAdmitted(other)) continue;
-    const ContactSet from = Take(grasp, space);
-    const ContactSet to = Take(other, space);
+    const criteria::ContactSet from = Take(grasp, space);
+    const criteria::ContactSet to = Take(other, space);
     const auto align = AlignBetween(from, to, space);
     if (!align || align->between.empty()) continue;
     ++across;
     ExpectSound(*align, space);
-    const std::vector<Grasp> waypoints = WaypointsOf(*align, space);
+    const std::vector<grasp::Grasp> waypoints = WaypointsOf(*align, space);
     EXPECT_GE(TravelOf(*align, space), DistanceBetween(from, to, space) - 1e-12);
     const FaceAlign back = Reversed(*align);
     ExpectSound(back, space);
-    std::vector<Grasp> reversed = WaypointsOf(back, space);
+    std::vector<grasp::Grasp> reversed = WaypointsOf(back, space);
     ASSERT_EQ(reversed.size(), waypoints.size());
     for (std::size_t w = 0; w < waypoints.size(); ++w) {
       ExpectSameContacts(reversed[reversed.size() - 1 - w], waypoints[w]);
@@ -120,7 +120,7 @@ TEST_P(FaceAlignCases, AlignsAcrossEdgesAreProvedAndLegalBothWays) {
 }
 
 /// A grasp that holds with all fingers of the hand and not without any one of them.
-bool NeedsAll(const ContactSet& set, SearchSpace& space) {
+bool NeedsAll(const criteria::ContactSet& set, SearchSpace& space) {
   return set.size() == space.fingers() && space.Admits(set) &&
          std::none_of(set.begin(), set.end(),
                       [&](int contact) { return space.Admits(set.Without(contact)); });
@@ -135,21 +135,21 @@ INSTANTIATE_TEST_SUITE_P(Bodies, NeedingAll,
 TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
   // No finger of either can be lifted, and they are not on the same faces: neither a switch nor an
   // align on one tuple of faces leads anywhere else.
-  const ObjectFile file = ReadModel(GetParam().model);
-  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
-  const SurfaceSampler source(*file.object);
+  const object::ObjectFile file = ReadModel(GetParam().model);
+  const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
+  const sampling::SurfaceSampler source(*file.object);
   RandomStream random(5, RandomUse::kStart);
   int joined = 0;
   for (int i = 0; i < 4000 && joined < 3; ++i) {
     SearchSpace space(*file.object, criteria);
-    const Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
-    const ContactSet from = space.Add(grasp);
+    const grasp::Grasp grasp = DrawGrasp(*file.object, GetParam().contacts, criteria, random);
+    const criteria::ContactSet from = space.Add(grasp);
     if (!NeedsAll(from, space)) continue;
     for (int k = 0; k < 40; ++k) {
-      Grasp other = grasp;
-      Contact& moved = other[k % GetParam().contacts];
+      grasp::Grasp other = grasp;
+      grasp::Contact& moved = other[k % GetParam().contacts];
       moved = source.DrawAround(moved, file.object->diameter() / 8, random);
-      const ContactSet to = space.Add(other);
+      const criteria::ContactSet to = space.Add(other);
       if (TupleOf(to, space) == TupleOf(from, space) || !NeedsAll(to, space)) continue;
       const auto align = AlignBetween(from, to, space);
       if (!align) continue;
@@ -163,10 +163,10 @@ TEST_P(NeedingAll, OnlyAnAlignAcrossAnEdgeJoinsGraspsThatNeedAllFingers) {
 }
 
 TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const Object& cube = *file.object;
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& cube = *file.object;
   SearchSpace space(cube, {Radians(25), 0});
-  const SurfaceSampler source(cube);
+  const sampling::SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
   const auto draw = [&](int face) { return space.Add(source.DrawOn(face, random)); };
   int opposite = 1;
@@ -178,33 +178,35 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
     return face;
   }();
   const int a = draw(0), b = draw(side), c = draw(opposite);
-  const ContactSet from = ContactSet().With(a).With(b).With(c);
+  const criteria::ContactSet from = criteria::ContactSet().With(a).With(b).With(c);
   // The contact of face 0 is to change to `third`, the others stay on their faces.
   const int d = draw(side), e = draw(opposite), f = draw(third);
-  const auto pairs = PairContacts(from, ContactSet().With(d).With(e).With(f), space);
+  const auto pairs = PairContacts(from, criteria::ContactSet().With(d).With(e).With(f), space);
   ASSERT_TRUE(pairs);
   EXPECT_THAT(*pairs,
               testing::UnorderedElementsAre(std::pair(a, f), std::pair(b, d), std::pair(c, e)));
   // Common contacts stay.
-  const auto same = PairContacts(from, ContactSet().With(a).With(d).With(e), space);
+  const auto same = PairContacts(from, criteria::ContactSet().With(a).With(d).With(e), space);
   ASSERT_TRUE(same);
   EXPECT_THAT(*same,
               testing::UnorderedElementsAre(std::pair(a, a), std::pair(b, d), std::pair(c, e)));
   // Two of three on face 0 would have to go there from the other side of the cube.
-  const ContactSet far = ContactSet().With(draw(opposite)).With(draw(opposite)).With(c);
-  const ContactSet near = ContactSet().With(draw(0)).With(draw(0)).With(a);
+  const criteria::ContactSet far =
+      criteria::ContactSet().With(draw(opposite)).With(draw(opposite)).With(c);
+  const criteria::ContactSet near = criteria::ContactSet().With(draw(0)).With(draw(0)).With(a);
   EXPECT_FALSE(PairContacts(far, near, space));
   EXPECT_FALSE(AlignBetween(far, near, space));
-  EXPECT_FALSE(PairContacts(from, ContactSet().With(a).With(b), space)) << "one finger fewer";
+  EXPECT_FALSE(PairContacts(from, criteria::ContactSet().With(a).With(b), space))
+      << "one finger fewer";
 }
 
 /// The friction that the turn of an align needs at a share of it, radians.
-double RequiredWhileTurning(const std::vector<Grasp>& waypoints, double t,
-                            const WrenchFrame& frame) {
+double RequiredWhileTurning(const std::vector<grasp::Grasp>& waypoints, double t,
+                            const object::WrenchFrame& frame) {
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
     if (TurnsOf({waypoints[w - 1], waypoints[w]}) == 0) continue;
-    const auto required =
-        ComputeRequiredHalfAngle(GraspAt(MotionOf(waypoints[w - 1], waypoints[w]), t), frame);
+    const auto required = grasp::ComputeRequiredHalfAngle(
+        motion::GraspAt(MotionOf(waypoints[w - 1], waypoints[w]), t), frame);
     return required ? required->upper : std::numeric_limits<double>::infinity();
   }
   return 0;
@@ -213,27 +215,27 @@ double RequiredWhileTurning(const std::vector<Grasp>& waypoints, double t,
 TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
   // A direction within θ of the great circle from one normal to the next is, between them, farther
   // from it than at both ends.
-  const ObjectFile file = ReadModel("cube.obj");
-  const Object& cube = *file.object;
-  const SurfaceSampler source(cube);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& cube = *file.object;
+  const sampling::SurfaceSampler source(cube);
   RandomStream random(2, RandomUse::kStart);
-  const GraspCriteria criteria{Radians(25), 0};
+  const criteria::GraspCriteria criteria{Radians(25), 0};
   int lost = 0;
   for (int i = 0; i < 3000 && lost < 2; ++i) {
-    const Grasp grasp = DrawGrasp(cube, 4, criteria, random);
-    Grasp other = grasp;
+    const grasp::Grasp grasp = DrawGrasp(cube, 4, criteria, random);
+    grasp::Grasp other = grasp;
     other[0] = source.DrawAround(grasp[0], cube.diameter() / 4, random);
     SearchSpace space(cube, criteria);
     if (other[0].face == grasp[0].face || !space.IsAdmitted(other)) continue;
     const auto align = AlignBetween(Take(grasp, space), Take(other, space), space);
     if (!align || TurnsOf(WaypointsOf(*align, space)) != 1) continue;
-    const std::vector<Grasp> waypoints = WaypointsOf(*align, space);
+    const std::vector<grasp::Grasp> waypoints = WaypointsOf(*align, space);
     const auto required = [&](double t) {
       return RequiredWhileTurning(waypoints, t, cube.wrench_frame());
     };
     const double ends = std::max(required(0), required(1));
     if (required(0.5) < ends + Radians(0.5)) continue;
-    const GraspCriteria less{(ends + required(0.5)) / 2, 0};
+    const criteria::GraspCriteria less{(ends + required(0.5)) / 2, 0};
     SearchSpace smooth(cube, less);
     if (!smooth.IsAdmitted(grasp) || !smooth.IsAdmitted(other)) continue;
     ++lost;
@@ -243,17 +245,17 @@ TEST(FaceAlignTest, FrictionThatHoldsOnBothSidesOfAnEdgeMayBeTooSmallBetween) {
 }
 
 TEST(FaceAlignTest, ThickFingersDoNotTurnWhereTheyWouldMeet) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const Object& cube = *file.object;
-  const GraspCriteria criteria{Radians(30), 0};
-  const Hand thick{.fingertip_radius = cube.diameter() / 10};
-  const SurfaceSampler source(cube);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& cube = *file.object;
+  const criteria::GraspCriteria criteria{Radians(30), 0};
+  const hand::Hand thick{.fingertip_radius = cube.diameter() / 10};
+  const sampling::SurfaceSampler source(cube);
   RandomStream random(3, RandomUse::kStart);
   int kept = 0;
   int blocked = 0;
   for (int i = 0; i < 3000 && (kept == 0 || blocked == 0); ++i) {
-    const Grasp grasp = DrawGrasp(cube, 4, criteria, random, thick);
-    Grasp other = grasp;
+    const grasp::Grasp grasp = DrawGrasp(cube, 4, criteria, random, thick);
+    grasp::Grasp other = grasp;
     other[0] = source.DrawAround(grasp[0], cube.diameter() / 3, random);
     SearchSpace thick_space(cube, criteria, thick);
     if (other[0].face == grasp[0].face || !thick_space.IsAdmitted(other)) continue;

@@ -16,16 +16,16 @@ namespace {
 
 /// Force closure of all grasps, every step a switch of the hand or a proved align, no grasp twice.
 void ExpectIsPath(const GraspPath& path, const SearchSpace& space) {
-  const ContactSet* before = &path.start;
+  const criteria::ContactSet* before = &path.start;
   for (const PathStep& step : path.steps) {
     EXPECT_FALSE(*before == step.to);
     if (step.align) {
       EXPECT_FALSE(step.align->proof.empty());
     } else {
-      EXPECT_LE(ContactSet::CountUnion(*before, step.to), space.fingers());
+      EXPECT_LE(criteria::ContactSet::CountUnion(*before, step.to), space.fingers());
     }
-    EXPECT_TRUE(
-        IsForceClosure(space.GraspOf(step.to), space.object().wrench_frame(), space.half_angle()));
+    EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), space.object().wrench_frame(),
+                                      space.half_angle()));
     before = &step.to;
   }
 }
@@ -46,10 +46,10 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
   /// A path between random grasps of some quality.
   GraspPath Draw(double quality, std::uint64_t seed, SearchSpace& space) {
     RandomStream draws(seed, RandomUse::kStart);
-    const GraspCriteria criteria{criteria_.half_angle, quality};
-    const ContactSet from =
+    const criteria::GraspCriteria criteria{criteria_.half_angle, quality};
+    const criteria::ContactSet from =
         Take(DrawGrasp(*file_.object, GetParam().contacts, criteria, draws), space);
-    const ContactSet to =
+    const criteria::ContactSet to =
         Take(DrawGrasp(*file_.object, GetParam().contacts, criteria, draws), space);
     RandomStream random(seed, RandomUse::kCandidates);
     auto path = BidirectionalTree(from, to, source_, random, space).Join();
@@ -57,9 +57,9 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
     return path.value_or(GraspPath{from, {}});
   }
 
-  ObjectFile file_;
-  SurfaceSampler source_;
-  GraspCriteria criteria_;
+  object::ObjectFile file_;
+  sampling::SurfaceSampler source_;
+  criteria::GraspCriteria criteria_;
 };
 INSTANTIATE_TEST_SUITE_P(Bodies, ImprovePathCases,
                          testing::Values(Case{"cube.obj", 15, 4}, Case{"l_block.obj", 10, 4},
@@ -93,8 +93,9 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
     SearchSpace space(*file_.object, criteria_);
     RandomStream random(seed, RandomUse::kCandidates);
     GraspPath path = ShortcutPath(Draw(kQuality, seed, space), source_, random, space);
-    const auto quality_of = [&](const ContactSet& set) {
-      return ComputeQuality(space.GraspOf(set), file_.object->wrench_frame(), criteria_.half_angle)
+    const auto quality_of = [&](const criteria::ContactSet& set) {
+      return grasp::ComputeQuality(space.GraspOf(set), file_.object->wrench_frame(),
+                                   criteria_.half_angle)
           .upper;
     };
     for (const PathStep& step : path.steps) weak += quality_of(step.to) < kQuality ? 1 : 0;
@@ -111,34 +112,34 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
 }
 
 TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {
-  const ObjectFile file = ReadModel("duck500.obj");
-  const GraspCriteria criteria{Radians(25), 0};
+  const object::ObjectFile file = ReadModel("duck500.obj");
+  const criteria::GraspCriteria criteria{Radians(25), 0};
   RandomStream random(5, RandomUse::kStart);
   int checked = 0;
   for (int i = 0; i < 12; ++i) {
     SearchSpace space(*file.object, criteria);
-    const ContactSet from = Take(DrawGrasp(*file.object, 4, criteria, random), space);
-    const ContactSet to = Take(DrawGrasp(*file.object, 4, criteria, random), space);
+    const criteria::ContactSet from = Take(DrawGrasp(*file.object, 4, criteria, random), space);
+    const criteria::ContactSet to = Take(DrawGrasp(*file.object, 4, criteria, random), space);
     std::vector<int> contacts(space.count());
     for (int k = 0; k < space.count(); ++k) contacts[k] = k;
     // On small faces there are no aligns: all ways of three switches, one by one.
-    std::vector<ContactSet> grasps;
+    std::vector<criteria::ContactSet> grasps;
     for (unsigned mask = 0; mask < 1U << contacts.size(); ++mask) {
       const int size = std::popcount(mask);
       if (size < space.fewest_contacts() || size >= space.fingers()) continue;
-      ContactSet set;
+      criteria::ContactSet set;
       for (const int contact : contacts) {
         if ((mask >> contact & 1) != 0) set.Insert(contact);
       }
       if (space.Admits(set)) grasps.push_back(set);
     }
-    const auto joins = [&](const ContactSet& a, const ContactSet& b) {
-      return ContactSet::CountUnion(a, b) <= space.fingers();
+    const auto joins = [&](const criteria::ContactSet& a, const criteria::ContactSet& b) {
+      return criteria::ContactSet::CountUnion(a, b) <= space.fingers();
     };
     double least = std::numeric_limits<double>::infinity();
-    for (const ContactSet& a : grasps) {
+    for (const criteria::ContactSet& a : grasps) {
       if (!joins(from, a)) continue;
-      for (const ContactSet& b : grasps) {
+      for (const criteria::ContactSet& b : grasps) {
         if (!joins(a, b) || !joins(b, to)) continue;
         least = std::min(least, TravelOf({from, {{a, {}}, {b, {}}, {to, {}}}}, space));
       }

@@ -24,19 +24,20 @@ using ::testing::ThrowsMessage;
 
 /// [−1, 1]³ with the cavity [−0.9, 0.9]³, which has nearly half of the surface. First in the file
 /// comes the cavity or the outside.
-Polyhedron MakeHollowCube(bool cavity_first) {
-  PolygonSoup cavity = testing::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
+object::Polyhedron MakeHollowCube(bool cavity_first) {
+  object::PolygonSoup cavity = testing::BoxSoup(Vector3d::Constant(-0.9), Vector3d::Constant(0.9));
   testing::Turn(cavity);
-  const PolygonSoup outside = testing::BoxSoup(Vector3d::Constant(-1), Vector3d::Constant(1));
-  return Polyhedron::FromSoup(
+  const object::PolygonSoup outside =
+      testing::BoxSoup(Vector3d::Constant(-1), Vector3d::Constant(1));
+  return object::Polyhedron::FromSoup(
       cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
 }
 
 /// Counts contacts; none may be in the cavity.
 class OutsideOnly {
  public:
-  explicit OutsideOnly(const Object& object) : object_(object) {}
-  void See(const Contact& contact) {
+  explicit OutsideOnly(const object::Object& object) : object_(object) {}
+  void See(const grasp::Contact& contact) {
     EXPECT_FALSE(object_.IsEnclosed(contact.face));
     EXPECT_NEAR(contact.p.lpNorm<Eigen::Infinity>(), 1, 1e-9);
     ++seen_;
@@ -44,13 +45,13 @@ class OutsideOnly {
   [[nodiscard]] int seen() const { return seen_; }
 
  private:
-  const Object& object_;
+  const object::Object& object_;
   int seen_ = 0;
 };
 
 class SealedCavity : public ::testing::TestWithParam<bool> {
  protected:
-  const Polyhedron hollow_ = MakeHollowCube(GetParam());
+  const object::Polyhedron hollow_ = MakeHollowCube(GetParam());
   OutsideOnly outside_{hollow_};
   RandomStream random_{1, RandomUse::kStart};
 };
@@ -58,8 +59,8 @@ class SealedCavity : public ::testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(CavityFirst, SealedCavity, ::testing::Bool());
 
 TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
-  const SurfaceSampler source(hollow_);
-  Contact contact = source.Draw(random_);
+  const sampling::SurfaceSampler source(hollow_);
+  grasp::Contact contact = source.Draw(random_);
   for (int i = 0; i < 300; ++i) {
     outside_.See(contact = source.Draw(random_));
     // A wall of 0.1 away from it.
@@ -70,38 +71,40 @@ TEST_P(SealedCavity, ThePlannerGeneralDrawsNothingFromIt) {
 }
 
 TEST_P(SealedCavity, RoadmapsHaveNoContactPointsThere) {
-  const SurfaceSampler sampler(hollow_);
+  const sampling::SurfaceSampler sampler(hollow_);
   for (int i = 0; i < 300; ++i) outside_.See(sampler.DrawAnywhere(random_));
   EXPECT_NEAR(sampler.measure(), 24, 1e-12);
-  for (const Contact& contact : SpreadContactPoints(hollow_, 50, 1)) outside_.See(contact);
+  for (const grasp::Contact& contact : sampling::SpreadContactPoints(hollow_, 50, 1))
+    outside_.See(contact);
   EXPECT_EQ(outside_.seen(), 350);
 }
 
 TEST(SealedCavityOfAMesh, HasNoContactPoints) {
-  PolygonSoup cavity = testing::SphereSoup(12);
-  PolygonSoup outside = cavity;
+  object::PolygonSoup cavity = testing::SphereSoup(12);
+  object::PolygonSoup outside = cavity;
   for (Vector3d& p : outside.vertices) p *= 1.2;
   testing::Turn(cavity);
-  const Polyhedron hollow = Polyhedron::FromSoup(testing::Join(cavity, outside), "hollow");
+  const object::Polyhedron hollow =
+      object::Polyhedron::FromSoup(testing::Join(cavity, outside), "hollow");
   const auto enclosed = std::ranges::count_if(
-      hollow.faces(), [](const Polyhedron::Face& face) { return face.enclosed; });
+      hollow.faces(), [](const object::Polyhedron::Face& face) { return face.enclosed; });
   EXPECT_EQ(2 * enclosed, hollow.face_count());
-  const std::vector<Contact> points =
-      MeshContacts(hollow, static_cast<int>(hollow.triangles().size()), 1);
+  const std::vector<grasp::Contact> points =
+      sampling::MeshContacts(hollow, static_cast<int>(hollow.triangles().size()), 1);
   EXPECT_EQ(2 * points.size(), hollow.triangles().size());
-  for (const Contact& contact : points) EXPECT_FALSE(hollow.IsEnclosed(contact.face));
+  for (const grasp::Contact& contact : points) EXPECT_FALSE(hollow.IsEnclosed(contact.face));
 }
 
 TEST(SealedCavityOfATetrahedron, HasNoFocusCells) {
-  PolygonSoup outside = testing::CornerTetrahedronSoup();
-  PolygonSoup cavity = outside;
+  object::PolygonSoup outside = testing::CornerTetrahedronSoup();
+  object::PolygonSoup cavity = outside;
   testing::Turn(cavity);
   for (Vector3d& p : outside.vertices) p = 9 * p - Vector3d::Ones();
   for (const bool cavity_first : {false, true}) {
-    const Polyhedron hollow = Polyhedron::FromSoup(
+    const object::Polyhedron hollow = object::Polyhedron::FromSoup(
         cavity_first ? testing::Join(cavity, outside) : testing::Join(outside, cavity), "hollow");
-    const auto candidates =
-        polyhedron::FindQuadrupleCandidates(hollow, std::tan(Radians(10)), Spanning::kAdaptive);
+    const auto candidates = polyhedron::FindQuadrupleCandidates(hollow, std::tan(Radians(10)),
+                                                                planning::Spanning::kAdaptive);
     ASSERT_EQ(candidates.size(), 1u);
     const std::array<int, 4> expected =
         cavity_first ? std::array{4, 5, 6, 7} : std::array{0, 1, 2, 3};
@@ -110,7 +113,7 @@ TEST(SealedCavityOfATetrahedron, HasNoFocusCells) {
 }
 
 TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
-  GraspChoice choice;
+  planning::GraspChoice choice;
   choice.name = "grasp.json";
   for (const double x : {-0.9, 0.9}) {
     for (int face = 0; face < hollow_.face_count(); ++face) {

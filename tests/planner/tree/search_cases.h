@@ -10,19 +10,19 @@
 
 namespace regrasp::tree {
 
-[[nodiscard]] inline ObjectFile ReadModel(const std::string& file) {
-  return ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+[[nodiscard]] inline object::ObjectFile ReadModel(const std::string& file) {
+  return object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
 }
 
 /// A random grasp of so many contacts that meets the criteria.
-[[nodiscard]] inline Grasp DrawGrasp(const Object& object, int contacts,
-                                     const GraspCriteria& criteria, RandomStream& random,
-                                     const Hand& hand = {}) {
-  const SurfaceSampler source(object);
+[[nodiscard]] inline grasp::Grasp DrawGrasp(const object::Object& object, int contacts,
+                                            const criteria::GraspCriteria& criteria,
+                                            RandomStream& random, const hand::Hand& hand = {}) {
+  const sampling::SurfaceSampler source(object);
   SearchSpace space(object, criteria, hand);
   constexpr int kMostDraws = 1'000'000;
   for (int draw = 0; draw < kMostDraws; ++draw) {
-    Grasp grasp;
+    grasp::Grasp grasp;
     for (int i = 0; i < contacts; ++i) grasp.push_back(source.Draw(random));
     if (space.IsAdmitted(grasp)) return grasp;
   }
@@ -30,8 +30,8 @@ namespace regrasp::tree {
   return {};
 }
 
-[[nodiscard]] inline ContactSet Take(const Grasp& grasp, SearchSpace& space) {
-  const ContactSet set = space.Add(grasp);
+[[nodiscard]] inline criteria::ContactSet Take(const grasp::Grasp& grasp, SearchSpace& space) {
+  const criteria::ContactSet set = space.Add(grasp);
   space.Accept(set);
   return set;
 }

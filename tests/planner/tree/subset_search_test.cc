@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kAnySteps = std::numeric_limits<int>::max();
 
-std::vector<ContactSet> AllSets(const std::vector<int>& contacts, int least, int most) {
-  std::vector<ContactSet> sets;
+std::vector<criteria::ContactSet> AllSets(const std::vector<int>& contacts, int least, int most) {
+  std::vector<criteria::ContactSet> sets;
   for (unsigned mask = 0; mask < 1u << contacts.size(); ++mask) {
-    ContactSet set;
+    criteria::ContactSet set;
     if (std::popcount(mask) < least || std::popcount(mask) > most) continue;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if ((mask >> i & 1) != 0) set.Insert(contacts[i]);
@@ -29,12 +29,14 @@ std::vector<ContactSet> AllSets(const std::vector<int>& contacts, int least, int
 }
 
 /// The fewest switches between two grasps, over all subsets: by the definition of a switch alone.
-int FewestSwitches(const ContactSet& from, const ContactSet& to, const std::vector<int>& contacts,
-                   const SearchSpace& space) {
-  std::vector<ContactSet> grasps = {from, to};
-  for (const ContactSet& set : AllSets(contacts, space.fewest_contacts(), space.fingers())) {
+int FewestSwitches(const criteria::ContactSet& from, const criteria::ContactSet& to,
+                   const std::vector<int>& contacts, const SearchSpace& space) {
+  std::vector<criteria::ContactSet> grasps = {from, to};
+  for (const criteria::ContactSet& set :
+       AllSets(contacts, space.fewest_contacts(), space.fingers())) {
     if (set == from || set == to) continue;
-    if (IsForceClosure(space.GraspOf(set), space.object().wrench_frame(), space.half_angle())) {
+    if (grasp::IsForceClosure(space.GraspOf(set), space.object().wrench_frame(),
+                              space.half_angle())) {
       grasps.push_back(set);
     }
   }
@@ -47,7 +49,7 @@ int FewestSwitches(const ContactSet& from, const ContactSet& to, const std::vect
     queue.pop();
     for (std::size_t next = 0; next < grasps.size(); ++next) {
       if (steps[next] >= 0) continue;
-      if (ContactSet::CountUnion(grasps[at], grasps[next]) > space.fingers()) continue;
+      if (criteria::ContactSet::CountUnion(grasps[at], grasps[next]) > space.fingers()) continue;
       steps[next] = steps[at] + 1;
       queue.push(static_cast<int>(next));
     }
@@ -79,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SubsetSearchCases,
                          [](const auto& test) { return "case" + std::to_string(test.index); });
 
 TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
-  const ObjectFile file = ReadModel(GetParam().model);
-  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
+  const object::ObjectFile file = ReadModel(GetParam().model);
+  const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
   RandomStream random(7, RandomUse::kStart);
   int joined = 0;
   int apart = 0;
@@ -100,11 +102,11 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
     EXPECT_EQ(static_cast<int>(path->steps.size()), expected);
     EXPECT_TRUE(path->start == from);
     EXPECT_TRUE(path->end() == to);
-    const ContactSet* before = &path->start;
+    const criteria::ContactSet* before = &path->start;
     for (const PathStep& step : path->steps) {
-      EXPECT_LE(ContactSet::CountUnion(*before, step.to), space.fingers());
-      EXPECT_TRUE(
-          IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(), criteria.half_angle));
+      EXPECT_LE(criteria::ContactSet::CountUnion(*before, step.to), space.fingers());
+      EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
+                                        criteria.half_angle));
       before = &step.to;
     }
   }
@@ -113,13 +115,14 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
 }
 
 /// The least half-angle at which so many switches join two grasps: by its definition alone.
-double LeastHalfAngle(const ContactSet& from, const ContactSet& to,
+double LeastHalfAngle(const criteria::ContactSet& from, const criteria::ContactSet& to,
                       const std::vector<int>& contacts, int steps, const SearchSpace& space) {
-  std::vector<std::pair<ContactSet, double>> grasps = {{from, 0}, {to, 0}};
-  for (const ContactSet& set : AllSets(contacts, space.fewest_contacts(), space.fingers() - 1)) {
+  std::vector<std::pair<criteria::ContactSet, double>> grasps = {{from, 0}, {to, 0}};
+  for (const criteria::ContactSet& set :
+       AllSets(contacts, space.fewest_contacts(), space.fingers() - 1)) {
     if (set == from || set == to) continue;
     const auto required =
-        ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame());
+        grasp::ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame());
     if (required) grasps.emplace_back(set, required->upper);
   }
   std::vector<double> least(grasps.size(), std::numeric_limits<double>::infinity());
@@ -128,7 +131,8 @@ double LeastHalfAngle(const ContactSet& from, const ContactSet& to,
     const std::vector<double> before = least;
     for (std::size_t a = 0; a < grasps.size(); ++a) {
       for (std::size_t b = 0; b < grasps.size(); ++b) {
-        if (ContactSet::CountUnion(grasps[a].first, grasps[b].first) > space.fingers()) continue;
+        if (criteria::ContactSet::CountUnion(grasps[a].first, grasps[b].first) > space.fingers())
+          continue;
         least[b] = std::min(least[b], std::max(before[a], grasps[b].second));
       }
     }
@@ -137,8 +141,8 @@ double LeastHalfAngle(const ContactSet& from, const ContactSet& to,
 }
 
 TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
-  const ObjectFile file = ReadModel(GetParam().model);
-  const GraspCriteria criteria{Radians(GetParam().degrees), 0};
+  const object::ObjectFile file = ReadModel(GetParam().model);
+  const criteria::GraspCriteria criteria{Radians(GetParam().degrees), 0};
   constexpr double kAccuracy = 1.1e-3;
   RandomStream random(11, RandomUse::kStart);
   int wider = 0;
@@ -161,8 +165,8 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
       EXPECT_LE(static_cast<int>(path->steps.size()), steps);
       for (const PathStep& step : path->steps) {
         if (step.to == to) continue;
-        EXPECT_TRUE(IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
-                                   expected + kAccuracy));
+        EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
+                                          expected + kAccuracy));
       }
       // Where its own bound forbids it, no way is looked for.
       EXPECT_FALSE(
@@ -173,10 +177,10 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
 }
 
 TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const GraspCriteria criteria{Radians(20), 0};
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const criteria::GraspCriteria criteria{Radians(20), 0};
   RandomStream random(3, RandomUse::kStart);
-  const SurfaceSampler source(*file.object);
+  const sampling::SurfaceSampler source(*file.object);
   int aligns = 0;
   for (int i = 0; i < 20; ++i) {
     SearchSpace space(*file.object, criteria);
@@ -199,21 +203,21 @@ TEST(SubsetSearch, MoreContactsAndAlignsNeverNeedMoreSteps) {
 }
 
 TEST(SubsetSearch, ContactsAtOnePointAreNotHeldAtOnce) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const GraspCriteria criteria{Radians(25), 0};
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const criteria::GraspCriteria criteria{Radians(25), 0};
   RandomStream random(5, RandomUse::kStart);
-  const Grasp grasp = DrawGrasp(*file.object, 4, criteria, random);
-  Grasp shifted = grasp;
+  const grasp::Grasp grasp = DrawGrasp(*file.object, 4, criteria, random);
+  grasp::Grasp shifted = grasp;
   // The same grasp but for a contact that is not the same one, within reading's tolerance of it.
   shifted[0].p += 1e-7 * file.object->diameter() * shifted[0].n.unitOrthogonal();
   SearchSpace space(*file.object, criteria);
-  const ContactSet from = Take(grasp, space);
-  const ContactSet to = Take(shifted, space);
+  const criteria::ContactSet from = Take(grasp, space);
+  const criteria::ContactSet to = Take(shifted, space);
   EXPECT_EQ(space.count(), 5);
   EXPECT_FALSE(space.CanMeet(0, 4));
   const auto path = SearchOwnSubsets(from, to, space);
   if (path) {
-    const ContactSet* before = &path->start;
+    const criteria::ContactSet* before = &path->start;
     for (const PathStep& step : path->steps) {
       EXPECT_FALSE((before->Has(0) || step.to.Has(0)) && (before->Has(4) || step.to.Has(4)));
       before = &step.to;

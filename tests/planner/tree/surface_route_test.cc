@@ -11,21 +11,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-Contact On(const Object& object, const Vector3d& near) {
+grasp::Contact On(const object::Object& object, const Vector3d& near) {
   const int face = object.FacesNear(near, object.diameter()).front();
   return {object.ClosestPoint(face, near), object.inward_normal(face), face};
 }
 
 /// Every leg is a motion that a plan may have.
-void ExpectLegal(const Object& object, const SurfaceRoute& route) {
+void ExpectLegal(const object::Object& object, const SurfaceRoute& route) {
   ASSERT_EQ(route.size() % 2, 0u);
   for (std::size_t i = 1; i < route.size(); ++i) {
-    EXPECT_EQ(FindMotionFault(object, route[i - 1], route[i]), std::nullopt);
+    EXPECT_EQ(plan::FindMotionFault(object, route[i - 1], route[i]), std::nullopt);
   }
 }
 
 /// The shortest way over one edge of all its points, each leg straight.
-double ShortestOver(const FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
+double ShortestOver(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   constexpr int kPoints = 20'000;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kPoints; ++i) {
@@ -36,14 +36,14 @@ double ShortestOver(const FaceBorder& edge, const Vector3d& p, const Vector3d& q
 }
 
 TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const Object& cube = *file.object;
-  const SurfaceSampler source(cube);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& cube = *file.object;
+  const sampling::SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
   int over_edges = 0;
   for (int i = 0; i < 200; ++i) {
-    const Contact from = source.Draw(random);
-    const Contact to = source.Draw(random);
+    const grasp::Contact from = source.Draw(random);
+    const grasp::Contact to = source.Draw(random);
     if (!cube.AreNeighbours(from.face, to.face)) continue;
     const auto route = FindSurfaceRoute(cube, from, to);
     ASSERT_TRUE(route);
@@ -54,7 +54,7 @@ TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
     if (route->size() != 4 || back->size() != 4) continue;
     ++over_edges;
     EXPECT_NEAR(LengthOf(*back), LengthOf(*route), 1e-12);
-    for (const FaceBorder& edge : cube.BordersOf(from.face)) {
+    for (const object::FaceBorder& edge : cube.BordersOf(from.face)) {
       if (edge.beyond != to.face) continue;
       // The grid of the other route, and the corners that are left out.
       const double accuracy = 1e-3 * cube.diameter();
@@ -65,11 +65,11 @@ TEST(SurfaceRoute, OverOneEdgeOfACubeIsTheShortestWay) {
 }
 
 TEST(SurfaceRoute, OnOneFaceIsStraight) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const SurfaceSampler source(*file.object);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const sampling::SurfaceSampler source(*file.object);
   RandomStream random(2, RandomUse::kStart);
-  const Contact from = source.Draw(random);
-  const Contact to = source.DrawOn(from.face, random);
+  const grasp::Contact from = source.Draw(random);
+  const grasp::Contact to = source.DrawOn(from.face, random);
   const auto route = FindSurfaceRoute(*file.object, from, to);
   ASSERT_TRUE(route);
   ASSERT_EQ(route->size(), 2u);
@@ -77,14 +77,14 @@ TEST(SurfaceRoute, OnOneFaceIsStraight) {
 }
 
 TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
-  const ObjectFile file = ReadModel("ellipsoid1000.obj");
-  const Object& body = *file.object;
-  const SurfaceSampler source(body);
+  const object::ObjectFile file = ReadModel("ellipsoid1000.obj");
+  const object::Object& body = *file.object;
+  const sampling::SurfaceSampler source(body);
   RandomStream random(3, RandomUse::kStart);
   int longest = 0;
   for (int i = 0; i < 100; ++i) {
-    const Contact from = source.Draw(random);
-    const Contact to = source.DrawAround(from, 0.06 * body.diameter(), random);
+    const grasp::Contact from = source.Draw(random);
+    const grasp::Contact to = source.DrawAround(from, 0.06 * body.diameter(), random);
     const auto route = FindSurfaceRoute(body, from, to);
     if (!route) continue;
     ExpectLegal(body, *route);
@@ -97,9 +97,10 @@ TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
 
 TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
   // An L. The concave corner is at (1, 1).
-  const Polygon ell = Polygon::FromWkt("POLYGON((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))", "ell");
-  const Contact low = On(ell, {2, 1, 0});
-  const Contact high = On(ell, {1, 2, 0});
+  const object::Polygon ell =
+      object::Polygon::FromWkt("POLYGON((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))", "ell");
+  const grasp::Contact low = On(ell, {2, 1, 0});
+  const grasp::Contact high = On(ell, {1, 2, 0});
   ASSERT_TRUE(ell.AreNeighbours(low.face, high.face));
   EXPECT_FALSE(FindSurfaceRoute(ell, low, high));
   // The convex corners beside it are passed.
@@ -108,11 +109,11 @@ TEST(SurfaceRoute, NeverGoesThroughAConcaveEdge) {
 }
 
 TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Object& block = *file.object;
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const object::Object& block = *file.object;
   int concave = 0;
   for (int face = 0; face < block.face_count(); ++face) {
-    for (const FaceBorder& edge : block.BordersOf(face)) {
+    for (const object::FaceBorder& edge : block.BordersOf(face)) {
       if (edge.convex) continue;
       ++concave;
       const Vector3d middle = (edge.a + edge.b) / 2;
@@ -120,8 +121,8 @@ TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
       // One moves off the edge along the other face's outward normal.
       const Vector3d n = block.inward_normal(face);
       const Vector3d m = block.inward_normal(edge.beyond);
-      const Contact from{block.ClosestPoint(face, middle - off * m), n, face};
-      const Contact to{block.ClosestPoint(edge.beyond, middle - off * n), m, edge.beyond};
+      const grasp::Contact from{block.ClosestPoint(face, middle - off * m), n, face};
+      const grasp::Contact to{block.ClosestPoint(edge.beyond, middle - off * n), m, edge.beyond};
       const auto route = FindSurfaceRoute(block, from, to);
       if (!route) continue;
       ExpectLegal(block, *route);

@@ -10,44 +10,45 @@ namespace {
 
 constexpr std::int64_t kEffort = 20'000;
 
-std::vector<int> FacesOf(const Grasp& grasp) {
+std::vector<int> FacesOf(const grasp::Grasp& grasp) {
   std::vector<int> faces;
-  for (const Contact& contact : grasp) faces.push_back(contact.face);
+  for (const grasp::Contact& contact : grasp) faces.push_back(contact.face);
   return faces;
 }
 
-SearchSpace SpaceFor(const Object& object, const GraspCriteria& criteria) {
+SearchSpace SpaceFor(const object::Object& object, const criteria::GraspCriteria& criteria) {
   SearchSpace space(object, criteria);
   space.SetLimits({.most_tests = kEffort});
   return space;
 }
 
 TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
-  const ObjectFile file = ReadModel("pyramid.obj");
-  const Object& object = *file.object;
-  const GraspCriteria criteria{Radians(5), 0};
-  const SurfaceSampler source(object);
+  const object::ObjectFile file = ReadModel("pyramid.obj");
+  const object::Object& object = *file.object;
+  const criteria::GraspCriteria criteria{Radians(5), 0};
+  const sampling::SurfaceSampler source(object);
   RandomStream random(3, RandomUse::kCandidates);
   RandomStream draws(3, RandomUse::kStart);
   int found = 0, moved = 0;
   for (int i = 0; i < 40; ++i) {
-    const Grasp before = DrawGrasp(object, 4, criteria, draws);
+    const grasp::Grasp before = DrawGrasp(object, 4, criteria, draws);
     const int leaving = static_cast<int>(random.Index(4));
     const int face = static_cast<int>(random.Index(object.face_count()));
-    const Contact placed = source.DrawOn(face, random);
+    const grasp::Contact placed = source.DrawOn(face, random);
     SearchSpace space = SpaceFor(object, criteria);
     const auto transition = FindTransition(before, leaving, placed, source, random, space);
     if (!transition) continue;
     ++found;
     ASSERT_FALSE(transition->way.empty());
     EXPECT_EQ(transition->way.front().front().p, before.front().p);
-    for (const Grasp& grasp : transition->way) {
+    for (const grasp::Grasp& grasp : transition->way) {
       EXPECT_EQ(FacesOf(grasp), FacesOf(before));
-      EXPECT_TRUE(IsForceClosure(grasp, object.wrench_frame(), criteria.half_angle));
+      EXPECT_TRUE(grasp::IsForceClosure(grasp, object.wrench_frame(), criteria.half_angle));
     }
-    const Grasp& last = transition->way.back();
+    const grasp::Grasp& last = transition->way.back();
     if (transition->way.size() > 1) ++moved;
-    EXPECT_TRUE(IsForceClosure(transition->after, object.wrench_frame(), criteria.half_angle));
+    EXPECT_TRUE(
+        grasp::IsForceClosure(transition->after, object.wrench_frame(), criteria.half_angle));
     for (int k = 0; k < 4; ++k) {
       EXPECT_EQ(transition->after[k].p == last[k].p, k != leaving) << "one finger is switched";
       EXPECT_TRUE(space.CanMeet(last[k], transition->after[leaving]));
@@ -60,19 +61,19 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
 
 TEST(FindTransition, FindsNoneWhereTheLaterFacesHoldNothing) {
   // Two contacts on one face of a cube and one on a neighbouring face: at 10° nothing pushes back.
-  const ObjectFile file = ReadModel("cube.obj");
-  const Object& object = *file.object;
-  const GraspCriteria criteria{Radians(10), 0};
-  const SurfaceSampler source(object);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const object::Object& object = *file.object;
+  const criteria::GraspCriteria criteria{Radians(10), 0};
+  const sampling::SurfaceSampler source(object);
   RandomStream random(5, RandomUse::kCandidates);
   RandomStream draws(5, RandomUse::kStart);
   int tried = 0;
   for (int i = 0; i < 40; ++i) {
-    const Grasp before = DrawGrasp(object, 3, criteria, draws);
+    const grasp::Grasp before = DrawGrasp(object, 3, criteria, draws);
     for (int leaving = 0; leaving < 3; ++leaving) {
-      const Contact& left = before[(leaving + 1) % 3];
+      const grasp::Contact& left = before[(leaving + 1) % 3];
       if (left.face != before[(leaving + 2) % 3].face) continue;
-      Contact placed = source.Draw(random);
+      grasp::Contact placed = source.Draw(random);
       while (placed.n.dot(left.n) < -0.5) placed = source.Draw(random);
       SearchSpace space = SpaceFor(object, criteria);
       EXPECT_FALSE(FindTransition(before, leaving, placed, source, random, space));
@@ -83,18 +84,18 @@ TEST(FindTransition, FindsNoneWhereTheLaterFacesHoldNothing) {
 }
 
 TEST(FindTransition, IsTheSameForTheSameSeed) {
-  const ObjectFile file = ReadModel("pyramid.obj");
-  const Object& object = *file.object;
-  const GraspCriteria criteria{Radians(8), 0};
-  const SurfaceSampler source(object);
+  const object::ObjectFile file = ReadModel("pyramid.obj");
+  const object::Object& object = *file.object;
+  const criteria::GraspCriteria criteria{Radians(8), 0};
+  const sampling::SurfaceSampler source(object);
   int found = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto find = [&] {
       RandomStream draws(seed, RandomUse::kStart);
-      const Grasp before = DrawGrasp(object, 4, criteria, draws);
+      const grasp::Grasp before = DrawGrasp(object, 4, criteria, draws);
       RandomStream random(seed, RandomUse::kCandidates);
       SearchSpace space = SpaceFor(object, criteria);
-      const Contact placed = source.Draw(random);
+      const grasp::Contact placed = source.Draw(random);
       return FindTransition(before, 1, placed, source, random, space);
     };
     const auto once = find(), again = find();

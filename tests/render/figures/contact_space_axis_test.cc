@@ -20,14 +20,14 @@ std::vector<std::string> LabelsOf(const std::vector<AxisTick>& ticks) {
 }
 
 TEST(ContactSpaceAxisTest, FewVerticesHaveTheirLengths) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const std::vector<AxisTick> ticks = MakeTicks(contour::Boundary(square), 0, {0, 8}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "2", "4", "6", "8"));
   EXPECT_THAT(ticks, SizeIs(5));
 }
 
 TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
-  const Polygon disc = MakeDisc(60);
+  const object::Polygon disc = MakeDisc(60);
   const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);  // 6.28
   const auto ticks = MakeTicks(boundary, 0, {0, perimeter}, 200 / perimeter, 28);
@@ -36,7 +36,7 @@ TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
 }
 
 TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
-  const Polygon disc = MakeDisc(300);
+  const object::Polygon disc = MakeDisc(300);
   const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);
   const double points_per_unit = 200 / perimeter;
@@ -54,14 +54,14 @@ TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
 }
 
 TEST(ContactSpaceAxisTest, BeyondTheEndTheRingBeginsAgain) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const auto ticks = MakeTicks(contour::Boundary(square), 0, {-3, 3}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("6", "0", "2"));
   EXPECT_EQ(ticks.front().place, -2);
 }
 
 TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
-  const Polygon disc = MakeDisc(60);
+  const object::Polygon disc = MakeDisc(60);
   const contour::Boundary boundary(disc);
   const double perimeter = boundary.perimeter(0);
   int checked = 0;
@@ -87,9 +87,9 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
 }
 
 TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   EXPECT_EQ(AxisTitle(contour::Boundary(square), "u", 0), "u");
-  const Polygon ring = MakeRing(8);
+  const object::Polygon ring = MakeRing(8);
   EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 0), "u, outer ring");
   EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 1), "u, hole 1");
 }

@@ -35,8 +35,8 @@ int PngWidth(const std::string& bytes) {
 }
 
 struct Fork {
-  Polygon polygon = MakeFork();
-  Plan plan = MakeForkPlan();
+  object::Polygon polygon = MakeFork();
+  plan::Plan plan = MakeForkPlan();
   ContactSpaceFigures figures{polygon, plan};
 };
 
@@ -70,13 +70,13 @@ TEST(ContactSpaceFigureTest, OnlyAStretchingSetIsHatched) {
 TEST(ContactSpaceFigureTest, OnlySwitchesThatKeepAContactHaveAFigure) {
   Fork fork;
   EXPECT_EQ(fork.figures.DrawSwitch(0, FigureFormat::kSvg), std::nullopt);
-  const Polygon square = MakeSquare();
-  const Plan exchange = MakeExchangePlan();
+  const object::Polygon square = MakeSquare();
+  const plan::Plan exchange = MakeExchangePlan();
   ContactSpaceFigures exchanged(square, exchange);
   EXPECT_EQ(exchanged.DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
   EXPECT_FALSE(exchanged.DrawOverview(FigureFormat::kSvg).empty());
-  const Polygon disc = MakeDisc(12);
-  const Plan align = MakeDiscPlan(disc);
+  const object::Polygon disc = MakeDisc(12);
+  const plan::Plan align = MakeDiscPlan(disc);
   EXPECT_EQ(ContactSpaceFigures(disc, align).DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
 }
 
@@ -95,8 +95,8 @@ TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow)
   EXPECT_EQ(PngWidth(fork.figures.DrawOverview(FigureFormat::kPng)), 1004);
   EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(1, FigureFormat::kPng)), 2055);
   for (const int edges : {30, 100}) {
-    const Polygon disc = MakeDisc(edges);
-    const Plan plan = MakeDiscPlan(disc);
+    const object::Polygon disc = MakeDisc(edges);
+    const plan::Plan plan = MakeDiscPlan(disc);
     EXPECT_EQ(PngWidth(ContactSpaceFigures(disc, plan).DrawOverview(FigureFormat::kPng)),
               edges < 60 ? 1004 : 2055);
   }

@@ -16,7 +16,7 @@ using testing::SizeIs;
 
 /// The contact space of a polygon and a plan.
 struct Scene {
-  Scene(Polygon object, const Plan& plan)
+  Scene(object::Polygon object, const plan::Plan& plan)
       : polygon(std::move(object)),
         graph(polygon, plan.half_angle),
         geometry(graph),
@@ -27,7 +27,7 @@ struct Scene {
     return *std::ranges::find_if(map.sets, [&](const MapSet& set) { return set.name == name; });
   }
 
-  Polygon polygon;
+  object::Polygon polygon;
   contour::ContourGraph graph;
   contour::SetGeometry geometry;
   std::vector<TrackEntry> track;
@@ -132,7 +132,7 @@ TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
 }
 
 TEST(ContactSpaceMapTest, AWayBreaksWhereTheRingBeginsAgain) {
-  const Polygon disc = MakeDisc(12);
+  const object::Polygon disc = MakeDisc(12);
   const Scene scene(disc, MakeDiscPlan(disc));
   const double perimeter = scene.graph.boundary().perimeter(0);
   ASSERT_THAT(scene.map.paths, SizeIs(2));
@@ -143,23 +143,23 @@ TEST(ContactSpaceMapTest, AWayBreaksWhereTheRingBeginsAgain) {
 }
 
 TEST(ContactSpaceMapTest, AWayThatTurnsElsewhereIsOne) {
-  const Polygon disc = MakeDisc(12);
-  Plan plan = MakeDiscPlan(disc);
+  const object::Polygon disc = MakeDisc(12);
+  plan::Plan plan = MakeDiscPlan(disc);
   const auto at = [&](int edge, double u) {
-    return FingerGrasp{FingerAt(disc, 0, edge, u), FingerAt(disc, 1, edge + 6, u)};
+    return plan::FingerGrasp{FingerAt(disc, 0, edge, u), FingerAt(disc, 1, edge + 6, u)};
   };
   plan.initial = at(2, 0.5);
-  plan.steps = {Align{{at(2, 0.5), at(2, 1), at(3, 0), at(3, 0.5)}}};
+  plan.steps = {plan::Align{{at(2, 0.5), at(2, 1), at(3, 0), at(3, 0.5)}}};
   EXPECT_THAT(Scene(disc, plan).map.paths, SizeIs(1));
 }
 
 TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
-  const Polygon ring = MakeRing(12);
-  Plan plan = MakeForkPlan();
+  const object::Polygon ring = MakeRing(12);
+  plan::Plan plan = MakeForkPlan();
   plan.steps.clear();
   // The wall between the outer ring and the hole, near the first vertex; holes run clockwise.
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 23, 0.5)};
-  const auto located = [&](const Plan& p) { return Scene(ring, p); };
+  const auto located = [&](const plan::Plan& p) { return Scene(ring, p); };
   EXPECT_THAT(located(plan).map.rings, ElementsAre(0, 1));
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 6, 0.5)};
   const Scene outer = located(plan);

@@ -14,38 +14,40 @@ double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 
 }  // namespace
 
-Polygon MakeRing(int edges) {
-  return Polygon::FromRings({Circle(edges), Circle(edges, 0.5)}, "ring");
+object::Polygon MakeRing(int edges) {
+  return object::Polygon::FromRings({Circle(edges), Circle(edges, 0.5)}, "ring");
 }
 
-Polygon MakeFork() {
-  return Polygon::FromRings(
+object::Polygon MakeFork() {
+  return object::Polygon::FromRings(
       {{{0, 0}, {10, 0}, {10, 10}, {7, 10}, {7, 3}, {3, 3}, {3, 10}, {0, 10}}}, "fork");
 }
 
-Plan MakeForkPlan() {
-  const Polygon fork = MakeFork();
-  const FingerContact right = FingerAt(fork, 0, 1, 0.8);
-  const FingerContact left = FingerAt(fork, 1, 7, 0.2);
-  const FingerContact inner_right = FingerAt(fork, 2, 3, 2.0 / 7);
-  const FingerContact inner_left = FingerAt(fork, 1, 5, 5.0 / 7);
-  return MakePlanarPlan({right, left}, {Switch{{inner_right}, {1}}, Switch{{inner_left}, {0}}});
+plan::Plan MakeForkPlan() {
+  const object::Polygon fork = MakeFork();
+  const plan::FingerContact right = FingerAt(fork, 0, 1, 0.8);
+  const plan::FingerContact left = FingerAt(fork, 1, 7, 0.2);
+  const plan::FingerContact inner_right = FingerAt(fork, 2, 3, 2.0 / 7);
+  const plan::FingerContact inner_left = FingerAt(fork, 1, 5, 5.0 / 7);
+  return MakePlanarPlan({right, left},
+                        {plan::Switch{{inner_right}, {1}}, plan::Switch{{inner_left}, {0}}});
 }
 
-Plan MakeDiscPlan(const Polygon& disc) {
+plan::Plan MakeDiscPlan(const object::Polygon& disc) {
   const int edges = disc.face_count();
   const auto at = [&](int edge, double u) {
-    return FingerGrasp{FingerAt(disc, 0, edge % edges, u),
-                       FingerAt(disc, 1, (edge + edges / 2) % edges, u)};
+    return plan::FingerGrasp{FingerAt(disc, 0, edge % edges, u),
+                             FingerAt(disc, 1, (edge + edges / 2) % edges, u)};
   };
-  return MakePlanarPlan(at(edges - 1, 0.5),
-                        {Align{{at(edges - 1, 0.5), at(edges - 1, 1), at(0, 0), at(0, 0.5)}}});
+  return MakePlanarPlan(
+      at(edges - 1, 0.5),
+      {plan::Align{{at(edges - 1, 0.5), at(edges - 1, 1), at(0, 0), at(0, 0.5)}}});
 }
 
-Plan MakeExchangePlan() {
-  const Polygon square = MakeSquare();
+plan::Plan MakeExchangePlan() {
+  const object::Polygon square = MakeSquare();
   const auto at = [&](int finger, int edge) { return FingerAt(square, finger, edge, 0.5); };
-  return MakePlanarPlan({at(0, 0), at(1, 2)}, {Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
+  return MakePlanarPlan({at(0, 0), at(1, 2)}, {plan::Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
 }
 
 bool Contains(const Outline& outline, const Vector2d& p, double margin) {

@@ -11,22 +11,22 @@
 namespace regrasp::render {
 
 /// A disc with a concentric round hole of half its radius, of as many edges.
-[[nodiscard]] Polygon MakeRing(int edges);
+[[nodiscard]] object::Polygon MakeRing(int edges);
 
 /// An upright fork, 10 wide and 10 high; prongs 3 wide, the slot 4 wide and 7 deep. Its boundary by
 /// length: bottom 0 to 10, right side to 20, right tip to 23, right inner side to 30, floor of the
 /// slot to 34, left inner side to 41, left tip to 44, left side to 54.
-[[nodiscard]] Polygon MakeFork();
+[[nodiscard]] object::Polygon MakeFork();
 
 /// At θ = 20°, all 2 below the tips: both sides are squeezed; then the right prong; then the slot
 /// is stretched. Places (18, 46), (18, 25), (39, 25) if a contact that stays keeps its axis.
-[[nodiscard]] Plan MakeForkPlan();
+[[nodiscard]] plan::Plan MakeForkPlan();
 
 /// Two antipodal contacts move to the next edges of a disc, one of them from the last to the first.
-[[nodiscard]] Plan MakeDiscPlan(const Polygon& disc);
+[[nodiscard]] plan::Plan MakeDiscPlan(const object::Polygon& disc);
 
 /// A square whose both contacts are exchanged at once.
-[[nodiscard]] Plan MakeExchangePlan();
+[[nodiscard]] plan::Plan MakeExchangePlan();
 
 /// True iff a point is inside a convex counter-clockwise outline, or within `margin` of it.
 [[nodiscard]] bool Contains(const Outline& outline, const Eigen::Vector2d& p, double margin = 0);

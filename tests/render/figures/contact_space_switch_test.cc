@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using testing::SizeIs;
 
 /// All switches of a plan.
-std::vector<ContactSwitch> SwitchesOf(const Polygon& polygon, const Plan& plan) {
+std::vector<ContactSwitch> SwitchesOf(const object::Polygon& polygon, const plan::Plan& plan) {
   const contour::ContourGraph graph(polygon, plan.half_angle);
   contour::SetGeometry geometry(graph);
   const std::vector<TrackEntry> track = TrackPlan(plan);
@@ -31,14 +31,14 @@ std::vector<ContactSwitch> SwitchesOf(const Polygon& polygon, const Plan& plan) 
 /// Switches of random plans on a fork and on a ring.
 std::vector<ContactSwitch> ManySwitches() {
   std::vector<ContactSwitch> all;
-  for (const Polygon& polygon : {MakeFork(), MakeRing(20)}) {
+  for (const object::Polygon& polygon : {MakeFork(), MakeRing(20)}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-      const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-      PlanRequest options;
+      const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
+      planning::PlanRequest options;
       options.criteria.half_angle = 0.45;
       options.seed = seed;
-      if (seed % 2 == 0) options.objective = Objective::kRegions;
-      const PlanResult result =
+      if (seed % 2 == 0) options.objective = planning::Objective::kRegions;
+      const planning::PlanResult result =
           PlanWith(contour::ContourPlanner(), polygon, random, random, options);
       if (!result.plan) continue;
       for (ContactSwitch& step : SwitchesOf(polygon, *result.plan)) all.push_back(std::move(step));
@@ -134,9 +134,10 @@ TEST(ContactSpaceSwitchTest, KnowsTheAnswerOnAFork) {
 }
 
 TEST(ContactSpaceSwitchTest, AnExchangeOfBothContactsHasNoFigure) {
-  EXPECT_THAT(SwitchesOf(Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square"),
-                         MakeExchangePlan()),
-              SizeIs(0));
+  EXPECT_THAT(
+      SwitchesOf(object::Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square"),
+                 MakeExchangePlan()),
+      SizeIs(0));
 }
 
 TEST(ContactSpaceSwitchPageTest, BothSetsHaveOneScaleAndOneAxisAndLieOnThePage) {

@@ -11,7 +11,7 @@ namespace {
 using testing::SizeIs;
 
 TEST(ContactSpaceTrackTest, AContactThatStaysKeepsItsAxisAndAPlacedOneTakesTheOther) {
-  const Polygon fork = MakeFork();
+  const object::Polygon fork = MakeFork();
   const contour::Boundary boundary(fork);
   const std::vector<TrackEntry> track = TrackPlan(MakeForkPlan());
   ASSERT_THAT(track, SizeIs(3));
@@ -26,16 +26,16 @@ TEST(ContactSpaceTrackTest, AContactThatStaysKeepsItsAxisAndAPlacedOneTakesTheOt
 }
 
 TEST(ContactSpaceTrackTest, TheInitialGraspHasItsLowerEdgeAcrossWhicheverFingerHoldsIt) {
-  const Polygon fork = MakeFork();
-  Plan plan = MakeForkPlan();
+  const object::Polygon fork = MakeFork();
+  plan::Plan plan = MakeForkPlan();
   std::swap(plan.initial[0], plan.initial[1]);
   EXPECT_EQ(TrackPlan(plan).front().grasp[0].contact.face, 1);
 }
 
 TEST(ContactSpaceTrackTest, AWaypointHasTheAxesOfTheGraspBefore) {
-  const Polygon disc = MakeDisc(12);
-  Plan plan = MakeDiscPlan(disc);
-  auto& waypoints = std::get<Align>(plan.steps[0]).waypoints;
+  const object::Polygon disc = MakeDisc(12);
+  plan::Plan plan = MakeDiscPlan(disc);
+  auto& waypoints = std::get<plan::Align>(plan.steps[0]).waypoints;
   std::swap(waypoints[2][0], waypoints[2][1]);  // the order in a file means nothing
   const std::vector<TrackEntry> track = TrackPlan(plan);
   ASSERT_THAT(track, SizeIs(2));
@@ -57,8 +57,8 @@ TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
   EXPECT_EQ(FindOtherThanTwoFingers(MakeForkPlan()), std::nullopt);
   EXPECT_EQ(FindOtherThanTwoFingers(MakeExchangePlan()), std::nullopt);
   EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), (RestSize{0, 3}));
-  Plan plan = MakeForkPlan();
-  std::get<Switch>(plan.steps[1]).release.clear();
+  plan::Plan plan = MakeForkPlan();
+  std::get<plan::Switch>(plan.steps[1]).release.clear();
   EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{2, 3}));
 }
 

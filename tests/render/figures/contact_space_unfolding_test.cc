@@ -21,7 +21,7 @@ constexpr double kAside = 1e-7;
 
 struct Case {
   std::string name;
-  Polygon polygon;
+  object::Polygon polygon;
 };
 
 std::vector<Case> Cases() {
@@ -93,7 +93,7 @@ TEST(ContactSpaceUnfoldingTest, ASideOfAPieceIsBorderOrAnotherPieceFollows) {
 }
 
 TEST(ContactSpaceUnfoldingTest, WithoutUnfoldingASetEndsAtTheFrameWhereItHasNoBorder) {
-  const Polygon disc = MakeDisc(24);
+  const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph graph(disc, Radians(20));
   contour::SetGeometry geometry(graph);
   ASSERT_EQ(graph.vertex_count(), 1);
@@ -149,7 +149,7 @@ TEST(ContactSpaceUnfoldingTest, PiecesKeepTheirAreaAndDoNotOverlap) {
 }
 
 TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
-  const Polygon disc = MakeDisc(24);
+  const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph graph(disc, Radians(20));
   contour::SetGeometry geometry(graph);
   const int piece = graph.PiecesOn(3, 15).front();
@@ -162,7 +162,7 @@ TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
 }
 
 TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const contour::ContourGraph simple(square, Radians(20));
   contour::SetGeometry simple_geometry(simple);
   ASSERT_EQ(simple.vertex_count(), 2);
@@ -171,7 +171,7 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
     EXPECT_THAT(unfolded.cuts, IsEmpty());
     EXPECT_THAT(unfolded.pieces, SizeIs(1));
   }
-  const Polygon disc = MakeDisc(24);
+  const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph round(disc, Radians(20));
   contour::SetGeometry round_geometry(round);
   const UnfoldedSet unfolded = Unfold(round_geometry, 0, 1);
@@ -188,7 +188,7 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
 }
 
 TEST(ContactSpaceUnfoldingTest, TheDiagramIsInsideTheSet) {
-  const Polygon fork = MakeFork();
+  const object::Polygon fork = MakeFork();
   const contour::ContourGraph graph(fork, Radians(20));
   contour::SetGeometry geometry(graph);
   int checked = 0;

@@ -25,13 +25,13 @@ constexpr double kCloseAtLimit = 1e-6;
 
 const double kHeight = std::sqrt(3.0) / 2;
 
-Grasp MiddleOfTriangle() {
-  const Polygon triangle = MakeTriangle();
+grasp::Grasp MiddleOfTriangle() {
+  const object::Polygon triangle = MakeTriangle();
   return {OnEdge(triangle, 0, 0.5), OnEdge(triangle, 1, 0.5), OnEdge(triangle, 2, 0.5)};
 }
 
-Grasp OnSquare(const std::vector<std::pair<int, double>>& places) {
-  Grasp grasp;
+grasp::Grasp OnSquare(const std::vector<std::pair<int, double>>& places) {
+  grasp::Grasp grasp;
   for (const auto& [edge, u] : places) grasp.push_back(OnEdge(MakeSquare(), edge, u));
   return grasp;
 }
@@ -67,16 +67,16 @@ TEST(GraspDiagramTest, AnEquilateralTriangleHeldInTheMiddlesHasItsFocusAtTheCent
 }
 
 TEST(GraspDiagramTest, TheFocusMovesWithTheContacts) {
-  const Polygon triangle = MakeTriangle();
-  const Grasp grasp = {OnEdge(triangle, 0, 0.6), OnEdge(triangle, 1, 0.5),
-                       OnEdge(triangle, 2, 0.5)};
+  const object::Polygon triangle = MakeTriangle();
+  const grasp::Grasp grasp = {OnEdge(triangle, 0, 0.6), OnEdge(triangle, 1, 0.5),
+                              OnEdge(triangle, 2, 0.5)};
   const GraspDiagram diagram = DescribeGrasp(triangle, grasp, Radians(20));
   ASSERT_TRUE(diagram.focus);
   EXPECT_GT(diagram.focus->x(), 0.5 + kClose);
 }
 
 TEST(GraspDiagramTest, ConesOfAConcurrentGraspAreNoWiderThanItsNormalsSpan) {
-  const Polygon triangle = MakeTriangle();
+  const object::Polygon triangle = MakeTriangle();
   for (const auto& [friction, drawn] : {std::pair{20.0, 20.0}, {29.0, 29.0}, {45.0, 30.0}}) {
     const GraspDiagram diagram = DescribeGrasp(triangle, MiddleOfTriangle(), Radians(friction));
     ASSERT_EQ(diagram.cones.size(), 3U);
@@ -117,9 +117,9 @@ TEST(GraspDiagramTest, TheFocusCellOfATriangleHasTheCornersThatGeometrySays) {
 }
 
 TEST(GraspDiagramTest, ContactsThatSeeNoCommonPointAreNotConcurrent) {
-  const Polygon triangle = MakeTriangle();
-  const Grasp apart = {OnEdge(triangle, 0, 0.05), OnEdge(triangle, 1, 0.05),
-                       OnEdge(triangle, 2, 0.05)};
+  const object::Polygon triangle = MakeTriangle();
+  const grasp::Grasp apart = {OnEdge(triangle, 0, 0.05), OnEdge(triangle, 1, 0.05),
+                              OnEdge(triangle, 2, 0.05)};
   const GraspDiagram diagram = DescribeGrasp(triangle, apart, Radians(5));
   EXPECT_EQ(diagram.kind, DiagramKind::kOther);
   EXPECT_FALSE(diagram.focus);
@@ -154,9 +154,9 @@ TEST(GraspDiagramTest, ACommonConeIsNarrowerWhereTheEdgesLean) {
   // is between 10° − θ and θ from the vertical, and the three normals do not span the plane.
   const double first = std::tan(Radians(4));
   const double second = std::tan(Radians(10));
-  const Polygon wedge = Polygon::FromRings(
+  const object::Polygon wedge = object::Polygon::FromRings(
       {{{-1, -1}, {1, -1}, {1, 1}, {0, 1 - first}, {-1, 1 - first - second}}}, "wedge");
-  const Grasp grasp = {OnEdge(wedge, 0, 0.5), OnEdge(wedge, 2, 0.5), OnEdge(wedge, 3, 0.5)};
+  const grasp::Grasp grasp = {OnEdge(wedge, 0, 0.5), OnEdge(wedge, 2, 0.5), OnEdge(wedge, 3, 0.5)};
   const GraspDiagram diagram = DescribeGrasp(wedge, grasp, Radians(20));
   ASSERT_EQ(diagram.kind, DiagramKind::kParallel);
   for (const DoubleCone& cone : diagram.cones) {
@@ -167,7 +167,7 @@ TEST(GraspDiagramTest, ACommonConeIsNarrowerWhereTheEdgesLean) {
 }
 
 TEST(GraspDiagramTest, TheLinesOfForceOfAParallelGraspSeparateTheOuterContacts) {
-  const Grasp grasp = OnSquare({{0, 0.9}, {2, 0.25}, {2, 0.75}});
+  const grasp::Grasp grasp = OnSquare({{0, 0.9}, {2, 0.25}, {2, 0.75}});
   const GraspDiagram diagram = DescribeGrasp(MakeSquare(), grasp, Radians(20));
   ASSERT_EQ(diagram.kind, DiagramKind::kParallel);
   const Vector2d d = *diagram.force_direction;
@@ -198,12 +198,12 @@ TEST(GraspDiagramTest, TwoContactsAreATwoFingerGraspWhereTheirLineIsInBothCones)
 }
 
 TEST(GraspDiagramTest, TwoFingersMayStretchAHole) {
-  const Polygon frame = Polygon::FromRings(
+  const object::Polygon frame = object::Polygon::FromRings(
       {{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}}, "frame");
-  const Grasp grasp = {OnEdge(frame, 4, 0.5), OnEdge(frame, 6, 0.5)};
+  const grasp::Grasp grasp = {OnEdge(frame, 4, 0.5), OnEdge(frame, 6, 0.5)};
   ASSERT_NEAR((grasp[0].p - grasp[1].p).norm(), 2, kClose);
   EXPECT_EQ(DescribeGrasp(frame, grasp, Radians(10)).kind, DiagramKind::kTwoFinger);
-  const Grasp corner = {OnEdge(frame, 4, 0.5), OnEdge(frame, 5, 0.5)};
+  const grasp::Grasp corner = {OnEdge(frame, 4, 0.5), OnEdge(frame, 5, 0.5)};
   EXPECT_EQ(DescribeGrasp(frame, corner, Radians(10)).kind, DiagramKind::kOther);
 }
 
@@ -216,7 +216,7 @@ TEST(GraspDiagramTest, FourContactsShowTheirFrictionCones) {
 }
 
 TEST(GraspDiagramTest, TheOrderOfContactsChangesNothingButTheOrderOfCones) {
-  Grasp grasp = OnSquare({{0, 0.45}, {2, 0.25}, {2, 0.75}});
+  grasp::Grasp grasp = OnSquare({{0, 0.45}, {2, 0.25}, {2, 0.75}});
   const GraspDiagram first = DescribeGrasp(MakeSquare(), grasp, Radians(20));
   int checked = 0;
   for (int turn = 0; turn < 2; ++turn) {
@@ -233,7 +233,7 @@ TEST(GraspDiagramTest, TheOrderOfContactsChangesNothingButTheOrderOfCones) {
 TEST(GraspDiagramTest, RandomGraspsOfAKindAreForceClosure) {
   // Another route: what is drawn as one of the three kinds is force closure, and what is drawn as
   // none may or may not be.
-  const Polygon polygon = Polygon::FromRings(
+  const object::Polygon polygon = object::Polygon::FromRings(
       {{{0, 0}, {5, -1}, {6, 1}, {9, 0.5}, {10, 4}, {7, 4.5}, {8, 7}, {4, 8}, {3, 5}, {0, 6}}},
       "blob");
   std::mt19937 random(11);
@@ -242,7 +242,7 @@ TEST(GraspDiagramTest, RandomGraspsOfAKindAreForceClosure) {
   const double theta = Radians(18);
   int counts[4] = {};
   for (int trial = 0; trial < 3000; ++trial) {
-    Grasp grasp;
+    grasp::Grasp grasp;
     const int fingers = 2 + trial % 2;
     for (int k = 0; k < fingers; ++k) {
       grasp.push_back(OnEdge(polygon, edge(random), place(random)));
@@ -250,13 +250,13 @@ TEST(GraspDiagramTest, RandomGraspsOfAKindAreForceClosure) {
     const GraspDiagram diagram = DescribeGrasp(polygon, grasp, theta);
     ++counts[static_cast<int>(diagram.kind)];
     if (diagram.kind == DiagramKind::kOther) continue;
-    EXPECT_TRUE(IsForceClosure(grasp, polygon.wrench_frame(), theta)) << trial;
+    EXPECT_TRUE(grasp::IsForceClosure(grasp, polygon.wrench_frame(), theta)) << trial;
   }
   for (const int count : counts) EXPECT_GT(count, 0);
 }
 
 TEST(GraspDiagramTest, RefusesContactsWithoutAFaceAndAnglesThatAreNone) {
-  Grasp grasp = MiddleOfTriangle();
+  grasp::Grasp grasp = MiddleOfTriangle();
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, 0), std::invalid_argument);
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, Radians(90)), std::invalid_argument);
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, std::nan("")), std::invalid_argument);

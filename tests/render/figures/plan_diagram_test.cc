@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<int> FingersOf(const StepDiagram& diagram, FingerRole role) {
+std::vector<int> FingersOf(const StepDiagram& diagram, plan::FingerRole role) {
   std::vector<int> fingers;
   for (const DiagramFinger& finger : diagram.fingers) {
     if (finger.role == role) fingers.push_back(finger.finger);
@@ -38,13 +38,13 @@ TEST(PlanDiagramTest, HasTheHoldAndThenAFigureForEachStep) {
 TEST(PlanDiagramTest, SaysWhatEachFingerDoes) {
   const std::vector<StepDiagram> diagrams = DescribeSquarePlan();
   ASSERT_EQ(diagrams.size(), 4U);
-  EXPECT_THAT(FingersOf(diagrams[0], FingerRole::kHolding), ElementsAre(0, 1, 2));
-  EXPECT_THAT(FingersOf(diagrams[1], FingerRole::kMoved), ElementsAre(0));
-  EXPECT_THAT(FingersOf(diagrams[1], FingerRole::kHolding), ElementsAre(1, 2));
-  EXPECT_THAT(FingersOf(diagrams[2], FingerRole::kPlaced), ElementsAre(3));
-  EXPECT_THAT(FingersOf(diagrams[2], FingerRole::kReleased), ElementsAre(0));
-  EXPECT_THAT(FingersOf(diagrams[3], FingerRole::kPlaced), ElementsAre(0));
-  EXPECT_THAT(FingersOf(diagrams[3], FingerRole::kReleased), ElementsAre(1, 2));
+  EXPECT_THAT(FingersOf(diagrams[0], plan::FingerRole::kHolding), ElementsAre(0, 1, 2));
+  EXPECT_THAT(FingersOf(diagrams[1], plan::FingerRole::kMoved), ElementsAre(0));
+  EXPECT_THAT(FingersOf(diagrams[1], plan::FingerRole::kHolding), ElementsAre(1, 2));
+  EXPECT_THAT(FingersOf(diagrams[2], plan::FingerRole::kPlaced), ElementsAre(3));
+  EXPECT_THAT(FingersOf(diagrams[2], plan::FingerRole::kReleased), ElementsAre(0));
+  EXPECT_THAT(FingersOf(diagrams[3], plan::FingerRole::kPlaced), ElementsAre(0));
+  EXPECT_THAT(FingersOf(diagrams[3], plan::FingerRole::kReleased), ElementsAre(1, 2));
 }
 
 TEST(PlanDiagramTest, EveryConeBelongsToTheFingerAtItsPlaceInTheList) {
@@ -53,7 +53,7 @@ TEST(PlanDiagramTest, EveryConeBelongsToTheFingerAtItsPlaceInTheList) {
     ASSERT_LE(diagram.grasp.cones.size(), diagram.fingers.size());
     for (std::size_t i = 0; i < diagram.grasp.cones.size(); ++i, ++checked) {
       EXPECT_EQ(diagram.grasp.cones[i].apex, diagram.fingers[i].contact.p);
-      EXPECT_NE(diagram.fingers[i].role, FingerRole::kReleased);
+      EXPECT_NE(diagram.fingers[i].role, plan::FingerRole::kReleased);
     }
   }
   EXPECT_EQ(checked, 3 + 3 + 3 + 2);
@@ -62,7 +62,7 @@ TEST(PlanDiagramTest, EveryConeBelongsToTheFingerAtItsPlaceInTheList) {
 TEST(PlanDiagramTest, AReleasedFingerIsWhereItHeld) {
   const StepDiagram diagram = DescribeSquarePlan()[2];
   const DiagramFinger& released = diagram.fingers.back();
-  ASSERT_EQ(released.role, FingerRole::kReleased);
+  ASSERT_EQ(released.role, plan::FingerRole::kReleased);
   EXPECT_LT((released.contact.p - Eigen::Vector2d(-0.2, -1)).norm(), 1e-12);
   EXPECT_LT((released.contact.outward - Eigen::Vector2d(0, -1)).norm(), 1e-12);
 }
@@ -71,7 +71,7 @@ TEST(PlanDiagramTest, AMovedFingerHasItsWayAndTheOthersHaveNone) {
   const StepDiagram diagram = DescribeSquarePlan()[1];
   int moved = 0;
   for (const DiagramFinger& finger : diagram.fingers) {
-    if (finger.role != FingerRole::kMoved) {
+    if (finger.role != plan::FingerRole::kMoved) {
       EXPECT_TRUE(finger.path.empty());
       continue;
     }
@@ -94,7 +94,7 @@ TEST(PlanDiagramTest, CaptionsNameStepAndTypeOfGrasp) {
 }
 
 TEST(PlanDiagramTest, ACaptionSaysWhereConesAreNarrowerThanTheFriction) {
-  Plan plan = MakeTrianglePlan();
+  plan::Plan plan = MakeTrianglePlan();
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));
   plan.half_angle = Radians(30);  // just φ*
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));

@@ -95,7 +95,7 @@ TEST(PlanFigureTest, AStepIsAColumnWideAndASheetTwo) {
 }
 
 TEST(PlanFigureTest, ALongPlanMakesALargerSheetThatCanBeDrawn) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const StepDiagram hold = SquareDiagrams()[0];
   const std::vector<StepDiagram> many(150, hold);
   const Size size = PngSize(DrawSheet(square, many, FigureFormat::kPng));
@@ -104,15 +104,17 @@ TEST(PlanFigureTest, ALongPlanMakesALargerSheetThatCanBeDrawn) {
 }
 
 TEST(PlanFigureTest, ALongObjectHasFewerPanelsInARow) {
-  const auto height = [](const Polygon& polygon) {
+  const auto height = [](const object::Polygon& polygon) {
     StepDiagram hold = SquareDiagrams()[0];
     hold.grasp = {};
     hold.fingers.clear();
     const std::vector<StepDiagram> four(4, hold);
     return PngSize(DrawSheet(polygon, four, FigureFormat::kPng)).height;
   };
-  const Polygon bar = Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");
-  const Polygon plate = Polygon::FromRings({{{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}}}, "plate");
+  const object::Polygon bar =
+      object::Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");
+  const object::Polygon plate =
+      object::Polygon::FromRings({{{-1, -0.5}, {1, -0.5}, {1, 0.5}, {-1, 0.5}}}, "plate");
   // Two rows of bars are higher than one row of plates, though a plate is five times as high.
   EXPECT_GT(height(bar), height(plate));
 }
@@ -126,7 +128,7 @@ TEST(PlanFigureTest, RowsOfASheetAreFilled) {
 }
 
 TEST(PanelViewTest, ShowsThePolygonAndAllFocusPointsThatAreNear) {
-  const Polygon triangle = MakeTriangle();
+  const object::Polygon triangle = MakeTriangle();
   std::vector<StepDiagram> diagrams = DescribePlan(triangle, MakeTrianglePlan());
   const auto shows = [&](const PanelView& view, const Vector2d& p) {
     const Vector2d at = view.ToPanel(p);
@@ -143,7 +145,8 @@ TEST(PanelViewTest, ShowsThePolygonAndAllFocusPointsThatAreNear) {
 }
 
 TEST(PanelViewTest, ATallObjectIsNoTallerThanAPage) {
-  const Polygon tower = Polygon::FromRings({{{0, 0}, {1, 0}, {1, 50}, {0, 50}}}, "tower");
+  const object::Polygon tower =
+      object::Polygon::FromRings({{{0, 0}, {1, 0}, {1, 50}, {0, 50}}}, "tower");
   const PanelView view = FitView(tower, {}, 200);
   EXPECT_NEAR(view.height, 200 * kTallestPanel, 1e-9);
   EXPECT_NEAR(view.ToPanel({0, 50}).y(), kPanelMargin, 1e-9);
@@ -151,7 +154,7 @@ TEST(PanelViewTest, ATallObjectIsNoTallerThanAPage) {
 }
 
 TEST(PanelGraspTest, AConeReachesBeyondTheFocusOnItsSideOnly) {
-  const Polygon triangle = MakeTriangle();
+  const object::Polygon triangle = MakeTriangle();
   const StepDiagram diagram = DescribePlan(triangle, MakeTrianglePlan())[0];
   const PanelView view = FitView(triangle, {}, 240);
   ASSERT_FALSE(diagram.grasp.cones.empty());
@@ -163,7 +166,7 @@ TEST(PanelGraspTest, AConeReachesBeyondTheFocusOnItsSideOnly) {
 }
 
 TEST(PanelGraspTest, AConeEndsOnThePanel) {
-  const Polygon square = MakeSquare();
+  const object::Polygon square = MakeSquare();
   const PanelView view = FitView(square, {}, 240);
   const auto length = [&](double x) {
     // The material's side is to the right, as it is from a hole's border.
@@ -176,7 +179,7 @@ TEST(PanelGraspTest, AConeEndsOnThePanel) {
 }
 
 TEST(PanelFingersTest, RoomOutsideEndsWhereThePolygonBeginsAgain) {
-  const Polygon frame = Polygon::FromRings(
+  const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {6, 0}, {6, 6}, {0, 6}}, {{1, 1}, {1, 4}, {4, 4}, {4, 1}}}, "frame");
   EXPECT_NEAR(OutwardRoom(frame, {Vector2d(1, 2), Vector2d(1, 0)}), 3, 1e-12);
   EXPECT_TRUE(std::isinf(OutwardRoom(frame, {Vector2d(6, 2), Vector2d(1, 0)})));

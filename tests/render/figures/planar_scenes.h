@@ -9,16 +9,18 @@
 
 namespace regrasp::render {
 
-[[nodiscard]] FingerContact FingerAt(const Polygon& polygon, int finger, int edge, double share);
+[[nodiscard]] plan::FingerContact FingerAt(const object::Polygon& polygon, int finger, int edge,
+                                           double share);
 
 /// A plan of a hand of four fingers at θ = 20°; its goal is the last grasp.
-[[nodiscard]] Plan MakePlanarPlan(const FingerGrasp& initial, std::vector<Step> steps);
+[[nodiscard]] plan::Plan MakePlanarPlan(const plan::FingerGrasp& initial,
+                                        std::vector<plan::Step> steps);
 
 /// A plan on the square at θ = 20°: a parallel grasp; finger 0 moves; 3 takes over from 0; 0 is
 /// placed opposite and 1 and 2 leave.
-[[nodiscard]] Plan MakeSquarePlan();
+[[nodiscard]] plan::Plan MakeSquarePlan();
 
 /// A hold and a switch on the triangle at θ = 20°, both concurrent.
-[[nodiscard]] Plan MakeTrianglePlan();
+[[nodiscard]] plan::Plan MakeTrianglePlan();
 
 }  // namespace regrasp::render

@@ -21,7 +21,7 @@ double Volume(const FacetMesh& mesh) {
 }
 
 TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
-  const Polyhedron block = MakeThinLBlock();
+  const object::Polyhedron block = MakeThinLBlock();
   const BodyShape shape = MakeBodyShape(block);
   const double unit = std::pow(block.diameter(), 3);
   EXPECT_NEAR(Volume(shape.surface) * unit, block.mass_properties().volume, 1e-12);
@@ -36,8 +36,8 @@ TEST(BodyShapeTest, TurnedInsideOutHasTheOppositeVolumeAndNormals) {
 }
 
 TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
-  const Polygon polygon =
-      Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 1))", "polygon");
+  const object::Polygon polygon = object::Polygon::FromWkt(
+      "POLYGON((0 0, 3 0, 3 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 1))", "polygon");
   const BodyShape shape = MakeBodyShape(polygon);
   // Diameter 5, thickness a quarter of it: area (12 − 0.5) / 25 times 0.25.
   EXPECT_NEAR(Volume(shape.surface), 11.5 / 25 * 0.25, 1e-12);
@@ -47,7 +47,8 @@ TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
 }
 
 TEST(BodyShapeTest, APrismHasTheThicknessAskedForAndItsTopAtThePlaneOfTheContacts) {
-  const Polygon square = Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0))", "rectangle");
+  const object::Polygon square =
+      object::Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0))", "rectangle");
   for (const double thickness : {0.02, 0.25, 2.0}) {
     double low = 0, high = -1;
     for (const auto& corners : MakeBodyShape(square, thickness).surface.triangles) {
@@ -63,7 +64,7 @@ TEST(BodyShapeTest, APrismHasTheThicknessAskedForAndItsTopAtThePlaneOfTheContact
 }
 
 TEST(BodyShapeTest, RaysInThePlaneOfTheContactsMeetThePrismsWalls) {
-  const Polygon frame = Polygon::FromWkt(
+  const object::Polygon frame = object::Polygon::FromWkt(
       "POLYGON((-2 -2, 2 -2, 2 2, -2 2, -2 -2), (-1 -1, -1 1, 1 1, 1 -1, -1 -1))", "frame");
   const BodyShape shape = MakeBodyShape(frame);
   const double half = 1 / frame.diameter();

@@ -20,8 +20,8 @@ FrameOptions Small(int supersampling = 1) { return {320, 240, supersampling}; }
 /// Large enough for text.
 FrameOptions Medium() { return {640, 480, 1}; }
 
-Image Draw(const Object& object, const std::vector<Snapshot>& snapshots, std::size_t index,
-           const FrameOptions& options, const std::string& caption = "") {
+Image Draw(const object::Object& object, const std::vector<plan::Snapshot>& snapshots,
+           std::size_t index, const FrameOptions& options, const std::string& caption = "") {
   FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
   return renderer.Render(snapshots[index], caption);
 }
@@ -57,7 +57,7 @@ int CountDifferent(const Image& a, const Image& b) {
 }
 
 TEST(FrameTest, HasTheSizeThatWasAskedFor) {
-  const Polyhedron cube = MakeCube(0.03);
+  const object::Polyhedron cube = MakeCube(0.03);
   int checked = 0;
   for (const auto& [width, height] : {std::pair(64, 48), std::pair(48, 200), std::pair(801, 333)}) {
     const Image image = Draw(cube, MakeCubeSequence(), 0, {width, height, 2});
@@ -71,7 +71,7 @@ TEST(FrameTest, HasTheSizeThatWasAskedFor) {
 }
 
 TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
-  const Polyhedron cube = MakeCube(0.03);
+  const object::Polyhedron cube = MakeCube(0.03);
   const Image image = Draw(cube, MakeCubeSequence(), 0, {4096, 4096, 2});
   EXPECT_EQ(image.width, 4096);
   EXPECT_TRUE(IsWhite(PixelAt(image, 4095, 4095)));
@@ -87,7 +87,7 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
 }
 
 TEST(FrameTest, RejectsSizesOutOfRange) {
-  const Polyhedron cube = MakeCube(0.03);
+  const object::Polyhedron cube = MakeCube(0.03);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {47, 480, 1}), std::invalid_argument);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 4097, 1}), std::invalid_argument);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {640, 480, 0}), std::invalid_argument);
@@ -101,12 +101,12 @@ TEST(FrameTest, HasAWhiteBackgroundAtTheCorners) {
 }
 
 TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
-  const Polyhedron cube = MakeCube(0.03);
-  std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const object::Polyhedron cube = MakeCube(0.03);
+  std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   const Image all = Draw(cube, snapshots, 0, Medium());
   for (int free = 0; free < 4; ++free) {
-    Snapshot without = snapshots[0];
-    without.fingers[free].role = FingerRole::kFree;
+    plan::Snapshot without = snapshots[0];
+    without.fingers[free].role = plan::FingerRole::kFree;
     FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
     const Color color = FingerColor(snapshots[0].fingers[free].finger);
     // Behind the body fingers are paler; their numbers never are.
@@ -117,29 +117,29 @@ TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
 }
 
 TEST(FrameTest, GivesTheSameBytesTwice) {
-  const Polyhedron block = MakeHoledBlock();
+  const object::Polyhedron block = MakeHoledBlock();
   const Image first = Draw(block, MakeHoledBlockSequence(), 0, Small(2), "caption");
   const Image second = Draw(block, MakeHoledBlockSequence(), 0, Small(2), "caption");
   EXPECT_EQ(first.rgb, second.rgb);
 }
 
 TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
-  const Polyhedron cube = MakeCube(0.03);
-  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small());
   const Image still = renderer.Render(snapshots[1]);
   EXPECT_EQ(CountDifferent(still, renderer.Render(snapshots[1])), 0);
-  Snapshot turned = snapshots[1];
+  plan::Snapshot turned = snapshots[1];
   turned.X_WO.rotate(Eigen::AngleAxisd(Radians(5), Eigen::Vector3d::UnitZ()));
   EXPECT_GT(CountDifferent(still, renderer.Render(turned)), 500);
-  Snapshot held = snapshots[1];
-  for (FingerState& finger : held.fingers) finger.role = FingerRole::kHolding;
+  plan::Snapshot held = snapshots[1];
+  for (plan::FingerState& finger : held.fingers) finger.role = plan::FingerRole::kHolding;
   EXPECT_GT(CountDifferent(still, renderer.Render(held)), 100);
 }
 
 TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
-  const Polyhedron cube = MakeCube(0.03);
-  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
   const Image without = renderer.Render(snapshots[0]);
   const Image with = renderer.Render(snapshots[0], "step 1/2");
@@ -158,12 +158,12 @@ TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
 
 TEST(FrameTest, IsIndependentOfTheObjectsSize) {
   // The same scene in metres and, scaled, in millimetres: the same picture, scale bar included.
-  const Polyhedron cube = MakeCube(0.03);
-  PolygonSoup soup;
+  const object::Polyhedron cube = MakeCube(0.03);
+  object::PolygonSoup soup;
   for (const Eigen::Vector3d& p : cube.vertices()) soup.vertices.push_back(1024 * p);
   for (const auto& t : cube.triangles()) soup.facets.push_back({t[0], t[1], t[2]});
-  const Polyhedron large = Polyhedron::FromSoup(soup, "large cube");
-  const std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const object::Polyhedron large = object::Polyhedron::FromSoup(soup, "large cube");
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer a(cube, 1, kHalfAngle, snapshots, Small());
   FrameRenderer b(large, 1.0 / 1024, kHalfAngle, snapshots, Small());
   const int bytes = 3 * 320 * 240;
@@ -172,32 +172,32 @@ TEST(FrameTest, IsIndependentOfTheObjectsSize) {
 
 TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
   // After a failed step the object may have fallen out of the picture; that must not matter.
-  const Polyhedron cube = MakeCube(0.03);
-  std::vector<Snapshot> snapshots = MakeCubeSequence();
+  const object::Polyhedron cube = MakeCube(0.03);
+  std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   snapshots.back().X_WO.translation() = Eigen::Vector3d(0, 0, -50);
   const Image image = Draw(cube, snapshots, 2, Small());
   EXPECT_GT(CountHue(image, FingerColor(3)), 20);
 }
 
-Polygon MakePolygon() {
-  return Polygon::FromWkt(
+object::Polygon MakePolygon() {
+  return object::Polygon::FromWkt(
       "POLYGON((0 0, 0.06 0, 0.06 0.04, 0 0.04, 0 0), "
       "(0.02 0.015, 0.03 0.015, 0.03 0.025, 0.02 0.015))",
       "polygon");
 }
 
 /// One finger from the left, one from below.
-Snapshot MakePlanarSnapshot() {
-  Snapshot snapshot;
+plan::Snapshot MakePlanarSnapshot() {
+  plan::Snapshot snapshot;
   snapshot.fingertip_radius_m = 0.002;
   snapshot.fingers = {
-      MakeFinger(0, FingerRole::kHolding, {0.0, 0.02, 0}, Eigen::Vector3d::UnitX()),
-      MakeFinger(1, FingerRole::kHolding, {0.04, 0.0, 0}, Eigen::Vector3d::UnitY())};
+      MakeFinger(0, plan::FingerRole::kHolding, {0.0, 0.02, 0}, Eigen::Vector3d::UnitX()),
+      MakeFinger(1, plan::FingerRole::kHolding, {0.04, 0.0, 0}, Eigen::Vector3d::UnitY())};
   return snapshot;
 }
 
 TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
-  const Polygon polygon = MakePolygon();
+  const object::Polygon polygon = MakePolygon();
   FrameOptions thin = Small(), thick = Small();
   thin.thickness = 0.02;
   thick.thickness = 0.25;
@@ -210,9 +210,9 @@ TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
 
 TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
   // A flat cone seen from its edge would not show its angle: whichever way it points.
-  const Polygon polygon = MakePolygon();
+  const object::Polygon polygon = MakePolygon();
   for (const int finger : {0, 1}) {
-    Snapshot alone = MakePlanarSnapshot();
+    plan::Snapshot alone = MakePlanarSnapshot();
     alone.fingers = {alone.fingers[finger]};
     const auto draw = [&](double degrees) {
       FrameRenderer renderer(polygon, 1, Radians(degrees), {alone}, Medium());

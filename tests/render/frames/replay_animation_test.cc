@@ -24,10 +24,10 @@ TEST(ReplayAnimationTest, InstantsAreNotRepeated) {
 }
 
 /// A finger of a body of 1 m that comes down by 5 cm in 50 samples, waits for 1000, presses, waits.
-std::vector<Snapshot> ComeDown() {
-  std::vector<Snapshot> samples;
+std::vector<plan::Snapshot> ComeDown() {
+  std::vector<plan::Snapshot> samples;
   const auto add = [&](double z, double force) {
-    Snapshot sample;
+    plan::Snapshot sample;
     sample.time_s = 0.001 * static_cast<double>(samples.size());
     sample.fingers.emplace_back();
     sample.fingers.back().tip_W.z() = z;
@@ -43,7 +43,7 @@ std::vector<Snapshot> ComeDown() {
 }
 
 TEST(ReplayAnimationTest, PicturesAreSpreadOverWhatMoves) {
-  const std::vector<Snapshot> samples = ComeDown();
+  const std::vector<plan::Snapshot> samples = ComeDown();
   const std::vector<double> progress = MeasureProgress(samples, 1, 1);
   ASSERT_EQ(progress.size(), samples.size());
   int coming = 0, pressing = 0;
@@ -61,10 +61,10 @@ TEST(ReplayAnimationTest, PicturesAreSpreadOverWhatMoves) {
 }
 
 TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
-  Snapshot sample;
+  plan::Snapshot sample;
   sample.fingertip_radius_m = 0.04;
-  FingerState state;
-  state.role = FingerRole::kPlaced;
+  plan::FingerState state;
+  state.role = plan::FingerRole::kPlaced;
   state.normal_W = -Eigen::Vector3d::UnitZ();
   state.tip_W.z() = 0.09;
   sample.fingers = {state};

@@ -14,28 +14,28 @@ using Eigen::Vector3d;
 
 constexpr double kTipRadius = 0.003;
 
-Snapshot MakeSnapshot(std::vector<FingerState> fingers) {
-  Snapshot snapshot;
+plan::Snapshot MakeSnapshot(std::vector<plan::FingerState> fingers) {
+  plan::Snapshot snapshot;
   snapshot.fingertip_radius_m = kTipRadius;
   snapshot.fingers = std::move(fingers);
   return snapshot;
 }
 
-constexpr auto kHolding = FingerRole::kHolding;
+constexpr auto kHolding = plan::FingerRole::kHolding;
 
 }  // namespace
 
-Polyhedron MakeThinLBlock() {
+object::Polyhedron MakeThinLBlock() {
   constexpr double a = 0.08;
   constexpr double b = 0.035;
-  return Polyhedron::FromSoup(
+  return object::Polyhedron::FromSoup(
       Extrude({{0, 0}, {a, 0}, {a, b}, {b, b}, {b, a}, {0, a}}, -0.015, 0.015), "l-block");
 }
 
-Polyhedron MakeHoledBlock() {
+object::Polyhedron MakeHoledBlock() {
   // Outer and inner ring of four; a quadrilateral per side, so that no facet has a hole.
   const std::vector<Vector2d> outer = {{-0.04, -0.03}, {0.04, -0.03}, {0.04, 0.03}, {-0.04, 0.03}};
-  PolygonSoup soup = Extrude(outer, -0.015, 0.015);
+  object::PolygonSoup soup = Extrude(outer, -0.015, 0.015);
   soup.facets.resize(4);
   for (const double z : {-0.015, 0.015}) {
     for (const Vector2d& p : outer) soup.vertices.push_back({p.x() * 0.5, p.y() * 0.5, z});
@@ -46,43 +46,45 @@ Polyhedron MakeHoledBlock() {
     soup.facets.push_back({j, i, 8 + i, 8 + j});
     soup.facets.push_back({4 + i, 4 + j, 12 + j, 12 + i});
   }
-  return Polyhedron::FromSoup(soup, "holed block");
+  return object::Polyhedron::FromSoup(soup, "holed block");
 }
 
-FingerState MakeFinger(int finger, FingerRole role, const Vector3d& contact,
-                       const Vector3d& inward_normal) {
+plan::FingerState MakeFinger(int finger, plan::FingerRole role, const Vector3d& contact,
+                             const Vector3d& inward_normal) {
   constexpr double kForce = 2;
   const Vector3d tangent = inward_normal.unitOrthogonal();
-  FingerState state;
+  plan::FingerState state;
   state.finger = finger;
   state.role = role;
   state.contact_W = contact;
   state.normal_W = inward_normal;
   state.tip_W = contact - kTipRadius * inward_normal;
-  if (role == FingerRole::kReleased || role == FingerRole::kFree) return state;
+  if (role == plan::FingerRole::kReleased || role == plan::FingerRole::kFree) return state;
   state.force_W = kForce * (std::cos(Radians(8)) * inward_normal + std::sin(Radians(8)) * tangent);
   return state;
 }
 
-std::vector<Snapshot> MakeCubeSequence() {
+std::vector<plan::Snapshot> MakeCubeSequence() {
   const Vector3d x = Vector3d::UnitX();
   const Vector3d y = Vector3d::UnitY();
   const Vector3d z = Vector3d::UnitZ();
-  const FingerState f0 = MakeFinger(0, kHolding, {-0.03, 0.004, 0.010}, x);
-  const FingerState f1 = MakeFinger(1, kHolding, {0.005, 0.012, 0.03}, -z);
-  const FingerState f2 = MakeFinger(2, kHolding, {0.03, -0.008, 0.005}, -x);
-  const FingerState f3 = MakeFinger(3, kHolding, {0.0, -0.005, -0.03}, z);
-  FingerState released = MakeFinger(0, FingerRole::kReleased, f0.contact_W, f0.normal_W);
-  const FingerState placed = MakeFinger(4, FingerRole::kPlaced, {0.012, -0.03, -0.004}, y);
-  FingerState f4 = placed;
+  const plan::FingerState f0 = MakeFinger(0, kHolding, {-0.03, 0.004, 0.010}, x);
+  const plan::FingerState f1 = MakeFinger(1, kHolding, {0.005, 0.012, 0.03}, -z);
+  const plan::FingerState f2 = MakeFinger(2, kHolding, {0.03, -0.008, 0.005}, -x);
+  const plan::FingerState f3 = MakeFinger(3, kHolding, {0.0, -0.005, -0.03}, z);
+  plan::FingerState released =
+      MakeFinger(0, plan::FingerRole::kReleased, f0.contact_W, f0.normal_W);
+  const plan::FingerState placed =
+      MakeFinger(4, plan::FingerRole::kPlaced, {0.012, -0.03, -0.004}, y);
+  plan::FingerState f4 = placed;
   f4.role = kHolding;
-  FingerState moved = MakeFinger(2, FingerRole::kMoved, {0.03, 0.012, -0.012}, -x);
+  plan::FingerState moved = MakeFinger(2, plan::FingerRole::kMoved, {0.03, 0.012, -0.012}, -x);
   moved.path_W = {f2.contact_W, moved.contact_W};
   return {MakeSnapshot({f0, f1, f2, f3}), MakeSnapshot({released, f1, f2, f3, placed}),
           MakeSnapshot({f1, moved, f3, f4})};
 }
 
-std::vector<Snapshot> MakeLBlockSequence() {
+std::vector<plan::Snapshot> MakeLBlockSequence() {
   const Vector3d x = Vector3d::UnitX();
   const Vector3d y = Vector3d::UnitY();
   return {MakeSnapshot({MakeFinger(0, kHolding, {0.042, 0.035, 0.004}, -y),
@@ -91,14 +93,14 @@ std::vector<Snapshot> MakeLBlockSequence() {
                         MakeFinger(3, kHolding, {0.0, 0.055, 0.0}, x)})};
 }
 
-std::vector<Snapshot> MakeHoledBlockSequence() {
+std::vector<plan::Snapshot> MakeHoledBlockSequence() {
   const Vector3d x = Vector3d::UnitX();
   const Vector3d y = Vector3d::UnitY();
   const Vector3d z = Vector3d::UnitZ();
   return {MakeSnapshot({MakeFinger(0, kHolding, {0.020, 0.004, 0.0}, x),
                         MakeFinger(1, kHolding, {0.04, 0.002, 0.002}, -x),
                         MakeFinger(2, kHolding, {-0.005, 0.015, 0.003}, y),
-                        MakeFinger(3, FingerRole::kPlaced, {-0.008, 0.03, 0.0}, -y),
+                        MakeFinger(3, plan::FingerRole::kPlaced, {-0.008, 0.03, 0.0}, -y),
                         MakeFinger(4, kHolding, {-0.030, -0.01, 0.015}, -z)})};
 }
 

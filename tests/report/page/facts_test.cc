@@ -32,7 +32,7 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
   for (const double required_deg : {12.0, 17.0}) {
     ReportStep& step = report.steps.emplace_back();
     step.check.index = static_cast<int>(report.steps.size()) - 1;
-    step.check.required = RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+    step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   }
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° to spare</dd>"));
 }

@@ -53,7 +53,7 @@ TEST(FindingsTest, WhatWasNotReplayedHasNone) {
 TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
   Report report = MakeReport();
   report.steps[1].replay->fixed = sim::StepMotion();
-  report.steps[1].replay->fixed->reason = Reason::kSlipped;
+  report.steps[1].replay->fixed->reason = plan::Reason::kSlipped;
   report.steps[1].disagreement = sim::Disagreement{
       sim::Between::kFixedFails, sim::Cause::kConeReached, "finger <2> & its cone", {}};
   const std::string text = FormatFindings(report);

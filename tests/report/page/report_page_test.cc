@@ -17,17 +17,17 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Optional;
 
-FingerContact MakeContact(int finger) { return {finger, {{0.01 * finger, 0, 0}, {0, 0, 1}}}; }
+plan::FingerContact MakeContact(int finger) { return {finger, {{0.01 * finger, 0, 0}, {0, 0, 1}}}; }
 
 /// A hold and two steps, the last of which fails in the replay when asked.
 struct Scene {
-  Plan plan;
+  plan::Plan plan;
   Report report;
 
   explicit Scene(bool fails) {
     plan.half_angle = Radians(20);
     for (int finger = 0; finger < 4; ++finger) plan.initial.push_back(MakeContact(finger));
-    plan.steps = {Switch{{MakeContact(4)}, {0}}, Switch{{MakeContact(0)}, {1}}};
+    plan.steps = {plan::Switch{{MakeContact(4)}, {0}}, plan::Switch{{MakeContact(0)}, {1}}};
     report.object_file = "cube.obj";
     report.plan_file = "plan.json";
     report.planner = "roadmap";
@@ -38,7 +38,7 @@ struct Scene {
     report.settings->shake = 0.01;
     for (int index = 0; index < 3; ++index) AddStep(index);
     if (fails) {
-      report.steps[1].replay->reason = Reason::kSlipped;
+      report.steps[1].replay->reason = plan::Reason::kSlipped;
       report.steps[1].replay->detail = "shake +x: finger 2 slipped";
       report.steps[2].replay.reset();
       report.steps[2].skipped = true;
@@ -50,7 +50,7 @@ struct Scene {
     step.check.index = index;
     step.check.kind = index == 0 ? "hold" : "switch";
     step.check.force_closure = true;
-    step.check.required = RequiredHalfAngle{Radians(12.4), Radians(12.5)};
+    step.check.required = grasp::RequiredHalfAngle{Radians(12.4), Radians(12.5)};
     step.replay.emplace();
     step.replay->index = index;
     step.replay->displacement_m = 4.14e-6;
@@ -96,7 +96,7 @@ TEST(ReportPageTest, APlanThatFailsTheAnalysisHasNoPlotOfWhatWasNotReplayed) {
   Scene scene(/*fails=*/true);
   for (ReportStep& step : scene.report.steps) step.replay.reset();
   scene.report.settings.reset();
-  scene.report.steps[0].check.reason = Reason::kNotForceClosure;
+  scene.report.steps[0].check.reason = plan::Reason::kNotForceClosure;
   scene.report.steps[0].check.required.reset();
   scene.report.steps[1].skipped = true;
   for (int index : {1, 2}) scene.report.steps[index].check.skipped = true;
@@ -146,7 +146,7 @@ TEST(ReportPageTest, PicturesStandInThePage) {
 
 TEST(ReportPageTest, ValuesThatAreNotFiniteBreakNothing) {
   Scene scene(/*fails=*/true);
-  scene.report.steps[1].replay->reason = Reason::kSimulationUnstable;
+  scene.report.steps[1].replay->reason = plan::Reason::kSimulationUnstable;
   scene.report.steps[1].replay->displacement_m = std::numeric_limits<double>::infinity();
   scene.report.steps[1].replay->moved_m = std::numeric_limits<double>::infinity();
   scene.report.steps[1].replay->slip_m = std::nan("");

@@ -19,22 +19,22 @@ std::string Format(const std::vector<Element>& elements) {
 Report MakeReport() {
   Report report;
   report.half_angle = Radians(20);
-  report.steps.emplace_back().check.required = RequiredHalfAngle{Radians(12), Radians(12.5)};
+  report.steps.emplace_back().check.required = grasp::RequiredHalfAngle{Radians(12), Radians(12.5)};
   return report;
 }
 
 TEST(StepTableTest, OnlyAStepWithAPictureLinksToIt) {
   const Report report = MakeReport();
   const std::vector<StepMeasures> measures = MeasureSteps(report);
-  EXPECT_THAT(Format(MakeStepTable(report, Plan(), measures, {""})), Not(HasSubstr("<a")));
-  EXPECT_THAT(Format(MakeStepTable(report, Plan(), measures, {"frame0"})),
+  EXPECT_THAT(Format(MakeStepTable(report, plan::Plan(), measures, {""})), Not(HasSubstr("<a")));
+  EXPECT_THAT(Format(MakeStepTable(report, plan::Plan(), measures, {"frame0"})),
               HasSubstr("<a href=\"#frame0\">"));
 }
 
 TEST(StepTableTest, WhatWasNotReplayedHasNoMotion) {
   Report report = MakeReport();
   const auto table = [&] {
-    return Format(MakeStepTable(report, Plan(), MeasureSteps(report), {""}));
+    return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
   };
   EXPECT_THAT(table(), HasSubstr("<td class=\"number\">–</td>"));
   EXPECT_THAT(table(), HasSubstr("12.50°"));

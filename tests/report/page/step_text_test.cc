@@ -20,7 +20,7 @@ TEST(StepTextTest, StepsCountFromTheHold) {
 TEST(StepTextTest, AFailedStepSaysWhy) {
   ReportStep step;
   EXPECT_EQ(VerdictText(step), "pass");
-  step.replay.emplace().reason = Reason::kSlipped;
+  step.replay.emplace().reason = plan::Reason::kSlipped;
   EXPECT_EQ(VerdictText(step), "fail: slipped");
   step.skipped = true;
   EXPECT_EQ(VerdictText(step), "skipped");

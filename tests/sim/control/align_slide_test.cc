@@ -23,17 +23,17 @@ void ExpectShares(const AlignShares& shares, double imitated, double slid) {
 
 /// Two opposite fingers and one below, which alone is not needed.
 struct SquareCase {
-  Polygon square = MakeSquare(0.03);
-  FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
-                       OnEdge(square, 2, 0, 0.4)};
+  object::Polygon square = MakeSquare(0.03);
+  plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
+                             OnEdge(square, 2, 0, 0.4)};
 
-  [[nodiscard]] FingerGrasp Moved(int k, double share) const {
-    FingerGrasp grasp = start;
+  [[nodiscard]] plan::FingerGrasp Moved(int k, double share) const {
+    plan::FingerGrasp grasp = start;
     grasp[k].contact = OnEdge(square, grasp[k].contact.face, share);
     return grasp;
   }
-  [[nodiscard]] StepReplay Replay(const Align& align, const ReplayOptions& options) const {
-    Plan plan = MakePlanarPlan(start, 15);
+  [[nodiscard]] StepReplay Replay(const plan::Align& align, const ReplayOptions& options) const {
+    plan::Plan plan = MakePlanarPlan(start, 15);
     plan.steps = {align};
     const ReplayResult result = ReplayPlan(square, plan, options);
     EXPECT_EQ(result.steps.size(), 2u);
@@ -43,14 +43,14 @@ struct SquareCase {
 
 TEST(AlignSlide, MovesAFingerThatTheOthersDoNotNeed) {
   const SquareCase square;
-  const Align align{{square.start, square.Moved(2, 0.7)}};
+  const plan::Align align{{square.start, square.Moved(2, 0.7)}};
   const StepReplay slid = square.Replay(align, Sliding());
-  EXPECT_EQ(slid.reason, Reason::kNone) << slid.detail;
+  EXPECT_EQ(slid.reason, plan::Reason::kNone) << slid.detail;
   EXPECT_EQ(slid.align_mode, AlignMode::kSlid);
   ExpectShares(slid.align_shares, 0, 1);
   EXPECT_LT(slid.drift_m, kGood * square.square.diameter());
   int arrived = 0;
-  for (const FingerState& state : slid.snapshot.fingers) {
+  for (const plan::FingerState& state : slid.snapshot.fingers) {
     if (state.finger != 2) continue;
     const Eigen::Vector3d at = slid.snapshot.X_WO.inverse() * state.contact_W;
     EXPECT_LT((at - OnEdge(square.square, 0, 0.7).p).norm(), 1e-3 * square.square.diameter());
@@ -58,7 +58,7 @@ TEST(AlignSlide, MovesAFingerThatTheOthersDoNotNeed) {
   }
   EXPECT_EQ(arrived, 1);
   const StepReplay imitated = square.Replay(align, {});
-  EXPECT_EQ(imitated.reason, Reason::kNone) << imitated.detail;
+  EXPECT_EQ(imitated.reason, plan::Reason::kNone) << imitated.detail;
   EXPECT_EQ(imitated.align_mode, AlignMode::kImitated);
   ExpectShares(imitated.align_shares, 1, 0);
 }
@@ -67,47 +67,47 @@ TEST(AlignSlide, LeavesTheOthersToTheSpareFingerAndSaysHowMuchOfTheWay) {
   const SquareCase square;
   // A third of the travel is that of finger 2, the rest that of finger 0, without which two fingers
   // at a right angle remain.
-  FingerGrasp end = square.Moved(2, 0.5);
+  plan::FingerGrasp end = square.Moved(2, 0.5);
   end[0].contact = OnEdge(square.square, 1, 0.7);
   const StepReplay step =
-      square.Replay(Align{{square.start, square.Moved(2, 0.5), end}}, Sliding());
-  EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+      square.Replay(plan::Align{{square.start, square.Moved(2, 0.5), end}}, Sliding());
+  EXPECT_EQ(step.reason, plan::Reason::kNone) << step.detail;
   EXPECT_EQ(step.align_mode, AlignMode::kMixed);
   ExpectShares(step.align_shares, 2.0 / 3, 1.0 / 3);
 }
 
 TEST(AlignSlide, IsImitationWhereEveryFingerIsNeeded) {
-  const Polygon triangle = MakeTriangle(0.08);
-  const FingerGrasp start = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
-                             OnEdge(triangle, 2, 2, 0.5)};
-  const FingerGrasp end = {OnEdge(triangle, 0, 0, 0.55), OnEdge(triangle, 1, 1, 0.55),
-                           OnEdge(triangle, 2, 2, 0.55)};
-  Plan plan = MakePlanarPlan(start, 15);
-  plan.steps = {Align{{start, end}}};
+  const object::Polygon triangle = MakeTriangle(0.08);
+  const plan::FingerGrasp start = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
+                                   OnEdge(triangle, 2, 2, 0.5)};
+  const plan::FingerGrasp end = {OnEdge(triangle, 0, 0, 0.55), OnEdge(triangle, 1, 1, 0.55),
+                                 OnEdge(triangle, 2, 2, 0.55)};
+  plan::Plan plan = MakePlanarPlan(start, 15);
+  plan.steps = {plan::Align{{start, end}}};
   const ReplayResult result = ReplayPlan(triangle, plan, Sliding());
   ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
+  EXPECT_EQ(result.steps[1].reason, plan::Reason::kNone) << result.steps[1].detail;
   EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
   ExpectShares(result.steps[1].align_shares, 1, 0);
   // Without the spare finger all roll together: nothing else is valid.
   plan.fingers = 3;
   const ReplayResult alone = ReplayPlan(triangle, plan, Sliding());
   ASSERT_EQ(alone.steps.size(), 2u);
-  EXPECT_EQ(alone.steps[1].reason, Reason::kNone) << alone.steps[1].detail;
+  EXPECT_EQ(alone.steps[1].reason, plan::Reason::kNone) << alone.steps[1].detail;
   EXPECT_EQ(alone.steps[1].align_mode, AlignMode::kSlid);
   ExpectShares(alone.steps[1].align_shares, 0, 0);
 }
 
 TEST(AlignSlide, MovesFingersInSpaceOneAfterTheOther) {
   const CubeCase cube;
-  FingerGrasp end = cube.Start();
+  plan::FingerGrasp end = cube.Start();
   end[0] = cube.At(0, 0.03, 0.008, 0.006);
   end[3] = cube.At(3, -0.006, -0.03, 0.004);
-  Plan plan = MakePlan(cube.Start(), 35);
-  plan.steps = {Align{{cube.Start(), end}}};
+  plan::Plan plan = MakePlan(cube.Start(), 35);
+  plan.steps = {plan::Align{{cube.Start(), end}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, Sliding());
   ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[1].reason, Reason::kNone) << result.steps[1].detail;
+  EXPECT_EQ(result.steps[1].reason, plan::Reason::kNone) << result.steps[1].detail;
   EXPECT_EQ(result.steps[1].align_mode, AlignMode::kSlid);
   ExpectShares(result.steps[1].align_shares, 0, 1);
   EXPECT_LT(result.steps[1].drift_m, kGood * cube.object.diameter());
@@ -115,24 +115,24 @@ TEST(AlignSlide, MovesFingersInSpaceOneAfterTheOther) {
 
 TEST(AlignSlide, FailsBelowTheFrictionThatTheEndNeeds) {
   const SquareCase square;
-  FingerGrasp end = square.start;
+  plan::FingerGrasp end = square.start;
   end[0].contact = OnEdge(square.square, 1, 0.9);
   end[1].contact = OnEdge(square.square, 3, 0.9);
   // Fingers 0 and 1 end 48 mm of 60 apart along their edges; with finger 2 that needs more than
   // 10°.
-  Plan plan = MakePlanarPlan(square.start, 10);
-  plan.steps = {Align{{square.start, end}}};
+  plan::Plan plan = MakePlanarPlan(square.start, 10);
+  plan.steps = {plan::Align{{square.start, end}}};
   const ReplayResult result = ReplayPlan(square.square, plan, Sliding());
   ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[0].reason, Reason::kNone);
-  EXPECT_NE(result.steps[1].reason, Reason::kNone);
+  EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone);
+  EXPECT_NE(result.steps[1].reason, plan::Reason::kNone);
 }
 
 TEST(AlignPathTest, AddsUpTheWaysOfAllContacts) {
   const SquareCase square;
-  FingerGrasp end = square.Moved(2, 0.5);
+  plan::FingerGrasp end = square.Moved(2, 0.5);
   end[0].contact = OnEdge(square.square, 1, 0.7);
-  const AlignPath path(Align{{square.start, square.Moved(2, 0.5), end}});
+  const AlignPath path(plan::Align{{square.start, square.Moved(2, 0.5), end}});
   EXPECT_NEAR(path.Travel(0, 1), 0.1 * 0.06, 1e-12);
   EXPECT_NEAR(path.Travel(0.5, 1.5), 0.05 * 0.06 + 0.1 * 0.06, 1e-12);
   EXPECT_NEAR(path.Travel(0, 2), 0.3 * 0.06, 1e-12);

@@ -9,13 +9,13 @@ namespace {
 
 /// A finger's place on the path.
 struct Walker {
-  const Polygon& polygon;
+  const object::Polygon& polygon;
   int finger, edge;
   double at;                 ///< length from the edge's beginning
   double rate;               ///< length in all
   int first = 0, count = 0;  ///< edges of its ring
 
-  Walker(const Polygon& body, const Walk& walk)
+  Walker(const object::Polygon& body, const Walk& walk)
       : polygon(body),
         finger(walk.finger),
         edge(walk.edge),
@@ -41,7 +41,7 @@ struct Walker {
     edge = first + (edge - first + (rate > 0 ? 1 : count - 1)) % count;
     at = rate > 0 ? 0 : polygon.face_measure(edge);
   }
-  [[nodiscard]] FingerContact Contact() const {
+  [[nodiscard]] plan::FingerContact Contact() const {
     return OnEdge(polygon, finger, edge, std::clamp(at / polygon.face_measure(edge), 0.0, 1.0));
   }
 };
@@ -51,12 +51,12 @@ constexpr double kAtOnce = 1e-9;
 
 }  // namespace
 
-Align WalkBoundary(const Polygon& polygon, const std::vector<Walk>& walks) {
+plan::Align WalkBoundary(const object::Polygon& polygon, const std::vector<Walk>& walks) {
   std::vector<Walker> walkers;
   for (const Walk& walk : walks) walkers.emplace_back(polygon, walk);
-  Align align;
+  plan::Align align;
   const auto add = [&] {
-    FingerGrasp grasp;
+    plan::FingerGrasp grasp;
     for (const Walker& walker : walkers) grasp.push_back(walker.Contact());
     align.waypoints.push_back(std::move(grasp));
   };
@@ -80,15 +80,16 @@ Align WalkBoundary(const Polygon& polygon, const std::vector<Walk>& walks) {
   return align;
 }
 
-Plan MakeWalkPlan(const Polygon& polygon, const std::vector<Walk>& walks, double half_angle_deg) {
-  Align align = WalkBoundary(polygon, walks);
-  Plan plan = MakePlanarPlan(align.waypoints.front(), half_angle_deg, 3);
-  plan.goal = ContactsOf(align.waypoints.back());
+plan::Plan MakeWalkPlan(const object::Polygon& polygon, const std::vector<Walk>& walks,
+                        double half_angle_deg) {
+  plan::Align align = WalkBoundary(polygon, walks);
+  plan::Plan plan = MakePlanarPlan(align.waypoints.front(), half_angle_deg, 3);
+  plan.goal = plan::ContactsOf(align.waypoints.back());
   plan.steps = {std::move(align)};
   return plan;
 }
 
-int CountTurns(const Align& align) {
+int CountTurns(const plan::Align& align) {
   int turns = 0;
   for (std::size_t j = 1; j < align.waypoints.size(); ++j) {
     for (std::size_t k = 0; k < align.waypoints[j].size(); ++k) {
@@ -107,21 +108,21 @@ Eigen::Vector2d At(double turn, double radius) {
 
 }  // namespace
 
-Polygon MakeGear(int teeth, double depth) {
+object::Polygon MakeGear(int teeth, double depth) {
   std::vector<Eigen::Vector2d> ring;
   for (int i = 0; i < 2 * teeth; ++i) {
     ring.push_back(At(0.5 * i / teeth, kDiscRadius * (i % 2 == 0 ? 1 : 1 - depth)));
   }
-  return Polygon::FromRings({ring}, "gear");
+  return object::Polygon::FromRings({ring}, "gear");
 }
 
-Polygon MakeRing(int edges) {
+object::Polygon MakeRing(int edges) {
   std::vector<Eigen::Vector2d> hole = Circle(edges, 0.6 * kDiscRadius);
   std::ranges::reverse(hole);
-  return Polygon::FromRings({Circle(edges, kDiscRadius), hole}, "ring");
+  return object::Polygon::FromRings({Circle(edges, kDiscRadius), hole}, "ring");
 }
 
-Polygon DrawOutline(int edges, std::mt19937& random) {
+object::Polygon DrawOutline(int edges, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<std::pair<double, double>> waves;  // of the radius: size and phase
   for (int k = 2; k < 8; ++k) waves.emplace_back(0.15 * unit(random) / k, unit(random));
@@ -136,7 +137,7 @@ Polygon DrawOutline(int edges, std::mt19937& random) {
     }
     ring.push_back(At(turn, kDiscRadius * radius));
   }
-  return Polygon::FromRings({ring}, "outline");
+  return object::Polygon::FromRings({ring}, "outline");
 }
 
 }  // namespace regrasp::sim

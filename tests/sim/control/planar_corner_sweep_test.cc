@@ -24,79 +24,79 @@ constexpr double kTooLittle = 0.9;
 /// Draws plans of 2-finger grasps of an outline, for a hand of three fingers.
 class Dice {
  public:
-  Dice(const Polygon& polygon, double half_angle_deg, std::mt19937& random)
+  Dice(const object::Polygon& polygon, double half_angle_deg, std::mt19937& random)
       : polygon_(polygon), half_angle_deg_(half_angle_deg), random_(random) {}
 
   [[nodiscard]] double Between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  [[nodiscard]] Contact DrawContact() {
+  [[nodiscard]] grasp::Contact DrawContact() {
     const int edge = std::uniform_int_distribution<int>(0, polygon_.face_count() - 1)(random_);
     return OnEdge(polygon_, edge, Between(0, 1));
   }
 
-  [[nodiscard]] bool IsGood(const Grasp& grasp) const {
+  [[nodiscard]] bool IsGood(const grasp::Grasp& grasp) const {
     const double half_angle = Radians(half_angle_deg_);
-    return IsForceClosure(grasp, polygon_.wrench_frame(), half_angle) &&
-           QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
+    return grasp::IsForceClosure(grasp, polygon_.wrench_frame(), half_angle) &&
+           grasp::QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
   }
 
   /// A walk of both fingers, halved until it is force closure all along and ends in a good grasp.
-  [[nodiscard]] std::optional<Plan> DrawWalk() {
-    const std::optional<Grasp> start = DrawGrasp();
+  [[nodiscard]] std::optional<plan::Plan> DrawWalk() {
+    const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
     double length = Between(-0.5, 0.5) * polygon_.diameter();
     const double other = Between(0.7, 1.4);
     for (int i = 0; i < kHalvings; ++i, length /= 2) {
-      const Plan plan = MakeWalkPlan(
+      const plan::Plan plan = MakeWalkPlan(
           polygon_, {WalkOf(0, (*start)[0], length), WalkOf(1, (*start)[1], other * length)},
           half_angle_deg_);
-      if (IsGood(plan.goal) && CheckPlan(polygon_, plan).passed()) return plan;
+      if (IsGood(plan.goal) && plan::CheckPlan(polygon_, plan).passed()) return plan;
     }
     return std::nullopt;
   }
 
   /// Switches of one finger for another between good grasps.
-  [[nodiscard]] std::optional<Plan> DrawSwitches(int switches) {
-    const std::optional<Grasp> start = DrawGrasp();
+  [[nodiscard]] std::optional<plan::Plan> DrawSwitches(int switches) {
+    const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
-    Plan plan = MakePlanarPlan({{0, (*start)[0]}, {1, (*start)[1]}}, half_angle_deg_, 3);
-    FingerGrasp held = plan.initial;
+    plan::Plan plan = MakePlanarPlan({{0, (*start)[0]}, {1, (*start)[1]}}, half_angle_deg_, 3);
+    plan::FingerGrasp held = plan.initial;
     for (int i = 0; i < switches; ++i) {
       const int free = 3 - held[0].finger - held[1].finger;
-      const std::optional<Switch> found = DrawSwitch(held, free);
+      const std::optional<plan::Switch> found = DrawSwitch(held, free);
       if (!found) return std::nullopt;
       plan.steps.emplace_back(*found);
-      held = GraspAfter(held, plan.steps.back());
+      held = plan::GraspAfter(held, plan.steps.back());
     }
-    plan.goal = ContactsOf(held);
+    plan.goal = plan::ContactsOf(held);
     return plan;
   }
 
  private:
-  [[nodiscard]] std::optional<Grasp> DrawGrasp() {
+  [[nodiscard]] std::optional<grasp::Grasp> DrawGrasp() {
     for (int i = 0; i < kMostDraws; ++i) {
-      const Grasp grasp = {DrawContact(), DrawContact()};
+      const grasp::Grasp grasp = {DrawContact(), DrawContact()};
       if (IsGood(grasp)) return grasp;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<Switch> DrawSwitch(const FingerGrasp& held, int free) {
+  [[nodiscard]] std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& held, int free) {
     for (int i = 0; i < kMostDraws; ++i) {
-      const Switch change{{{free, DrawContact()}}, {held[i % 2].finger}};
-      if (IsGood(ContactsOf(GraspAfter(held, change)))) return change;
+      const plan::Switch change{{{free, DrawContact()}}, {held[i % 2].finger}};
+      if (IsGood(plan::ContactsOf(plan::GraspAfter(held, change)))) return change;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] Walk WalkOf(int finger, const Contact& contact, double length) const {
+  [[nodiscard]] Walk WalkOf(int finger, const grasp::Contact& contact, double length) const {
     const double at = (contact.p - polygon_.edge(contact.face).first).norm();
     return {finger, contact.face, at / polygon_.face_measure(contact.face), length};
   }
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   double half_angle_deg_;
   std::mt19937& random_;
 };
@@ -108,22 +108,24 @@ struct Tally {
 };
 
 /// The plan passes the replay, and fails where the friction is less than its critical one.
-void MotionMonitor(const Polygon& polygon, const Plan& plan, Tally& tally) {
-  const PlanCheck check = CheckPlan(polygon, plan);
+void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally& tally) {
+  const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
   ASSERT_TRUE(check.passed());
   const ReplayResult result = ReplayPlan(polygon, check.located, {});
   for (const StepReplay& step : result.steps) {
-    ASSERT_EQ(step.reason, Reason::kNone) << "step " << step.index << ": " << step.detail;
+    ASSERT_EQ(step.reason, plan::Reason::kNone) << "step " << step.index << ": " << step.detail;
     EXPECT_NE(step.align_mode, AlignMode::kSlid);
   }
   tally.drift = std::max(tally.drift, result.steps.back().drift_m / polygon.diameter());
   double critical = 0;
-  for (const StepCheck& step : check.steps) critical = std::max(critical, step.required->lower);
+  for (const plan::StepCheck& step : check.steps)
+    critical = std::max(critical, step.required->lower);
   ReplayOptions options;
   options.half_angle = std::atan(kTooLittle * std::tan(critical));
-  tally.refuted += ReplayPlan(polygon, check.located, options).steps.back().reason != Reason::kNone;
-  for (const Step& step : plan.steps) {
-    if (const auto* align = std::get_if<Align>(&step)) tally.turns += CountTurns(*align);
+  tally.refuted +=
+      ReplayPlan(polygon, check.located, options).steps.back().reason != plan::Reason::kNone;
+  for (const plan::Step& step : plan.steps) {
+    if (const auto* align = std::get_if<plan::Align>(&step)) tally.turns += CountTurns(*align);
   }
   tally.steps += static_cast<int>(plan.steps.size());
   ++tally.plans;
@@ -137,11 +139,11 @@ TEST(PlanarCornerSweep, RandomWalksPassAndFailBelowTheirCriticalFriction) {
   Tally tally;
   for (const int edges : kEdges) {
     for (const double half_angle_deg : kHalfAngles) {
-      const Polygon outline = DrawOutline(edges, random);
+      const object::Polygon outline = DrawOutline(edges, random);
       Dice dice(outline, half_angle_deg, random);
       for (int i = 0; i < 5; ++i) {
         SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
-        const std::optional<Plan> plan = dice.DrawWalk();
+        const std::optional<plan::Plan> plan = dice.DrawWalk();
         if (plan) MotionMonitor(outline, *plan, tally);
       }
     }
@@ -160,11 +162,11 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
   Tally tally;
   for (const int edges : kEdges) {
     for (const double half_angle_deg : kHalfAngles) {
-      const Polygon outline = DrawOutline(edges, random);
+      const object::Polygon outline = DrawOutline(edges, random);
       Dice dice(outline, half_angle_deg, random);
       for (int i = 0; i < 3; ++i) {
         SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
-        const std::optional<Plan> plan = dice.DrawSwitches(kSwitches);
+        const std::optional<plan::Plan> plan = dice.DrawSwitches(kSwitches);
         if (plan) MotionMonitor(outline, *plan, tally);
       }
     }

@@ -10,23 +10,23 @@ namespace {
 constexpr double kGood = 1e-4;
 
 /// The replay of an align by a hand without a spare finger.
-StepReplay ReplayAlone(const Object& object, Plan plan, const Align& align) {
+StepReplay ReplayAlone(const object::Object& object, plan::Plan plan, const plan::Align& align) {
   plan.fingers = static_cast<int>(plan.initial.size());
   plan.steps = {align};
   const ReplayResult result = ReplayPlan(object, plan, {});
   EXPECT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps.front().reason, Reason::kNone) << result.steps.front().detail;
+  EXPECT_EQ(result.steps.front().reason, plan::Reason::kNone) << result.steps.front().detail;
   return result.steps.back();
 }
 
 /// All fingers rolled to the last waypoint, and the object hardly moved.
-void ExpectRolled(const Object& object, const StepReplay& step, const Align& align) {
-  EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+void ExpectRolled(const object::Object& object, const StepReplay& step, const plan::Align& align) {
+  EXPECT_EQ(step.reason, plan::Reason::kNone) << step.detail;
   EXPECT_NEAR(step.align_shares.best_effort, 1, 1e-9);
   EXPECT_LT(step.drift_m, kGood * object.diameter());
   int arrived = 0;
-  for (const FingerContact& held : align.waypoints.back()) {
-    const FingerState& state = step.snapshot.fingers.at(held.finger);
+  for (const plan::FingerContact& held : align.waypoints.back()) {
+    const plan::FingerState& state = step.snapshot.fingers.at(held.finger);
     const Eigen::Vector3d at = step.snapshot.X_WO.inverse() * state.contact_W;
     EXPECT_LT((at - held.contact.p).norm(), kGood * object.diameter());
     ++arrived;
@@ -35,23 +35,23 @@ void ExpectRolled(const Object& object, const StepReplay& step, const Align& ali
 }
 
 TEST(RollFingers, CarriesOutAnAlignOfAHandThatNeedsAllFingers) {
-  const Polygon triangle = MakeTriangle(0.08);
+  const object::Polygon triangle = MakeTriangle(0.08);
   const auto at = [&](double share) {
-    return FingerGrasp{OnEdge(triangle, 0, 0, share), OnEdge(triangle, 1, 1, share),
-                       OnEdge(triangle, 2, 2, share)};
+    return plan::FingerGrasp{OnEdge(triangle, 0, 0, share), OnEdge(triangle, 1, 1, share),
+                             OnEdge(triangle, 2, 2, share)};
   };
-  const Align align{{at(0.5), at(0.55)}};
+  const plan::Align align{{at(0.5), at(0.55)}};
   const StepReplay step = ReplayAlone(triangle, MakePlanarPlan(at(0.5), 15), align);
   ExpectRolled(triangle, step, align);
 }
 
 /// Four fingers around a square, one of which goes round a corner at a share of the path.
-Align AroundTheCorner(const Polygon& square) {
-  const auto grasp = [&](double right, double above, double left, const Contact& moving) {
-    return FingerGrasp{OnEdge(square, 0, 1, right),
-                       OnEdge(square, 1, 2, above),
-                       OnEdge(square, 2, 3, left),
-                       {3, moving}};
+plan::Align AroundTheCorner(const object::Polygon& square) {
+  const auto grasp = [&](double right, double above, double left, const grasp::Contact& moving) {
+    return plan::FingerGrasp{OnEdge(square, 0, 1, right),
+                             OnEdge(square, 1, 2, above),
+                             OnEdge(square, 2, 3, left),
+                             {3, moving}};
   };
   return {{grasp(0.963, 0.307, 0.433, OnEdge(square, 0, 0.303)),
            grasp(0.441, 0.798, 0.554, OnEdge(square, 0, 0)),
@@ -60,27 +60,27 @@ Align AroundTheCorner(const Polygon& square) {
 }
 
 TEST(RollFingers, GoesRoundACornerOfASquareWithAllFourFingers) {
-  const Polygon square = MakeSquare(0.03);
-  const Align align = AroundTheCorner(square);
-  Plan plan = MakePlanarPlan(align.waypoints.front(), 10);
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Align align = AroundTheCorner(square);
+  plan::Plan plan = MakePlanarPlan(align.waypoints.front(), 10);
   plan.steps = {align};
-  plan.goal = ContactsOf(align.waypoints.back());
-  const PlanCheck check = CheckPlan(square, plan);
+  plan.goal = plan::ContactsOf(align.waypoints.back());
+  const plan::PlanCheck check = plan::CheckPlan(square, plan);
   ASSERT_TRUE(check.passed()) << check.steps.back().detail;
   ExpectRolled(square, ReplayAlone(square, plan, align), align);
 }
 
 TEST(RollFingers, FailsWhereTheFrictionIsTooSmallOnTheWay) {
-  const Polygon square = MakeSquare(0.03);
-  const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
-                             OnEdge(square, 2, 0, 0.4)};
-  FingerGrasp end = start;
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
+                                   OnEdge(square, 2, 0, 0.4)};
+  plan::FingerGrasp end = start;
   end[0].contact = OnEdge(square, 1, 0.9);
   end[1].contact = OnEdge(square, 3, 0.9);
   // Fingers 0 and 1 end 48 mm of 60 apart along their edges: with finger 2 that needs more than
   // 10°.
-  const StepReplay step = ReplayAlone(square, MakePlanarPlan(start, 10), Align{{start, end}});
-  EXPECT_NE(step.reason, Reason::kNone);
+  const StepReplay step = ReplayAlone(square, MakePlanarPlan(start, 10), plan::Align{{start, end}});
+  EXPECT_NE(step.reason, plan::Reason::kNone);
 }
 
 }  // namespace

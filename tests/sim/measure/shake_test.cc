@@ -13,7 +13,7 @@
 namespace regrasp::sim {
 namespace {
 
-StepReplay HoldUnder(Protocol protocol, const Object& object, const Plan& plan,
+StepReplay HoldUnder(Protocol protocol, const object::Object& object, const plan::Plan& plan,
                      ReplayOptions options = {}) {
   options.protocol = protocol;
   return ReplayPlan(object, plan, options).steps.at(0);
@@ -26,18 +26,18 @@ TEST(PushTest, ThereAreTwelveDirectionsInSpaceAndSixInThePlane) {
   EXPECT_EQ(space.size(), 12u);
   EXPECT_EQ(plane, (std::set<std::string>{"force +x", "force -x", "force +y", "force -y",
                                           "torque +z", "torque -z"}));
-  const Wrench turn = PushWrench({true, 1, -1}, 3);
+  const grasp::Wrench turn = PushWrench({true, 1, -1}, 3);
   EXPECT_TRUE(turn.force.isZero(0));
   EXPECT_EQ(turn.torque_over_radius, Eigen::Vector3d(0, -3, 0));
 }
 
 TEST(ProtocolTest, AGoodGraspPassesBothAndTheAdaptedOneDecides) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   const StepReplay both = HoldUnder(Protocol::kBoth, cube.object, plan);
   ASSERT_TRUE(both.adapted && both.fixed);
-  EXPECT_EQ(both.adapted->reason, Reason::kNone);
-  EXPECT_EQ(both.fixed->reason, Reason::kNone);
+  EXPECT_EQ(both.adapted->reason, plan::Reason::kNone);
+  EXPECT_EQ(both.fixed->reason, plan::Reason::kNone);
   EXPECT_EQ(both.moved_m, both.adapted->moved_m);
   const StepReplay adapted = HoldUnder(Protocol::kAdapted, cube.object, plan);
   const StepReplay fixed = HoldUnder(Protocol::kFixed, cube.object, plan);
@@ -56,26 +56,27 @@ TEST(ProtocolTest, BothFailBelowTheRequiredFriction) {
   const CubeCase cube;
   // The grasp requires 5.3°.
   const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 4.5));
-  EXPECT_NE(hold.adapted->reason, Reason::kNone);
-  EXPECT_NE(hold.fixed->reason, Reason::kNone);
-  const Polygon square = MakeSquare(0.03);
+  EXPECT_NE(hold.adapted->reason, plan::Reason::kNone);
+  EXPECT_NE(hold.fixed->reason, plan::Reason::kNone);
+  const object::Polygon square = MakeSquare(0.03);
   // Each contact sees the other 18.4° off its normal.
-  const Plan pair = MakePlanarPlan({OnEdge(square, 0, 1, 0.333), OnEdge(square, 1, 3, 0.333)}, 17);
+  const plan::Plan pair =
+      MakePlanarPlan({OnEdge(square, 0, 1, 0.333), OnEdge(square, 1, 3, 0.333)}, 17);
   const StepReplay planar = HoldUnder(Protocol::kBoth, square, pair);
-  EXPECT_NE(planar.adapted->reason, Reason::kNone);
-  EXPECT_NE(planar.fixed->reason, Reason::kNone);
+  EXPECT_NE(planar.adapted->reason, plan::Reason::kNone);
+  EXPECT_NE(planar.fixed->reason, plan::Reason::kNone);
 }
 
 TEST(ProtocolTest, AFixedSqueezeFailsUnderAPushThatAdaptedForcesResist) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayOptions options;
   options.shake = 0.1;
   const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, plan, options);
-  EXPECT_EQ(hold.adapted->reason, Reason::kNone) << hold.adapted->detail;
-  EXPECT_NE(hold.fixed->reason, Reason::kNone);
-  EXPECT_EQ(hold.reason, Reason::kNone);
-  EXPECT_NE(HoldUnder(Protocol::kFixed, cube.object, plan, options).reason, Reason::kNone);
+  EXPECT_EQ(hold.adapted->reason, plan::Reason::kNone) << hold.adapted->detail;
+  EXPECT_NE(hold.fixed->reason, plan::Reason::kNone);
+  EXPECT_EQ(hold.reason, plan::Reason::kNone);
+  EXPECT_NE(HoldUnder(Protocol::kFixed, cube.object, plan, options).reason, plan::Reason::kNone);
 }
 
 TEST(ProtocolTest, TheMarginsAreSmallerUnderTheShakeThanAtRestAndZeroWhereAFingerSlips) {
@@ -95,8 +96,8 @@ TEST(ProtocolTest, TheMarginsAreSmallerUnderTheShakeThanAtRestAndZeroWhereAFinge
 
 TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
   ReplayOptions options;
   options.shake = 0.1;
   options.protocol = Protocol::kBoth;
@@ -105,7 +106,7 @@ TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   const ReplayResult adapted = ReplayPlan(cube.object, plan, options);
   ASSERT_EQ(both.steps.size(), 2u);
   ASSERT_EQ(adapted.steps.size(), 2u);
-  EXPECT_NE(both.steps[0].fixed->reason, Reason::kNone);
+  EXPECT_NE(both.steps[0].fixed->reason, plan::Reason::kNone);
   EXPECT_EQ(both.steps[1].drift_m, adapted.steps[1].drift_m);
   EXPECT_EQ(both.steps[1].moved_m, adapted.steps[1].moved_m);
 }

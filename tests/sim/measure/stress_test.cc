@@ -20,7 +20,7 @@ constexpr double kAgree = 0.03;
 
 constexpr double kHalfAngleDeg = 25;
 
-std::vector<DirectionStress> StressOf(const Object& object, const Plan& plan) {
+std::vector<DirectionStress> StressOf(const object::Object& object, const plan::Plan& plan) {
   ReplayOptions options;
   options.stress = true;
   return ReplayPlan(object, plan, options).steps.at(0).stress;
@@ -32,7 +32,7 @@ const DirectionStress& Of(const std::vector<DirectionStress>& stress, const std:
 }
 
 /// The cube of side 6 cm held in the middle of four faces.
-FingerGrasp MiddleOfFourFaces(const CubeCase& cube) {
+plan::FingerGrasp MiddleOfFourFaces(const CubeCase& cube) {
   return {cube.At(0, 0.03, 0, 0), cube.At(1, -0.03, 0, 0), cube.At(2, 0, 0.03, 0),
           cube.At(3, 0, -0.03, 0)};
 }
@@ -55,8 +55,8 @@ TEST(StressTest, BothRoutesGiveWhatTheFrictionOfFourFingersOnACubeBears) {
 }
 
 TEST(StressTest, BothRoutesGiveWhatAPairInThePlaneBears) {
-  const Polygon square = MakeSquare(0.03);
-  const FingerGrasp pair = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::FingerGrasp pair = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
   const auto stress = StressOf(square, MakePlanarPlan(pair, kHalfAngleDeg));
   ASSERT_EQ(stress.size(), 6u);
   const double mu = std::tan(Radians(kHalfAngleDeg));
@@ -69,14 +69,15 @@ TEST(StressTest, BothRoutesGiveWhatAPairInThePlaneBears) {
 
 /// How many directions of random grasps of a body agree, and how many there are.
 std::pair<int, int> CountAgreeing(const std::string& model, int grasps) {
-  const ObjectFile file = ReadModel(model);
-  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel(model);
+  const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   std::mt19937 random(20241121);
   int agreeing = 0, all = 0;
   for (int found = 0; found < grasps;) {
-    FingerGrasp grasp;
+    plan::FingerGrasp grasp;
     for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
-    if (!QualityAtLeast(ContactsOf(grasp), body.wrench_frame(), Radians(kHalfAngleDeg), 0.02)) {
+    if (!grasp::QualityAtLeast(plan::ContactsOf(grasp), body.wrench_frame(), Radians(kHalfAngleDeg),
+                               0.02)) {
       continue;
     }
     ++found;
@@ -112,11 +113,11 @@ TEST(StressTest, AStepPassesTheShakeWhereEveryDirectionResistsIt) {
     const StepReplay hold =
         ReplayPlan(cube.object, MakePlan(cube.Start(), half_angle), options).steps.at(0);
     if (hold.stress.empty()) {
-      EXPECT_NE(hold.reason, Reason::kNone);
+      EXPECT_NE(hold.reason, plan::Reason::kNone);
       continue;
     }
     const double least = std::ranges::min(hold.stress, {}, &DirectionStress::replay).replay;
-    const bool passes = hold.reason == Reason::kNone;
+    const bool passes = hold.reason == plan::Reason::kNone;
     EXPECT_EQ(passes, least >= options.shake) << half_angle << " degrees, least " << least;
     ++(passes ? passed : failed);
   }
@@ -137,8 +138,8 @@ TEST(StressTest, LessFrictionBearsLess) {
 
 TEST(StressTest, TheSearchLeavesNoTraceInTheReplay) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
   ReplayOptions options;
   const ReplayResult plain = ReplayPlan(cube.object, plan, options);
   options.stress = true;

@@ -11,9 +11,10 @@ namespace {
 
 TEST(WeakestFingerTest, ASwitchCountsTheGraspsBeforeAndAfterItByTheFingersOfTheHand) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}, Align{{cube.Start(), cube.Start()}}};
-  const WrenchFrame frame = cube.object.wrench_frame();
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                plan::Align{{cube.Start(), cube.Start()}}};
+  const object::WrenchFrame frame = cube.object.wrench_frame();
   const auto fingers = [&](int index) {
     std::multiset<int> all;
     for (const NeedOfFinger& need : NeedsOfEntry(plan, index, frame, Radians(25))) {

@@ -9,37 +9,37 @@ namespace regrasp::sim {
 namespace {
 
 /// Expects that the plan passes and its fingers touch where they were planned.
-void ExpectPassesAsPlanned(const Object& object, const Plan& plan) {
+void ExpectPassesAsPlanned(const object::Object& object, const plan::Plan& plan) {
   const ReplayResult result = ReplayPlan(object, plan, {});
   for (const StepReplay& step : result.steps) {
-    EXPECT_EQ(step.reason, Reason::kNone) << "entry " << step.index << ": " << step.detail;
+    EXPECT_EQ(step.reason, plan::Reason::kNone) << "entry " << step.index << ": " << step.detail;
   }
   ExpectTouchesAsPlanned(object, plan, result);
 }
 
 TEST(ReplayConcave, TouchesTheInnerCornerFacesOfTheLBlock) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Object& l = *file.object;
-  const Contact inner_y = ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0});
-  const Contact inner_x = ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0});
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const object::Object& l = *file.object;
+  const grasp::Contact inner_y = grasp::ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0});
+  const grasp::Contact inner_x = grasp::ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0});
   ASSERT_GE(inner_y.face, 0);
   ASSERT_GE(inner_x.face, 0);
-  Plan plan = MakePlan({{0, inner_y},
-                        {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
-                        {2, inner_x},
-                        {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
-                       30);
+  plan::Plan plan = MakePlan({{0, inner_y},
+                              {1, grasp::ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {2, inner_x},
+                              {3, grasp::ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+                             30);
   // Closer to the concave edge than a fingertip is usually thick.
-  plan.steps = {Switch{{{4, ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}}, {0}}};
+  plan.steps = {plan::Switch{{{4, grasp::ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}}, {0}}};
   ExpectPassesAsPlanned(l, plan);
   EXPECT_LT(ReplayPlan(l, plan, {}).settings.fingertip_radius_m, 0.0015);
 }
 
 TEST(ReplayConcave, TouchesTheInsideOfAHole) {
-  const ObjectFile file = ReadModel("hole_block.obj");
-  const auto& block = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel("hole_block.obj");
+  const auto& block = dynamic_cast<const object::Polyhedron&>(*file.object);
   // The faces of the hole: those whose outward normal points at the middle of the block.
-  std::vector<Contact> walls;
+  std::vector<grasp::Contact> walls;
   for (int f = 0; f < block.face_count(); ++f) {
     const Eigen::Vector3d inward = block.inward_normal(f);
     const Eigen::Vector3d point = block.faces()[f].point;
@@ -48,7 +48,7 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   }
   ASSERT_GE(walls.size(), 3u) << "the model has no hole";
   // Pressed outwards from inside the hole by every third wall or so, and along it from outside.
-  FingerGrasp grasp;
+  plan::FingerGrasp grasp;
   const std::size_t stride = walls.size() / 3;
   for (std::size_t i = 0; i < 3; ++i) {
     grasp.push_back({static_cast<int>(i), walls[i * stride]});
@@ -59,27 +59,27 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
     const bool wall = n.dot(block.faces()[f].point - centroid) > 0;
     if (!wall) grasp.push_back({3, {block.ClosestPoint(f, centroid), n, f}});
   }
-  Plan plan = MakePlan(grasp, 50);
+  plan::Plan plan = MakePlan(grasp, 50);
   int touching = 0;
   const ReplayResult result = ReplayPlan(block, plan, {});
-  for (const FingerState& state : result.steps.at(0).snapshot.fingers) {
+  for (const plan::FingerState& state : result.steps.at(0).snapshot.fingers) {
     if (state.finger > 2) continue;
-    const Contact& planned = walls[state.finger * stride];
+    const grasp::Contact& planned = walls[state.finger * stride];
     EXPECT_LT((result.steps[0].snapshot.X_WO.inverse() * state.contact_W - planned.p).norm(),
               kGood * block.diameter());
     EXPECT_GT(state.force_W.dot(planned.n), 0);
     ++touching;
   }
   EXPECT_EQ(touching, 3);
-  EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
+  EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
 }
 
 TEST(ContactPatches, AreARectangleInsideAFaceAndEndAtItsBorder) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const auto& cube = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const auto& cube = dynamic_cast<const object::Polyhedron&>(*file.object);
   int checked = 0;
   for (const double y : {0.0, 0.0299, 0.03}) {
-    const Contact contact = ContactAt(cube, {0.03, y, 0.001}, {-1, 0, 0});
+    const grasp::Contact contact = grasp::ContactAt(cube, {0.03, y, 0.001}, {-1, 0, 0});
     const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_TRUE(patches[0].rectangle);
@@ -92,8 +92,8 @@ TEST(ContactPatches, AreARectangleInsideAFaceAndEndAtItsBorder) {
 }
 
 TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
-  const ObjectFile file = ReadModel("tetrahedron.obj");
-  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel("tetrahedron.obj");
+  const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   const double size = 0.002;
   int checked = 0;
   for (int face = 0; face < body.face_count(); ++face) {
@@ -117,12 +117,12 @@ TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
 }
 
 TEST(ContactPatches, AreRectanglesInTheCornersOfFacesToo) {
-  const ObjectFile file = ReadModel("cube.obj");
-  const auto& cube = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel("cube.obj");
+  const auto& cube = dynamic_cast<const object::Polyhedron&>(*file.object);
   int checked = 0;
   // Near a corner, on a border near it, in the corner itself.
   for (const auto& [y, z] : {std::pair{0.0295, 0.0297}, {0.03, 0.0297}, {0.03, 0.03}}) {
-    const Contact contact = ContactAt(cube, {0.03, y, z}, {-1, 0, 0});
+    const grasp::Contact contact = grasp::ContactAt(cube, {0.03, y, z}, {-1, 0, 0});
     const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_TRUE(patches[0].rectangle);
@@ -137,13 +137,13 @@ TEST(ContactPatches, AreRectanglesInTheCornersOfFacesToo) {
 /// Replays the hold of a grasp on models/body40.obj with finger 1 in the
 /// obtuse corner of a face, with and without the friction that it needs.
 TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
-  const ObjectFile file = ReadModel("body40.obj");
-  const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+  const object::ObjectFile file = ReadModel("body40.obj");
+  const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   const auto at = [&](int finger, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-    const Contact near = ContactAt(body, p, n);
-    return FingerContact{finger, {body.ClosestPoint(near.face, p), near.n, near.face}};
+    const grasp::Contact near = grasp::ContactAt(body, p, n);
+    return plan::FingerContact{finger, {body.ClosestPoint(near.face, p), near.n, near.face}};
   };
-  const Plan plan =
+  const plan::Plan plan =
       MakePlan({at(0, {-0.01888989081479386, -0.045945695692193006, 0.00316316295538566},
                    {0.009995857568062635, 0.9995857575373747, -0.02698881545959375}),
                 at(1, {-0.044689062451825384, 0.034815850048827805, 0.03285538143182388},
@@ -155,20 +155,20 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
                10);
   ASSERT_LT(body.DistanceToBorder(plan.initial[1].contact.face, plan.initial[1].contact.p), 1e-9);
   const ReplayResult held = ReplayPlan(body, plan, {});
-  EXPECT_EQ(held.steps.at(0).reason, Reason::kNone) << held.steps[0].detail;
+  EXPECT_EQ(held.steps.at(0).reason, plan::Reason::kNone) << held.steps[0].detail;
   // With less friction than the grasp needs it slips, as it should.
-  Plan slippery = plan;
+  plan::Plan slippery = plan;
   slippery.half_angle = Radians(6);
-  EXPECT_NE(ReplayPlan(body, slippery, {}).steps.at(0).reason, Reason::kNone);
+  EXPECT_NE(ReplayPlan(body, slippery, {}).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
   // A ball that touches two walls at right angles touches each at its radius from the other.
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Contact contact = ContactAt(*file.object, {0.0415, 0.04, 0}, {0, -1, 0});
-  EXPECT_NEAR(ComputeClearance(*file.object, contact, 0.02), 0.0015, 1e-9);
-  const Contact free = ContactAt(*file.object, {0.07, 0, 0}, {0, 1, 0});
-  EXPECT_EQ(ComputeClearance(*file.object, free, 0.02), 0.02);
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const grasp::Contact contact = grasp::ContactAt(*file.object, {0.0415, 0.04, 0}, {0, -1, 0});
+  EXPECT_NEAR(criteria::ComputeClearance(*file.object, contact, 0.02), 0.0015, 1e-9);
+  const grasp::Contact free = grasp::ContactAt(*file.object, {0.07, 0, 0}, {0, 1, 0});
+  EXPECT_EQ(criteria::ComputeClearance(*file.object, free, 0.02), 0.02);
 }
 
 }  // namespace

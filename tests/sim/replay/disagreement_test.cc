@@ -18,13 +18,13 @@ using testing::HasSubstr;
 
 /// A hold whose findings a test chooses: at first analysis and replay both pass.
 struct Hold {
-  const Object& object;
-  Plan plan;
-  StepCheck check = {};
+  const object::Object& object;
+  plan::Plan plan;
+  plan::StepCheck check = {};
   StepReplay replay = {};
   ReplaySettings settings = {};
 
-  Hold(const Object& body, Plan held, const ReplayOptions& options = {})
+  Hold(const object::Object& body, plan::Plan held, const ReplayOptions& options = {})
       : object(body), plan(std::move(held)) {
     settings = DeriveSettings(object, plan.scale, plan.half_angle, object.diameter(), options);
     replay.adapted = replay.fixed = StepMotion();
@@ -33,7 +33,7 @@ struct Hold {
     return ExplainDisagreement({object, plan, check, replay, settings});
   }
   /// What is said where the replay fails.
-  [[nodiscard]] Disagreement ExplainFailure(Reason reason = Reason::kSlipped) {
+  [[nodiscard]] Disagreement ExplainFailure(plan::Reason reason = plan::Reason::kSlipped) {
     replay.reason = replay.adapted->reason = reason;
     return Explain().value();
   }
@@ -50,9 +50,9 @@ TEST(DisagreementTest, WhereTheExaminationsAgreeThereIsNothingToExplain) {
   const CubeCase cube;
   Hold hold(cube.object, MakePlan(cube.Start(), 25));
   EXPECT_FALSE(hold.Explain());
-  hold.check.reason = Reason::kNotForceClosure;
-  hold.replay.reason = hold.replay.adapted->reason = Reason::kSlipped;
-  hold.replay.fixed->reason = Reason::kContactLost;
+  hold.check.reason = plan::Reason::kNotForceClosure;
+  hold.replay.reason = hold.replay.adapted->reason = plan::Reason::kSlipped;
+  hold.replay.fixed->reason = plan::Reason::kContactLost;
   EXPECT_FALSE(hold.Explain()) << "both fail";
   hold.check = {};
   hold.check.skipped = true;
@@ -73,20 +73,20 @@ TEST(DisagreementTest, AQualityBelowTheShakeIsNamedWithBothNumbers) {
 }
 
 TEST(DisagreementTest, AContactInAConcaveCornerIsNamed) {
-  const Polygon shape = MakeL();
-  const FingerGrasp grasp = {OnEdge(shape, 0, 2, 1 - 1e-7), OnEdge(shape, 1, 0, 0.5),
-                             OnEdge(shape, 2, 5, 0.5)};
+  const object::Polygon shape = MakeL();
+  const plan::FingerGrasp grasp = {OnEdge(shape, 0, 2, 1 - 1e-7), OnEdge(shape, 1, 0, 0.5),
+                                   OnEdge(shape, 2, 5, 0.5)};
   Hold hold(shape, MakePlanarPlan(grasp, 25));
-  const Disagreement found = hold.ExplainFailure(Reason::kUnreachable);
+  const Disagreement found = hold.ExplainFailure(plan::Reason::kUnreachable);
   EXPECT_EQ(found.cause, Cause::kConcaveCorner);
   EXPECT_EQ(ValueOf(found, "finger"), 0);
   EXPECT_NEAR(ValueOf(found, "border_m"), 0.04 * 1e-7, 1e-12);
 }
 
 TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoClearance) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   // From inside the hole, of side 4 cm, outwards.
-  const FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.5), OnEdge(frame, 1, 6, 0.5)};
+  const plan::FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.5), OnEdge(frame, 1, 6, 0.5)};
   Hold hold(frame, MakePlanarPlan(grasp, 25));
   EXPECT_NE(hold.ExplainFailure().cause, Cause::kNoClearance);
   hold.settings.fingertip_radius_m = 0.03;
@@ -108,10 +108,10 @@ TEST(DisagreementTest, AWeightThatTheSqueezeDoesNotCarryIsNamed) {
 
 TEST(DisagreementTest, AWeightThatLeavesTooLittleForTheShakeIsNamed) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   const double carried =
-      ComputeLargestLoad(ContactsOf(plan.initial), cube.object.wrench_frame(), plan.half_angle, {},
-                         {-Eigen::Vector3d::UnitZ(), {0, 0, 0}}, 1)
+      grasp::ComputeLargestLoad(plan::ContactsOf(plan.initial), cube.object.wrench_frame(),
+                                plan.half_angle, {}, {-Eigen::Vector3d::UnitZ(), {0, 0, 0}}, 1)
           ->lower;
   ReplayOptions options;
   options.mass_kg = 0.2;
@@ -125,7 +125,7 @@ TEST(DisagreementTest, AWeightThatLeavesTooLittleForTheShakeIsNamed) {
 
 TEST(DisagreementTest, AContactThatMaySlipOverAnEdgeIsNamed) {
   const CubeCase cube;
-  FingerGrasp grasp = cube.Start();
+  plan::FingerGrasp grasp = cube.Start();
   grasp[1] = cube.At(1, -0.03, 0.02995, 0.004);
   Hold hold(cube.object, MakePlan(grasp, 40));
   const Disagreement found = hold.ExplainFailure();
@@ -155,14 +155,14 @@ TEST(DisagreementTest, WhereNothingSpeaksForACauseNoneIsClaimed) {
 TEST(DisagreementTest, APassOfWhatTheAnalysisFailsHasItsOwnCauses) {
   const CubeCase cube;
   Hold hold(cube.object, MakePlan(cube.Start(), 20));
-  hold.check.reason = Reason::kWrongNormal;
+  hold.check.reason = plan::Reason::kWrongNormal;
   Disagreement found = hold.Explain().value();
   EXPECT_EQ(found.between, Between::kAnalysisFails);
   EXPECT_EQ(found.cause, Cause::kNotSimulated);
-  hold.check.reason = Reason::kNotForceClosure;
-  hold.check.required = RequiredHalfAngle{Radians(20.1), Radians(20.1)};
+  hold.check.reason = plan::Reason::kNotForceClosure;
+  hold.check.required = grasp::RequiredHalfAngle{Radians(20.1), Radians(20.1)};
   EXPECT_EQ(hold.Explain()->cause, Cause::kCriticalFriction);
-  hold.check.required = RequiredHalfAngle{Radians(25), Radians(25)};
+  hold.check.required = grasp::RequiredHalfAngle{Radians(25), Radians(25)};
   EXPECT_EQ(hold.Explain()->cause, Cause::kUnknown);
   hold.settings.shake = 0;
   EXPECT_EQ(hold.Explain()->cause, Cause::kNoShake);
@@ -172,15 +172,16 @@ TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
   const CubeCase cube;
   // So near to its critical friction what is missing does not move the object without a shake.
   const double required =
-      ComputeRequiredHalfAngle(ContactsOf(cube.Start()), cube.object.wrench_frame())->lower;
-  const Plan plan = MakePlan(cube.Start(), Degrees(0.9999 * required));
+      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(cube.Start()), cube.object.wrench_frame())
+          ->lower;
+  const plan::Plan plan = MakePlan(cube.Start(), Degrees(0.9999 * required));
   ReplayOptions options;
   options.shake = 0;
   options.gravity = false;
-  const PlanCheck check = CheckPlan(cube.object, plan, {});
-  EXPECT_EQ(check.steps.at(0).reason, Reason::kNotForceClosure);
+  const plan::PlanCheck check = plan::CheckPlan(cube.object, plan, {});
+  EXPECT_EQ(check.steps.at(0).reason, plan::Reason::kNotForceClosure);
   const ReplayResult replay = ReplayPlan(cube.object, check.located, options);
-  EXPECT_EQ(replay.steps.at(0).reason, Reason::kNone);
+  EXPECT_EQ(replay.steps.at(0).reason, plan::Reason::kNone);
   const auto found = ExplainDisagreement(
       {cube.object, check.located, check.steps[0], replay.steps[0], replay.settings});
   ASSERT_TRUE(found);

@@ -18,29 +18,31 @@ constexpr double kAbove = 1.5;  ///< of the critical μ: must pass where the qua
 
 /// The friction coefficient at which a grasp becomes force closure; none where that is at an angle
 /// outside (0.1°, 50°).
-std::optional<double> CriticalMu(const Object& body, const FingerGrasp& grasp) {
-  const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
+std::optional<double> CriticalMu(const object::Object& body, const plan::FingerGrasp& grasp) {
+  const auto required =
+      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
   if (!required || required->upper > Radians(50) || required->upper < Radians(0.1)) return {};
   return std::tan(required->upper);
 }
 
-StepReplay ReplayHold(const Object& body, const FingerGrasp& grasp, double mu) {
-  Plan plan = MakePlan(grasp, Degrees(std::atan(mu)), 4);
+StepReplay ReplayHold(const object::Object& body, const plan::FingerGrasp& grasp, double mu) {
+  plan::Plan plan = MakePlan(grasp, Degrees(std::atan(mu)), 4);
   plan.dimension = body.dimension();
   return ReplayPlan(body, plan, {}).steps.at(0);
 }
 
-DiscriminationCount Judge(const Object& body, const FingerGrasp& grasp, double mu) {
+DiscriminationCount Judge(const object::Object& body, const plan::FingerGrasp& grasp, double mu) {
   DiscriminationCount count;
   count.below = 1;
-  count.failed_below = ReplayHold(body, grasp, kBelow * mu).reason != Reason::kNone;
+  count.failed_below = ReplayHold(body, grasp, kBelow * mu).reason != plan::Reason::kNone;
   EXPECT_TRUE(count.failed_below) << "passes at 0.9 of its critical friction";
   const double quality =
-      ComputeQuality(ContactsOf(grasp), body.wrench_frame(), std::atan(kAbove * mu)).lower;
+      grasp::ComputeQuality(plan::ContactsOf(grasp), body.wrench_frame(), std::atan(kAbove * mu))
+          .lower;
   if (quality <= ReplayOptions().shake) return count;
   count.above = 1;
   const StepReplay above = ReplayHold(body, grasp, kAbove * mu);
-  count.passed_above = above.reason == Reason::kNone;
+  count.passed_above = above.reason == plan::Reason::kNone;
   EXPECT_TRUE(count.passed_above) << "fails at 1.5 of its critical friction, quality " << quality
                                   << ": " << above.detail;
   return count;
@@ -57,12 +59,12 @@ DiscriminationCount& DiscriminationCount::operator+=(const DiscriminationCount& 
 }
 
 DiscriminationCount Discriminate(
-    const Object& body, const std::string& name, int grasps, unsigned seed,
-    const std::function<FingerGrasp(int index, std::mt19937& random)>& draw) {
+    const object::Object& body, const std::string& name, int grasps, unsigned seed,
+    const std::function<plan::FingerGrasp(int index, std::mt19937& random)>& draw) {
   std::mt19937 random(seed);
   DiscriminationCount count;
   for (int i = 0; i < grasps; ++i) {
-    FingerGrasp grasp;
+    plan::FingerGrasp grasp;
     std::optional<double> mu;
     while (!mu) {
       grasp = draw(i, random);

@@ -21,8 +21,8 @@ struct DiscriminationCount {
 /// pass at 1.5 of it where the quality allows.
 /// @param draw  a grasp of the body, force closure or not; told its number.
 [[nodiscard]] DiscriminationCount Discriminate(
-    const Object& body, const std::string& name, int grasps, unsigned seed,
-    const std::function<FingerGrasp(int index, std::mt19937& random)>& draw);
+    const object::Object& body, const std::string& name, int grasps, unsigned seed,
+    const std::function<plan::FingerGrasp(int index, std::mt19937& random)>& draw);
 
 /// Prints and records the counts, and expects at least 100 of each.
 void ExpectManyDiscriminated(const DiscriminationCount& count, const std::string& grasps);

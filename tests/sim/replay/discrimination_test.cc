@@ -15,10 +15,10 @@ constexpr unsigned kPlanarSeed = 20240608;
 TEST(Discrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAbovePass) {
   DiscriminationCount count;
   for (const std::string name : {"cube.obj", "l_block.obj"}) {
-    const ObjectFile file = ReadModel(name);
-    const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+    const object::ObjectFile file = ReadModel(name);
+    const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
     count += Discriminate(body, name, kGraspsPerObject, kSeed, [&](int, std::mt19937& random) {
-      FingerGrasp grasp;
+      plan::FingerGrasp grasp;
       for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
       return grasp;
     });
@@ -29,13 +29,13 @@ TEST(Discrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAbovePass) {
 TEST(PlanarDiscrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAbovePass) {
   DiscriminationCount count;
   for (const auto& [name, polygon] :
-       {std::pair{
-            "quadrilateral",
-            Polygon::FromWkt("POLYGON((0 0, .09 .01, .07 .06, .01 .05, 0 0))", "quadrilateral")},
+       {std::pair{"quadrilateral",
+                  object::Polygon::FromWkt("POLYGON((0 0, .09 .01, .07 .06, .01 .05, 0 0))",
+                                           "quadrilateral")},
         {"L", MakeL()}}) {
     count += Discriminate(polygon, name, kGraspsPerPolygon, kPlanarSeed,
                           [&](int index, std::mt19937& random) {
-                            FingerGrasp grasp;
+                            plan::FingerGrasp grasp;
                             for (int f = 0; f < 2 + index % 2; ++f) {
                               grasp.push_back(DrawOnBoundary(polygon, f, random));
                             }

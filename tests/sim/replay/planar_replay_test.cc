@@ -13,82 +13,85 @@ namespace regrasp::sim {
 namespace {
 
 TEST(PlanarHold, TwoAntipodalFingersHoldASquare) {
-  const Polygon square = MakeSquare(0.03);
-  const FingerGrasp grasp = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::FingerGrasp grasp = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)};
   ExpectGood(ReplayPlan(square, MakePlanarPlan(grasp, 20), {}), 1);
 }
 
 TEST(PlanarHold, ThreeFingersHoldATriangleAtTheMiddlesOfItsEdges) {
-  const Polygon triangle = MakeTriangle(0.08);
-  const FingerGrasp grasp = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
-                             OnEdge(triangle, 2, 2, 0.5)};
+  const object::Polygon triangle = MakeTriangle(0.08);
+  const plan::FingerGrasp grasp = {OnEdge(triangle, 0, 0, 0.5), OnEdge(triangle, 1, 1, 0.5),
+                                   OnEdge(triangle, 2, 2, 0.5)};
   ExpectGood(ReplayPlan(triangle, MakePlanarPlan(grasp, 20), {}), 1);
 }
 
 TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
-  const Polygon square = MakeSquare(0.03), triangle = MakeTriangle(0.08);
+  const object::Polygon square = MakeSquare(0.03), triangle = MakeTriangle(0.08);
   // Antipodal contacts 3 mm off the normal: atan(1/20) = 2.86 degrees.
-  const FingerGrasp pair = {OnEdge(square, 0, 1, 0.525), OnEdge(square, 1, 3, 0.525)};
+  const plan::FingerGrasp pair = {OnEdge(square, 0, 1, 0.525), OnEdge(square, 1, 3, 0.525)};
   EXPECT_TRUE(LosesObject(ReplayPlan(square, MakePlanarPlan(pair, 2.6), {}).steps.at(0).reason));
-  EXPECT_EQ(ReplayPlan(square, MakePlanarPlan(pair, 4.3), {}).steps.at(0).reason, Reason::kNone);
+  EXPECT_EQ(ReplayPlan(square, MakePlanarPlan(pair, 4.3), {}).steps.at(0).reason,
+            plan::Reason::kNone);
   // Three normals that turn the triangle the same way.
-  const FingerGrasp twisted = {OnEdge(triangle, 0, 0, 0.6), OnEdge(triangle, 1, 1, 0.6),
-                               OnEdge(triangle, 2, 2, 0.6)};
+  const plan::FingerGrasp twisted = {OnEdge(triangle, 0, 0, 0.6), OnEdge(triangle, 1, 1, 0.6),
+                                     OnEdge(triangle, 2, 2, 0.6)};
   const double critical =
-      ComputeRequiredHalfAngle(ContactsOf(twisted), triangle.wrench_frame()).value().upper;
+      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(twisted), triangle.wrench_frame())
+          .value()
+          .upper;
   EXPECT_GT(critical, Radians(5));
   EXPECT_TRUE(LosesObject(ReplayPlan(triangle, MakePlanarPlan(twisted, 0.9 * Degrees(critical)), {})
                               .steps.at(0)
                               .reason));
   EXPECT_EQ(
       ReplayPlan(triangle, MakePlanarPlan(twisted, 1.5 * Degrees(critical)), {}).steps.at(0).reason,
-      Reason::kNone);
+      plan::Reason::kNone);
 }
 
 /// Two fingers for two, one more, one away, and one for another.
-Plan SquareSwitches(const Polygon& square) {
-  Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5)}, 20);
+plan::Plan SquareSwitches(const object::Polygon& square) {
+  plan::Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5)}, 20);
   plan.steps = {
-      Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 1}},
-      Switch{{OnEdge(square, 0, 0, 0.7)}, {}},
-      Switch{{OnEdge(square, 1, 2, 0.2)}, {3}},
-      Switch{{OnEdge(square, 3, 2, 0.8)}, {1}},
+      plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 1}},
+      plan::Switch{{OnEdge(square, 0, 0, 0.7)}, {}},
+      plan::Switch{{OnEdge(square, 1, 2, 0.2)}, {3}},
+      plan::Switch{{OnEdge(square, 3, 2, 0.8)}, {1}},
   };
   return plan;
 }
 
 TEST(PlanarSwitch, PlacesAndReleasesOneTwoOrNoFingersAtOnce) {
-  const Polygon square = MakeSquare(0.03);
+  const object::Polygon square = MakeSquare(0.03);
   ExpectGood(ReplayPlan(square, SquareSwitches(square), {}), 5);
 }
 
 TEST(PlanarSwitch, FailsWhereACarryingFingerLeaves) {
-  const Polygon square = MakeSquare(0.03);
-  Plan plan = SquareSwitches(square);
+  const object::Polygon square = MakeSquare(0.03);
+  plan::Plan plan = SquareSwitches(square);
   // Below and above hold; beside each other they do not.
-  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 2}}};
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 2}}};
   const ReplayResult result = ReplayPlan(square, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[0].reason, Reason::kNone);
-  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << ReasonName(result.steps[1].reason);
+  EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone);
+  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << plan::ReasonName(result.steps[1].reason);
 }
 
 TEST(PlanarSwitch, FailsWhereTheNewGraspNeedsMoreFriction) {
-  const Polygon square = MakeSquare(0.03);
-  Plan plan = SquareSwitches(square);
+  const object::Polygon square = MakeSquare(0.03);
+  plan::Plan plan = SquareSwitches(square);
   // 24 mm off the normal of 60: 21.8 degrees.
-  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)}, {0, 1}}};
-  EXPECT_EQ(ReplayPlan(square, plan, {}).steps.at(1).reason, Reason::kNone);
-  plan.steps = {Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.3)}, {0, 1}}};
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)}, {0, 1}}};
+  EXPECT_EQ(ReplayPlan(square, plan, {}).steps.at(1).reason, plan::Reason::kNone);
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.3)}, {0, 1}}};
   EXPECT_TRUE(LosesObject(ReplayPlan(square, plan, {}).steps.at(1).reason));
 }
 
 TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
-  const Polygon l = MakeL();
-  Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
+  const object::Polygon l = MakeL();
+  plan::Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
   // 0.4 and 0.04 mm from the corner, closer than a fingertip is usually thick.
-  plan.steps = {Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {0, 1}},
-                Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
+  plan.steps = {plan::Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {0, 1}},
+                plan::Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
   const ReplayResult result = ReplayPlan(l, plan, {});
   ExpectGood(result, 3);
   EXPECT_LT(result.settings.fingertip_radius_m, 0.00003);
@@ -96,47 +99,47 @@ TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
 }
 
 TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
-  const Polygon l = MakeL();
-  const FingerGrasp good = {OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)};
+  const object::Polygon l = MakeL();
+  const plan::FingerGrasp good = {OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)};
   for (const double share : {0.9999999, 1.0}) {
-    const FingerContact corner = OnEdge(l, 2, 2, share);
+    const plan::FingerContact corner = OnEdge(l, 2, 2, share);
     const ReplayResult hold = ReplayPlan(l, MakePlanarPlan({corner, OnEdge(l, 1, 0, 0.5)}, 20), {});
-    EXPECT_EQ(hold.steps.at(0).reason, Reason::kUnreachable);
+    EXPECT_EQ(hold.steps.at(0).reason, plan::Reason::kUnreachable);
     EXPECT_NE(hold.steps.at(0).detail.find("finger 2 cannot stand"), std::string::npos);
-    Plan plan = MakePlanarPlan(good, 20);
-    plan.steps = {Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {0, 1}}};
+    plan::Plan plan = MakePlanarPlan(good, 20);
+    plan.steps = {plan::Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {0, 1}}};
     const ReplayResult result = ReplayPlan(l, plan, {});
     ASSERT_EQ(result.steps.size(), 2u);
-    EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
-    EXPECT_EQ(result.steps[1].reason, Reason::kUnreachable);
+    EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
+    EXPECT_EQ(result.steps[1].reason, plan::Reason::kUnreachable);
   }
 }
 
 TEST(PlanarHole, IsHeldFromInsideAndThroughItsWall) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   // Pressed apart from inside: edges 4 and 6 are the hole's left and right.
-  Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
+  plan::Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
   // Then the wall below is pinched between hole and outside.
-  plan.steps = {Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)}, {0, 1}}};
+  plan.steps = {plan::Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)}, {0, 1}}};
   const ReplayResult result = ReplayPlan(frame, plan, {});
   ExpectGood(result, 2);
   ExpectTouchesAsPlanned(frame, plan, result);
 }
 
 TEST(PlanarHole, IsLostWhereItsFingersPressBesideEachOther) {
-  const Polygon frame = MakeFrame();
-  const FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.2), OnEdge(frame, 1, 6, 0.2)};
+  const object::Polygon frame = MakeFrame();
+  const plan::FingerGrasp grasp = {OnEdge(frame, 0, 4, 0.2), OnEdge(frame, 1, 6, 0.2)};
   EXPECT_TRUE(LosesObject(ReplayPlan(frame, MakePlanarPlan(grasp, 15), {}).steps.at(0).reason));
 }
 
 /// Everything measured in a replay, in diameters and turns.
-std::vector<double> Measure(const Polygon& polygon, const Plan& plan,
+std::vector<double> Measure(const object::Polygon& polygon, const plan::Plan& plan,
                             const ReplayOptions& options) {
   const ReplayResult result = ReplayPlan(polygon, plan, options);
   const double D = result.settings.diameter_m;
   std::vector<double> measured;
   for (const StepReplay& step : result.steps) {
-    EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+    EXPECT_EQ(step.reason, plan::Reason::kNone) << step.detail;
     measured.insert(measured.end(), {step.displacement_m / D, Radians(step.rotation_deg),
                                      step.slip_m / D, step.drift_m / D});
   }
@@ -153,8 +156,8 @@ void ExpectEqualUpToRounding(const std::vector<double>& a, const std::vector<dou
 }
 
 TEST(PlanarScale, MotionDoesNotDependOnTheThickness) {
-  const Polygon square = MakeSquare(0.03);
-  const Plan plan = SquareSwitches(square);
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Plan plan = SquareSwitches(square);
   const auto measure = [&](double thickness, std::optional<double> mass) {
     ReplayOptions options;
     options.thickness = thickness;
@@ -168,8 +171,8 @@ TEST(PlanarScale, MotionDoesNotDependOnTheThickness) {
 }
 
 TEST(PlanarScale, TheMassIsThatOfThePrism) {
-  const Polygon frame = MakeFrame();
-  Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
+  const object::Polygon frame = MakeFrame();
+  plan::Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
   ReplayOptions options;
   options.density_kg_m3 = 500;
   const double area = 0.08 * 0.08 - 0.04 * 0.04;
@@ -182,17 +185,18 @@ TEST(PlanarScale, TheMassIsThatOfThePrism) {
 }
 
 TEST(PlanarScale, MillimetresWithAScaleAreMetres) {
-  const Polygon square = MakeSquare(0.03);
-  const Polygon big =
-      Polygon::FromWkt("POLYGON((-30 -30, 30 -30, 30 30, -30 30, -30 -30))", "in millimetres");
-  Plan millimetres = SquareSwitches(big);
+  const object::Polygon square = MakeSquare(0.03);
+  const object::Polygon big = object::Polygon::FromWkt(
+      "POLYGON((-30 -30, 30 -30, 30 30, -30 30, -30 -30))", "in millimetres");
+  plan::Plan millimetres = SquareSwitches(big);
   millimetres.scale = 1e-3;
   ReplayOptions thick, thick_in_millimetres;
   thick.thickness = 0.013;
   thick_in_millimetres.thickness = 13;
   ExpectEqualUpToRounding(Measure(square, SquareSwitches(square), thick),
                           Measure(big, millimetres, thick_in_millimetres));
-  const auto settings = [](const Polygon& polygon, const Plan& plan, const ReplayOptions& options) {
+  const auto settings = [](const object::Polygon& polygon, const plan::Plan& plan,
+                           const ReplayOptions& options) {
     return ReplayPlan(polygon, plan, options, {}, 1).settings;
   };
   EXPECT_NEAR(settings(square, SquareSwitches(square), thick).squeeze_N,
@@ -200,8 +204,8 @@ TEST(PlanarScale, MillimetresWithAScaleAreMetres) {
 }
 
 TEST(PlanarScale, ReplaysBodiesFromMilligramsToTonnes) {
-  const Polygon square = MakeSquare(0.03);
-  Plan plan = SquareSwitches(square);
+  const object::Polygon square = MakeSquare(0.03);
+  plan::Plan plan = SquareSwitches(square);
   for (const auto& [scale, density] :
        {std::pair{0.1, 1000.0}, {1.0, 100.0}, {1.0, 8000.0}, {10.0, 8000.0}}) {
     SCOPED_TRACE(scale);
@@ -213,8 +217,8 @@ TEST(PlanarScale, ReplaysBodiesFromMilligramsToTonnes) {
 }
 
 TEST(PlanarScale, RefusesThicknessesThatCannotBeSimulatedAndThatOfASolid) {
-  const Polygon square = MakeSquare(0.03);
-  const Plan plan = SquareSwitches(square);
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Plan plan = SquareSwitches(square);
   ReplayOptions options;
   for (const double thickness : {0.0, -0.01, 1e-6, 1e3}) {
     options.thickness = thickness;
@@ -226,18 +230,18 @@ TEST(PlanarScale, RefusesThicknessesThatCannotBeSimulatedAndThatOfASolid) {
 }
 
 TEST(PlanarReplay, TheSamePlanGivesTheSameBits) {
-  const Polygon square = MakeSquare(0.03);
+  const object::Polygon square = MakeSquare(0.03);
   ExpectSameBitsTwice(square, SquareSwitches(square));
 }
 
 TEST(PlanarReplay, NothingLeavesThePlane) {
-  const Polygon square = MakeSquare(0.03);
+  const object::Polygon square = MakeSquare(0.03);
   const ReplayResult result = ReplayPlan(square, SquareSwitches(square), {});
   int checked = 0;
   for (const StepReplay& step : result.steps) {
     EXPECT_EQ(step.snapshot.X_WO.translation().z(), 0);
     EXPECT_EQ(step.snapshot.X_WO.linear()(2, 2), 1);
-    for (const FingerState& state : step.snapshot.fingers) {
+    for (const plan::FingerState& state : step.snapshot.fingers) {
       EXPECT_EQ(state.tip_W.z(), 0);
       EXPECT_EQ(state.contact_W.z(), 0);
       ++checked;

@@ -23,7 +23,7 @@ constexpr int kMostDraws = 20000, kMostAligns = 300;
 constexpr double kLeastQuality = 0.011;
 
 /// A star of so many edges with random arms: mostly concave.
-Polygon MakeStar(int edges, std::mt19937& random) {
+object::Polygon MakeStar(int edges, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<Eigen::Vector2d> ring;
   for (int i = 0; i < edges; ++i) {
@@ -31,52 +31,53 @@ Polygon MakeStar(int edges, std::mt19937& random) {
     const double radius = 0.02 + 0.03 * unit(random);
     ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  return Polygon::FromRings({ring}, "star");
+  return object::Polygon::FromRings({ring}, "star");
 }
 
 /// Draws contacts and grasps on a polygon.
 class Dice {
  public:
-  Dice(const Polygon& polygon, std::mt19937& random) : polygon_(polygon), random_(random) {}
+  Dice(const object::Polygon& polygon, std::mt19937& random) : polygon_(polygon), random_(random) {}
 
   [[nodiscard]] double Share() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   [[nodiscard]] int Number(int count) {
     return std::uniform_int_distribution<int>(0, count - 1)(random_);
   }
-  [[nodiscard]] Contact DrawContact() {
+  [[nodiscard]] grasp::Contact DrawContact() {
     const int edge = Number(polygon_.face_count());
     return OnEdge(polygon_, edge, Share());
   }
   /// Empty where so many draws find none.
-  [[nodiscard]] FingerGrasp DrawGrasp(int fingers) {
+  [[nodiscard]] plan::FingerGrasp DrawGrasp(int fingers) {
     for (int i = 0; i < kMostDraws; ++i) {
-      FingerGrasp grasp;
+      plan::FingerGrasp grasp;
       for (int f = 0; f < fingers; ++f) grasp.push_back({f, DrawContact()});
       if (IsGood(grasp)) return grasp;
     }
     return {};
   }
-  [[nodiscard]] bool IsForceClosureNow(const FingerGrasp& grasp) const {
-    return IsForceClosure(ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle);
+  [[nodiscard]] bool IsForceClosureNow(const plan::FingerGrasp& grasp) const {
+    return grasp::IsForceClosure(plan::ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle);
   }
-  [[nodiscard]] bool IsGood(const FingerGrasp& grasp) const {
+  [[nodiscard]] bool IsGood(const plan::FingerGrasp& grasp) const {
     return IsForceClosureNow(grasp) &&
-           ComputeQuality(ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle).lower >=
-               kLeastQuality;
+           grasp::ComputeQuality(plan::ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle)
+                   .lower >= kLeastQuality;
   }
 
  private:
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   std::mt19937& random_;
 };
 
 /// A random align inside the edges of a grasp, or over a corner, that is force closure all along.
-std::optional<Plan> DrawAlign(const Polygon& polygon, int fingers, bool corner, Dice& dice) {
+std::optional<plan::Plan> DrawAlign(const object::Polygon& polygon, int fingers, bool corner,
+                                    Dice& dice) {
   for (int i = 0; i < kMostAligns; ++i) {
-    const FingerGrasp from = dice.DrawGrasp(fingers);
+    const plan::FingerGrasp from = dice.DrawGrasp(fingers);
     if (from.empty()) return std::nullopt;
-    std::vector<FingerGrasp> waypoints = {from, from};
-    for (FingerContact& held : waypoints.back()) {
+    std::vector<plan::FingerGrasp> waypoints = {from, from};
+    for (plan::FingerContact& held : waypoints.back()) {
       held = OnEdge(polygon, held.finger, held.contact.face, dice.Share());
     }
     if (corner) {
@@ -91,10 +92,10 @@ std::optional<Plan> DrawAlign(const Polygon& polygon, int fingers, bool corner, 
     if (!std::ranges::all_of(waypoints, [&](const auto& grasp) { return dice.IsGood(grasp); })) {
       continue;
     }
-    Plan plan = MakePlanarPlan(from, Degrees(kHalfAngle));
-    plan.steps = {Align{waypoints}};
-    plan.goal = ContactsOf(waypoints.back());
-    if (CheckPlan(polygon, plan).passed()) return plan;
+    plan::Plan plan = MakePlanarPlan(from, Degrees(kHalfAngle));
+    plan.steps = {plan::Align{waypoints}};
+    plan.goal = plan::ContactsOf(waypoints.back());
+    if (plan::CheckPlan(polygon, plan).passed()) return plan;
   }
   return std::nullopt;
 }
@@ -104,14 +105,14 @@ TEST(PlanarSweep, RandomAlignsThatAreForceClosureAllTheWayPass) {
   int checked = 0;
   double drift = 0;
   for (const int edges : {6, 12, 40}) {
-    const Polygon star = MakeStar(edges, random);
+    const object::Polygon star = MakeStar(edges, random);
     Dice dice(star, random);
     for (int i = 0; i < 24; ++i) {
-      const std::optional<Plan> plan = DrawAlign(star, 2 + i % 2, i % 6 == 5, dice);
+      const std::optional<plan::Plan> plan = DrawAlign(star, 2 + i % 2, i % 6 == 5, dice);
       if (!plan) continue;
       const ReplayResult result = ReplayPlan(star, *plan, {});
       ASSERT_EQ(result.steps.size(), 2u) << edges << " edges, align " << i;
-      EXPECT_EQ(result.steps[1].reason, Reason::kNone)
+      EXPECT_EQ(result.steps[1].reason, plan::Reason::kNone)
           << edges << " edges, align " << i << ": " << result.steps[1].detail;
       EXPECT_EQ(result.steps[1].align_mode, AlignMode::kImitated);
       drift = std::max(drift, result.steps[1].drift_m / star.diameter());
@@ -123,14 +124,14 @@ TEST(PlanarSweep, RandomAlignsThatAreForceClosureAllTheWayPass) {
 }
 
 /// A switch between the grasp and a random one that is good, or is not force closure.
-std::optional<Switch> DrawSwitch(const FingerGrasp& before, bool good, Dice& dice) {
+std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& before, bool good, Dice& dice) {
   std::vector<int> holding, free;
   for (int f = 0; f < 4; ++f) {
-    const bool holds = std::ranges::find(before, f, &FingerContact::finger) != before.end();
+    const bool holds = std::ranges::find(before, f, &plan::FingerContact::finger) != before.end();
     (holds ? holding : free).push_back(f);
   }
   for (int i = 0; i < kMostDraws; ++i) {
-    Switch change;
+    plan::Switch change;
     const int placed = 1 + dice.Number(static_cast<int>(free.size()));
     for (int k = 0; k < placed; ++k) change.place.push_back({free[k], dice.DrawContact()});
     const int first = dice.Number(static_cast<int>(holding.size()));
@@ -138,7 +139,7 @@ std::optional<Switch> DrawSwitch(const FingerGrasp& before, bool good, Dice& dic
     for (int k = 0; k < released; ++k) {
       change.release.push_back(holding[(first + k) % holding.size()]);
     }
-    const FingerGrasp after = GraspAfter(before, change);
+    const plan::FingerGrasp after = plan::GraspAfter(before, change);
     if (after.size() < 2 || after.size() > 3) continue;
     if (good ? dice.IsGood(after) : !dice.IsForceClosureNow(after)) return change;
   }
@@ -146,14 +147,14 @@ std::optional<Switch> DrawSwitch(const FingerGrasp& before, bool good, Dice& dic
 }
 
 /// So many switches between good grasps, then one to a bad one; fewer where a draw finds none.
-Plan DrawWalk(int fingers, int switches, Dice& dice) {
-  FingerGrasp grasp = dice.DrawGrasp(fingers);
-  Plan plan = MakePlanarPlan(grasp, Degrees(kHalfAngle));
+plan::Plan DrawWalk(int fingers, int switches, Dice& dice) {
+  plan::FingerGrasp grasp = dice.DrawGrasp(fingers);
+  plan::Plan plan = MakePlanarPlan(grasp, Degrees(kHalfAngle));
   for (int i = 0; !grasp.empty() && i <= switches; ++i) {
-    const std::optional<Switch> change = DrawSwitch(grasp, i < switches, dice);
+    const std::optional<plan::Switch> change = DrawSwitch(grasp, i < switches, dice);
     if (!change) break;
     plan.steps.emplace_back(*change);
-    grasp = GraspAfter(grasp, plan.steps.back());
+    grasp = plan::GraspAfter(grasp, plan.steps.back());
   }
   return plan;
 }
@@ -163,15 +164,15 @@ TEST(PlanarSweep, RandomSwitchesBetweenGoodGraspsPassAndOneToABadGraspFails) {
   std::mt19937 random(kSeed);
   int walks = 0, failed = 0;
   for (const int edges : {6, 12, 40}) {
-    const Polygon star = MakeStar(edges, random);
+    const object::Polygon star = MakeStar(edges, random);
     Dice dice(star, random);
     for (int walk = 0; walk < 10; ++walk) {
-      const Plan plan = DrawWalk(2 + walk % 2, kSwitches, dice);
+      const plan::Plan plan = DrawWalk(2 + walk % 2, kSwitches, dice);
       if (plan.steps.size() != kSwitches + 1) continue;
       const ReplayResult result = ReplayPlan(star, plan, {});
       ASSERT_EQ(result.steps.size(), plan.steps.size() + 1)
           << edges << " edges, walk " << walk << ": " << result.steps.back().detail;
-      failed += result.steps.back().reason != Reason::kNone;
+      failed += result.steps.back().reason != plan::Reason::kNone;
       ++walks;
     }
   }

@@ -9,14 +9,14 @@ namespace regrasp::sim {
 
 namespace {
 
-std::vector<double> RecordReplay(const Object& object, const Plan& plan) {
+std::vector<double> RecordReplay(const object::Object& object, const plan::Plan& plan) {
   std::vector<double> bits;
   ReplayObserver observer;
   observer.sample_interval_s = 1e-4;
-  observer.on_sample = [&](const Snapshot& sample) {
+  observer.on_sample = [&](const plan::Snapshot& sample) {
     bits.push_back(sample.time_s);
     for (int k = 0; k < 3; ++k) bits.push_back(sample.X_WO.translation()[k]);
-    for (const FingerState& state : sample.fingers) {
+    for (const plan::FingerState& state : sample.fingers) {
       for (int k = 0; k < 3; ++k) bits.insert(bits.end(), {state.tip_W[k], state.force_W[k]});
     }
   };
@@ -27,10 +27,11 @@ std::vector<double> RecordReplay(const Object& object, const Plan& plan) {
   return bits;
 }
 
-void ExpectTouches(const Object& object, const FingerGrasp& grasp, const Snapshot& shown) {
+void ExpectTouches(const object::Object& object, const plan::FingerGrasp& grasp,
+                   const plan::Snapshot& shown) {
   std::size_t touching = 0;
-  for (const FingerContact& held : grasp) {
-    for (const FingerState& state : shown.fingers) {
+  for (const plan::FingerContact& held : grasp) {
+    for (const plan::FingerState& state : shown.fingers) {
       if (state.finger != held.finger) continue;
       EXPECT_LT((shown.X_WO.inverse() * state.contact_W - held.contact.p).norm(),
                 kGood * object.diameter());
@@ -46,7 +47,7 @@ void ExpectTouches(const Object& object, const FingerGrasp& grasp, const Snapsho
 void ExpectGood(const ReplayResult& result, std::size_t entries) {
   ASSERT_EQ(result.steps.size(), entries);
   for (const StepReplay& step : result.steps) {
-    EXPECT_EQ(step.reason, Reason::kNone) << "entry " << step.index << ": " << step.detail;
+    EXPECT_EQ(step.reason, plan::Reason::kNone) << "entry " << step.index << ": " << step.detail;
     EXPECT_LT(step.displacement_m, kGood * result.settings.diameter_m);
     EXPECT_LT(step.slip_m, kGood * result.settings.diameter_m);
     EXPECT_LT(step.drift_m, kGood * result.settings.diameter_m);
@@ -54,22 +55,23 @@ void ExpectGood(const ReplayResult& result, std::size_t entries) {
   }
 }
 
-bool LosesObject(Reason reason) {
-  return reason == Reason::kContactLost || reason == Reason::kSlipped ||
-         reason == Reason::kObjectMoved;
+bool LosesObject(plan::Reason reason) {
+  return reason == plan::Reason::kContactLost || reason == plan::Reason::kSlipped ||
+         reason == plan::Reason::kObjectMoved;
 }
 
-void ExpectTouchesAsPlanned(const Object& object, const Plan& plan, const ReplayResult& result) {
+void ExpectTouchesAsPlanned(const object::Object& object, const plan::Plan& plan,
+                            const ReplayResult& result) {
   ASSERT_EQ(result.steps.size(), plan.steps.size() + 1);
-  FingerGrasp grasp = plan.initial;
+  plan::FingerGrasp grasp = plan.initial;
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
-    if (i > 0) grasp = GraspAfter(grasp, plan.steps[i - 1]);
+    if (i > 0) grasp = plan::GraspAfter(grasp, plan.steps[i - 1]);
     SCOPED_TRACE("entry " + std::to_string(i));
     ExpectTouches(object, grasp, result.steps[i].snapshot);
   }
 }
 
-void ExpectSameBitsTwice(const Object& object, const Plan& plan) {
+void ExpectSameBitsTwice(const object::Object& object, const plan::Plan& plan) {
   const std::vector<double> first = RecordReplay(object, plan);
   const std::vector<double> second = RecordReplay(object, plan);
   ASSERT_GT(first.size(), 1000u);

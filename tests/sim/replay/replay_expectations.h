@@ -14,13 +14,14 @@ inline constexpr double kGood = 1e-4;
 void ExpectGood(const ReplayResult& result, std::size_t entries);
 
 /// The object moved, slipped or lost a contact.
-[[nodiscard]] bool LosesObject(Reason reason);
+[[nodiscard]] bool LosesObject(plan::Reason reason);
 
 /// Expects that at rest, in every entry of the replay, every finger touches where it was planned,
 /// and presses.
-void ExpectTouchesAsPlanned(const Object& object, const Plan& plan, const ReplayResult& result);
+void ExpectTouchesAsPlanned(const object::Object& object, const plan::Plan& plan,
+                            const ReplayResult& result);
 
 /// Expects that two replays of a plan are the same bits: all samples, and what is measured.
-void ExpectSameBitsTwice(const Object& object, const Plan& plan);
+void ExpectSameBitsTwice(const object::Object& object, const plan::Plan& plan);
 
 }  // namespace regrasp::sim

@@ -14,12 +14,12 @@
 namespace regrasp::sim {
 namespace {
 
-Plan FourSwitches(const CubeCase& cube) {
-  Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
-                Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {3}},
-                Switch{{cube.At(3, 0.03, -0.006, 0.008)}, {0}},
-                Switch{{cube.At(0, -0.03, -0.008, 0.006)}, {1}}};
+plan::Plan FourSwitches(const CubeCase& cube) {
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                plan::Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {3}},
+                plan::Switch{{cube.At(3, 0.03, -0.006, 0.008)}, {0}},
+                plan::Switch{{cube.At(0, -0.03, -0.008, 0.006)}, {1}}};
   return plan;
 }
 
@@ -33,7 +33,7 @@ TEST(ReplayHold, LosesTheSameGraspBelowItsRequiredFriction) {
   // The grasp requires 5.3°.
   const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 4), {});
   ASSERT_EQ(result.steps.size(), 1u);
-  EXPECT_TRUE(LosesObject(result.steps[0].reason)) << ReasonName(result.steps[0].reason);
+  EXPECT_TRUE(LosesObject(result.steps[0].reason)) << plan::ReasonName(result.steps[0].reason);
   EXPECT_FALSE(result.steps[0].detail.empty());
 }
 
@@ -50,10 +50,10 @@ TEST(ReplayHold, DropsTheObjectWhereGravityIsMoreThanTheSqueezeBears) {
   const CubeCase cube;
   ReplayOptions options;
   options.squeeze_N = 0.5;  // of a weight of 2.1 N, at friction 0.47
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, options).steps.at(0).reason));
   options.gravity = false;
-  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(ReplayHold, FailsUnderAShakeLargerThanTheQuality) {
@@ -66,7 +66,7 @@ TEST(ReplayHold, FailsUnderAShakeLargerThanTheQuality) {
 
 TEST(ReplayHold, AGraspWithoutFingersFails) {
   const CubeCase cube;
-  EXPECT_NE(ReplayPlan(cube.object, MakePlan({}, 25), {}).steps.at(0).reason, Reason::kNone);
+  EXPECT_NE(ReplayPlan(cube.object, MakePlan({}, 25), {}).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(ReplaySwitch, ReplaysFourSwitchesOnTheCube) {
@@ -79,23 +79,24 @@ TEST(ReplaySwitch, ReplaysFourSwitchesOnTheCube) {
 
 TEST(ReplaySwitch, PlacesAndReleasesSeveralFingersInOneStep) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25, 6);
-  plan.steps = {Switch{{cube.At(4, 0.001, 0.002, 0.03), cube.At(5, -0.002, 0.001, -0.03)}, {2, 3}},
-                Switch{{cube.At(2, 0.003, 0.03, 0.004)}, {}}, Switch{{}, {2}}};
+  plan::Plan plan = MakePlan(cube.Start(), 25, 6);
+  plan.steps = {
+      plan::Switch{{cube.At(4, 0.001, 0.002, 0.03), cube.At(5, -0.002, 0.001, -0.03)}, {2, 3}},
+      plan::Switch{{cube.At(2, 0.003, 0.03, 0.004)}, {}}, plan::Switch{{}, {2}}};
   ExpectGood(ReplayPlan(cube.object, plan, {}), 4);
 }
 
 TEST(ReplaySwitch, AFingerThatIsReleasedIsOffTheSurface) {
   const CubeCase cube;
-  const Plan plan = FourSwitches(cube);
+  const plan::Plan plan = FourSwitches(cube);
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   int released = 0;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
-    const Snapshot& shown = result.steps[i].snapshot;
-    for (const FingerState& state : shown.fingers) {
-      if (state.role != FingerRole::kReleased) continue;
+    const plan::Snapshot& shown = result.steps[i].snapshot;
+    for (const plan::FingerState& state : shown.fingers) {
+      if (state.role != plan::FingerRole::kReleased) continue;
       ++released;
-      EXPECT_EQ(state.finger, std::get<Switch>(plan.steps[i - 1]).release[0]);
+      EXPECT_EQ(state.finger, std::get<plan::Switch>(plan.steps[i - 1]).release[0]);
       const Eigen::Vector3d tip = shown.X_WO.inverse() * state.tip_W;
       EXPECT_GT(tip.cwiseAbs().maxCoeff(), 0.03 + 1.5 * shown.fingertip_radius_m);
       EXPECT_TRUE(state.force_W.isZero());
@@ -106,13 +107,13 @@ TEST(ReplaySwitch, AFingerThatIsReleasedIsOffTheSurface) {
 
 TEST(ReplaySwitch, FailsWhereACarryingFingerLeaves) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
+  plan::Plan plan = MakePlan(cube.Start(), 25);
   // Fingers 0 and 2 remain, on two neighbouring faces.
-  plan.steps = {Switch{{}, {1, 3}}, Switch{{cube.At(1, -0.03, 0.002, -0.004)}, {}}};
+  plan.steps = {plan::Switch{{}, {1, 3}}, plan::Switch{{cube.At(1, -0.03, 0.002, -0.004)}, {}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[0].reason, Reason::kNone);
-  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << ReasonName(result.steps[1].reason);
+  EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone);
+  EXPECT_TRUE(LosesObject(result.steps[1].reason)) << plan::ReasonName(result.steps[1].reason);
 }
 
 TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
@@ -130,21 +131,21 @@ TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
 
 TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25, 6);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
-                Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {3}}};
+  plan::Plan plan = MakePlan(cube.Start(), 25, 6);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+                plan::Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {3}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   ASSERT_EQ(result.steps.size(), 3u);
-  FingerGrasp before = plan.initial;
+  plan::FingerGrasp before = plan.initial;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
-    const auto& [place, release] = std::get<Switch>(plan.steps[i - 1]);
+    const auto& [place, release] = std::get<plan::Switch>(plan.steps[i - 1]);
     // What held before the step, and what it places; no finger that an earlier step released.
     std::set<int> held, measured;
-    for (const FingerContact& contact : before) held.insert(contact.finger);
-    for (const FingerContact& contact : place) held.insert(contact.finger);
+    for (const plan::FingerContact& contact : before) held.insert(contact.finger);
+    for (const plan::FingerContact& contact : place) held.insert(contact.finger);
     for (const auto& [finger, margin] : result.steps[i].motion_margins) measured.insert(finger);
     EXPECT_EQ(measured, held) << i;
-    before = GraspAfter(before, plan.steps[i - 1]);
+    before = plan::GraspAfter(before, plan.steps[i - 1]);
   }
 }
 
@@ -155,13 +156,13 @@ TEST(ReplayPlanTest, TheSamePlanGivesTheSameBits) {
 
 TEST(ReplayPlanTest, SnapshotsShowTheContactsInTheObjectsFrame) {
   const CubeCase cube;
-  const Plan plan = FourSwitches(cube);
+  const plan::Plan plan = FourSwitches(cube);
   ExpectTouchesAsPlanned(cube.object, plan, ReplayPlan(cube.object, plan, {}));
 }
 
 TEST(ReplayPlanTest, RefusesAContactOnNoFace) {
   const CubeCase cube;
-  FingerGrasp grasp = cube.Start();
+  plan::FingerGrasp grasp = cube.Start();
   grasp[0].contact.face = -1;
   EXPECT_THROW((void)ReplayPlan(cube.object, MakePlan(grasp, 25), {}), InputError);
 }
@@ -177,7 +178,7 @@ TEST(ReplayPlanTest, LeavesNoLogFileBehindAndGivesTheEnginesHooksBack) {
 /// The cube's four switches at another size and mass.
 ReplayResult ReplayScaled(double scale, double density) {
   const CubeCase cube;
-  Plan plan = FourSwitches(cube);
+  plan::Plan plan = FourSwitches(cube);
   plan.scale = scale;
   ReplayOptions options;
   options.density_kg_m3 = density;
@@ -212,7 +213,7 @@ TEST(ReplayScale, MovesTheSameAtEverySizeAndMass) {
   // The control: with too little friction it fails at every size as well.
   const CubeCase cube;
   for (const double scale : {1e-6, 1e6}) {
-    Plan plan = MakePlan(cube.Start(), 4);
+    plan::Plan plan = MakePlan(cube.Start(), 4);
     plan.scale = scale;
     EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, {}).steps.at(0).reason));
   }
@@ -220,21 +221,21 @@ TEST(ReplayScale, MovesTheSameAtEverySizeAndMass) {
 
 TEST(ReplayScale, MillimetresWithAScaleAreMetres) {
   const CubeCase cube;
-  Plan metres = FourSwitches(cube);
-  const auto& body = dynamic_cast<const Polyhedron&>(cube.object);
-  PolygonSoup soup{body.vertices(), {}};
+  plan::Plan metres = FourSwitches(cube);
+  const auto& body = dynamic_cast<const object::Polyhedron&>(cube.object);
+  object::PolygonSoup soup{body.vertices(), {}};
   for (Eigen::Vector3d& v : soup.vertices) v *= 1000;
   for (const auto& [a, b, c] : body.triangles()) soup.facets.push_back({a, b, c});
-  const Polyhedron big = Polyhedron::FromSoup(soup, "cube in millimetres");
-  const auto enlarge = [&](FingerGrasp& grasp) {
-    for (FingerContact& held : grasp) {
-      held.contact = ContactAt(big, 1000 * held.contact.p, held.contact.n);
+  const object::Polyhedron big = object::Polyhedron::FromSoup(soup, "cube in millimetres");
+  const auto enlarge = [&](plan::FingerGrasp& grasp) {
+    for (plan::FingerContact& held : grasp) {
+      held.contact = grasp::ContactAt(big, 1000 * held.contact.p, held.contact.n);
     }
   };
-  Plan millimetres = metres;
+  plan::Plan millimetres = metres;
   millimetres.scale = 1e-3;
   enlarge(millimetres.initial);
-  for (Step& step : millimetres.steps) enlarge(std::get<Switch>(step).place);
+  for (plan::Step& step : millimetres.steps) enlarge(std::get<plan::Switch>(step).place);
   const ReplayResult a = ReplayPlan(cube.object, metres, {});
   const ReplayResult b = ReplayPlan(big, millimetres, {});
   ExpectGood(b, 5);
@@ -244,7 +245,7 @@ TEST(ReplayScale, MillimetresWithAScaleAreMetres) {
 
 TEST(ReplayScale, RefusesSizesThatCannotBeSimulated) {
   const CubeCase cube;
-  Plan plan = FourSwitches(cube);
+  plan::Plan plan = FourSwitches(cube);
   for (const double scale : {1e-9, 1e9}) {
     plan.scale = scale;
     EXPECT_THROW((void)ReplayPlan(cube.object, plan, {}), InputError);

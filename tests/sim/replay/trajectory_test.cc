@@ -10,11 +10,11 @@ namespace regrasp::sim {
 namespace {
 
 TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
-  Snapshot sample;
+  plan::Snapshot sample;
   sample.time_s = 0.125;
-  FingerState state;
+  plan::FingerState state;
   state.finger = 3;
-  state.role = FingerRole::kPlaced;
+  state.role = plan::FingerRole::kPlaced;
   state.tip_W = {0.1, -2, 3};
   state.force_W = {0, 0, 1e-7};
   sample.fingers = {state};
@@ -26,17 +26,18 @@ TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
 
 TEST(Trajectory, OfAReplayRunsForwardInTimeAndItsForcesCarryTheWeightAtTheEnd) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
-  std::vector<Snapshot> samples;
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  std::vector<plan::Snapshot> samples;
   ReplayObserver observer;
   observer.sample_interval_s = 1e-3;
-  observer.on_sample = [&](const Snapshot& sample) { samples.push_back(sample); };
+  observer.on_sample = [&](const plan::Snapshot& sample) { samples.push_back(sample); };
   const ReplayResult result = ReplayPlan(cube.object, plan, {}, observer);
   ASSERT_GT(samples.size(), 10u);
-  EXPECT_TRUE(std::ranges::is_sorted(samples, {}, &Snapshot::time_s));
+  EXPECT_TRUE(std::ranges::is_sorted(samples, {}, &plan::Snapshot::time_s));
   Eigen::Vector3d total = Eigen::Vector3d::Zero();
-  for (const FingerState& state : result.steps.back().snapshot.fingers) total += state.force_W;
+  for (const plan::FingerState& state : result.steps.back().snapshot.fingers)
+    total += state.force_W;
   const double weight = 9.81 * result.settings.mass_kg;
   EXPECT_LT((total - Eigen::Vector3d(0, 0, weight)).norm(), 0.01 * weight);
   const std::string csv = FormatTrajectory(samples);

@@ -31,48 +31,48 @@ int Passes(double half_angle_deg, const TrialOptions& trials) {
   return RunTrials(cube.object, MakePlan(cube.Start(), half_angle_deg), {}, trials, kTip).passed;
 }
 
-Plan SwitchAndAlign(const CubeCase& cube) {
-  Plan plan = MakePlan(cube.Start(), 25);
-  FingerGrasp before = {cube.Start()[0], cube.Start()[1], cube.Start()[3],
-                        cube.At(4, 0, 0.001, 0.03)};
-  FingerGrasp after = before;
+plan::Plan SwitchAndAlign(const CubeCase& cube) {
+  plan::Plan plan = MakePlan(cube.Start(), 25);
+  plan::FingerGrasp before = {cube.Start()[0], cube.Start()[1], cube.Start()[3],
+                              cube.At(4, 0, 0.001, 0.03)};
+  plan::FingerGrasp after = before;
   after[1] = cube.At(1, -0.03, 0.004, -0.001);
-  plan.steps = {Switch{{before[3]}, {2}}, Align{{before, after}}};
+  plan.steps = {plan::Switch{{before[3]}, {2}}, plan::Align{{before, after}}};
   return plan;
 }
 
 TEST(ContactNoise, MovesEveryContactOnItsFaceAndAFingerThatStaysKeepsItsPlace) {
   const CubeCase cube;
-  const Plan plan = SwitchAndAlign(cube);
+  const plan::Plan plan = SwitchAndAlign(cube);
   RandomStream random(1, RandomUse::kTrialContacts, 0);
-  const Plan noisy = AddContactNoise(cube.object, plan, {2e-3, kTip}, random);
+  const plan::Plan noisy = AddContactNoise(cube.object, plan, {2e-3, kTip}, random);
   int moved = 0;
   for (std::size_t i = 0; i < plan.initial.size(); ++i) {
-    const Contact &meant = plan.initial[i].contact, &is = noisy.initial[i].contact;
+    const grasp::Contact &meant = plan.initial[i].contact, &is = noisy.initial[i].contact;
     EXPECT_EQ(is.face, meant.face);
     EXPECT_NEAR((is.p - meant.p).dot(meant.n), 0, 1e-15);
     moved += is.p != meant.p;
   }
   EXPECT_EQ(moved, 4);
-  const FingerGrasp& begin = std::get<Align>(noisy.steps[1]).waypoints[0];
-  const FingerGrasp& end = std::get<Align>(noisy.steps[1]).waypoints[1];
+  const plan::FingerGrasp& begin = std::get<plan::Align>(noisy.steps[1]).waypoints[0];
+  const plan::FingerGrasp& end = std::get<plan::Align>(noisy.steps[1]).waypoints[1];
   EXPECT_EQ(begin[0].contact.p, noisy.initial[0].contact.p);
   EXPECT_EQ(begin[1].contact.p, noisy.initial[1].contact.p);
-  EXPECT_EQ(begin[3].contact.p, std::get<Switch>(noisy.steps[0]).place[0].contact.p);
+  EXPECT_EQ(begin[3].contact.p, std::get<plan::Switch>(noisy.steps[0]).place[0].contact.p);
   for (const int stays : {0, 2, 3}) EXPECT_EQ(end[stays].contact.p, begin[stays].contact.p);
   EXPECT_NE(end[1].contact.p, begin[1].contact.p);
-  EXPECT_NE(end[1].contact.p, std::get<Align>(plan.steps[1]).waypoints[1][1].contact.p);
+  EXPECT_NE(end[1].contact.p, std::get<plan::Align>(plan.steps[1]).waypoints[1][1].contact.p);
 }
 
 TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
   const CubeCase cube;
   constexpr double kDeviation = 1e-3;
   constexpr int kDraws = 2000;
-  const Plan plan = MakePlan({cube.At(0, 0.03, 0, 0)}, 25);
+  const plan::Plan plan = MakePlan({cube.At(0, 0.03, 0, 0)}, 25);
   double squares = 0;
   for (int i = 0; i < kDraws; ++i) {
     RandomStream random(3, RandomUse::kTrialContacts, i);
-    const Plan noisy = AddContactNoise(cube.object, plan, {kDeviation, kTip}, random);
+    const plan::Plan noisy = AddContactNoise(cube.object, plan, {kDeviation, kTip}, random);
     squares += (noisy.initial[0].contact.p - plan.initial[0].contact.p).squaredNorm();
   }
   // Two directions; five standard deviations of the sum of their squares.
@@ -82,27 +82,29 @@ TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
 
 TEST(ContactNoise, KeepsToBordersAndCornersAndWithoutDeviationChangesNothing) {
   const CubeCase cube;
-  const FingerContact border{0, ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
-  const FingerContact corner{1, ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
-  const Plan plan = MakePlan({border, corner}, 25);
+  const plan::FingerContact border{0,
+                                   grasp::ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
+  const plan::FingerContact corner{1,
+                                   grasp::ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
+  const plan::Plan plan = MakePlan({border, corner}, 25);
   RandomStream random(1, RandomUse::kTrialContacts, 0);
-  const Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);
+  const plan::Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);
   const Eigen::Vector3d off = noisy.initial[0].contact.p - border.contact.p;
   EXPECT_NE(off.z(), 0);
   EXPECT_NEAR(off.head<2>().norm(), 0, 1e-15);
   EXPECT_EQ(noisy.initial[1].contact.p, corner.contact.p);
-  const Plan same = AddContactNoise(cube.object, plan, {0, kTip}, random);
+  const plan::Plan same = AddContactNoise(cube.object, plan, {0, kTip}, random);
   EXPECT_EQ(same.initial[0].contact.p, border.contact.p);
 }
 
 TEST(ContactNoise, NeverCrossesABorder) {
   const CubeCase cube;
   // A millimetre from the edge, off by three in the mean.
-  const Plan plan = MakePlan({cube.At(0, 0.03, 0.029, 0)}, 25);
+  const plan::Plan plan = MakePlan({cube.At(0, 0.03, 0.029, 0)}, 25);
   int inside = 0;
   for (int i = 0; i < 100; ++i) {
     RandomStream random(5, RandomUse::kTrialContacts, i);
-    const Plan noisy = AddContactNoise(cube.object, plan, {3e-3, kTip}, random);
+    const plan::Plan noisy = AddContactNoise(cube.object, plan, {3e-3, kTip}, random);
     EXPECT_LE(noisy.initial[0].contact.p.y(), 0.03 + 1e-6);
     inside += noisy.initial[0].contact.p.y() < 0.029;
   }
@@ -173,7 +175,7 @@ TEST(Trials, SayWhatFailedAndWhere) {
 
 TEST(Trials, ChangeTheWorldAndNotWhatTheHandBelieves) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayOptions options;
   options.mass_kg = 0.25;
   options.mass_factor = 1.5;
@@ -190,8 +192,9 @@ TEST(Trials, ChangeTheWorldAndNotWhatTheHandBelieves) {
 }
 
 TEST(Trials, WorkInThePlane) {
-  const Polygon square = MakeSquare(0.03);
-  const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 20);
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Plan plan =
+      MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 20);
   const auto passes = [&](double noise) {
     return RunTrials(square, plan, {}, Trials(20, noise, 0), kTip).passed;
   };

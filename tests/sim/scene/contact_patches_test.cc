@@ -25,12 +25,12 @@ constexpr double kQuality = 0.02;  // the shake is 0.01
 
 /// A ball of facets that are `finest` · D wide at its two poles on the x axis, and coarser by half
 /// from ring to ring towards the equator.
-Polyhedron MakeBall(double finest, int sectors) {
+object::Polyhedron MakeBall(double finest, int sectors) {
   std::vector<double> angles;
   for (double a = 2 * finest; a < std::numbers::pi / 2; a *= 1.5) angles.push_back(a);
   const std::size_t half = angles.size();
   for (std::size_t k = half; k-- > 0;) angles.push_back(std::numbers::pi - angles[k]);
-  PolygonSoup soup{{{kRadius, 0, 0}, {-kRadius, 0, 0}}, {}};
+  object::PolygonSoup soup{{{kRadius, 0, 0}, {-kRadius, 0, 0}}, {}};
   const auto at = [&](std::size_t ring, int sector) {
     return static_cast<int>(2 + ring * sectors + sector % sectors);
   };
@@ -51,19 +51,22 @@ Polyhedron MakeBall(double finest, int sectors) {
   for (int s = 0; s < sectors; ++s) {
     soup.facets.push_back({1, at(angles.size() - 1, s + 1), at(angles.size() - 1, s)});
   }
-  return Polyhedron::FromSoup(soup, "ball");
+  return object::Polyhedron::FromSoup(soup, "ball");
 }
 
 /// The face whose centre is nearest to a point.
-int NearestFace(const Polyhedron& body, const Vector3d& near) {
-  const auto distance = [&](const Polyhedron::Face& face) { return (face.point - near).norm(); };
+int NearestFace(const object::Polyhedron& body, const Vector3d& near) {
+  const auto distance = [&](const object::Polyhedron::Face& face) {
+    return (face.point - near).norm();
+  };
   return static_cast<int>(std::ranges::min_element(body.faces(), {}, distance) -
                           body.faces().begin());
 }
 
 /// A point drawn evenly over a triangle of the face, or over that part of it next to its first
 /// corner which is `share` as wide.
-Contact DrawOnFace(const Polyhedron& body, int face, double share, std::mt19937& random) {
+grasp::Contact DrawOnFace(const object::Polyhedron& body, int face, double share,
+                          std::mt19937& random) {
   const auto& [a, b, c] = body.triangles()[body.faces()[face].triangles.front()];
   const auto& vertices = body.vertices();
   std::uniform_real_distribution<double> unit(0, 1);
@@ -73,9 +76,9 @@ Contact DrawOnFace(const Polyhedron& body, int face, double share, std::mt19937&
 }
 
 /// A good grasp of four with two fingers on the finest facets, there within `share` of a corner.
-FingerGrasp DrawGrasp(const Polyhedron& ball, double share, std::mt19937& random) {
+plan::FingerGrasp DrawGrasp(const object::Polyhedron& ball, double share, std::mt19937& random) {
   for (;;) {
-    FingerGrasp grasp;
+    plan::FingerGrasp grasp;
     for (const auto& [near, part] : {std::pair{Vector3d(1, 0, 0), share},
                                      {Vector3d(-1, 0, 0), share},
                                      {Vector3d(0.1, 1, 0.1), 1.0},
@@ -83,11 +86,12 @@ FingerGrasp DrawGrasp(const Polyhedron& ball, double share, std::mt19937& random
       const int face = NearestFace(ball, kRadius * near);
       grasp.push_back({static_cast<int>(grasp.size()), DrawOnFace(ball, face, part, random)});
     }
-    if (QualityAtLeast(ContactsOf(grasp), ball.wrench_frame(), kHalfAngle, kQuality)) return grasp;
+    if (grasp::QualityAtLeast(plan::ContactsOf(grasp), ball.wrench_frame(), kHalfAngle, kQuality))
+      return grasp;
   }
 }
 
-bool IsRectangle(const Polyhedron& body, const Contact& contact) {
+bool IsRectangle(const object::Polyhedron& body, const grasp::Contact& contact) {
   const auto patches =
       MakeContactPatches(body, {contact.face, contact.p, contact.p}, kPatchSize * kDiameter);
   return patches.size() == 1 && patches.front().rectangle;
@@ -103,12 +107,12 @@ struct Holds {
 
   void Replay(double finest, int sectors, double share, std::mt19937& random) {
     SCOPED_TRACE(std::to_string(finest) + " " + std::to_string(sectors));
-    const Polyhedron ball = MakeBall(finest, sectors);
+    const object::Polyhedron ball = MakeBall(finest, sectors);
     for (int k = 0; k < 4; ++k) {
-      const FingerGrasp grasp = DrawGrasp(ball, share, random);
+      const plan::FingerGrasp grasp = DrawGrasp(ball, share, random);
       const StepReplay hold =
           ReplayPlan(ball, MakePlan(grasp, Degrees(kHalfAngle)), {}).steps.at(0);
-      EXPECT_EQ(hold.reason, Reason::kNone) << hold.detail;
+      EXPECT_EQ(hold.reason, plan::Reason::kNone) << hold.detail;
       EXPECT_LT(hold.slip_m, kNoSlip * kDiameter);
       for (int f = 0; f < 2; ++f) ++(IsRectangle(ball, grasp[f].contact) ? rectangles : others);
     }
@@ -161,10 +165,10 @@ double LargestMeshError(const Scene& scene, const mjModel& model, mjData& data) 
 
 TEST(FineFacets, AreWhereTheyAreAlthoughTheEngineKeepsMeshesInSinglePrecision) {
   std::mt19937 random(5);
-  const Polyhedron ball = MakeBall(3e-3, 6);
+  const object::Polyhedron ball = MakeBall(3e-3, 6);
   int meshes = 0;
   for (int k = 0; k < 20; ++k) {
-    const Plan plan = MakePlan(DrawGrasp(ball, 0.05, random), Degrees(kHalfAngle));
+    const plan::Plan plan = MakePlan(DrawGrasp(ball, 0.05, random), Degrees(kHalfAngle));
     const Scene scene = MakeScene(ball, plan, 0, {});
     const ModelPtr model = LoadFromFile(FormatScene(scene, ball, {}, false));
     ASSERT_NE(model, nullptr);

@@ -33,13 +33,13 @@ constexpr double kOutside = 0.01;
 constexpr double kTouch = 1e-4;
 
 /// Compares where the fingers touch at rest with where the grasp has them.
-void Count(const Object& object, const FingerGrasp& planned, const Snapshot& rest,
-           double half_angle, TouchCount& count) {
+void Count(const object::Object& object, const plan::FingerGrasp& planned,
+           const plan::Snapshot& rest, double half_angle, TouchCount& count) {
   double all_forces = 0;
-  for (const FingerState& state : rest.fingers) all_forces += state.force_W.norm();
+  for (const plan::FingerState& state : rest.fingers) all_forces += state.force_W.norm();
   const Eigen::Isometry3d X_OW = rest.X_WO.inverse();
-  for (const FingerContact& held : planned) {
-    const auto state = std::ranges::find(rest.fingers, held.finger, &FingerState::finger);
+  for (const plan::FingerContact& held : planned) {
+    const auto state = std::ranges::find(rest.fingers, held.finger, &plan::FingerState::finger);
     ASSERT_NE(state, rest.fingers.end());
     ++count.contacts;
     const Vector3d force_O = X_OW.linear() * state->force_W;
@@ -59,11 +59,11 @@ void Count(const Object& object, const FingerGrasp& planned, const Snapshot& res
 }
 
 /// Replays the hold of a grasp and counts.
-TouchCount Hold(const Object& object, const FingerGrasp& grasp, double degrees) {
-  const Plan plan = MakePlan(grasp, degrees);
+TouchCount Hold(const object::Object& object, const plan::FingerGrasp& grasp, double degrees) {
+  const plan::Plan plan = MakePlan(grasp, degrees);
   const ReplayResult result = ReplayPlan(object, plan, {});
   TouchCount count;
-  EXPECT_EQ(result.steps.at(0).reason, Reason::kNone) << result.steps[0].detail;
+  EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kNone) << result.steps[0].detail;
   Count(object, grasp, result.steps[0].snapshot, Radians(degrees), count);
   return count;
 }
@@ -75,15 +75,16 @@ void ExpectTouchesItsOwn(const TouchCount& count, int contacts) {
   EXPECT_LT(count.largest_error, kTouch);
 }
 
-FingerGrasp WithFingers(const Grasp& grasp) {
-  FingerGrasp held;
-  for (const Contact& contact : grasp) held.push_back({static_cast<int>(held.size()), contact});
+plan::FingerGrasp WithFingers(const grasp::Grasp& grasp) {
+  plan::FingerGrasp held;
+  for (const grasp::Contact& contact : grasp)
+    held.push_back({static_cast<int>(held.size()), contact});
   return held;
 }
 
 /// Squares about the z axis, each joined to the next: solids of steps, posts and holes.
-Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_and_height) {
-  PolygonSoup soup;
+object::Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_and_height) {
+  object::PolygonSoup soup;
   for (const auto& [half, z] : half_and_height) {
     soup.vertices.insert(soup.vertices.end(),
                          {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
@@ -97,34 +98,34 @@ Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_and_heig
   }
   soup.facets.push_back({3, 2, 1, 0});
   soup.facets.push_back({last, last + 1, last + 2, last + 3});
-  return Polyhedron::FromSoup(soup, "tower");
+  return object::Polyhedron::FromSoup(soup, "tower");
 }
 
 /// 10 × 10 × 6 cm with a blind hole of 2 × 2 cm, 4 cm deep, in its top.
-Polyhedron MakeBlindHole() {
+object::Polyhedron MakeBlindHole() {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {0.01, 0.06}, {0.01, 0.02}});
 }
 
 /// A box without a lid, 10 × 10 × 6 cm, with walls of 0.2 mm and a floor of 1 cm.
-Polyhedron MakeThinBox() {
+object::Polyhedron MakeThinBox() {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {0.0498, 0.06}, {0.0498, 0.01}});
 }
 
 TEST(NonconvexContacts, FingersPressInABlindHole) {
-  const Polyhedron body = MakeBlindHole();
+  const object::Polyhedron body = MakeBlindHole();
   TouchCount count = Hold(body,
-                          WithFingers({ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
-                                       ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
-                                       ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
-                                       ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
+                          WithFingers({grasp::ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
+                                       grasp::ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
+                                       grasp::ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
+                                       grasp::ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
                           30);
   ExpectTouchesItsOwn(count, 4);
   // Two on opposite walls of the hole, pressing outwards, one on its ground.
   count = Hold(body,
-               WithFingers({ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
-                            ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
-                            ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
-                            ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
+               WithFingers({grasp::ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
+                            grasp::ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
+                            grasp::ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
+                            grasp::ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
                30);
   ExpectTouchesItsOwn(count, 4);
 }
@@ -132,43 +133,46 @@ TEST(NonconvexContacts, FingersPressInABlindHole) {
 TEST(NonconvexContacts, FingersPinchThinWallsFromBothSides) {
   // The walls are thinner than the pieces of surface under a contact are thick. Two pinches alone
   // let the body turn about the line between them.
-  const Polyhedron body = MakeThinBox();
-  const TouchCount count = Hold(body,
-                                WithFingers({ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
-                                             ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
-                                             ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
-                                             ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
-                                             ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
-                                             ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
-                                30);
+  const object::Polyhedron body = MakeThinBox();
+  const TouchCount count =
+      Hold(body,
+           WithFingers({grasp::ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
+                        grasp::ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
+                        grasp::ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
+                        grasp::ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
+                        grasp::ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
+                        grasp::ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
+           30);
   ExpectTouchesItsOwn(count, 6);
 }
 
 TEST(NonconvexContacts, FingersPressOutwardsInAChannel) {
-  const ObjectFile file = ReadModel("u_channel.obj");
-  const Object& body = *file.object;
-  const TouchCount count = Hold(body,
-                                WithFingers({ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
-                                             ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
-                                             ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
-                                             ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
-                                30);
+  const object::ObjectFile file = ReadModel("u_channel.obj");
+  const object::Object& body = *file.object;
+  const TouchCount count =
+      Hold(body,
+           WithFingers({grasp::ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
+                        grasp::ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
+                        grasp::ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
+                        grasp::ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
+           30);
   ExpectTouchesItsOwn(count, 4);
 }
 
 TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Object& l = *file.object;
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const object::Object& l = *file.object;
   int holds = 0;
   for (const double share : {1e-1, 1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(share);
     const double d = share * l.diameter();
-    const TouchCount count = Hold(l,
-                                  WithFingers({ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
-                                               ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
-                                               ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
-                                               ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
-                                  30);
+    const TouchCount count =
+        Hold(l,
+             WithFingers({grasp::ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
+                          grasp::ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
+                          grasp::ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
+                          grasp::ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
+             30);
     ExpectTouchesItsOwn(count, 4);
     ++holds;
   }
@@ -176,7 +180,7 @@ TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth
 }
 
 /// 10 × 10 × 6 cm with a pit (or a bump, where deeper is negative) as wide as deep in its top.
-Polyhedron MakePitted(double width, double deeper) {
+object::Polyhedron MakePitted(double width, double deeper) {
   return MakeTower({{0.05, 0}, {0.05, 0.06}, {width / 2, 0.06}, {width / 2, 0.06 - deeper}});
 }
 
@@ -186,7 +190,7 @@ TEST(NonconvexContacts, EveryFaceHasAPatchHoweverSmallItIs) {
     for (const double sign : {1.0, -1.0}) {
       SCOPED_TRACE(sign * width);
       const double D = MakePitted(0.01, 0.01).diameter();
-      const Polyhedron body = MakePitted(width * D, sign * std::min(width, 0.1) * D);
+      const object::Polyhedron body = MakePitted(width * D, sign * std::min(width, 0.1) * D);
       for (int face = 0; face < body.face_count(); ++face) {
         const Vector3d p = body.ClosestPoint(face, body.faces()[face].point);
         const auto patches = MakeContactPatches(body, {face, p, p}, kPatchSize * D);
@@ -208,37 +212,39 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
   for (const double deeper : {3e-6, -1e-5}) {
     SCOPED_TRACE(deeper);
     const double D = MakePitted(0.01, 0.01).diameter();
-    const Polyhedron body = MakePitted(std::abs(deeper) * D, deeper * D);
-    Plan plan = MakePlan(WithFingers({ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
-                                      ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
-                                      ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
-                                      ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
-                         30);
-    for (const FingerContact& held : plan.initial) ASSERT_GE(held.contact.face, 0);
+    const object::Polyhedron body = MakePitted(std::abs(deeper) * D, deeper * D);
+    plan::Plan plan =
+        MakePlan(WithFingers({grasp::ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
+                              grasp::ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
+                              grasp::ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
+                              grasp::ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
+                 30);
+    for (const plan::FingerContact& held : plan.initial) ASSERT_GE(held.contact.face, 0);
     const ReplayResult result = ReplayPlan(body, plan, {});
     ASSERT_EQ(result.steps.size(), 1u);
-    EXPECT_NE(result.steps[0].reason, Reason::kSimulationUnstable) << result.steps[0].detail;
+    EXPECT_NE(result.steps[0].reason, plan::Reason::kSimulationUnstable) << result.steps[0].detail;
     // A tip that holds on to less than it may slip may fall into the pit, but not off the bump.
     if (deeper < 0) {
-      EXPECT_EQ(result.steps[0].reason, Reason::kNone) << result.steps[0].detail;
+      EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
     }
     plan.half_angle = Radians(0.5);
-    EXPECT_NE(ReplayPlan(body, plan, {}).steps.at(0).reason, Reason::kNone);
+    EXPECT_NE(ReplayPlan(body, plan, {}).steps.at(0).reason, plan::Reason::kNone);
   }
 }
 
 /// A random grasp of four that the shake leaves alone, each finger with room to stand.
-FingerGrasp DrawGrasp(const Polyhedron& body, double half_angle, std::mt19937& random) {
+plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
+                            std::mt19937& random) {
   constexpr double kQuality = 0.015;  // the shake is 0.01
   constexpr int kMostDraws = 100'000;
   for (int draw = 0; draw < kMostDraws; ++draw) {
-    Grasp grasp;
+    grasp::Grasp grasp;
     while (grasp.size() < 4) {
-      const Contact contact = DrawContact(body, random);
-      if (HasClearance(body, contact)) grasp.push_back(contact);
+      const grasp::Contact contact = DrawContact(body, random);
+      if (criteria::HasClearance(body, contact)) grasp.push_back(contact);
     }
-    if (IsForceClosure(grasp, body.wrench_frame(), half_angle) &&
-        QualityAtLeast(grasp, body.wrench_frame(), half_angle, kQuality)) {
+    if (grasp::IsForceClosure(grasp, body.wrench_frame(), half_angle) &&
+        grasp::QualityAtLeast(grasp, body.wrench_frame(), half_angle, kQuality)) {
       return WithFingers(grasp);
     }
   }
@@ -248,8 +254,8 @@ FingerGrasp DrawGrasp(const Polyhedron& body, double half_angle, std::mt19937& r
 
 /// Whether a finger there stands in a hole, a channel or beside a wall: a ball as large as the body
 /// does not fit.
-bool IsInside(const Object& object, const Contact& contact) {
-  return ComputeClearance(object, contact, object.diameter()) < object.diameter();
+bool IsInside(const object::Object& object, const grasp::Contact& contact) {
+  return criteria::ComputeClearance(object, contact, object.diameter()) < object.diameter();
 }
 
 TEST(NonconvexContacts, RandomGraspsTouchTheirOwnFacesAndNothingElse) {
@@ -257,24 +263,25 @@ TEST(NonconvexContacts, RandomGraspsTouchTheirOwnFacesAndNothingElse) {
   constexpr double kDegrees = 30;
   std::mt19937 random(17);
   int bodies = 0, inside = 0;
-  const auto check = [&](const std::string& name, const Polyhedron& body) {
+  const auto check = [&](const std::string& name, const object::Polyhedron& body) {
     SCOPED_TRACE(name);
     TouchCount count;
     for (int k = 0; k < kGrasps; ++k) {
-      const FingerGrasp grasp = DrawGrasp(body, Radians(kDegrees), random);
+      const plan::FingerGrasp grasp = DrawGrasp(body, Radians(kDegrees), random);
       const ReplayResult result = ReplayPlan(body, MakePlan(grasp, kDegrees), {});
-      EXPECT_EQ(result.steps.at(0).reason, Reason::kNone) << k << ": " << result.steps[0].detail;
+      EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kNone)
+          << k << ": " << result.steps[0].detail;
       Count(body, grasp, result.steps[0].snapshot, Radians(kDegrees), count);
       inside += static_cast<int>(std::ranges::count_if(
-          grasp, [&](const FingerContact& held) { return IsInside(body, held.contact); }));
+          grasp, [&](const plan::FingerContact& held) { return IsInside(body, held.contact); }));
     }
     ExpectTouchesItsOwn(count, 4 * kGrasps);
     ++bodies;
   };
   for (const char* name :
        {"l_block.obj", "hole_block.obj", "u_channel.obj", "body36.obj", "mug500.obj"}) {
-    const ObjectFile file = ReadModel(name);
-    check(name, dynamic_cast<const Polyhedron&>(*file.object));
+    const object::ObjectFile file = ReadModel(name);
+    check(name, dynamic_cast<const object::Polyhedron&>(*file.object));
   }
   check("blind hole", MakeBlindHole());
   EXPECT_EQ(bodies, 6);
@@ -282,32 +289,34 @@ TEST(NonconvexContacts, RandomGraspsTouchTheirOwnFacesAndNothingElse) {
 }
 
 TEST(NonconvexContacts, WrongContactsAreSeen) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Object& l = *file.object;
-  const FingerGrasp grasp = WithFingers(
-      {ContactAt(l, {0.05, 0.04, 0.012}, {0, -1, 0}), ContactAt(l, {0.05, 0, 0.012}, {0, 1, 0}),
-       ContactAt(l, {0.04, 0.05, -0.012}, {-1, 0, 0}), ContactAt(l, {0, 0.05, -0.012}, {1, 0, 0})});
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const object::Object& l = *file.object;
+  const plan::FingerGrasp grasp =
+      WithFingers({grasp::ContactAt(l, {0.05, 0.04, 0.012}, {0, -1, 0}),
+                   grasp::ContactAt(l, {0.05, 0, 0.012}, {0, 1, 0}),
+                   grasp::ContactAt(l, {0.04, 0.05, -0.012}, {-1, 0, 0}),
+                   grasp::ContactAt(l, {0, 0.05, -0.012}, {1, 0, 0})});
   const ReplayResult result = ReplayPlan(l, MakePlan(grasp, 30), {});
-  const Snapshot& rest = result.steps.at(0).snapshot;
-  const auto count = [&](const FingerGrasp& planned, const Snapshot& seen) {
+  const plan::Snapshot& rest = result.steps.at(0).snapshot;
+  const auto count = [&](const plan::FingerGrasp& planned, const plan::Snapshot& seen) {
     TouchCount found;
     Count(l, planned, seen, Radians(30), found);
     return found;
   };
   ExpectTouchesItsOwn(count(grasp, rest), 4);
   // Planned on the other wall of the corner.
-  FingerGrasp other = grasp;
-  other[0].contact = ContactAt(l, {0.04, 0.05, 0.012}, {-1, 0, 0});
+  plan::FingerGrasp other = grasp;
+  other[0].contact = grasp::ContactAt(l, {0.04, 0.05, 0.012}, {-1, 0, 0});
   EXPECT_EQ(count(other, rest).ghosts, 1);
   EXPECT_GT(count(other, rest).largest_error, kTouch);
   // A force from the side, as of a wall that is not there.
-  Snapshot pushed = rest;
-  for (FingerState& state : pushed.fingers) {
+  plan::Snapshot pushed = rest;
+  for (plan::FingerState& state : pushed.fingers) {
     if (state.finger == 1) state.force_W = state.force_W.norm() * Vector3d::UnitX();
   }
   EXPECT_EQ(count(grasp, pushed).ghosts, 1);
-  Snapshot loose = rest;
-  for (FingerState& state : loose.fingers) {
+  plan::Snapshot loose = rest;
+  for (plan::FingerState& state : loose.fingers) {
     if (state.finger == 2) state.force_W.setZero();
   }
   EXPECT_EQ(count(grasp, loose).missed, 1);

@@ -10,12 +10,12 @@
 namespace regrasp::sim {
 namespace {
 
-Plan FramePlan(const Polygon& frame) {
+plan::Plan FramePlan(const object::Polygon& frame) {
   return MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
 }
 
 TEST(PlanarSceneMjcf, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   const auto model = LoadFromFile(SceneMjcf(frame, FramePlan(frame), {}));
   ASSERT_NE(model, nullptr);
   ASSERT_EQ(model->nkey, 1);
@@ -37,7 +37,7 @@ TEST(PlanarSceneMjcf, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
 }
 
 TEST(PlanarSceneMjcf, HasThePrismsMassItsJointsAndFingersAlongZ) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   ReplayOptions options;
   options.thickness = 0.012;
   const auto model = LoadFromFile(SceneMjcf(frame, FramePlan(frame), options));
@@ -70,7 +70,7 @@ TEST(PlanarSceneMjcf, HasThePrismsMassItsJointsAndFingersAlongZ) {
 }
 
 TEST(PlanarSceneMjcf, FingersDoNotCollideWithEachOther) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   const auto model = LoadFromFile(SceneMjcf(frame, FramePlan(frame), {}));
   ASSERT_NE(model, nullptr);
   int pairs = 0;
@@ -88,7 +88,8 @@ TEST(PlanarSceneMjcf, FingersDoNotCollideWithEachOther) {
 }
 
 /// Lower and upper end of a patch along its edge, as shares of the edge.
-std::pair<double, double> Ends(const Polygon& polygon, int edge, const ContactPatch& patch) {
+std::pair<double, double> Ends(const object::Polygon& polygon, int edge,
+                               const ContactPatch& patch) {
   const auto [from, to] = polygon.edge(edge);
   const Eigen::Vector3d along = (to - from) / (to - from).squaredNorm();
   double low = 2, high = -2;
@@ -100,7 +101,7 @@ std::pair<double, double> Ends(const Polygon& polygon, int edge, const ContactPa
 }
 
 TEST(EdgePatch, CoversThePathAndItsSurroundingsAndEndsWithTheEdge) {
-  const Polygon square = MakeSquare(0.03);
+  const object::Polygon square = MakeSquare(0.03);
   const auto ends = [&](double from, double to) {
     const ContactSite site{1, OnEdge(square, 1, from).p, OnEdge(square, 1, to).p};
     const ContactPatch patch = MakeEdgePatch(square, site, 0.003, 0.02);
@@ -126,19 +127,19 @@ TEST(EdgePatch, CoversThePathAndItsSurroundingsAndEndsWithTheEdge) {
 }
 
 TEST(PlanarClearance, IsTheLargestDiscThatTouchesOnlyAtTheContact) {
-  const Polygon l = MakeL(), frame = MakeFrame();
+  const object::Polygon l = MakeL(), frame = MakeFrame();
   // A disc that touches both edges of a right angle touches each at its radius from the corner.
-  EXPECT_NEAR(ComputeClearance(l, OnEdge(l, 2, 0.9), 0.1), 0.004, 1e-12);
-  EXPECT_NEAR(ComputeClearance(l, OnEdge(l, 3, 0.02), 0.1), 0.0008, 1e-12);
+  EXPECT_NEAR(criteria::ComputeClearance(l, OnEdge(l, 2, 0.9), 0.1), 0.004, 1e-12);
+  EXPECT_NEAR(criteria::ComputeClearance(l, OnEdge(l, 3, 0.02), 0.1), 0.0008, 1e-12);
   // In the hole the wall opposite limits it.
-  EXPECT_NEAR(ComputeClearance(frame, OnEdge(frame, 4, 0.5), 0.1), 0.02, 1e-12);
+  EXPECT_NEAR(criteria::ComputeClearance(frame, OnEdge(frame, 4, 0.5), 0.1), 0.02, 1e-12);
   // Convex edges and ends do not.
-  EXPECT_EQ(ComputeClearance(l, OnEdge(l, 0, 0.5), 0.1), 0.1);
-  EXPECT_EQ(ComputeClearance(l, OnEdge(l, 0, 1), 0.1), 0.1);
+  EXPECT_EQ(criteria::ComputeClearance(l, OnEdge(l, 0, 0.5), 0.1), 0.1);
+  EXPECT_EQ(criteria::ComputeClearance(l, OnEdge(l, 0, 1), 0.1), 0.1);
 }
 
 TEST(VisibleSurfaceTest, OfAPolygonIsItsClosedPrism) {
-  const Polygon frame = MakeFrame();
+  const object::Polygon frame = MakeFrame();
   const VisibleSurface prism = MakeVisibleSurface(frame, 0.01);
   double volume = 0;
   Eigen::Vector3d flux = Eigen::Vector3d::Zero();

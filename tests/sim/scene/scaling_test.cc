@@ -9,9 +9,9 @@ namespace regrasp::sim {
 namespace {
 
 /// A rod along x, 1 m long, with a square section.
-Polyhedron MakeRod(double width) {
+object::Polyhedron MakeRod(double width) {
   const double a = 0.5, b = width / 2;
-  const PolygonSoup soup{
+  const object::PolygonSoup soup{
       {{-a, -b, -b},
        {a, -b, -b},
        {a, b, -b},
@@ -21,60 +21,62 @@ Polyhedron MakeRod(double width) {
        {a, b, b},
        {-a, b, b}},
       {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-  return Polyhedron::FromSoup(soup, "rod");
+  return object::Polyhedron::FromSoup(soup, "rod");
 }
 
 /// Two pairs of opposite fingers across the rod, `apart` m from each other.
-Plan HoldRod(const Polyhedron& rod, double width, double apart, double half_angle_deg) {
+plan::Plan HoldRod(const object::Polyhedron& rod, double width, double apart,
+                   double half_angle_deg) {
   const double b = width / 2, x = apart / 2, off = 0.3 * b;
-  return MakePlan({{0, ContactAt(rod, {x, off, b}, {0, 0, -1})},
-                   {1, ContactAt(rod, {x, off, -b}, {0, 0, 1})},
-                   {2, ContactAt(rod, {-x, b, off}, {0, -1, 0})},
-                   {3, ContactAt(rod, {-x, -b, off}, {0, 1, 0})}},
+  return MakePlan({{0, grasp::ContactAt(rod, {x, off, b}, {0, 0, -1})},
+                   {1, grasp::ContactAt(rod, {x, off, -b}, {0, 0, 1})},
+                   {2, grasp::ContactAt(rod, {-x, b, off}, {0, -1, 0})},
+                   {3, grasp::ContactAt(rod, {-x, -b, off}, {0, 1, 0})}},
                   half_angle_deg);
 }
 
-StepReplay ShakeRod(const Polyhedron& rod, const Plan& plan, double shake) {
+StepReplay ShakeRod(const object::Polyhedron& rod, const plan::Plan& plan, double shake) {
   ReplayOptions options;
   options.shake = shake;
   return ReplayPlan(rod, plan, options).steps.at(0);
 }
 
 bool FailsForItsOwnReason(const StepReplay& hold) {
-  return hold.reason == Reason::kObjectMoved || hold.reason == Reason::kSlipped ||
-         hold.reason == Reason::kContactLost;
+  return hold.reason == plan::Reason::kObjectMoved || hold.reason == plan::Reason::kSlipped ||
+         hold.reason == plan::Reason::kContactLost;
 }
 
 TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
   for (const double width : {1e-1, 1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(width);
-    const Polyhedron rod = MakeRod(width);
-    const Plan plan = HoldRod(rod, width, 0.8, 35);
+    const object::Polyhedron rod = MakeRod(width);
+    const plan::Plan plan = HoldRod(rod, width, 0.8, 35);
     const double quality =
-        ComputeQuality(ContactsOf(plan.initial), rod.wrench_frame(), plan.half_angle).lower;
+        grasp::ComputeQuality(plan::ContactsOf(plan.initial), rod.wrench_frame(), plan.half_angle)
+            .lower;
     // Torques are over half the length, and friction has half the width to turn the rod by.
     EXPECT_LT(quality, width);
     EXPECT_GT(quality, width / 2);
     for (const double share : {0.6, 0.9}) {
       const StepReplay good = ShakeRod(rod, plan, share * quality);
-      EXPECT_EQ(good.reason, Reason::kNone) << share << ": " << good.detail;
+      EXPECT_EQ(good.reason, plan::Reason::kNone) << share << ": " << good.detail;
     }
     const StepReplay weak = ShakeRod(rod, plan, 1.5 * quality);
-    EXPECT_TRUE(FailsForItsOwnReason(weak)) << ReasonName(weak.reason) << " " << weak.detail;
+    EXPECT_TRUE(FailsForItsOwnReason(weak)) << plan::ReasonName(weak.reason) << " " << weak.detail;
     const StepReplay much = ShakeRod(rod, plan, 10 * quality);
-    EXPECT_TRUE(FailsForItsOwnReason(much)) << ReasonName(much.reason) << " " << much.detail;
+    EXPECT_TRUE(FailsForItsOwnReason(much)) << plan::ReasonName(much.reason) << " " << much.detail;
   }
 }
 
 TEST(Needle, IsLostWithoutForceClosureForItsOwnReason) {
   for (const double width : {1e-3, 1e-4}) {
     SCOPED_TRACE(width);
-    const Polyhedron rod = MakeRod(width);
-    Plan plan = HoldRod(rod, width, 0.8, 35);
+    const object::Polyhedron rod = MakeRod(width);
+    plan::Plan plan = HoldRod(rod, width, 0.8, 35);
     // Both pairs at one place: nothing but friction on its width stops a turn across the rod.
-    for (FingerContact& held : plan.initial) held.contact.p.x() = 0.1;
+    for (plan::FingerContact& held : plan.initial) held.contact.p.x() = 0.1;
     const StepReplay hold = ShakeRod(rod, plan, 1e-3);
-    EXPECT_TRUE(FailsForItsOwnReason(hold)) << ReasonName(hold.reason) << " " << hold.detail;
+    EXPECT_TRUE(FailsForItsOwnReason(hold)) << plan::ReasonName(hold.reason) << " " << hold.detail;
   }
 }
 

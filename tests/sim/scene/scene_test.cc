@@ -18,7 +18,7 @@ namespace {
 
 TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   const auto model = LoadFromFile(SceneMjcf(cube.object, plan, {}));
   ASSERT_NE(model, nullptr);
   ASSERT_EQ(model->nkey, 1);
@@ -36,17 +36,17 @@ TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
 }
 
 TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
-  const ObjectFile file = ReadModel("l_block.obj");
-  const Object& l = *file.object;
-  Plan plan = MakePlan({{0, ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
-                        {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
-                        {2, ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
-                        {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
-                       30);
+  const object::ObjectFile file = ReadModel("l_block.obj");
+  const object::Object& l = *file.object;
+  plan::Plan plan = MakePlan({{0, grasp::ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
+                              {1, grasp::ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {2, grasp::ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
+                              {3, grasp::ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+                             30);
   const auto model = LoadFromFile(SceneMjcf(l, plan, {}));
   ASSERT_NE(model, nullptr);
   const int body = mj_name2id(model.get(), mjOBJ_BODY, "object");
-  const MassProperties& mass = l.mass_properties();
+  const object::MassProperties& mass = l.mass_properties();
   EXPECT_EQ(model->body_mass[body], 1000 * mass.volume);
   const double trace = model->body_inertia[3 * body] + model->body_inertia[3 * body + 1] +
                        model->body_inertia[3 * body + 2];
@@ -60,7 +60,7 @@ TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
 
 TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
   const CubeCase cube;
-  Plan plan = MakePlan(cube.Start(), 25);
+  plan::Plan plan = MakePlan(cube.Start(), 25);
   plan.fingers = 64;
   const auto fingers_that_touch = [&] {
     const Scene scene = MakeScene(cube.object, plan, static_cast<int>(plan.steps.size()), {});
@@ -75,28 +75,30 @@ TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
   const int first = plan.initial.front().finger;
   int last = first;
   for (int finger = 33; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
-    plan.steps.push_back(Switch{{{finger, plan.initial.front().contact}}, {last}});
+    plan.steps.push_back(plan::Switch{{{finger, plan.initial.front().contact}}, {last}});
     last = finger;
   }
   EXPECT_EQ(fingers_that_touch(), 31u);
-  plan.steps.push_back(Switch{{{32, plan.initial.front().contact}}, {last}});
+  plan.steps.push_back(plan::Switch{{{32, plan.initial.front().contact}}, {last}});
   EXPECT_THROW((void)fingers_that_touch(), InputError);
 }
 
 TEST(SceneMjcfTest, SaysTheSameTwice) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   EXPECT_EQ(SceneMjcf(cube.object, plan, {}), SceneMjcf(cube.object, plan, {}));
 }
 
 Scene CubeScene(const CubeCase& cube) {
-  return MakeScene(dynamic_cast<const Polyhedron&>(cube.object), MakePlan(cube.Start(), 25), 0, {});
+  return MakeScene(dynamic_cast<const object::Polyhedron&>(cube.object), MakePlan(cube.Start(), 25),
+                   0, {});
 }
 
 TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
   const CubeCase cube;
   const Engine engine(
-      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+      FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
+      5);
   EXPECT_THROW(mju_error("made up"), UnstableError);
   mju_warning("this reaches neither the terminal nor a file");
   EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
@@ -105,7 +107,8 @@ TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
 TEST(EngineTest, AStateThatIsNotFiniteIsUnstable) {
   const CubeCase cube;
   Engine engine(
-      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+      FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
+      5);
   engine.Step();
   engine.SetLoad({std::numeric_limits<double>::quiet_NaN(), 0, 0}, Eigen::Vector3d::Zero());
   EXPECT_THROW(engine.Step(), UnstableError);
@@ -114,7 +117,8 @@ TEST(EngineTest, AStateThatIsNotFiniteIsUnstable) {
 TEST(EngineTest, AnAccelerationBeyondTheEnginesLimitIsUnstable) {
   const CubeCase cube;
   Engine engine(
-      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+      FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
+      5);
   engine.SetLoad({1e30, 0, 0}, Eigen::Vector3d::Zero());
   EXPECT_THROW(engine.Step(), UnstableError);
 }
@@ -126,7 +130,8 @@ TEST(EngineTest, ASceneThatIsNoSceneIsRefused) {
 TEST(EngineTest, StepsFromASavedStateRepeatTheSameBits) {
   const CubeCase cube;
   Engine engine(
-      FormatScene(CubeScene(cube), dynamic_cast<const Polyhedron&>(cube.object), {}, false), 5);
+      FormatScene(CubeScene(cube), dynamic_cast<const object::Polyhedron&>(cube.object), {}, false),
+      5);
   engine.SetGravity(kGravity);
   for (int i = 0; i < 10; ++i) engine.Step();
   const Engine::State state = engine.Save();

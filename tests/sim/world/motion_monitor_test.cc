@@ -29,29 +29,29 @@ TEST(MotionMonitorTest, TheObjectMovesBeyondTheToleranceOnly) {
   MotionMonitor monitor(UnitSettings());
   monitor.Start(Pose(5, 0.1));
   monitor.AddPose(Pose(5.0009, 0.101));
-  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kNone);
   monitor.AddPose(Pose(5.0011, 0.101));
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
   monitor.AddPose(Pose(5, 0.1));
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved) << "coming back does not help";
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved) << "coming back does not help";
   EXPECT_NEAR(monitor.displacement_m(), 0.0011, 1e-12);
 }
 
 TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
   MotionMonitor monitor(UnitSettings());
   monitor.AddPose(Pose(1, 0));
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
   monitor.AddSlip(2, 0.0019);
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
   monitor.AddSlip(2, 0.0021);
-  EXPECT_EQ(monitor.reason(), Reason::kSlipped);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kSlipped);
   monitor.AddGap(3, 1e-6);
   EXPECT_FALSE(monitor.contact_lost());
   monitor.AddGap(3, 1e-4);
-  EXPECT_EQ(monitor.reason(), Reason::kContactLost);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kContactLost);
   EXPECT_NE(monitor.detail().find("finger 3"), std::string::npos);
   monitor.Start(Pose(0, 0));
-  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kNone);
   EXPECT_TRUE(monitor.detail().empty());
 }
 
@@ -62,11 +62,11 @@ TEST(MotionMonitorTest, TheGiveOfTheServosIsNoMotion) {
   monitor.AddPose(Pose(0.1, 0));
   monitor.SetGiving(false);
   monitor.AddPose(Pose(0.0005, 0));
-  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kNone);
   EXPECT_NEAR(monitor.give_m(), 0.1, 1e-12);
   EXPECT_NEAR(monitor.moved_m(), 0.0005, 1e-12);
   monitor.AddPose(Pose(0.1, 0));
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved)
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved)
       << "an object that does not come back has moved";
 }
 
@@ -77,7 +77,7 @@ TEST(MotionMonitorTest, MotionIsTheLargestSumOfShiftAndTurnNotTheSumOfTheLargest
   monitor.AddPose(Pose(0, 0.0008));
   EXPECT_NEAR(monitor.moved_m(), 0.0008, 1e-9);
   EXPECT_NEAR(monitor.displacement_m() + monitor.rotation_rad(), 0.0014, 1e-9);
-  EXPECT_EQ(monitor.reason(), Reason::kNone);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kNone);
 }
 
 TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {

@@ -23,21 +23,22 @@ void Drag(ReplayWorld& world, int finger, double share, const Eigen::Vector3d& d
 TEST(MonitorOfAReplay, SeesAFingerThatIsDraggedOverTheSurface) {
   HeldCube little, far;
   Drag(little.world, 0, 5e-4, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(little.world.monitor().reason(), Reason::kNone) << little.world.monitor().detail();
+  EXPECT_EQ(little.world.monitor().reason(), plan::Reason::kNone)
+      << little.world.monitor().detail();
   Drag(far.world, 0, 0.02, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(far.world.monitor().reason(), Reason::kSlipped);
+  EXPECT_EQ(far.world.monitor().reason(), plan::Reason::kSlipped);
   EXPECT_THAT(far.world.monitor().detail(), HasSubstr("finger 0"));
 }
 
 TEST(MonitorOfAReplay, SeesAFingerSlipThatHasSlidOnPurposeBefore) {
   // Two opposite fingers, and one below that is not needed and slides.
-  const Polygon square = MakeSquare(0.03);
-  const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
-                             OnEdge(square, 2, 0, 0.4)};
-  FingerGrasp end = start;
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
+                                   OnEdge(square, 2, 0, 0.4)};
+  plan::FingerGrasp end = start;
   end[2] = OnEdge(square, 2, 0, 0.5);
-  Plan plan = MakePlanarPlan(start, 15);
-  plan.steps = {Align{{start, end}}};
+  plan::Plan plan = MakePlanarPlan(start, 15);
+  plan.steps = {plan::Align{{start, end}}};
   ReplayOptions options;
   options.align = AlignChoice::kSlide;
   const ReplayObserver observer;
@@ -46,9 +47,9 @@ TEST(MonitorOfAReplay, SeesAFingerSlipThatHasSlidOnPurposeBefore) {
   ComeToRest(world);
   ASSERT_EQ(PerformAlign(world, *world.scene().entries.at(1).script), AlignMode::kSlid);
   ComeToRest(world);
-  ASSERT_EQ(world.monitor().reason(), Reason::kNone) << world.monitor().detail();
+  ASSERT_EQ(world.monitor().reason(), plan::Reason::kNone) << world.monitor().detail();
   Drag(world, 2, 0.02, Eigen::Vector3d::UnitX());
-  EXPECT_EQ(world.monitor().reason(), Reason::kSlipped);
+  EXPECT_EQ(world.monitor().reason(), plan::Reason::kSlipped);
   EXPECT_THAT(world.monitor().detail(), HasSubstr("finger 2"));
 }
 
@@ -58,16 +59,18 @@ TEST(MonitorOfAReplay, SeesAtRestThatAFingerIsOffTheSurface) {
   finger.force_S.setZero();
   finger.anchor_S -= 0.05 * held.world.settings().diameter_m * finger.contact.n;
   ComeToRest(held.world);
-  EXPECT_EQ(held.world.monitor().reason(), Reason::kContactLost);
+  EXPECT_EQ(held.world.monitor().reason(), plan::Reason::kContactLost);
   EXPECT_THAT(held.world.monitor().detail(), HasSubstr("finger 0"));
 }
 
 TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
   // The square comes away from one of two opposite fingers, whose servos give way, and back again.
-  const Polygon square = MakeSquare(0.03);
-  const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 70);
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Plan plan =
+      MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)}, 70);
   const ReplayObserver observer;
-  for (const auto& [share, reason] : {std::pair{0.8, Reason::kNone}, {1.2, Reason::kContactLost}}) {
+  for (const auto& [share, reason] :
+       {std::pair{0.8, plan::Reason::kNone}, {1.2, plan::Reason::kContactLost}}) {
     ReplayWorld world(square, plan, MakeScene(square, plan, 0, {}), observer);
     TakeHold(world, ToScene(square, plan.scale, plan.initial));
     ComeToRest(world);
@@ -91,15 +94,15 @@ TEST(MonitorOfAReplay, SeesAfterAFixedPushThatAFingerIsOffTheSurface) {
   world.StartMonitoring();
   PushOnce(world, PushWrench({false, 1, 1}, 0.02 * world.settings().squeeze_N),
            DisturbanceResponse::kFixed);
-  EXPECT_EQ(world.monitor().reason(), Reason::kContactLost) << world.monitor().detail();
+  EXPECT_EQ(world.monitor().reason(), plan::Reason::kContactLost) << world.monitor().detail();
 }
 
 TEST(MonitorOfAReplay, AnEngineThatCannotGoOnIsNoPass) {
   const CubeCase cube;
   ReplayObserver observer;
-  observer.on_sample = [](const Snapshot&) { throw UnstableError("made up"); };
+  observer.on_sample = [](const plan::Snapshot&) { throw UnstableError("made up"); };
   const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}, observer);
-  EXPECT_EQ(result.steps.at(0).reason, Reason::kSimulationUnstable);
+  EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kSimulationUnstable);
   EXPECT_EQ(result.steps.at(0).detail, "made up");
 }
 
@@ -116,13 +119,14 @@ TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
   ComeToRest(held.world);
   const MotionMonitor& monitor = held.world.monitor();
   EXPECT_LT(monitor.moved_m(), options.tolerance * held.world.settings().diameter_m);
-  EXPECT_EQ(monitor.reason(), Reason::kObjectMoved);
+  EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
   EXPECT_THAT(monitor.detail(), HasSubstr("did not come to rest"));
 }
 
 /// Expects that the first step of a plan passes at a tolerance a little above what it moves and
 /// slips, and at a smaller one fails for what exceeds it.
-void ExpectJudgedByTheTolerance(const Object& object, const Plan& plan, AlignChoice align) {
+void ExpectJudgedByTheTolerance(const object::Object& object, const plan::Plan& plan,
+                                AlignChoice align) {
   ReplayOptions options;
   options.align = align;
   const auto replay = [&](double tolerance_m) {
@@ -131,34 +135,34 @@ void ExpectJudgedByTheTolerance(const Object& object, const Plan& plan, AlignCho
   };
   const StepReplay step = replay(1e-3 * object.diameter());
   ASSERT_EQ(step.index, 1) << step.detail;
-  ASSERT_EQ(step.reason, Reason::kNone) << step.detail;
+  ASSERT_EQ(step.reason, plan::Reason::kNone) << step.detail;
   ASSERT_GT(step.slip_m, 0);
-  EXPECT_EQ(replay(1.1 * std::max(step.moved_m, step.slip_m)).reason, Reason::kNone);
-  EXPECT_EQ(replay(0.9 * step.slip_m).reason, Reason::kSlipped);
+  EXPECT_EQ(replay(1.1 * std::max(step.moved_m, step.slip_m)).reason, plan::Reason::kNone);
+  EXPECT_EQ(replay(0.9 * step.slip_m).reason, plan::Reason::kSlipped);
   if (0.9 * step.moved_m > step.slip_m) {
-    EXPECT_EQ(replay(0.9 * step.moved_m).reason, Reason::kObjectMoved);
+    EXPECT_EQ(replay(0.9 * step.moved_m).reason, plan::Reason::kObjectMoved);
   }
 }
 
 TEST(MonitorOfAReplay, AnAlignInSpaceMayMoveTheObjectByTheToleranceAndNoMore) {
   const CubeCase cube;
-  FingerGrasp end = cube.Start();
+  plan::FingerGrasp end = cube.Start();
   end[0] = cube.At(0, 0.03, 0.008, 0.006);
-  Plan plan = MakePlan(cube.Start(), 35);
-  plan.steps = {Align{{cube.Start(), end}}};
+  plan::Plan plan = MakePlan(cube.Start(), 35);
+  plan.steps = {plan::Align{{cube.Start(), end}}};
   for (const AlignChoice choice : {AlignChoice::kImitate, AlignChoice::kSlide}) {
     ExpectJudgedByTheTolerance(cube.object, plan, choice);
   }
 }
 
 TEST(MonitorOfAReplay, AnAlignInThePlaneMayMoveTheObjectByTheToleranceAndNoMore) {
-  const Polygon square = MakeSquare(0.03);
-  const FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
-                             OnEdge(square, 2, 0, 0.4)};
-  FingerGrasp end = start;
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::FingerGrasp start = {OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5),
+                                   OnEdge(square, 2, 0, 0.4)};
+  plan::FingerGrasp end = start;
   end[2] = OnEdge(square, 2, 0, 0.7);
-  Plan plan = MakePlanarPlan(start, 15);
-  plan.steps = {Align{{start, end}}};
+  plan::Plan plan = MakePlanarPlan(start, 15);
+  plan.steps = {plan::Align{{start, end}}};
   for (const AlignChoice choice : {AlignChoice::kImitate, AlignChoice::kSlide}) {
     ExpectJudgedByTheTolerance(square, plan, choice);
   }

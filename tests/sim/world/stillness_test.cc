@@ -25,16 +25,16 @@ ReplayOptions WithTimestep(double factor) {
 /// Two opposite fingers in the middle of the sides of the square. A push of ρ F asks for friction
 /// of ρ, a turn of ρ F R for ρ D / side = √2 ρ. With a little less than that the square turns until
 /// it is wedged between the fingers, by less than the tolerance where the shake is small.
-Reason Pinch(double friction, const ReplayOptions& options) {
-  const Polygon square = MakeSquare(0.03);
-  const Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
-                                   Degrees(std::atan(friction)));
+plan::Reason Pinch(double friction, const ReplayOptions& options) {
+  const object::Polygon square = MakeSquare(0.03);
+  const plan::Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.5), OnEdge(square, 1, 3, 0.5)},
+                                         Degrees(std::atan(friction)));
   return ReplayPlan(square, plan, options).steps.at(0).reason;
 }
 
 TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
   const CubeCase cube;
-  const Polygon square = MakeSquare(0.03);
+  const object::Polygon square = MakeSquare(0.03);
   ReplayOptions options;
   options.gravity = false;
   int failed = 0;
@@ -47,9 +47,9 @@ TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
         options.shake = shake;
         options.protocol = protocol;
         EXPECT_EQ(ReplayPlan(cube.object, MakePlan({}, 25), options).steps.at(0).reason,
-                  Reason::kObjectMoved);
+                  plan::Reason::kObjectMoved);
         EXPECT_EQ(ReplayPlan(square, MakePlanarPlan({}, 25), options).steps.at(0).reason,
-                  Reason::kObjectMoved);
+                  plan::Reason::kObjectMoved);
         ++failed;
       }
     }
@@ -59,7 +59,7 @@ TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
 
 TEST(Stillness, AShakeThatABodyThatNothingHoldsWouldStandIsRefused) {
   const CubeCase cube;
-  const Plan plan = MakePlan(cube.Start(), 25);
+  const plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayOptions options;
   for (const auto& [shake, tolerance] :
        {std::pair{1e-5, 1e-3}, {0.01, 9.0}, {1e-7, 1e-9}, {1e-5, 1e-9}}) {
@@ -70,9 +70,9 @@ TEST(Stillness, AShakeThatABodyThatNothingHoldsWouldStandIsRefused) {
   }
   options.shake = 2 * LeastShake(1e-3);
   options.tolerance = 1e-3;
-  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
   options.shake = 0;  // asks for none
-  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, Reason::kNone);
+  EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(Stillness, APinchThatSlidesFailsAndOneThatHoldsPassesAtEveryTimeStep) {
@@ -80,9 +80,9 @@ TEST(Stillness, APinchThatSlidesFailsAndOneThatHoldsPassesAtEveryTimeStep) {
   for (const double factor : kTimesteps) {
     SCOPED_TRACE(factor);
     for (const double share : {0.6, 0.78, 0.9}) {
-      EXPECT_NE(Pinch(share * needed, WithTimestep(factor)), Reason::kNone) << share;
+      EXPECT_NE(Pinch(share * needed, WithTimestep(factor)), plan::Reason::kNone) << share;
     }
-    EXPECT_EQ(Pinch(1.03 * needed, WithTimestep(factor)), Reason::kNone);
+    EXPECT_EQ(Pinch(1.03 * needed, WithTimestep(factor)), plan::Reason::kNone);
   }
 }
 
@@ -90,16 +90,16 @@ TEST(Stillness, ASmallShakeTellsAPinchThatSlidesFromOneThatHolds) {
   ReplayOptions options;
   options.shake = 1e-3;
   const double needed = std::sqrt(2.0) * options.shake;
-  EXPECT_NE(Pinch(0.6 * needed, options), Reason::kNone);
-  EXPECT_EQ(Pinch(1.1 * needed, options), Reason::kNone);
+  EXPECT_NE(Pinch(0.6 * needed, options), plan::Reason::kNone);
+  EXPECT_EQ(Pinch(1.1 * needed, options), plan::Reason::kNone);
 }
 
 /// The largest push that a planar grasp resists in every direction of the shake, over the squeeze.
-double LargestShake(const Polygon& polygon, const Grasp& grasp, double half_angle) {
+double LargestShake(const object::Polygon& polygon, const grasp::Grasp& grasp, double half_angle) {
   double least = 1;
   for (const Push& push : PushDirections(2)) {
-    const auto load =
-        ComputeLargestLoad(grasp, polygon.wrench_frame(), half_angle, {}, PushWrench(push, 1), 1);
+    const auto load = grasp::ComputeLargestLoad(grasp, polygon.wrench_frame(), half_angle, {},
+                                                PushWrench(push, 1), 1);
     least = std::min(least, load ? load->lower : 0);
   }
   return least;
@@ -107,13 +107,13 @@ double LargestShake(const Polygon& polygon, const Grasp& grasp, double half_angl
 
 /// A plan to hold a grasp of two or three that needs a little more squeeze than it has, at most
 /// `most` times as much, to resist the default shake.
-Plan DrawNearLimit(const Polygon& polygon, double most, std::mt19937& random) {
+plan::Plan DrawNearLimit(const object::Polygon& polygon, double most, std::mt19937& random) {
   std::uniform_real_distribution<double> degrees(5, 35);
   for (int draw = 0;; ++draw) {
-    FingerGrasp grasp;
+    plan::FingerGrasp grasp;
     for (int f = 0; f < 2 + draw % 2; ++f) grasp.push_back(DrawOnBoundary(polygon, f, random));
-    const Plan plan = MakePlanarPlan(grasp, degrees(random));
-    const double resisted = LargestShake(polygon, ContactsOf(grasp), plan.half_angle);
+    const plan::Plan plan = MakePlanarPlan(grasp, degrees(random));
+    const double resisted = LargestShake(polygon, plan::ContactsOf(grasp), plan.half_angle);
     const double needed = ReplayOptions().shake / resisted;
     if (needed > 1.002 && needed < most) return plan;
   }
@@ -122,25 +122,26 @@ Plan DrawNearLimit(const Polygon& polygon, double most, std::mt19937& random) {
 TEST(Stillness, PlanarGraspsThatNeedALittleMoreSqueezeFailAndPassWithLessShake) {
   std::mt19937 random(12);
   for (const char* name : {"polygon40.wkt", "polygon_hole.wkt", "bottle200.wkt"}) {
-    const ObjectFile file = ReadModel(name);
-    const auto& polygon = dynamic_cast<const Polygon&>(*file.object);
+    const object::ObjectFile file = ReadModel(name);
+    const auto& polygon = dynamic_cast<const object::Polygon&>(*file.object);
     for (int k = 0; k < 10; ++k) {
       SCOPED_TRACE(std::string(name) + " " + std::to_string(k));
-      const Plan plan = DrawNearLimit(polygon, k < 5 ? 1.2 : 1.05, random);
-      EXPECT_NE(ReplayPlan(polygon, plan, {}).steps.at(0).reason, Reason::kNone);
+      const plan::Plan plan = DrawNearLimit(polygon, k < 5 ? 1.2 : 1.05, random);
+      EXPECT_NE(ReplayPlan(polygon, plan, {}).steps.at(0).reason, plan::Reason::kNone);
       ReplayOptions less;
-      less.shake = 0.95 * LargestShake(polygon, ContactsOf(plan.initial), plan.half_angle);
+      less.shake = 0.95 * LargestShake(polygon, plan::ContactsOf(plan.initial), plan.half_angle);
       const StepReplay hold = ReplayPlan(polygon, plan, less).steps.at(0);
-      EXPECT_EQ(hold.reason, Reason::kNone) << hold.detail;
+      EXPECT_EQ(hold.reason, plan::Reason::kNone) << hold.detail;
     }
   }
 }
 
 /// Replays a grasp at a share of the friction that it needs, with every time step.
-void ExpectFailsAtEveryTimeStep(const Polyhedron& body, const FingerGrasp& grasp, double friction) {
-  const Plan plan = MakePlan(grasp, Degrees(std::atan(friction)), 4);
+void ExpectFailsAtEveryTimeStep(const object::Polyhedron& body, const plan::FingerGrasp& grasp,
+                                double friction) {
+  const plan::Plan plan = MakePlan(grasp, Degrees(std::atan(friction)), 4);
   for (const double factor : kTimesteps) {
-    EXPECT_NE(ReplayPlan(body, plan, WithTimestep(factor)).steps.at(0).reason, Reason::kNone)
+    EXPECT_NE(ReplayPlan(body, plan, WithTimestep(factor)).steps.at(0).reason, plan::Reason::kNone)
         << "time step " << factor;
   }
 }
@@ -148,12 +149,13 @@ void ExpectFailsAtEveryTimeStep(const Polyhedron& body, const FingerGrasp& grasp
 TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
   std::mt19937 random(7);
   for (const char* name : {"l_block.obj", "stone.obj", "body36.obj"}) {
-    const ObjectFile file = ReadModel(name);
-    const auto& body = dynamic_cast<const Polyhedron&>(*file.object);
+    const object::ObjectFile file = ReadModel(name);
+    const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
     for (int examined = 0; examined < 8;) {
-      FingerGrasp grasp;
+      plan::FingerGrasp grasp;
       for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
-      const auto required = ComputeRequiredHalfAngle(ContactsOf(grasp), body.wrench_frame());
+      const auto required =
+          grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
       if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
       SCOPED_TRACE(std::string(name) + " " + std::to_string(examined));
       const double share = examined % 2 == 0 ? 0.95 : 0.997;
@@ -168,7 +170,7 @@ TEST(Stillness, AGoodGraspPassesAtEveryTimeStepByTheSameMotion) {
   for (const double factor : kTimesteps) {
     const StepReplay hold =
         ReplayPlan(cube.object, MakePlan(cube.Start(), 25), WithTimestep(factor)).steps.at(0);
-    EXPECT_EQ(hold.reason, Reason::kNone) << factor << hold.detail;
+    EXPECT_EQ(hold.reason, plan::Reason::kNone) << factor << hold.detail;
   }
 }
 
@@ -179,7 +181,7 @@ TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
   const double waited = held.world.engine().time() - before;
   EXPECT_NEAR(waited, kStillTime * held.world.settings().natural_time_s, 1e-9 * before);
   ComeToRest(held.world);
-  EXPECT_EQ(held.world.monitor().reason(), Reason::kNone);
+  EXPECT_EQ(held.world.monitor().reason(), plan::Reason::kNone);
 }
 
 TEST(Stillness, ABodyThatIsLetGoNeverComesToRest) {

@@ -52,16 +52,16 @@ TEST(ContourBruteForce, EveryGraspOfAGridIsInOnePieceAndItsComponentsAreTheSets)
 }
 
 TEST(ContourBruteForce, NoticesAGraphOfOtherFrictionAndOfAnotherPolygon) {
-  const Polygon& blob = TwelveEdgePolygons()[4].polygon;
+  const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
   const ContactGrid grid(blob, Radians(20), kLines, kSeed);
-  const auto fails = [&](const Polygon& polygon, double degrees) {
+  const auto fails = [&](const object::Polygon& polygon, double degrees) {
     const ContourGraph graph(polygon, Radians(degrees));
     return !CompareWithGrid(polygon, graph, grid).failures.empty();
   };
   EXPECT_FALSE(fails(blob, 20));
   EXPECT_TRUE(fails(blob, 19));
   EXPECT_TRUE(fails(blob, 21));
-  const Polygon other =
+  const object::Polygon other =
       Mapped(blob, [](const Vector2d& p) { return Vector2d(p.x(), p.y() + 0.02 * p.x()); });
   EXPECT_TRUE(fails(other, 20));
 }
@@ -69,7 +69,7 @@ TEST(ContourBruteForce, NoticesAGraphOfOtherFrictionAndOfAnotherPolygon) {
 /// Classifies grasps that are given in places.
 class Witness {
  public:
-  Witness(const Polygon& polygon, const ContourGraph& graph, double half_angle)
+  Witness(const object::Polygon& polygon, const ContourGraph& graph, double half_angle)
       : polygon_(polygon), graph_(graph), half_angle_(half_angle) {}
 
   [[nodiscard]] bool Confirms(const std::array<int, 2>& edges, const Vector2d& places,
@@ -157,7 +157,7 @@ class Witness {
     return Confirms(p.edges, place, p.stretching);
   }
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   const ContourGraph& graph_;
   double half_angle_;
 };
@@ -191,7 +191,7 @@ TEST(ContourBruteForce, EveryPieceEveryPassageAndEverySwitchHasAWitness) {
 }
 
 TEST(ContourBruteForce, WitnessesRefuseLessFriction) {
-  const Polygon& blob = TwelveEdgePolygons()[4].polygon;
+  const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
   const ContourGraph graph(blob, Radians(20));
   const Witness witness(blob, graph, Radians(2));
   int confirmed = 0;

@@ -25,7 +25,7 @@ constexpr int kLeastLines = 4;
 /// How far outside its outline a grasp may lie, over the diameter: rounding of outlines.
 constexpr double kOutlineRounding = 1e-9;
 
-Contact ContactOn(const Polygon& polygon, int edge, double share) {
+grasp::Contact ContactOn(const object::Polygon& polygon, int edge, double share) {
   const auto [from, to] = polygon.edge(edge);
   return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
 }
@@ -48,20 +48,22 @@ bool IsGrasp(Sense sense) { return sense == Sense::kSqueezing || sense == Sense:
 
 }  // namespace
 
-Sense SenseOf(const Polygon& polygon, double half_angle, const Contact& a, const Contact& b) {
-  const std::array<Contact, 2> grasp = {a, b};
-  switch (TestForceClosure(grasp, polygon.wrench_frame(), half_angle).decision) {
-    case Decision::kNo:
+Sense SenseOf(const object::Polygon& polygon, double half_angle, const grasp::Contact& a,
+              const grasp::Contact& b) {
+  const std::array<grasp::Contact, 2> grasp = {a, b};
+  switch (grasp::TestForceClosure(grasp, polygon.wrench_frame(), half_angle).decision) {
+    case grasp::Decision::kNo:
       return Sense::kNone;
-    case Decision::kTooClose:
+    case grasp::Decision::kTooClose:
       return Sense::kTooClose;
-    case Decision::kYes:
+    case grasp::Decision::kYes:
       return a.n.dot(b.p - a.p) > 0 ? Sense::kSqueezing : Sense::kStretching;
   }
   return Sense::kNone;
 }
 
-ContactGrid::ContactGrid(const Polygon& polygon, double half_angle, int lines, std::uint64_t seed)
+ContactGrid::ContactGrid(const object::Polygon& polygon, double half_angle, int lines,
+                         std::uint64_t seed)
     : polygon_(polygon), half_angle_(half_angle) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> within(0.02, 0.98);
@@ -112,9 +114,9 @@ void ContactGrid::JoinCells() {
       if (before == s && after == s) joined.push_back({cell, k * n + j});
     }
   }
-  const Components components =
-      FindComponents(n * n, static_cast<int>(joined.size()),
-                     [&](int group) { return std::span<const int>(joined[group]); });
+  const search::Components components =
+      search::FindComponents(n * n, static_cast<int>(joined.size()),
+                             [&](int group) { return std::span<const int>(joined[group]); });
   component_.assign(components.of_vertex.size(), -1);
   std::vector<int> number(components.count(), -1);
   for (int cell = 0; cell < n * n; ++cell) {
@@ -125,7 +127,7 @@ void ContactGrid::JoinCells() {
   }
 }
 
-GridComparison CompareWithGrid(const Polygon& polygon, const ContourGraph& graph,
+GridComparison CompareWithGrid(const object::Polygon& polygon, const ContourGraph& graph,
                                const ContactGrid& grid) {
   GridComparison result;
   const double rounding = kOutlineRounding * polygon.diameter();
@@ -139,16 +141,16 @@ GridComparison CompareWithGrid(const Polygon& polygon, const ContourGraph& graph
   const auto fail = [&](int i, int j, const std::string& what) {
     constexpr std::size_t kEnough = 10;
     if (result.failures.size() >= kEnough) return;
-    const Contact& a = grid.line(i);
-    const Contact& b = grid.line(j);
+    const grasp::Contact& a = grid.line(i);
+    const grasp::Contact& b = grid.line(j);
     result.failures.push_back("edges " + std::to_string(a.face) + ' ' + std::to_string(b.face) +
                               " at " + std::to_string(boundary.PlaceOf(a)) + ' ' +
                               std::to_string(boundary.PlaceOf(b)) + ": " + what);
   };
   for (int i = 0; i < grid.line_count(); ++i) {
     for (int j = i + 1; j < grid.line_count(); ++j) {
-      const Contact& a = grid.line(i);
-      const Contact& b = grid.line(j);
+      const grasp::Contact& a = grid.line(i);
+      const grasp::Contact& b = grid.line(j);
       const Sense sense = grid.sense(i, j);
       ++result.pairs;
       if (sense == Sense::kTooClose) {

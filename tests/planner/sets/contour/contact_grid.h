@@ -13,8 +13,8 @@ enum class Sense { kNone, kSqueezing, kStretching, kTooClose };
 
 /// What two contacts of a polygon are, by the general force-closure test and the direction from one
 /// to the other.
-[[nodiscard]] Sense SenseOf(const Polygon& polygon, double half_angle, const Contact& a,
-                            const Contact& b);
+[[nodiscard]] Sense SenseOf(const object::Polygon& polygon, double half_angle,
+                            const grasp::Contact& a, const grasp::Contact& b);
 
 /// All pairs of sampled contacts of a polygon, each classified by itself, and the components that
 /// they fall into: a graph's sets as far as a grid can tell.
@@ -27,10 +27,10 @@ enum class Sense { kNone, kSqueezing, kStretching, kTooClose };
 /// than one set; a set that is thin may be several components or none.
 class ContactGrid {
  public:
-  ContactGrid(const Polygon& polygon, double half_angle, int lines, std::uint64_t seed);
+  ContactGrid(const object::Polygon& polygon, double half_angle, int lines, std::uint64_t seed);
 
   [[nodiscard]] int line_count() const { return static_cast<int>(lines_.size()); }
-  [[nodiscard]] const Contact& line(int i) const { return lines_[i]; }
+  [[nodiscard]] const grasp::Contact& line(int i) const { return lines_[i]; }
   [[nodiscard]] Sense sense(int i, int j) const { return sense_[i * line_count() + j]; }
   /// The component of a pair; −1 where it is no grasp.
   [[nodiscard]] int component(int i, int j) const { return component_[i * line_count() + j]; }
@@ -39,9 +39,9 @@ class ContactGrid {
  private:
   void JoinCells();
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   double half_angle_;
-  std::vector<Contact> lines_;
+  std::vector<grasp::Contact> lines_;
   std::vector<int> next_;  ///< the line that follows on the ring
   std::vector<Sense> sense_;
   std::vector<int> component_;
@@ -63,7 +63,7 @@ struct GridComparison {
 
 /// Every grasp of the grid must lie in exactly one piece, of its sense; every other pair in none;
 /// a component in one set; sets that share a line must be joined.
-[[nodiscard]] GridComparison CompareWithGrid(const Polygon& polygon, const ContourGraph& graph,
-                                             const ContactGrid& grid);
+[[nodiscard]] GridComparison CompareWithGrid(const object::Polygon& polygon,
+                                             const ContourGraph& graph, const ContactGrid& grid);
 
 }  // namespace regrasp::contour

@@ -32,7 +32,7 @@ TEST(Boundary, PlacesRunAlongEveryRingAndComeBack) {
       EXPECT_EQ(boundary.end(e), last ? boundary.perimeter(ring) : boundary.begin(e + 1));
       for (const double share : {0.0, 0.3, 1.0}) {
         const double place = (1 - share) * boundary.begin(e) + share * boundary.end(e);
-        const Contact contact = boundary.ContactAt(e, place);
+        const grasp::Contact contact = boundary.ContactAt(e, place);
         EXPECT_EQ(contact.face, e);
         EXPECT_EQ(contact.n, polygon.inward_normal(e));
         EXPECT_NEAR(boundary.PlaceOf(contact), place, SizeToleranceOf(polygon));
@@ -57,7 +57,7 @@ double TwiceArea(const std::vector<Vector2d>& outline) {
 TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePieceIsFull) {
   int pieces = 0;
   int full = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     const double tolerance = SizeToleranceOf(polygon);
     const Boundary& boundary = graph.boundary();
     for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p) {
@@ -92,12 +92,12 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
 }
 
 /// A contact at a vertex with either normal, and the other contact: both are grasps of a sense.
-bool IsPassage(const Polygon& polygon, const Boundary& boundary, double half_angle,
+bool IsPassage(const object::Polygon& polygon, const Boundary& boundary, double half_angle,
                const PiecePassage& passage, Sense sense, double place) {
   const int next = boundary.next(passage.edge);
-  const Contact other = boundary.ContactAt(passage.other, place);
-  const Contact before = boundary.ContactAt(passage.edge, boundary.end(passage.edge));
-  const Contact after = boundary.ContactAt(next, boundary.begin(next));
+  const grasp::Contact other = boundary.ContactAt(passage.other, place);
+  const grasp::Contact before = boundary.ContactAt(passage.edge, boundary.end(passage.edge));
+  const grasp::Contact after = boundary.ContactAt(next, boundary.begin(next));
   return SenseOf(polygon, half_angle, before, other) == sense &&
          SenseOf(polygon, half_angle, after, other) == sense;
 }
@@ -105,7 +105,8 @@ bool IsPassage(const Polygon& polygon, const Boundary& boundary, double half_ang
 TEST(PassageRange, IsWhereBothNormalsOfTheVertexMakeAGraspAndNowhereElse) {
   int inside = 0;
   int outside = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph,
+                         double half_angle) {
     const Boundary& boundary = graph.boundary();
     const double margin = SizeToleranceOf(polygon);
     for (const PiecePassage& passage : graph.passages()) {
@@ -138,35 +139,36 @@ TEST(PassageRange, IsWhereBothNormalsOfTheVertexMakeAGraspAndNowhereElse) {
 TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
   int falling = 0;
   int straight = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
-    const Boundary& boundary = graph.boundary();
-    const double step = SizeToleranceOf(polygon);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
-      for (const BorderSegment& segment : SetBorder(graph, set)) {
-        EXPECT_EQ(graph.set_of(segment.piece), set);
-        const Vector2d along = segment.to - segment.from;
-        if (along.x() == 0 || along.y() == 0) {
-          ++straight;
-          continue;
+  ForEachRegionGraph(
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
+        const Boundary& boundary = graph.boundary();
+        const double step = SizeToleranceOf(polygon);
+        for (int set = 0; set < graph.vertex_count(); ++set) {
+          for (const BorderSegment& segment : SetBorder(graph, set)) {
+            EXPECT_EQ(graph.set_of(segment.piece), set);
+            const Vector2d along = segment.to - segment.from;
+            if (along.x() == 0 || along.y() == 0) {
+              ++straight;
+              continue;
+            }
+            EXPECT_LT(along.x() * along.y(), 0);
+            ++falling;
+            // On a cone's border: a little to one side it is a grasp, to the other it is none.
+            if (along.lpNorm<Eigen::Infinity>() < step * 1e3) continue;
+            const GraspPiece& piece = graph.pieces()[segment.piece];
+            const Vector2d across = step * Vector2d(along.y(), -along.x()).normalized();
+            int grasps = 0;
+            for (const double side : {-1.0, 1.0}) {
+              const Vector2d p = (segment.from + segment.to) / 2 + side * across;
+              const Sense sense =
+                  SenseOf(polygon, half_angle, boundary.ContactAt(piece.edges[0], p.x()),
+                          boundary.ContactAt(piece.edges[1], p.y()));
+              if (sense == Sense::kSqueezing || sense == Sense::kStretching) ++grasps;
+            }
+            EXPECT_EQ(grasps, 1) << piece.edges[0] << ' ' << piece.edges[1];
+          }
         }
-        EXPECT_LT(along.x() * along.y(), 0);
-        ++falling;
-        // On a cone's border: a little to one side it is a grasp, to the other it is none.
-        if (along.lpNorm<Eigen::Infinity>() < step * 1e3) continue;
-        const GraspPiece& piece = graph.pieces()[segment.piece];
-        const Vector2d across = step * Vector2d(along.y(), -along.x()).normalized();
-        int grasps = 0;
-        for (const double side : {-1.0, 1.0}) {
-          const Vector2d p = (segment.from + segment.to) / 2 + side * across;
-          const Sense sense =
-              SenseOf(polygon, half_angle, boundary.ContactAt(piece.edges[0], p.x()),
-                      boundary.ContactAt(piece.edges[1], p.y()));
-          if (sense == Sense::kSqueezing || sense == Sense::kStretching) ++grasps;
-        }
-        EXPECT_EQ(grasps, 1) << piece.edges[0] << ' ' << piece.edges[1];
-      }
-    }
-  });
+      });
   EXPECT_GT(falling, 500);
   EXPECT_GT(straight, 500);
 }

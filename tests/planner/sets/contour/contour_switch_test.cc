@@ -58,8 +58,8 @@ void ExpectCommonContact(SetGeometry& geometry, const ContourSwitch& found, int 
   EXPECT_EQ(graph.set_of(found.before.piece), from);
   EXPECT_EQ(graph.set_of(found.after.piece), to);
   int common = 0;
-  for (const Contact& a : geometry.GraspOf(found.before)) {
-    for (const Contact& b : geometry.GraspOf(found.after)) {
+  for (const grasp::Contact& a : geometry.GraspOf(found.before)) {
+    for (const grasp::Contact& b : geometry.GraspOf(found.after)) {
       if (a.p != b.p || a.n != b.n) continue;
       ++common;
       EXPECT_EQ(a.face, found.edge);
@@ -114,7 +114,8 @@ TEST(ContourSwitch, ARoomyOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
         if (!found) continue;
         ExpectCommonContact(geometry, *found, a, b);
         for (const PlacedGrasp& grasp : {found->before, found->after}) {
-          EXPECT_TRUE(IsForceClosure(geometry.GraspOf(grasp), polygon.wrench_frame(), Radians(15)));
+          EXPECT_TRUE(
+              grasp::IsForceClosure(geometry.GraspOf(grasp), polygon.wrench_frame(), Radians(15)));
         }
         const auto from = FindSwitchFrom(geometry, found->before, b, size);
         ASSERT_TRUE(from);
@@ -136,7 +137,7 @@ TEST(ContourSwitch, ARoomyOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
 /// one goes around a vertex.
 void ExpectRoute(SetGeometry& geometry, const std::vector<PlacedGrasp>& route) {
   const ContourGraph& graph = geometry.graph();
-  const Polygon& polygon = graph.boundary().polygon();
+  const object::Polygon& polygon = graph.boundary().polygon();
   const double half_angle = std::atan(graph.tangent());
   for (std::size_t i = 0; i + 1 < route.size(); ++i) {
     const PlacedGrasp& a = route[i];
@@ -145,14 +146,15 @@ void ExpectRoute(SetGeometry& geometry, const std::vector<PlacedGrasp>& route) {
     if (a.piece == b.piece) {
       for (const double share : {0.25, 0.5, 0.75}) {
         const PlacedGrasp between = {a.piece, a.places + share * (b.places - a.places)};
-        EXPECT_TRUE(IsForceClosure(geometry.GraspOf(between), polygon.wrench_frame(), half_angle));
+        EXPECT_TRUE(
+            grasp::IsForceClosure(geometry.GraspOf(between), polygon.wrench_frame(), half_angle));
       }
       continue;
     }
     int same_contacts = 0;
     int same_points = 0;
-    for (const Contact& before : geometry.GraspOf(a)) {
-      for (const Contact& after : geometry.GraspOf(b)) {
+    for (const grasp::Contact& before : geometry.GraspOf(a)) {
+      for (const grasp::Contact& after : geometry.GraspOf(b)) {
         if (before.p != after.p) continue;
         ++same_points;
         if (before.face == after.face) ++same_contacts;
@@ -195,15 +197,16 @@ TEST(AlignRoute, StaysInTheSetAndTurnsOneCornerAtATime) {
 }
 
 TEST(AlignRoute, TakesTheShortWayAroundADisc) {
-  const Polygon disc = RegularPolygon(24);
+  const object::Polygon disc = RegularPolygon(24);
   const ContourGraph graph(disc, Radians(15));
   SetGeometry geometry(graph);
   const Boundary& boundary = graph.boundary();
   const auto opposite = [&](int edge) {
-    const Grasp grasp = {boundary.ContactAt(edge, (boundary.begin(edge) + boundary.end(edge)) / 2),
-                         boundary.ContactAt((edge + 12) % 24, (boundary.begin((edge + 12) % 24) +
-                                                               boundary.end((edge + 12) % 24)) /
-                                                                  2)};
+    const grasp::Grasp grasp = {
+        boundary.ContactAt(edge, (boundary.begin(edge) + boundary.end(edge)) / 2),
+        boundary.ContactAt(
+            (edge + 12) % 24,
+            (boundary.begin((edge + 12) % 24) + boundary.end((edge + 12) % 24)) / 2)};
     return *geometry.Locate(grasp);
   };
   // Two edges on for both fingers, or the same two fingers the other way round ten edges on.

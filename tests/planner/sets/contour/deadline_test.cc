@@ -13,7 +13,7 @@ namespace regrasp::contour {
 namespace {
 
 TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
-  const Polygon polygon = IrregularOutline(40, 0.8, 3);
+  const object::Polygon polygon = IrregularOutline(40, 0.8, 3);
   const CountedDeadline never;
   const ContourGraph graph(polygon, Radians(20), never.deadline());
   EXPECT_GE(never.looks(), graph.candidate_count() + std::ssize(graph.pieces()));
@@ -23,7 +23,7 @@ TEST(ContourDeadline, TheGraphLooksAtItForEveryPieceAndEndsWhereverItComes) {
 }
 
 TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough) {
-  const Polygon polygon = IrregularOutline(40, 0.8, 3);
+  const object::Polygon polygon = IrregularOutline(40, 0.8, 3);
   const double tangent = std::tan(Radians(20));
   const polygon::IntervalScope scope;
   const polygon::EdgeTable edges(polygon, tangent);
@@ -46,9 +46,9 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
 }
 
 TEST(ContourDeadline, EndsAPlanWhereverItComes) {
-  const Polygon polygon = IrregularOutline(60, 0.8, 3);
-  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-  PlanRequest options;
+  const object::Polygon polygon = IrregularOutline(60, 0.8, 3);
+  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(20);
   ExpectPlanEndsWhereverItComes("contour", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;

@@ -78,7 +78,7 @@ Piece MakePiece(int e, int f, bool stretching, const Edge& a, const Edge& b, con
 
 class Oracle {
  public:
-  Oracle(const Polygon& polygon, double tangent) {
+  Oracle(const object::Polygon& polygon, double tangent) {
     int first = 0;
     for (const auto& ring : polygon.rings()) {
       const int count = static_cast<int>(ring.size());
@@ -218,7 +218,7 @@ OracleCounts& OracleCounts::operator+=(const OracleCounts& other) {
   return *this;
 }
 
-OracleCounts CompareWithRationals(const Polygon& polygon, const ContourGraph& graph,
+OracleCounts CompareWithRationals(const object::Polygon& polygon, const ContourGraph& graph,
                                   double half_angle, std::string& difference) {
   std::ostringstream out;
   const Oracle oracle(polygon, std::tan(half_angle));

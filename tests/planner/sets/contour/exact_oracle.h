@@ -26,7 +26,8 @@ struct OracleCounts {
 /// sets, passages and switches follow from the coordinates of the corners. Nothing is shared with
 /// the planner but tan θ.
 /// @param difference  set to what differs, left empty where nothing does.
-[[nodiscard]] OracleCounts CompareWithRationals(const Polygon& polygon, const ContourGraph& graph,
-                                                double half_angle, std::string& difference);
+[[nodiscard]] OracleCounts CompareWithRationals(const object::Polygon& polygon,
+                                                const ContourGraph& graph, double half_angle,
+                                                std::string& difference);
 
 }  // namespace regrasp::contour

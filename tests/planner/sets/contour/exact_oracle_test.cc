@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 5;
 
-void Check(const Polygon& polygon, double half_angle, OracleCounts& total) {
+void Check(const object::Polygon& polygon, double half_angle, OracleCounts& total) {
   const ContourGraph graph(polygon, half_angle);
   std::string difference;
   total += CompareWithRationals(polygon, graph, half_angle, difference);
@@ -35,7 +35,7 @@ TEST(ContourOracle, PiecesPassagesSetsAndSwitchesAreThoseOfRationalArithmetic) {
   }
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
     SCOPED_TRACE("irregular " + std::to_string(seed));
-    const Polygon polygon = IrregularOutline(30, 0.4, seed);
+    const object::Polygon polygon = IrregularOutline(30, 0.4, seed);
     for (const double degrees : {10.0, 20.0}) Check(polygon, Radians(degrees), total);
   }
   EXPECT_GT(total.pieces, 1500);
@@ -58,7 +58,7 @@ TEST(ContourOracle, DegeneratePolygonsAreDecidedExactlyBeforeAndAfterPerturbatio
   for (const auto& [name, polygon] : DegeneratePolygons()) {
     for (const auto& [how, step] : steps) {
       SCOPED_TRACE(name + ", " + how);
-      const Polygon moved = Shaken(polygon, step, engine);
+      const object::Polygon moved = Shaken(polygon, step, engine);
       for (const double half_angle : {HalfAngleOf(0.25), HalfAngleOf(0.5), Radians(30),
                                       HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
         Check(moved, half_angle, total);
@@ -73,14 +73,14 @@ TEST(ContourOracle, DegeneratePolygonsAreDecidedExactlyBeforeAndAfterPerturbatio
 }
 
 TEST(ContourOracle, NoticesAGraphOfLessFrictionAndOfAnotherPolygon) {
-  const Polygon& blob = TwelveEdgePolygons()[4].polygon;
+  const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
   std::string difference;
   const ContourGraph graph(blob, Radians(20));
   EXPECT_GT(CompareWithRationals(blob, graph, Radians(20), difference).sets, 0);
   EXPECT_EQ(difference, "");
   EXPECT_GT(CompareWithRationals(blob, graph, Radians(30), difference).sets, 0);
   EXPECT_NE(difference, "");
-  const Polygon other = Mapped(blob, [](const Eigen::Vector2d& p) {
+  const object::Polygon other = Mapped(blob, [](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(p.x() + 0.05 * p.y() * p.y(), p.y());
   });
   EXPECT_GT(CompareWithRationals(other, graph, Radians(20), difference).sets, 0);

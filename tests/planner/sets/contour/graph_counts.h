@@ -25,7 +25,7 @@ inline void PrintTo(const Counts& c, std::ostream* out) {
        << c.vertices << ", switches " << c.switches << ", components " << c.components;
 }
 
-inline Counts CountsOf(const Polygon& polygon, double degrees) {
+inline Counts CountsOf(const object::Polygon& polygon, double degrees) {
   const ContourGraph graph(polygon, Radians(degrees));
   return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
           graph.switch_count(), graph.components().count()};

@@ -19,18 +19,18 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A wheel of teeth, two edges on the tips and two between them: as many sets as pieces.
-Polygon Gear(int edges) {
-  PolygonRings rings(1);
+object::Polygon Gear(int edges) {
+  object::PolygonRings rings(1);
   for (int k = 0; k < edges; ++k) {
     const double radius = k % 4 < 2 ? 1 : 0.8;
     const double angle = 2 * std::numbers::pi * k / edges;
     rings[0].emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  return Polygon::FromRings(std::move(rings), "gear");
+  return object::Polygon::FromRings(std::move(rings), "gear");
 }
 
 /// A smooth outline: few sets of many pieces.
-Polygon Egg(int edges) {
+object::Polygon Egg(int edges) {
   return Mapped(RegularPolygon(edges), [](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(2 * p.x(), p.y() * (1 + 0.2 * p.x()));
   });
@@ -68,13 +68,13 @@ TEST(ContourGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 
 TEST(ContourGraphMemory, TheEstimateOfAPlanIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const auto& [object, degrees] : Cases()) {
-    PlanRequest options;
+    planning::PlanRequest options;
     options.criteria.half_angle = Radians(degrees);
     options.criteria.min_quality = 0;
     const double used = PeakBytesOf([&] {
       static_cast<void>(PlanWith(ContourPlanner(), object.polygon,
-                                 {GraspChoice::Kind::kRandom, {}, "start"},
-                                 {GraspChoice::Kind::kRandom, {}, "goal"}, options));
+                                 {planning::GraspChoice::Kind::kRandom, {}, "start"},
+                                 {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options));
     });
     const double estimate =
         EstimateContourPlan(object.polygon, options.criteria.half_angle).bytes();
@@ -98,12 +98,12 @@ TEST(ContourGraphMemory, TheEstimateGrowsWithTheEdges) {
 }
 
 TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  PlanRequest options;
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(20);
   options.memory = 1e8;
-  const PlanResult result =
-      PlanWith(ContourPlanner(), RegularPolygon(10'001), {GraspChoice::Kind::kRandom, {}, "start"},
-               {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const planning::PlanResult result = PlanWith(
+      ContourPlanner(), RegularPolygon(10'001), {planning::GraspChoice::Kind::kRandom, {}, "start"},
+      {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 10001 edges"));
 }

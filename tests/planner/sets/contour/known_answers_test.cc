@@ -64,7 +64,7 @@ TEST(ContourKnownAnswers, ARegularHexagonIsOneSetFrom30Degrees) {
 }
 
 TEST(ContourKnownAnswers, AForkIsSqueezedAndStretched) {
-  const Polygon fork = Fork();
+  const object::Polygon fork = Fork();
   // At 10° the projections of the two tips on the bottom don't meet (4.76 and 5.24), at 20° they
   // do.
   EXPECT_EQ(CountsOf(fork, 10).switches, 6);
@@ -85,7 +85,7 @@ TEST(ContourKnownAnswers, AForkIsSqueezedAndStretched) {
 
 TEST(ContourKnownAnswers, TheLargestSquareBetweenParallelSides) {
   // Bottom and top of a square: |x + y − 4| < 4 tan θ from where the edges begin.
-  const Polygon square = Square(4);
+  const object::Polygon square = Square(4);
   const ContourGraph graph(square, Radians(10));
   const double tangent = std::tan(Radians(10));
   ASSERT_EQ(graph.vertex_count(), 2);
@@ -128,8 +128,8 @@ int CurvesOf(const ContourGraph& graph, int set) {
       }
     }
   }
-  return FindComponents(count, static_cast<int>(joined.size()),
-                        [&](int group) { return std::span<const int>(joined[group]); })
+  return search::FindComponents(count, static_cast<int>(joined.size()),
+                                [&](int group) { return std::span<const int>(joined[group]); })
       .count();
 }
 
@@ -137,7 +137,7 @@ TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
   for (const auto& [n, degrees] : {std::pair(12, 20.0), std::pair(12, 40.0), std::pair(60, 10.0),
                                    std::pair(60, 20.0), std::pair(128, 10.0)}) {
     SCOPED_TRACE(std::to_string(n) + " edges, " + std::to_string(degrees));
-    const Polygon disc = RegularPolygon(n);
+    const object::Polygon disc = RegularPolygon(n);
     const ContourGraph graph(disc, Radians(degrees));
     ASSERT_EQ(graph.vertex_count(), 1);
     EXPECT_EQ(graph.switch_count(), 0);
@@ -153,7 +153,7 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
   constexpr int kEdges = 60;
   constexpr double kOuter = 2;
   constexpr double kInner = 1;
-  const Polygon annulus = Annulus(kEdges, kOuter, kInner);
+  const object::Polygon annulus = Annulus(kEdges, kOuter, kInner);
   for (const double degrees : {10.0, 20.0}) {
     SCOPED_TRACE(degrees);
     const double angle = Radians(degrees);

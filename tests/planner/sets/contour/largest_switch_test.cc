@@ -35,7 +35,8 @@ TEST(LargestSwitch, IsAsLargeAsAnyThatASearchFindsAndAsItSays) {
   constexpr int kOfEdge = 10;
   constexpr int kOfSection = 16;
   int switches = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph,
+                         double half_angle) {
     SetGeometry geometry(graph);
     const SquareOracle oracle(polygon, half_angle);
     const double tolerance = SizeToleranceOf(polygon);
@@ -58,7 +59,7 @@ TEST(LargestSwitch, IsAsLargeAsAnyThatASearchFindsAndAsItSays) {
 
 TEST(LargestSwitch, KeepsOneContact) {
   int switches = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     for (const auto& [v, w] : graph.switches()) {
       const auto found = FindLargestSwitch(geometry, v, w);
@@ -82,7 +83,7 @@ double SmallerSize(SetGeometry& geometry, const ContourSwitch& found) {
 TEST(LargestSwitch, IsNeverSmallerThanARoomyOneAndOftenLarger) {
   int switches = 0;
   int larger = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     const double tolerance = SizeToleranceOf(polygon);
     const PlacedScore size = [&](const PlacedGrasp& grasp) { return geometry.SizeAt(grasp); };
@@ -102,7 +103,7 @@ TEST(LargestSwitch, IsNeverSmallerThanARoomyOneAndOftenLarger) {
 
 TEST(LargestSwitch, IsTheSameBothWays) {
   int switches = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     for (const auto& [v, w] : graph.switches()) {
       const auto there = FindLargestSwitch(geometry, v, w);

@@ -50,13 +50,13 @@ std::int64_t ExpectSameCounts(const Change& change) {
 
 TEST(ContourLaws, CountsDoNotDependOnWhereTheEdgesAreNumberedFrom) {
   for (const int by : {1, 2, 5}) {
-    EXPECT_GT(ExpectSameCounts([by](const Polygon& p) { return Renumbered(p, by); }), 300);
+    EXPECT_GT(ExpectSameCounts([by](const object::Polygon& p) { return Renumbered(p, by); }), 300);
   }
 }
 
 TEST(ContourLaws, CountsDoNotDependOnMirroringTurningBy90DegreesAndScalingByPowersOfTwo) {
   const auto with = [](auto map) {
-    return ExpectSameCounts([map](const Polygon& p) { return Mapped(p, map); });
+    return ExpectSameCounts([map](const object::Polygon& p) { return Mapped(p, map); });
   };
   EXPECT_GT(with([](const Vector2d& p) { return Vector2d(-p.x(), p.y()); }), 300);
   EXPECT_GT(with([](const Vector2d& p) { return Vector2d(p.y(), p.x()); }), 300);
@@ -67,22 +67,22 @@ TEST(ContourLaws, CountsDoNotDependOnMirroringTurningBy90DegreesAndScalingByPowe
 }
 
 TEST(ContourLaws, TheLawsNoticeAPolygonThatIsStretched) {
-  const Polygon& blob = TwelveEdgePolygons()[4].polygon;
-  const Polygon stretched =
+  const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
+  const object::Polygon stretched =
       Mapped(blob, [](const Vector2d& p) { return Vector2d(2 * p.x(), p.y()); });
   EXPECT_NE(CountsOf(stretched, 20), CountsOf(blob, 20));
 }
 
 /// The polygon on even coordinates, so that the middle of an edge is exact; some of its edges cut
 /// in two there.
-Polygon Even(const Polygon& polygon) {
+object::Polygon Even(const object::Polygon& polygon) {
   const double grid = std::ldexp(polygon.diameter(), -20);
   return Mapped(polygon, [grid](const Vector2d& p) {
     return Vector2d(2 * std::round(p.x() / grid), 2 * std::round(p.y() / grid));
   });
 }
 
-Polygon CutInTwo(const Polygon& polygon, std::mt19937_64& engine) {
+object::Polygon CutInTwo(const object::Polygon& polygon, std::mt19937_64& engine) {
   std::vector<Ring> rings = polygon.rings();
   std::bernoulli_distribution cut(0.4);
   for (Ring& ring : rings) {
@@ -93,7 +93,7 @@ Polygon CutInTwo(const Polygon& polygon, std::mt19937_64& engine) {
     }
     ring = longer;
   }
-  return Polygon::FromRings(rings, "cut in two");
+  return object::Polygon::FromRings(rings, "cut in two");
 }
 
 TEST(ContourLaws, AnEdgeCutInTwoChangesNoSetAndNoSwitch) {
@@ -101,8 +101,8 @@ TEST(ContourLaws, AnEdgeCutInTwoChangesNoSetAndNoSwitch) {
   std::int64_t vertices = 0;
   std::int64_t more_combinations = 0;
   for (const auto& [name, polygon] : Polygons()) {
-    const Polygon even = Even(polygon);
-    const Polygon cut = CutInTwo(even, engine);
+    const object::Polygon even = Even(polygon);
+    const object::Polygon cut = CutInTwo(even, engine);
     for (const double degrees : kAngles) {
       SCOPED_TRACE(name + " " + std::to_string(degrees));
       const Counts before = CountsOf(even, degrees);
@@ -187,7 +187,7 @@ TEST(ContourLaws, NeighboursAreMutualSortedAndThoseOfTheSwitches) {
 }
 
 TEST(ContourLaws, PiecesAreFoundInAnyOrderOfTheirEdges) {
-  const Polygon& blob = TwelveEdgePolygons()[4].polygon;
+  const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
   const ContourGraph graph(blob, Radians(50));
   int found = 0;
   for (int a = 0; a < blob.face_count(); ++a) {
@@ -202,7 +202,7 @@ TEST(ContourLaws, PiecesAreFoundInAnyOrderOfTheirEdges) {
 }
 
 TEST(ContourLaws, FrictionOutsideItsRangeIsRefused) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   for (const double angle : {0.0, -0.1, Radians(90), 2.0, std::nan("")}) {
     EXPECT_THROW(ContourGraph(square, angle), std::invalid_argument) << angle;
   }

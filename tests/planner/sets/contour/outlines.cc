@@ -19,20 +19,21 @@ Ring RegularRing(int n, double radius) {
 
 }  // namespace
 
-Polygon Rectangle(double width, double height) {
-  return Polygon::FromRings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, "rectangle");
+object::Polygon Rectangle(double width, double height) {
+  return object::Polygon::FromRings({{{0, 0}, {width, 0}, {width, height}, {0, height}}},
+                                    "rectangle");
 }
 
-Polygon Fork() {
-  return Polygon::FromRings(
+object::Polygon Fork() {
+  return object::Polygon::FromRings(
       {{{0, 0}, {10, 0}, {10, 10}, {7, 10}, {7, 3}, {3, 3}, {3, 10}, {0, 10}}}, "fork");
 }
 
-Polygon Annulus(int n, double outer, double inner) {
-  return Polygon::FromRings({RegularRing(n, outer), RegularRing(n, inner)}, "annulus");
+object::Polygon Annulus(int n, double outer, double inner) {
+  return object::Polygon::FromRings({RegularRing(n, outer), RegularRing(n, inner)}, "annulus");
 }
 
-Polygon IrregularOutline(int edges, double least, std::uint64_t seed) {
+object::Polygon IrregularOutline(int edges, double least, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> shake(-0.4, 0.4);
   std::uniform_real_distribution<double> radius(least, 1);
@@ -42,14 +43,14 @@ Polygon IrregularOutline(int edges, double least, std::uint64_t seed) {
     const double r = radius(engine);
     ring.emplace_back(r * std::cos(angle), r * std::sin(angle));
   }
-  return Polygon::FromRings({ring}, "irregular outline");
+  return object::Polygon::FromRings({ring}, "irregular outline");
 }
 
 const std::vector<NamedPolygon>& TwelveEdgePolygons() {
   static const std::vector<NamedPolygon> polygons = [] {
     std::vector<NamedPolygon> result = SmallPolygons();
     const auto add = [&](const std::string& name, std::vector<Ring> rings) {
-      result.push_back({name, Polygon::FromRings(std::move(rings), name)});
+      result.push_back({name, object::Polygon::FromRings(std::move(rings), name)});
     };
     result.push_back({"square", Square(4)});
     result.push_back({"equilateral triangle", RegularPolygon(3)});
@@ -73,7 +74,7 @@ const std::vector<NamedPolygon>& DegeneratePolygons() {
   static const std::vector<NamedPolygon> all = [] {
     std::vector<NamedPolygon> polygons;
     const auto add = [&](const std::string& name, std::vector<Ring> rings) {
-      polygons.push_back({name, Polygon::FromRings(std::move(rings), name)});
+      polygons.push_back({name, object::Polygon::FromRings(std::move(rings), name)});
     };
     for (const int n : {3, 4, 5, 6, 8, 12}) {
       polygons.push_back({"regular " + std::to_string(n), RegularPolygon(n)});
@@ -93,12 +94,12 @@ const std::vector<NamedPolygon>& DegeneratePolygons() {
   return all;
 }
 
-Polygon Renumbered(const Polygon& polygon, int by) {
+object::Polygon Renumbered(const object::Polygon& polygon, int by) {
   std::vector<Ring> rings = polygon.rings();
   for (Ring& ring : rings) {
     std::rotate(ring.begin(), ring.begin() + by % static_cast<int>(ring.size()), ring.end());
   }
-  return Polygon::FromRings(std::move(rings), "renumbered");
+  return object::Polygon::FromRings(std::move(rings), "renumbered");
 }
 
 }  // namespace regrasp::contour

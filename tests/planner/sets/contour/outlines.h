@@ -11,18 +11,18 @@
 namespace regrasp::contour {
 
 /// x in [0, width], y in [0, height], first vertex at the origin; exact.
-[[nodiscard]] Polygon Rectangle(double width, double height);
+[[nodiscard]] object::Polygon Rectangle(double width, double height);
 
 /// An upright fork of two prongs: 10 wide and 10 high, prongs 3 wide, a slot 4 wide and 7 deep.
 /// Edges: 0 bottom, 1 right side, 2 right tip, 3 right inner side, 4 floor of the slot, 5 left
 /// inner side, 6 left tip, 7 left side.
-[[nodiscard]] Polygon Fork();
+[[nodiscard]] object::Polygon Fork();
 
 /// A regular polygon of circumradius `outer` with a concentric hole of as many edges, `inner`.
-[[nodiscard]] Polygon Annulus(int n, double outer, double inner);
+[[nodiscard]] object::Polygon Annulus(int n, double outer, double inner);
 
 /// A simple polygon about the origin: shaken angles, radii anywhere between `least` and 1.
-[[nodiscard]] Polygon IrregularOutline(int edges, double least, std::uint64_t seed);
+[[nodiscard]] object::Polygon IrregularOutline(int edges, double least, std::uint64_t seed);
 
 /// Squares, triangles, letters, forks, rings, regular and irregular outlines, of 3 to 12 edges;
 /// those with symmetries have exact ties.
@@ -33,6 +33,6 @@ namespace regrasp::contour {
 [[nodiscard]] const std::vector<NamedPolygon>& DegeneratePolygons();
 
 /// The polygon with its rings started from the `by`-th vertex (of each, modulo their number).
-[[nodiscard]] Polygon Renumbered(const Polygon& polygon, int by);
+[[nodiscard]] object::Polygon Renumbered(const object::Polygon& polygon, int by);
 
 }  // namespace regrasp::contour

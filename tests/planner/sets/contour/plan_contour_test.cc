@@ -21,20 +21,22 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
-PlanRequest Options(double degrees, std::uint64_t seed = 0, Objective aim = Objective::kSteps) {
-  PlanRequest options;
+planning::PlanRequest Options(double degrees, std::uint64_t seed = 0,
+                              planning::Objective aim = planning::Objective::kSteps) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
   options.objective = aim;
   return options;
 }
 
-Polygon Model(const std::string& name) {
-  const ObjectFile file = ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
-  return dynamic_cast<const Polygon&>(*file.object);
+object::Polygon Model(const std::string& name) {
+  const object::ObjectFile file =
+      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+  return dynamic_cast<const object::Polygon&>(*file.object);
 }
 
 const std::vector<NamedPolygon>& Objects() {
@@ -51,53 +53,55 @@ const std::vector<NamedPolygon>& Objects() {
   return objects;
 }
 
-Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
-  Grasp grasp;
-  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(polygon, edge, u));
+grasp::Grasp MakeGrasp(const object::Polygon& polygon,
+                       const std::vector<std::pair<int, double>>& places) {
+  grasp::Grasp grasp;
+  for (const auto& [edge, u] : places) grasp.push_back(grasp::ContactAt(polygon, edge, u));
   return grasp;
 }
 
 /// What the checker, which knows nothing of the planner, says of a plan.
-void ExpectGoodPlan(const Polygon& polygon, const PlanResult& result) {
+void ExpectGoodPlan(const object::Polygon& polygon, const planning::PlanResult& result) {
   ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const Plan& plan = *result.plan;
-  const PlanCheck check = CheckPlan(polygon, plan);
-  for (const StepCheck& step : check.steps) {
-    EXPECT_EQ(ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
+  const plan::Plan& plan = *result.plan;
+  const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
+  for (const plan::StepCheck& step : check.steps) {
+    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
   }
   EXPECT_TRUE(check.passed());
   EXPECT_EQ(plan.planner, "contour");
   EXPECT_EQ(plan.fingers, kContourFingers);
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    if (const auto* step = std::get_if<Switch>(&plan.steps[i])) {
+    if (const auto* step = std::get_if<plan::Switch>(&plan.steps[i])) {
       EXPECT_THAT(step->place, SizeIs(1));
       EXPECT_THAT(step->release, SizeIs(1));
     } else {
       // Two aligns in a row would be one.
-      EXPECT_TRUE(i == 0 || std::holds_alternative<Switch>(plan.steps[i - 1])) << i;
+      EXPECT_TRUE(i == 0 || std::holds_alternative<plan::Switch>(plan.steps[i - 1])) << i;
     }
   }
 }
 
 /// The regions that the plan's switches claim, in their order.
-std::vector<double> RegionsOf(const Plan& plan) {
+std::vector<double> RegionsOf(const plan::Plan& plan) {
   std::vector<double> regions;
-  for (const Step& step : plan.steps) {
-    const auto* change = std::get_if<Switch>(&step);
+  for (const plan::Step& step : plan.steps) {
+    const auto* change = std::get_if<plan::Switch>(&step);
     if (change == nullptr) continue;
-    for (const FingerContact& placed : change->place) regions.push_back(placed.region.value_or(-1));
+    for (const plan::FingerContact& placed : change->place)
+      regions.push_back(placed.region.value_or(-1));
   }
   return regions;
 }
 
 /// The grasps before and after each switch.
-std::vector<std::array<Grasp, 2>> SwitchGrasps(const Plan& plan) {
-  std::vector<std::array<Grasp, 2>> grasps;
-  FingerGrasp holding = plan.initial;
-  for (const Step& step : plan.steps) {
-    const FingerGrasp after = GraspAfter(holding, step);
-    if (std::holds_alternative<Switch>(step)) {
-      grasps.push_back({ContactsOf(holding), ContactsOf(after)});
+std::vector<std::array<grasp::Grasp, 2>> SwitchGrasps(const plan::Plan& plan) {
+  std::vector<std::array<grasp::Grasp, 2>> grasps;
+  plan::FingerGrasp holding = plan.initial;
+  for (const plan::Step& step : plan.steps) {
+    const plan::FingerGrasp after = plan::GraspAfter(holding, step);
+    if (std::holds_alternative<plan::Switch>(step)) {
+      grasps.push_back({plan::ContactsOf(holding), plan::ContactsOf(after)});
     }
     holding = after;
   }
@@ -105,12 +109,12 @@ std::vector<std::array<Grasp, 2>> SwitchGrasps(const Plan& plan) {
 }
 
 /// The sets that a plan passes.
-std::vector<int> SetsOf(const Polygon& polygon, const Plan& plan) {
+std::vector<int> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) {
   const ContourGraph graph(polygon, plan.half_angle);
   const SetGeometry geometry(graph);
   std::vector<int> sets;
   for (const auto& grasps : SwitchGrasps(plan)) {
-    for (const Grasp& grasp : grasps) {
+    for (const grasp::Grasp& grasp : grasps) {
       sets.push_back(graph.set_of(geometry.Locate(grasp)->piece));
     }
   }
@@ -118,7 +122,7 @@ std::vector<int> SetsOf(const Polygon& polygon, const Plan& plan) {
 }
 
 /// The contact a length along the boundary farther.
-Contact Moved(const Boundary& boundary, const Contact& contact, double by) {
+grasp::Contact Moved(const Boundary& boundary, const grasp::Contact& contact, double by) {
   const int ring = boundary.ring_of(contact.face);
   double place = std::fmod(boundary.PlaceOf(contact) + by, boundary.perimeter(ring));
   if (place < 0) place += boundary.perimeter(ring);
@@ -134,13 +138,14 @@ TEST_P(PlanOnContourAt, LeadsFromARandomGraspToAnother) {
   int corners = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      for (const Objective aim : {Objective::kSteps, Objective::kRegions}) {
+      for (const planning::Objective aim :
+           {planning::Objective::kSteps, planning::Objective::kRegions}) {
         SCOPED_TRACE(name + ", seed " + std::to_string(seed));
-        const PlanResult result =
+        const planning::PlanResult result =
             PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(GetParam(), seed, aim));
         ExpectGoodPlan(polygon, result);
-        for (const Step& step : result.plan->steps) {
-          if (const auto* align = std::get_if<Align>(&step)) {
+        for (const plan::Step& step : result.plan->steps) {
+          if (const auto* align = std::get_if<plan::Align>(&step)) {
             corners += static_cast<int>(align->waypoints.size()) / 2 - 1;
           } else {
             ++switches;
@@ -158,12 +163,13 @@ TEST_P(PlanOnContourAt, OptimisedSwitchesHaveRegionsAtLeastAsLarge) {
   int larger = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      const PlanResult room = PlanWith(ContourPlanner(), polygon, Random(), Random(),
-                                       Options(GetParam(), seed, Objective::kSteps));
+      const planning::PlanResult room =
+          PlanWith(ContourPlanner(), polygon, Random(), Random(),
+                   Options(GetParam(), seed, planning::Objective::kSteps));
       ASSERT_TRUE(room.plan);
-      const PlanResult region =
-          PlanWith(ContourPlanner(), polygon, Given(ContactsOf(room.plan->initial)),
-                   Given(room.plan->goal), Options(GetParam(), seed, Objective::kRegions));
+      const planning::PlanResult region = PlanWith(
+          ContourPlanner(), polygon, Given(plan::ContactsOf(room.plan->initial)),
+          Given(room.plan->goal), Options(GetParam(), seed, planning::Objective::kRegions));
       ASSERT_TRUE(region.plan);
       // Otherwise a switch was too weak for one of the two, and they went different ways.
       if (SetsOf(polygon, *room.plan) != SetsOf(polygon, *region.plan)) continue;
@@ -185,21 +191,23 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
   int seen = 0;
   int outside_lost = 0;
   for (const auto& [name, polygon] : Objects()) {
-    const PlanResult result = PlanWith(ContourPlanner(), polygon, Random(), Random(),
-                                       Options(GetParam(), 5, Objective::kRegions));
+    const planning::PlanResult result =
+        PlanWith(ContourPlanner(), polygon, Random(), Random(),
+                 Options(GetParam(), 5, planning::Objective::kRegions));
     ASSERT_TRUE(result.plan);
     const Boundary boundary(polygon);
     const std::vector<double> regions = RegionsOf(*result.plan);
     const auto grasps = SwitchGrasps(*result.plan);
     ASSERT_EQ(regions.size(), grasps.size());
     RandomStream random(7, RandomUse::kStart);
-    const auto holds = [&](const Grasp& grasp, double x, double y) {
-      return IsForceClosure(Grasp{Moved(boundary, grasp[0], x), Moved(boundary, grasp[1], y)},
-                            polygon.wrench_frame(), result.plan->half_angle);
+    const auto holds = [&](const grasp::Grasp& grasp, double x, double y) {
+      return grasp::IsForceClosure(
+          grasp::Grasp{Moved(boundary, grasp[0], x), Moved(boundary, grasp[1], y)},
+          polygon.wrench_frame(), result.plan->half_angle);
     };
     for (std::size_t i = 0; i < grasps.size(); ++i) {
       bool lost = false;
-      for (const Grasp& grasp : grasps[i]) {
+      for (const grasp::Grasp& grasp : grasps[i]) {
         // Corners and random places, a millionth inside.
         for (int k = 0; k < 200; ++k) {
           const double h = (1 - 1e-6) * regions[i];
@@ -231,14 +239,14 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
 INSTANTIATE_TEST_SUITE_P(Degrees, PlanOnContourAt, testing::Values(10.0, 15.0, 25.0));
 
 TEST(PlanOnContour, GoesAroundADiscByOneAlign) {
-  const Polygon disc = RegularPolygon(24);
-  const Grasp start = MakeGrasp(disc, {{0, 0.5}, {12, 0.5}});
-  const Grasp goal = MakeGrasp(disc, {{8, 0.5}, {20, 0.5}});
-  const PlanResult result =
+  const object::Polygon disc = RegularPolygon(24);
+  const grasp::Grasp start = MakeGrasp(disc, {{0, 0.5}, {12, 0.5}});
+  const grasp::Grasp goal = MakeGrasp(disc, {{8, 0.5}, {20, 0.5}});
+  const planning::PlanResult result =
       PlanWith(ContourPlanner(), disc, Given(start), Given(goal), Options(15));
   ExpectGoodPlan(disc, result);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
-  const auto& align = std::get<Align>(result.plan->steps[0]);
+  const auto& align = std::get<plan::Align>(result.plan->steps[0]);
   // Each finger passes eight corners, or four if they meet the goal the other way round.
   EXPECT_GE(align.waypoints.size(), 2U + 2 * 2 * 4);
   EXPECT_LE(align.waypoints.size(), 2U + 2 * 2 * 8);
@@ -251,14 +259,14 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
     for (const double degrees : {10.0, 20.0}) {
       const ContourGraph graph(polygon, Radians(degrees));
       SetGeometry geometry(graph);
-      const Components components = graph.components();
+      const search::Components components = graph.components();
       RandomStream random(3, RandomUse::kGoal);
       for (int a = 0; a < graph.vertex_count(); ++a) {
         for (int b = 0; b < std::min(graph.vertex_count(), 6); ++b) {
           const auto start = geometry.Draw(a, random);
           const auto goal = geometry.Draw(b, random);
           if (!start || !goal) continue;
-          const PlanResult result =
+          const planning::PlanResult result =
               PlanWith(ContourPlanner(), polygon, Given(geometry.GraspOf(*start)),
                        Given(geometry.GraspOf(*goal)), Options(degrees));
           if (components.of_vertex[a] == components.of_vertex[b]) {
@@ -278,19 +286,19 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
 }
 
 TEST(PlanOnContour, HasNothingToDoWhereTheGoalIsTheStart) {
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const Grasp same = {start[1], start[0]};
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const grasp::Grasp same = {start[1], start[0]};
+  const planning::PlanResult result =
       PlanWith(ContourPlanner(), square, Given(start), Given(same), Options(10));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
 
 TEST(PlanOnContour, IsTheSameBitForBit) {
-  const Polygon polygon = Model("polygon40.wkt");
+  const object::Polygon polygon = Model("polygon40.wkt");
   const auto text = [&](std::uint64_t seed) {
-    return FormatPlan(
+    return plan::FormatPlan(
         *PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
   };
   EXPECT_EQ(text(4), text(4));
@@ -298,32 +306,33 @@ TEST(PlanOnContour, IsTheSameBitForBit) {
 }
 
 TEST(PlanOnContour, RefusesGraspsThatDoNotServe) {
-  const Polygon square = Square(1);
-  const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const Grasp three = MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}});
-  const Grasp leaning = MakeGrasp(square, {{0, 0.1}, {2, 0.1}});
+  const object::Polygon square = Square(1);
+  const grasp::Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const grasp::Grasp three = MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}});
+  const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.1}, {2, 0.1}});
   EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(three), Given(good), Options(10)),
                InputError);
   EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(leaning), Given(good), Options(10)),
                InputError);
   EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), Options(0)),
                std::invalid_argument);
-  PlanRequest options = Options(10);
+  planning::PlanRequest options = Options(10);
   options.criteria.min_quality = -1;
   EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), options),
                std::invalid_argument);
 }
 
 TEST(PlanOnContour, RandomGraspsAreAsGoodAsAsked) {
-  const Polygon polygon = Model("polygon30.wkt");
-  for (const GraspChoice& choice : {Random(), RandomAny()}) {
-    PlanRequest options = Options(20, 9);
+  const object::Polygon polygon = Model("polygon30.wkt");
+  for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
+    planning::PlanRequest options = Options(20, 9);
     options.criteria.min_quality = 0.05;
-    const PlanResult result = PlanWith(ContourPlanner(), polygon, choice, choice, options);
+    const planning::PlanResult result =
+        PlanWith(ContourPlanner(), polygon, choice, choice, options);
     ASSERT_TRUE(result.plan) << result.message;
-    const GraspEvaluator evaluator(polygon,
-                                   {options.criteria.half_angle, options.criteria.min_quality});
-    EXPECT_TRUE(evaluator.IsGood(ContactsOf(result.plan->initial)));
+    const criteria::GraspEvaluator evaluator(
+        polygon, {options.criteria.half_angle, options.criteria.min_quality});
+    EXPECT_TRUE(evaluator.IsGood(plan::ContactsOf(result.plan->initial)));
     EXPECT_TRUE(evaluator.IsGood(result.plan->goal));
     options.criteria.min_quality = 10;
     EXPECT_EQ(PlanWith(ContourPlanner(), polygon, choice, choice, options).status,

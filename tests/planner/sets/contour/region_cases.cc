@@ -12,7 +12,7 @@ constexpr double kShake = 1e-13;
 
 }  // namespace
 
-double SizeToleranceOf(const Polygon& polygon) {
+double SizeToleranceOf(const object::Polygon& polygon) {
   constexpr double kTolerance = 1e-9;
   double length = 0;
   for (int e = 0; e < polygon.face_count(); ++e) length += polygon.face_measure(e);

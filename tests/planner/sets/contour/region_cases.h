@@ -12,7 +12,7 @@ namespace regrasp::contour {
 
 /// Lengths of contact space agree to this, 1e-9 of the boundary: bisection ends at 1e-12 of it, and
 /// the force-closure test leaves out what is within 1e-12 of its border.
-[[nodiscard]] double SizeToleranceOf(const Polygon& polygon);
+[[nodiscard]] double SizeToleranceOf(const object::Polygon& polygon);
 
 /// The twelve-edge and the degenerate polygons, the latter once more with roundings of 1e-13; discs
 /// and an annulus, whose sets go around their rings; an outline of many edges.

@@ -39,34 +39,35 @@ TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
   std::mt19937_64 engine(kSeed);
   int points = 0;
   int beyond_a_piece = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
-    const SquareOracle oracle(polygon, half_angle);
-    const double tolerance = SizeToleranceOf(polygon);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
-      const RegionMetric metric(graph, set);
-      for (const int piece : graph.pieces_of(set)) {
-        const std::vector<Vector2d> outline = PieceOutline(graph, piece);
-        ASSERT_FALSE(outline.empty());
-        for (int k = 0; k < kPoints; ++k, ++points) {
-          const Vector2d p = DrawIn(outline, engine);
-          const double size = metric.SizeAt(p);
-          EXPECT_NEAR(size, oracle.SizeAt(graph, piece, p), tolerance)
-              << "piece " << piece << " at " << p.transpose();
-          const Boundary& boundary = graph.boundary();
-          const int edge = graph.pieces()[piece].edges[0];
-          if (p.x() + size > boundary.end(edge) || p.x() - size < boundary.begin(edge)) {
-            ++beyond_a_piece;
+  ForEachRegionGraph(
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
+        const SquareOracle oracle(polygon, half_angle);
+        const double tolerance = SizeToleranceOf(polygon);
+        for (int set = 0; set < graph.vertex_count(); ++set) {
+          const RegionMetric metric(graph, set);
+          for (const int piece : graph.pieces_of(set)) {
+            const std::vector<Vector2d> outline = PieceOutline(graph, piece);
+            ASSERT_FALSE(outline.empty());
+            for (int k = 0; k < kPoints; ++k, ++points) {
+              const Vector2d p = DrawIn(outline, engine);
+              const double size = metric.SizeAt(p);
+              EXPECT_NEAR(size, oracle.SizeAt(graph, piece, p), tolerance)
+                  << "piece " << piece << " at " << p.transpose();
+              const Boundary& boundary = graph.boundary();
+              const int edge = graph.pieces()[piece].edges[0];
+              if (p.x() + size > boundary.end(edge) || p.x() - size < boundary.begin(edge)) {
+                ++beyond_a_piece;
+              }
+            }
           }
         }
-      }
-    }
-  });
+      });
   EXPECT_GT(points, 2000);
   EXPECT_GT(beyond_a_piece, 200);
 }
 
 TEST(RegionMetric, TheOracleRefusesSquaresThatAreLarger) {
-  const Polygon square = Square(4);
+  const object::Polygon square = Square(4);
   const double tangent = std::tan(Radians(10));
   const SquareOracle oracle(square, Radians(10));
   EXPECT_TRUE(oracle.Holds(0, 2, 0, 10, 1.999 * tangent));
@@ -77,23 +78,24 @@ TEST(RegionMetric, TheOracleRefusesSquaresThatAreLarger) {
 TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
   constexpr int kByCorners = 16;  // one edge in so many
   int edges = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double half_angle) {
-    const SquareOracle oracle(polygon, half_angle);
-    const double tolerance = SizeToleranceOf(polygon);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
-      const RegionMetric metric(graph, set);
-      for (const DiagramEdge& edge : metric.MakeDiagram()) {
-        EXPECT_EQ(graph.set_of(edge.piece), set);
-        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-          const Vector2d p = (1 - share) * edge.from + share * edge.to;
-          EXPECT_NEAR(SizeOn(edge, share), metric.SizeAt(p), tolerance) << p.transpose();
+  ForEachRegionGraph(
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
+        const SquareOracle oracle(polygon, half_angle);
+        const double tolerance = SizeToleranceOf(polygon);
+        for (int set = 0; set < graph.vertex_count(); ++set) {
+          const RegionMetric metric(graph, set);
+          for (const DiagramEdge& edge : metric.MakeDiagram()) {
+            EXPECT_EQ(graph.set_of(edge.piece), set);
+            for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+              const Vector2d p = (1 - share) * edge.from + share * edge.to;
+              EXPECT_NEAR(SizeOn(edge, share), metric.SizeAt(p), tolerance) << p.transpose();
+            }
+            if (edges++ % kByCorners != 0) continue;
+            const Vector2d middle = (edge.from + edge.to) / 2;
+            EXPECT_NEAR(SizeOn(edge, 0.5), oracle.SizeAt(graph, edge.piece, middle), tolerance);
+          }
         }
-        if (edges++ % kByCorners != 0) continue;
-        const Vector2d middle = (edge.from + edge.to) / 2;
-        EXPECT_NEAR(SizeOn(edge, 0.5), oracle.SizeAt(graph, edge.piece, middle), tolerance);
-      }
-    }
-  });
+      });
   EXPECT_GT(edges, 3000);
 }
 
@@ -103,7 +105,7 @@ TEST(RegionDiagram, HoldsTheBestGraspWithOneContactHeld) {
   std::mt19937_64 engine(kSeed);
   std::uniform_real_distribution<double> uniform(0, 1);
   int checked = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     const double tolerance = SizeToleranceOf(polygon);
     for (int piece = 0; piece < static_cast<int>(graph.pieces().size()); ++piece) {
@@ -135,7 +137,7 @@ double LargestSize(const std::vector<DiagramEdge>& diagram) {
 TEST(RegionDiagram, ItsLargestSquareIsThatOfAGridOfTheSet) {
   constexpr int kSteps = 16;  // on either axis of every piece
   int sets = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     for (int set = 0; set < graph.vertex_count(); ++set, ++sets) {
       const RegionMetric metric(graph, set);
       double best = 0;
@@ -169,7 +171,7 @@ TEST(RegionDiagram, ItsLargestSquareIsThatOfAGridOfTheSet) {
 
 TEST(RegionDiagram, OfLessFrictionDoesNotHoldTheBestGrasp) {
   constexpr int kSamples = 40;
-  const Polygon disc = RegularPolygon(40);
+  const object::Polygon disc = RegularPolygon(40);
   const ContourGraph less(disc, Radians(10));
   const ContourGraph more(disc, Radians(12));
   SetGeometry geometry_of_less(less);
@@ -180,7 +182,7 @@ TEST(RegionDiagram, OfLessFrictionDoesNotHoldTheBestGrasp) {
 }
 
 TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
-  const auto largest_sizes = [](const Polygon& polygon, double half_angle) {
+  const auto largest_sizes = [](const object::Polygon& polygon, double half_angle) {
     const ContourGraph graph(polygon, half_angle);
     std::vector<double> sizes;
     for (int set = 0; set < graph.vertex_count(); ++set) {
@@ -190,7 +192,7 @@ TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
     return sizes;
   };
   int sets = 0;
-  ForEachRegionGraph([&](const Polygon& polygon, const ContourGraph&, double half_angle) {
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph&, double half_angle) {
     const std::vector<double> sizes = largest_sizes(polygon, half_angle);
     for (const int by : {1, 2, 3}) {
       const std::vector<double> renumbered = largest_sizes(Renumbered(polygon, by), half_angle);

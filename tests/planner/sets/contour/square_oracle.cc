@@ -11,7 +11,7 @@ constexpr int kHalvings = 40;
 
 }  // namespace
 
-SquareOracle::SquareOracle(const Polygon& polygon, double half_angle)
+SquareOracle::SquareOracle(const object::Polygon& polygon, double half_angle)
     : polygon_(polygon), half_angle_(half_angle) {
   int edge = 0;
   for (const auto& ring : polygon.rings()) {
@@ -23,8 +23,9 @@ SquareOracle::SquareOracle(const Polygon& polygon, double half_angle)
   first_edge_.push_back(edge);
 }
 
-std::vector<Contact> SquareOracle::EndsWithin(int ring, double place, double half_width) const {
-  std::vector<Contact> ends;
+std::vector<grasp::Contact> SquareOracle::EndsWithin(int ring, double place,
+                                                     double half_width) const {
+  std::vector<grasp::Contact> ends;
   // One turn before to one turn after the place: no square is wider than the ring is long.
   for (const int turn : {-1, 0, 1}) {
     double begin = turn * perimeter_[ring];
@@ -46,11 +47,11 @@ std::vector<Contact> SquareOracle::EndsWithin(int ring, double place, double hal
 }
 
 bool SquareOracle::Holds(int ring_a, double x, int ring_b, double y, double half_width) const {
-  const std::vector<Contact> xs = EndsWithin(ring_a, x, half_width);
-  const std::vector<Contact> ys = EndsWithin(ring_b, y, half_width);
+  const std::vector<grasp::Contact> xs = EndsWithin(ring_a, x, half_width);
+  const std::vector<grasp::Contact> ys = EndsWithin(ring_b, y, half_width);
   Sense common = Sense::kNone;
-  for (const Contact& a : xs) {
-    for (const Contact& b : ys) {
+  for (const grasp::Contact& a : xs) {
+    for (const grasp::Contact& b : ys) {
       if (a.face == b.face) return false;
       const Sense sense = SenseOf(polygon_, half_angle_, a, b);
       if (sense != Sense::kSqueezing && sense != Sense::kStretching) return false;

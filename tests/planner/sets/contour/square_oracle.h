@@ -11,7 +11,7 @@ namespace regrasp::contour {
 /// shares the meaning of a place with the planner, and nothing else.
 class SquareOracle {
  public:
-  SquareOracle(const Polygon& polygon, double half_angle);
+  SquareOracle(const object::Polygon& polygon, double half_angle);
 
   /// Whether both contacts can be anywhere within `half_width` of their places, independently, in
   /// one sense. Vertices of the polygon cut the square into rectangles; on each the grasps of one
@@ -27,9 +27,10 @@ class SquareOracle {
 
  private:
   /// The ends of the parts of edges that lie within a length of a place, two for each edge.
-  [[nodiscard]] std::vector<Contact> EndsWithin(int ring, double place, double half_width) const;
+  [[nodiscard]] std::vector<grasp::Contact> EndsWithin(int ring, double place,
+                                                       double half_width) const;
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   double half_angle_;
   std::vector<int> first_edge_;
   std::vector<double> perimeter_;

@@ -11,28 +11,29 @@
 namespace regrasp::polygon {
 namespace {
 
-Grasp GraspAt(const Polygon& polygon, const GraspSet& set, const Eigen::VectorXd& parameters) {
-  Grasp grasp;
+grasp::Grasp GraspAt(const object::Polygon& polygon, const GraspSet& set,
+                     const Eigen::VectorXd& parameters) {
+  grasp::Grasp grasp;
   for (const int edge : set.edges) {
-    grasp.push_back(ContactAt(polygon, edge, parameters[static_cast<int>(grasp.size())]));
+    grasp.push_back(grasp::ContactAt(polygon, edge, parameters[static_cast<int>(grasp.size())]));
   }
   return grasp;
 }
 
-Eigen::VectorXd ParametersOf(const Polygon& polygon, const Grasp& grasp) {
+Eigen::VectorXd ParametersOf(const object::Polygon& polygon, const grasp::Grasp& grasp) {
   Eigen::VectorXd parameters(static_cast<Eigen::Index>(grasp.size()));
   for (std::size_t k = 0; k < grasp.size(); ++k) {
-    parameters[static_cast<Eigen::Index>(k)] = ParameterOf(polygon, grasp[k]);
+    parameters[static_cast<Eigen::Index>(k)] = grasp::ParameterOf(polygon, grasp[k]);
   }
   return parameters;
 }
 
 /// Decided by the checker's certificates, which know nothing of grasp sets.
-bool IsForceClosureBetween(const Polygon& polygon, const Grasp& from, const Grasp& to,
-                           double half_angle) {
-  GraspMotion motion;
+bool IsForceClosureBetween(const object::Polygon& polygon, const grasp::Grasp& from,
+                           const grasp::Grasp& to, double half_angle) {
+  motion::GraspMotion motion;
   for (std::size_t k = 0; k < from.size(); ++k) motion.emplace_back(from[k], to[k]);
-  return DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds();
+  return motion::DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds();
 }
 
 struct AlignCount {
@@ -42,14 +43,15 @@ struct AlignCount {
 };
 
 /// Aligns between two random grasps of every set.
-void CheckAligns(const Polygon& polygon, double degrees, std::uint64_t seed, AlignCount& count) {
-  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+void CheckAligns(const object::Polygon& polygon, double degrees, std::uint64_t seed,
+                 AlignCount& count) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   RandomStream random(seed, RandomUse::kStart);
   for (int vertex = 0; vertex < graph.vertex_count(); ++vertex) {
     const GraspSet& set = graph.sets()[vertex];
-    const Grasp from = cells.DrawGrasp(vertex, random);
-    const Grasp to = cells.DrawGrasp(vertex, random);
+    const grasp::Grasp from = cells.DrawGrasp(vertex, random);
+    const grasp::Grasp to = cells.DrawGrasp(vertex, random);
     ASSERT_EQ(from.size(), set.edges.size());
     const std::vector<Eigen::VectorXd> path =
         FindAlignPath(cells.of(vertex), ParametersOf(polygon, from), ParametersOf(polygon, to));
@@ -81,8 +83,8 @@ TEST(AlignPath, KeepsForceClosureBetweenRandomGraspsOfASet) {
 }
 
 TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
-  const Polygon square = Square(1);
-  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  const object::Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   const GraspSet& set = graph.sets()[graph.SetsOn({0, 2}).front()];
   const SetCells cells(square, set);
   // Edge 2 runs from the right to the left.

@@ -13,7 +13,7 @@
 namespace regrasp::polygon {
 namespace {
 
-std::vector<int> Neighbours(const SwitchingGraph& graph, int vertex) {
+std::vector<int> Neighbours(const search::SwitchingGraph& graph, int vertex) {
   std::vector<int> neighbours;
   graph.GetNeighbours(vertex, neighbours);
   return neighbours;
@@ -21,18 +21,19 @@ std::vector<int> Neighbours(const SwitchingGraph& graph, int vertex) {
 
 class AttachedBlob : public testing::Test {
  protected:
-  AttachedBlob() : graph_(MakeGraph(blob_, 20, Spanning::kAdaptive)), cells_(blob_, graph_) {}
+  AttachedBlob()
+      : graph_(MakeGraph(blob_, 20, planning::Spanning::kAdaptive)), cells_(blob_, graph_) {}
 
   /// The switches between a set of `start` and one of `goal`, and two for these.
   [[nodiscard]] std::optional<int> Switches(const GraspEnds& start, const GraspEnds& goal) const {
     const AttachedGraph graph(graph_, start, goal, banned_);
-    return FewestSwitches(graph, graph.start(), graph.goal(), [](int) { return true; });
+    return search::FewestSwitches(graph, graph.start(), graph.goal(), [](int) { return true; });
   }
 
-  const Polygon& blob_ = SmallPolygons()[4].polygon;
+  const object::Polygon& blob_ = SmallPolygons()[4].polygon;
   PolygonGraph graph_;
   GraphCells cells_;
-  std::set<VertexPair> banned_;
+  std::set<search::VertexPair> banned_;
 };
 
 TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
@@ -68,9 +69,9 @@ TEST_F(AttachedBlob, AGraspIsOneSwitchFartherFromSetsThatItHasToSwitchTo) {
 TEST_F(AttachedBlob, BannedSwitchesAreNotTaken) {
   const int other = Neighbours(graph_, 0).front();
   EXPECT_EQ(Switches({{0}, {}}, {{other}, {}}), 3);
-  banned_ = {Unordered(other, 0)};
+  banned_ = {search::Unordered(other, 0)};
   EXPECT_GT(Switches({{0}, {}}, {{other}, {}}), 3);
-  for (const int neighbour : Neighbours(graph_, 0)) banned_.insert(Unordered(0, neighbour));
+  for (const int neighbour : Neighbours(graph_, 0)) banned_.insert(search::Unordered(0, neighbour));
   EXPECT_FALSE(Switches({{0}, {}}, {{other}, {}}).has_value());
 }
 

@@ -25,8 +25,8 @@ std::vector<int> EdgesWithout(const std::vector<int>& edges, int edge) {
 
 }  // namespace
 
-BruteForce::BruteForce(const Polygon& polygon, const PolygonGraph& graph, double half_angle,
-                       Spanning spanning, std::uint64_t seed)
+BruteForce::BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
+                       planning::Spanning spanning, std::uint64_t seed)
     : hits(graph.vertex_count()),
       polygon_(polygon),
       graph_(graph),
@@ -60,7 +60,7 @@ std::string BruteForce::Text(int vertex) const {
   return out.str();
 }
 
-Contact BruteForce::At(int edge, double u) const {
+grasp::Contact BruteForce::At(int edge, double u) const {
   const auto [a, b] = polygon_.edge(edge);
   return {a + u * (b - a), polygon_.inward_normal(edge), edge};
 }
@@ -85,7 +85,7 @@ int BruteForce::VertexOf(GraspType type, const std::vector<int>& edges, int part
 std::vector<int> BruteForce::Vertices(std::vector<Drawn> drawn) {
   std::sort(drawn.begin(), drawn.end(),
             [](const Drawn& a, const Drawn& b) { return a.edge < b.edge; });
-  Grasp grasp;
+  grasp::Grasp grasp;
   std::vector<int> edges;
   for (const Drawn& d : drawn) {
     grasp.push_back(d.contact);
@@ -101,7 +101,8 @@ std::vector<int> BruteForce::Vertices(std::vector<Drawn> drawn) {
       continue;
     }
     ++grasps;
-    if (TestForceClosure(grasp, polygon_.wrench_frame(), half_angle_).decision == Decision::kNo) {
+    if (grasp::TestForceClosure(grasp, polygon_.wrench_frame(), half_angle_).decision ==
+        grasp::Decision::kNo) {
       Fail("not force closure, type " + std::to_string(static_cast<int>(kind.type)));
     }
     const int vertex = VertexOf(kind.type, edges, kind.part);
@@ -195,7 +196,7 @@ void BruteForce::DrawThirds(const Drawn& first, const Drawn& second, int thirds)
           const bool parallel = graph_.sets()[v].type == GraspType::kParallel ||
                                 graph_.sets()[w].type == GraspType::kParallel;
           const bool both = graph_.sets()[v].type == graph_.sets()[w].type;
-          if (parallel && (both || spanning_ == Spanning::kAdaptive)) {
+          if (parallel && (both || spanning_ == planning::Spanning::kAdaptive)) {
             Expect(v, w, "two common contacts");
           }
         }
@@ -245,7 +246,7 @@ void BruteForce::CheckFocusPoint(int vertex, const Eigen::Vector2d& x) {
   std::vector<int> members;
   const auto add = [&](std::vector<int> edges) {
     std::sort(edges.begin(), edges.end());
-    Grasp normals;
+    grasp::Grasp normals;
     for (const int e : edges) normals.push_back(At(e, 0.5));
     const double phi = ConcurrentHalfAngle(normals, half_angle_, spanning_);
     if (phi < kDirectMargin) return;

@@ -16,8 +16,8 @@ namespace regrasp::polygon {
 /// Random grasps of a polygon held against its graph.
 class BruteForce {
  public:
-  BruteForce(const Polygon& polygon, const PolygonGraph& graph, double half_angle,
-             Spanning spanning, std::uint64_t seed);
+  BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
+             planning::Spanning spanning, std::uint64_t seed);
 
   /// Draws contacts on every two edges, and third contacts on every other edge to each: what they
   /// are by KindsOfTwo and KindsOfThree must be in exactly one vertex each, force closure, and
@@ -47,11 +47,11 @@ class BruteForce {
   struct Drawn {
     int edge;
     double u;
-    Contact contact;
+    grasp::Contact contact;
   };
 
   Drawn Draw(int edge);
-  Contact At(int edge, double u) const;
+  grasp::Contact At(int edge, double u) const;
   /// The vertices that contacts (by ascending edge) belong to; checks each of them.
   std::vector<int> Vertices(std::vector<Drawn> drawn);
   int VertexOf(GraspType type, const std::vector<int>& edges, int part) const;
@@ -66,10 +66,10 @@ class BruteForce {
   bool Sees(const Eigen::Vector2d& x, int edge, double phi, bool& outer, double& low,
             double& high) const;
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   const PolygonGraph& graph_;
   double half_angle_;
-  Spanning spanning_;
+  planning::Spanning spanning_;
   std::mt19937_64 engine_;
   std::map<Key, int> vertex_of_;
   std::set<std::pair<int, int>> graph_switches_;

@@ -38,8 +38,8 @@ std::int64_t SwitchCount(const PolygonGraph& graph) {
   return twice / 2;
 }
 
-BruteForce Search(const Polygon& polygon, const PolygonGraph& graph, double degrees,
-                  Spanning spanning) {
+BruteForce Search(const object::Polygon& polygon, const PolygonGraph& graph, double degrees,
+                  planning::Spanning spanning) {
   BruteForce brute(polygon, graph, Radians(degrees), spanning, kSeed);
   brute.DrawGrasps(kPairs, kThirds);
   brute.DrawFocusPoints(kPoints);
@@ -53,7 +53,7 @@ TEST(BruteForce, EveryGraspIsInOneVertexEveryVertexIsHitAndSwitchesAreThoseOfThe
   Totals totals;
   for (const auto& [name, polygon] : SmallPolygons()) {
     for (const double degrees : {10.0, 20.0, 35.0, 50.0}) {
-      for (const Spanning spanning : kSpannings) {
+      for (const planning::Spanning spanning : kSpannings) {
         SCOPED_TRACE(name + " " + std::to_string(degrees) + " " + Name(spanning));
         const PolygonGraph graph = MakeGraph(polygon, degrees, spanning);
         const BruteForce brute = Search(polygon, graph, degrees, spanning);
@@ -76,17 +76,21 @@ TEST(BruteForce, EveryGraspIsInOneVertexEveryVertexIsHitAndSwitchesAreThoseOfThe
 }
 
 TEST(BruteForce, NoticesAGraphOfLessFrictionOfAnotherSpanningAndOfAnotherPolygon) {
-  const Polygon& blob = SmallPolygons()[4].polygon;
-  const auto fails = [&](const PolygonGraph& graph, double degrees, Spanning spanning) {
+  const object::Polygon& blob = SmallPolygons()[4].polygon;
+  const auto fails = [&](const PolygonGraph& graph, double degrees, planning::Spanning spanning) {
     return !Search(blob, graph, degrees, spanning).failures.empty();
   };
-  EXPECT_FALSE(fails(MakeGraph(blob, 20, Spanning::kUniform), 20, Spanning::kUniform));
-  EXPECT_TRUE(fails(MakeGraph(blob, 15, Spanning::kUniform), 20, Spanning::kUniform));
-  EXPECT_TRUE(fails(MakeGraph(blob, 20, Spanning::kUniform), 20, Spanning::kAdaptive));
+  EXPECT_FALSE(
+      fails(MakeGraph(blob, 20, planning::Spanning::kUniform), 20, planning::Spanning::kUniform));
+  EXPECT_TRUE(
+      fails(MakeGraph(blob, 15, planning::Spanning::kUniform), 20, planning::Spanning::kUniform));
+  EXPECT_TRUE(
+      fails(MakeGraph(blob, 20, planning::Spanning::kUniform), 20, planning::Spanning::kAdaptive));
   Ring ring = blob.rings()[0];
   ring[6] = {2.1, 3.1};
-  const Polygon other = Polygon::FromRings({ring}, "other");
-  EXPECT_TRUE(fails(MakeGraph(other, 20, Spanning::kUniform), 20, Spanning::kUniform));
+  const object::Polygon other = object::Polygon::FromRings({ring}, "other");
+  EXPECT_TRUE(
+      fails(MakeGraph(other, 20, planning::Spanning::kUniform), 20, planning::Spanning::kUniform));
 }
 
 }  // namespace

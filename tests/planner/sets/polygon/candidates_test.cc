@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kTooClose = 1e-9;
 
 /// A polygon of `n` irregular edges whose vertices go around the origin.
-Polygon Irregular(int n, unsigned seed) {
+object::Polygon Irregular(int n, unsigned seed) {
   std::vector<Eigen::Vector2d> ring;
   for (int k = 0; k < n; ++k) {
     seed = seed * 1664525U + 1013904223U;
@@ -26,10 +26,10 @@ Polygon Irregular(int n, unsigned seed) {
     const double angle = 2 * kPi * k / n;
     ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  return Polygon::FromRings({ring}, "irregular");
+  return object::Polygon::FromRings({ring}, "irregular");
 }
 
-double NormalAngle(const Polygon& polygon, int edge) {
+double NormalAngle(const object::Polygon& polygon, int edge) {
   const Eigen::Vector3d n = polygon.inward_normal(edge);
   return std::atan2(n.y(), n.x());
 }
@@ -54,9 +54,10 @@ class CandidatesTest : public testing::TestWithParam<double> {
 TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
   int found = 0;
   int refused = 0;
-  for (const Spanning spanning : {Spanning::kUniform, Spanning::kAdaptive}) {
+  for (const planning::Spanning spanning :
+       {planning::Spanning::kUniform, planning::Spanning::kAdaptive}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      const Polygon polygon = Irregular(17, seed);
+      const object::Polygon polygon = Irregular(17, seed);
       const IntervalScope scope;
       const EdgeTable edges(polygon, std::tan(half_angle()));
       const auto candidates = FindConcurrentCandidates(edges, spanning);
@@ -69,7 +70,7 @@ TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
             const std::array<int, 3> triple = {i, j, k};
             const double limit = SpanningLimit(
                 {NormalAngle(polygon, i), NormalAngle(polygon, j), NormalAngle(polygon, k)});
-            const double needed = spanning == Spanning::kUniform ? half_angle() : 0;
+            const double needed = spanning == planning::Spanning::kUniform ? half_angle() : 0;
             const bool listed = next < candidates.size() && candidates[next].edges == triple;
             if (std::abs(limit - needed) > kTooClose) {
               EXPECT_EQ(listed, limit > needed) << i << ' ' << j << ' ' << k;
@@ -95,7 +96,7 @@ TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
 TEST_P(CandidatesTest, TwoFingerOnesAreThePairsOfNearlyOppositeNormals) {
   int found = 0;
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Polygon polygon = Irregular(23, seed);
+    const object::Polygon polygon = Irregular(23, seed);
     const IntervalScope scope;
     const auto candidates = FindTwoFingerCandidates(EdgeTable(polygon, std::tan(half_angle())));
     const std::set<TwoFingerCandidate> listed(candidates.begin(), candidates.end());
@@ -132,7 +133,7 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
   int refused = 0;
   const int n = 11;
   for (unsigned seed = 1; seed <= 2; ++seed) {
-    const Polygon polygon = Irregular(n, seed);
+    const object::Polygon polygon = Irregular(n, seed);
     const IntervalScope scope;
     const auto candidates = FindParallelCandidates(EdgeTable(polygon, std::tan(half_angle())));
     std::set<std::pair<std::array<int, 3>, int>> listed;

@@ -13,21 +13,22 @@ namespace regrasp::polygon {
 namespace {
 
 /// Looks while the candidates of all types are listed.
-int LooksForCandidates(const Polygon& polygon, double half_angle) {
+int LooksForCandidates(const object::Polygon& polygon, double half_angle) {
   const double tangent = std::tan(half_angle);
   const IntervalScope scope;
   const EdgeTable edges(polygon, tangent);
   const CountedDeadline never;
-  static_cast<void>(FindConcurrentCandidates(edges, Spanning::kAdaptive, never.deadline()));
+  static_cast<void>(
+      FindConcurrentCandidates(edges, planning::Spanning::kAdaptive, never.deadline()));
   static_cast<void>(FindTwoFingerCandidates(edges, never.deadline()));
   static_cast<void>(FindParallelCandidates(edges, never.deadline()));
   return never.looks();
 }
 
 TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWhereverItComes) {
-  const Polygon polygon = RegularPolygon(9);
+  const object::Polygon polygon = RegularPolygon(9);
   const CountedDeadline never;
-  const PolygonGraph graph(polygon, Radians(20), Spanning::kAdaptive, never.deadline());
+  const PolygonGraph graph(polygon, Radians(20), planning::Spanning::kAdaptive, never.deadline());
   const GraspTypeCounts& concurrent = graph.counts(GraspType::kConcurrent);
   const GraspTypeCounts& two_finger = graph.counts(GraspType::kTwoFinger);
   const GraspTypeCounts& parallel = graph.counts(GraspType::kParallel);
@@ -41,16 +42,16 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
   EXPECT_EQ(never.looks(),
             listing + candidates + graph.vertex_count() + joining + concurrent.vertices);
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
-    static_cast<void>(PolygonGraph(polygon, Radians(20), Spanning::kAdaptive, deadline));
+    static_cast<void>(PolygonGraph(polygon, Radians(20), planning::Spanning::kAdaptive, deadline));
   });
 }
 
 TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
-  const Polygon polygon = RegularPolygon(9);
-  PlanRequest options;
+  const object::Polygon polygon = RegularPolygon(9);
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(20);
-  const GraspChoice start = {GraspChoice::Kind::kRandom, {}, "start"};
-  const GraspChoice goal = {GraspChoice::Kind::kRandomAny, {}, "goal"};
+  const planning::GraspChoice start = {planning::GraspChoice::Kind::kRandom, {}, "start"};
+  const planning::GraspChoice goal = {planning::GraspChoice::Kind::kRandomAny, {}, "goal"};
   ExpectPlanEndsWhereverItComes("polygon", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;
     return PlanWith(PolygonPlanner(), polygon, start, goal, options);

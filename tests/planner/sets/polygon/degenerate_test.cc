@@ -25,7 +25,8 @@ struct Checked {
   TwoFingerCount two_finger;
 };
 
-void Check(const Polygon& polygon, double half_angle, Spanning spanning, Checked& total) {
+void Check(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
+           Checked& total) {
   const PolygonGraph graph(polygon, half_angle, spanning);
   std::string difference;
   total.concurrent += CompareWithSetOperations(polygon, graph, half_angle, spanning, difference);
@@ -40,7 +41,7 @@ void Check(const Polygon& polygon, double half_angle, Spanning spanning, Checked
 std::vector<NamedPolygon> DegeneratePolygons() {
   std::vector<NamedPolygon> polygons;
   const auto add = [&](const std::string& name, std::vector<Ring> rings) {
-    polygons.push_back({name, Polygon::FromRings(std::move(rings), name)});
+    polygons.push_back({name, object::Polygon::FromRings(std::move(rings), name)});
   };
   for (const int n : {3, 5, 6}) {
     polygons.push_back({"regular " + std::to_string(n), RegularPolygon(n)});
@@ -64,10 +65,10 @@ TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
       {"1e-6", By(1e-6)}};
   for (const auto& [name, polygon] : DegeneratePolygons()) {
     for (const auto& [how, step] : steps) {
-      const Polygon moved = Shaken(polygon, step, engine);
+      const object::Polygon moved = Shaken(polygon, step, engine);
       for (const double half_angle :
            {HalfAngleOf(0.25), Radians(30), HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
-        for (const Spanning spanning : kSpannings) {
+        for (const planning::Spanning spanning : kSpannings) {
           SCOPED_TRACE(name + ", " + how + ", " + std::to_string(Degrees(half_angle)) + "° " +
                        Name(spanning));
           Check(moved, half_angle, spanning, total);

@@ -24,7 +24,7 @@ double Between(const Vector2d& a, const Vector2d& b) {
 double Wrap(double angle) { return std::remainder(angle, 2 * kPi); }
 
 /// π less the largest gap between neighbouring normals.
-double SpanningExcess(std::span<const Contact> contacts) {
+double SpanningExcess(std::span<const grasp::Contact> contacts) {
   std::array<double, 3> angles;
   for (int k = 0; k < 3; ++k) angles[k] = Angle(Planar(contacts[k].n));
   std::sort(angles.begin(), angles.end());
@@ -49,7 +49,7 @@ std::vector<Vector2d> Clip(const std::vector<Vector2d>& polygon, const Vector2d&
 }
 
 /// The cones on the given sides have a common interior when every border is moved out by `by`.
-bool ConesMeet(std::span<const Contact> contacts, int sides, double half_angle, double size,
+bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_angle, double size,
                double by) {
   const Vector2d middle = Planar(contacts[0].p);
   const double half = kSquare * size;
@@ -66,8 +66,9 @@ bool ConesMeet(std::span<const Contact> contacts, int sides, double half_angle, 
 }
 
 /// The directions, relative to −n_a, in −C(n_a), C(n_b) and C(n_c), widened by `by` at both ends.
-std::optional<std::array<double, 2>> CommonDirections(const Contact& a, const Contact& b,
-                                                      const Contact& c, double half_angle,
+std::optional<std::array<double, 2>> CommonDirections(const grasp::Contact& a,
+                                                      const grasp::Contact& b,
+                                                      const grasp::Contact& c, double half_angle,
                                                       double by) {
   const double zero = Angle(-Planar(a.n));
   const double beta = Wrap(Angle(Planar(b.n)) - zero);
@@ -79,8 +80,8 @@ std::optional<std::array<double, 2>> CommonDirections(const Contact& a, const Co
 }
 
 /// How far, at best, the two outer lines are from the centre's, on different sides; −1 if nowhere.
-double ParallelMargin(const Contact& a, const Contact& b, const Contact& c, double half_angle,
-                      double by) {
+double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const grasp::Contact& c,
+                      double half_angle, double by) {
   const auto directions = CommonDirections(a, b, c, half_angle, by);
   if (!directions) return -1;
   const double zero = Angle(-Planar(a.n));
@@ -108,14 +109,14 @@ double ParallelMargin(const Contact& a, const Contact& b, const Contact& c, doub
 
 }  // namespace
 
-double ConcurrentHalfAngle(std::span<const Contact> contacts, double half_angle,
-                           Spanning spanning) {
+double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts, double half_angle,
+                           planning::Spanning spanning) {
   const double excess = SpanningExcess(contacts);
-  if (spanning == Spanning::kUniform) return excess > 2 * half_angle ? half_angle : 0;
+  if (spanning == planning::Spanning::kUniform) return excess > 2 * half_angle ? half_angle : 0;
   return std::max(0.0, std::min(half_angle, excess / 2));
 }
 
-std::vector<DirectKind> KindsOfTwo(std::span<const Contact> contacts, double half_angle) {
+std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts, double half_angle) {
   const Vector2d v = Planar(contacts[1].p - contacts[0].p);
   const Vector2d na = Planar(contacts[0].n);
   const Vector2d nb = Planar(contacts[1].n);
@@ -130,11 +131,11 @@ std::vector<DirectKind> KindsOfTwo(std::span<const Contact> contacts, double hal
   return kinds;
 }
 
-std::vector<DirectKind> KindsOfThree(std::span<const Contact> contacts, double half_angle,
-                                     Spanning spanning, double size) {
+std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts, double half_angle,
+                                     planning::Spanning spanning, double size) {
   std::vector<DirectKind> kinds;
   const double margin = kDirectMargin * size;
-  const bool spans_clearly = spanning == Spanning::kAdaptive ||
+  const bool spans_clearly = spanning == planning::Spanning::kAdaptive ||
                              std::abs(SpanningExcess(contacts) - 2 * half_angle) > kDirectMargin;
   const double phi = ConcurrentHalfAngle(contacts, half_angle, spanning);
   for (int sides = 0; sides < 8 && phi > 0; ++sides) {
@@ -143,9 +144,9 @@ std::vector<DirectKind> KindsOfThree(std::span<const Contact> contacts, double h
     kinds.push_back({GraspType::kConcurrent, sides, certain});
   }
   for (int centre = 0; centre < 3; ++centre) {
-    const Contact& a = contacts[centre];
-    const Contact& b = contacts[(centre + 1) % 3];
-    const Contact& c = contacts[(centre + 2) % 3];
+    const grasp::Contact& a = contacts[centre];
+    const grasp::Contact& b = contacts[(centre + 1) % 3];
+    const grasp::Contact& c = contacts[(centre + 2) % 3];
     if (ParallelMargin(a, b, c, half_angle, kDirectMargin) < 0) continue;
     const bool certain = ParallelMargin(a, b, c, half_angle, -kDirectMargin) > margin;
     kinds.push_back({GraspType::kParallel, centre, certain});

@@ -25,21 +25,21 @@ inline constexpr double kDirectMargin = 1e-9;
 
 /// The half-angle that three contacts' cones have in concurrent grasps; 0 where their normals don't
 /// span.
-[[nodiscard]] double ConcurrentHalfAngle(std::span<const Contact> contacts, double half_angle,
-                                         Spanning spanning);
+[[nodiscard]] double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts,
+                                         double half_angle, planning::Spanning spanning);
 
 /// Squeezing: the second contact in the first one's cone and the other way round. Stretching: both
 /// behind.
 /// @param size  of the polygon.
-[[nodiscard]] std::vector<DirectKind> KindsOfTwo(std::span<const Contact> contacts,
+[[nodiscard]] std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts,
                                                  double half_angle);
 
 /// Concurrent: the normals span, and the cones (for each part on given sides) have a common
 /// interior; found by clipping a huge square.
 /// Parallel: for some direction w in −C(n_a), C(n_b) and C(n_c) the lines along w through p_b and
 /// p_c are on different sides of the one through p_a; a is the part.
-[[nodiscard]] std::vector<DirectKind> KindsOfThree(std::span<const Contact> contacts,
-                                                   double half_angle, Spanning spanning,
+[[nodiscard]] std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts,
+                                                   double half_angle, planning::Spanning spanning,
                                                    double size);
 
 }  // namespace regrasp::polygon

@@ -11,33 +11,34 @@
 namespace regrasp::polygon {
 namespace {
 
-Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
-  Grasp grasp;
-  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(polygon, edge, u));
+grasp::Grasp MakeGrasp(const object::Polygon& polygon,
+                       const std::vector<std::pair<int, double>>& places) {
+  grasp::Grasp grasp;
+  for (const auto& [edge, u] : places) grasp.push_back(grasp::ContactAt(polygon, edge, u));
   return grasp;
 }
 
 TEST(GraphCells, DrawsGraspsAllOverASet) {
-  const Polygon square = Square(1);
-  const PolygonGraph graph = MakeGraph(square, 40, Spanning::kAdaptive);
+  const object::Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 40, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
   const int vertex = graph.SetsOn({0, 2}).front();
   RandomStream random(1, RandomUse::kStart);
   // Quarters of both edges that the contacts hit: all pairs but those that lean too far.
   std::set<std::pair<int, int>> hit;
   for (int i = 0; i < 500; ++i) {
-    const Grasp grasp = cells.DrawGrasp(vertex, random);
+    const grasp::Grasp grasp = cells.DrawGrasp(vertex, random);
     ASSERT_EQ(grasp.size(), 2U);
-    EXPECT_TRUE(IsForceClosure(grasp, square.wrench_frame(), Radians(40)));
-    hit.emplace(static_cast<int>(4 * ParameterOf(square, grasp[0])),
-                static_cast<int>(4 * ParameterOf(square, grasp[1])));
+    EXPECT_TRUE(grasp::IsForceClosure(grasp, square.wrench_frame(), Radians(40)));
+    hit.emplace(static_cast<int>(4 * grasp::ParameterOf(square, grasp[0])),
+                static_cast<int>(4 * grasp::ParameterOf(square, grasp[1])));
   }
   EXPECT_EQ(hit.size(), 16U);
 }
 
 TEST(GraphCells, DrawsTheSameGraspsFromTheSameSeed) {
-  const Polygon& blob = SmallPolygons()[4].polygon;
-  const PolygonGraph graph = MakeGraph(blob, 20, Spanning::kAdaptive);
+  const object::Polygon& blob = SmallPolygons()[4].polygon;
+  const PolygonGraph graph = MakeGraph(blob, 20, planning::Spanning::kAdaptive);
   const auto draw = [&](std::uint64_t seed) {
     GraphCells cells(blob, graph);
     RandomStream random(seed, RandomUse::kStart);
@@ -48,8 +49,8 @@ TEST(GraphCells, DrawsTheSameGraspsFromTheSameSeed) {
 }
 
 TEST(GraphCells, AttachWholeGraspsAndPartsOfThem) {
-  const Polygon square = Square(1);
-  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  const object::Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
   const int upright = graph.SetsOn({0, 2}).front();
   const int level = graph.SetsOn({1, 3}).front();
@@ -70,11 +71,11 @@ TEST(GraphCells, AttachWholeGraspsAndPartsOfThem) {
 }
 
 TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
-  const Polygon square = Square(1);
-  const PolygonGraph graph = MakeGraph(square, 20, Spanning::kAdaptive);
+  const object::Polygon square = Square(1);
+  const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
   // Leans by 31°; another contact opposite either one makes a pair, or a new pair altogether.
-  const Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
+  const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
   const std::vector<Attachment<PolygonPlace>> found = cells.FindSwitches(leaning, kPolygonFingers);
   ASSERT_EQ(found.size(), 4U);
   std::set<int> vertices;

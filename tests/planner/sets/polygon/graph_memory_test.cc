@@ -19,16 +19,18 @@ TEST(PolygonGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   struct Case {
     const char* file;
     double degrees;
-    Spanning spanning;
+    planning::Spanning spanning;
   };
-  for (const auto& [file, degrees, spanning] : {Case{"polygon30.wkt", 30, Spanning::kAdaptive},
-                                                Case{"polygon35.wkt", 30, Spanning::kAdaptive},
-                                                Case{"polygon40.wkt", 20, Spanning::kAdaptive},
-                                                Case{"polygon40.wkt", 30, Spanning::kAdaptive},
-                                                Case{"polygon40.wkt", 30, Spanning::kUniform},
-                                                Case{"gear128.wkt", 5, Spanning::kAdaptive}}) {
-    const ObjectFile read = ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
-    const auto& polygon = dynamic_cast<const Polygon&>(*read.object);
+  for (const auto& [file, degrees, spanning] :
+       {Case{"polygon30.wkt", 30, planning::Spanning::kAdaptive},
+        Case{"polygon35.wkt", 30, planning::Spanning::kAdaptive},
+        Case{"polygon40.wkt", 20, planning::Spanning::kAdaptive},
+        Case{"polygon40.wkt", 30, planning::Spanning::kAdaptive},
+        Case{"polygon40.wkt", 30, planning::Spanning::kUniform},
+        Case{"gear128.wkt", 5, planning::Spanning::kAdaptive}}) {
+    const object::ObjectFile read =
+        object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+    const auto& polygon = dynamic_cast<const object::Polygon&>(*read.object);
     const double used = PeakBytesOf(
         [&] { static_cast<void>(MakeGraph(polygon, degrees, spanning).vertex_count()); });
     const double estimate = EstimatePolygonGraph(polygon, Radians(degrees), spanning).bytes();
@@ -43,7 +45,7 @@ TEST(PolygonGraphMemory, TheEstimateGrowsWithTheEdges) {
   double last = 0;
   for (const int n : {4, 7, 15, 31, 63, 127, 1001, 10'001}) {
     const MemoryNeed need =
-        EstimatePolygonGraph(RegularPolygon(n), Radians(15.5), Spanning::kAdaptive);
+        EstimatePolygonGraph(RegularPolygon(n), Radians(15.5), planning::Spanning::kAdaptive);
     EXPECT_EQ(need.count, n);
     EXPECT_GT(need.bytes(), last) << n;
     last = need.bytes();
@@ -52,13 +54,13 @@ TEST(PolygonGraphMemory, TheEstimateGrowsWithTheEdges) {
 }
 
 TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  const Polygon polygon = RegularPolygon(1001);
-  PlanRequest options;
+  const object::Polygon polygon = RegularPolygon(1001);
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(20);
   options.memory = 1e9;
-  const PlanResult result =
-      PlanWith(PolygonPlanner(), polygon, {GraspChoice::Kind::kRandom, {}, "start"},
-               {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const planning::PlanResult result =
+      PlanWith(PolygonPlanner(), polygon, {planning::GraspChoice::Kind::kRandom, {}, "start"},
+               {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
 }

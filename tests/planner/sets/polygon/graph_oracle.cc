@@ -23,7 +23,7 @@ constexpr double kFarthestReach = 0x1p200;
 constexpr double kTangentSlack = 1e-12;
 
 /// The points within reach on the inner (left) or outer side of an edge's line.
-CellSet HalfPlaneSet(const Polygon& polygon, int edge, bool outer) {
+CellSet HalfPlaneSet(const object::Polygon& polygon, int edge, bool outer) {
   const auto [a, b] = polygon.edge(edge);
   const CellKernel::Point_2 pa(a.x(), a.y());
   const CellKernel::Vector_2 along = CellKernel::Point_2(b.x(), b.y()) - pa;
@@ -38,8 +38,8 @@ CellSet HalfPlaneSet(const Polygon& polygon, int edge, bool outer) {
 }
 
 /// Bit k of a part is set iff it is on the outer side of the k-th edge (GraspSet::parts).
-void AddParts(const Polygon& polygon, const SetCell& cell, const CellSet& rest, int k, int part,
-              std::vector<int>& parts) {
+void AddParts(const object::Polygon& polygon, const SetCell& cell, const CellSet& rest, int k,
+              int part, std::vector<int>& parts) {
   if (rest.is_empty()) return;
   if (k < 0) {
     parts.push_back(part);
@@ -52,14 +52,14 @@ void AddParts(const Polygon& polygon, const SetCell& cell, const CellSet& rest, 
   }
 }
 
-std::vector<int> PartsOf(const Polygon& polygon, const SetCell& cell) {
+std::vector<int> PartsOf(const object::Polygon& polygon, const SetCell& cell) {
   std::vector<int> parts;
   AddParts(polygon, cell, CellSet(cell.component), 2, 0, parts);
   return parts;  // the third edge first, so that they are in ascending order
 }
 
 /// True iff the cell comes near the far end of what sees one of its edges.
-bool ReachesEnd(const Polygon& polygon, const SetCell& cell) {
+bool ReachesEnd(const object::Polygon& polygon, const SetCell& cell) {
   const CellKernel::FT far(kFarthestReach / 2);
   const auto& outline = cell.component.outer_boundary();
   return std::any_of(cell.edges.begin(), cell.edges.end(), [&](int edge) {
@@ -98,12 +98,12 @@ OracleCount& OracleCount::operator+=(const OracleCount& other) {
   return *this;
 }
 
-OracleCount CompareWithSetOperations(const Polygon& polygon, const PolygonGraph& graph,
-                                     double half_angle, Spanning spanning,
+OracleCount CompareWithSetOperations(const object::Polygon& polygon, const PolygonGraph& graph,
+                                     double half_angle, planning::Spanning spanning,
                                      std::string& difference) {
   std::ostringstream out;
   OracleCount count;
-  std::vector<SetCandidate> candidates = spanning == Spanning::kUniform
+  std::vector<SetCandidate> candidates = spanning == planning::Spanning::kUniform
                                              ? FindUniformCandidates(polygon, half_angle)
                                              : FindAdaptiveCandidates(polygon, half_angle);
   std::map<std::vector<int>, double> tangents;
@@ -132,7 +132,8 @@ OracleCount CompareWithSetOperations(const Polygon& polygon, const PolygonGraph&
     if (++components[edges] == 2) ++count.several;
     if (ReachesEnd(polygon, cell)) {
       ++count.unbounded;
-      if (spanning == Spanning::kUniform) out << "unbounded under uniform:" << Text(edges) << '\n';
+      if (spanning == planning::Spanning::kUniform)
+        out << "unbounded under uniform:" << Text(edges) << '\n';
     }
   }
   count.cells = static_cast<int>(cells.size());

@@ -23,8 +23,9 @@ struct OracleCount {
 /// candidates, the tangents, the components of every cell and the sides that they lie on, the
 /// switches between them.
 /// @param difference  set to what differs, left empty where nothing does.
-[[nodiscard]] OracleCount CompareWithSetOperations(const Polygon& polygon,
+[[nodiscard]] OracleCount CompareWithSetOperations(const object::Polygon& polygon,
                                                    const PolygonGraph& graph, double half_angle,
-                                                   Spanning spanning, std::string& difference);
+                                                   planning::Spanning spanning,
+                                                   std::string& difference);
 
 }  // namespace regrasp::polygon

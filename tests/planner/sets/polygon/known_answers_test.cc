@@ -31,7 +31,7 @@ void ExpectCounts(const PolygonGraph& graph, GraspType type, const Counts& expec
   EXPECT_EQ(found, expected) << "type " << static_cast<int>(type);
 }
 
-void ExpectAnswer(const Polygon& polygon, double degrees, Spanning spanning,
+void ExpectAnswer(const object::Polygon& polygon, double degrees, planning::Spanning spanning,
                   const Answer& expected) {
   SCOPED_TRACE(std::to_string(degrees) + "° " + Name(spanning));
   const PolygonGraph graph = MakeGraph(polygon, degrees, spanning);
@@ -48,15 +48,15 @@ void ExpectAnswer(const Polygon& polygon, double degrees, Spanning spanning,
 }
 
 /// An equilateral triangle: −√3 is rounded, nothing below depends on it.
-Polygon EquilateralTriangle() {
-  return Polygon::FromRings({{{-1, 0}, {1, 0}, {0, std::sqrt(3)}}}, "triangle");
+object::Polygon EquilateralTriangle() {
+  return object::Polygon::FromRings({{{-1, 0}, {1, 0}, {0, std::sqrt(3)}}}, "triangle");
 }
 
 /// A regular hexagon of side 1, its opposite edges exactly parallel; the first edge at the bottom.
-Polygon Hexagon() {
+object::Polygon Hexagon() {
   const double h = std::sqrt(3) / 2;
-  return Polygon::FromRings({{{-0.5, -h}, {0.5, -h}, {1, 0}, {0.5, h}, {-0.5, h}, {-1, 0}}},
-                            "hexagon");
+  return object::Polygon::FromRings({{{-0.5, -h}, {0.5, -h}, {1, 0}, {0.5, h}, {-0.5, h}, {-1, 0}}},
+                                    "hexagon");
 }
 
 // Square. Of any three normals two are opposite, so none span (a gap of π, and less is needed).
@@ -68,7 +68,7 @@ TEST(KnownAnswers, ASquareBelow45DegreesHasTwoOpposedGrasps) {
   answer.ff = 1;
   answer.components = 1;
   for (const double degrees : {1.0, 10.0, 20.0, 44.0, 44.999}) {
-    for (const Spanning spanning : kSpannings) {
+    for (const planning::Spanning spanning : kSpannings) {
       ExpectAnswer(Square(1), degrees, spanning, answer);
     }
   }
@@ -90,7 +90,7 @@ TEST(KnownAnswers, ASquareAbove45DegreesIsHeldAcrossItsCornersToo) {
   answer.fp = 24;
   answer.components = 1;
   for (const double degrees : {45.001, 46.0, 60.0, 80.0}) {
-    for (const Spanning spanning : kSpannings) {
+    for (const planning::Spanning spanning : kSpannings) {
       ExpectAnswer(Square(1), degrees, spanning, answer);
     }
   }
@@ -104,7 +104,7 @@ TEST(KnownAnswers, AnEquilateralTriangleBelow30DegreesHasOneConcurrentSet) {
   answer.concurrent = {1, 1, 1, 1};
   answer.components = 1;
   for (const double degrees : {5.0, 25.0, 29.9}) {
-    for (const Spanning spanning : kSpannings) {
+    for (const planning::Spanning spanning : kSpannings) {
       ExpectAnswer(EquilateralTriangle(), degrees, spanning, answer);
       const PolygonGraph graph = MakeGraph(EquilateralTriangle(), degrees, spanning);
       EXPECT_EQ(graph.sets()[0].parts, (std::vector<int>{0, 1, 2, 4}));
@@ -120,12 +120,12 @@ TEST(KnownAnswers, AnEquilateralTriangleAbove30DegreesIsSqueezedAcrossItsCorners
   answer.ff = 3;
   answer.components = 1;
   for (const double degrees : {30.1, 31.0, 59.0}) {
-    ExpectAnswer(EquilateralTriangle(), degrees, Spanning::kUniform, answer);
+    ExpectAnswer(EquilateralTriangle(), degrees, planning::Spanning::kUniform, answer);
   }
   answer.concurrent = {1, 1, 1, 1};
   answer.fc = 3;
   for (const double degrees : {30.1, 31.0, 59.0}) {
-    ExpectAnswer(EquilateralTriangle(), degrees, Spanning::kAdaptive, answer);
+    ExpectAnswer(EquilateralTriangle(), degrees, planning::Spanning::kAdaptive, answer);
   }
 }
 
@@ -140,7 +140,7 @@ TEST(KnownAnswers, AHexagonBelow30DegreesHasTwoTriplesAndThreePairs) {
   answer.ff = 3;
   answer.components = 1;
   for (const double degrees : {5.0, 10.0, 20.0, 29.9}) {
-    for (const Spanning spanning : kSpannings) {
+    for (const planning::Spanning spanning : kSpannings) {
       ExpectAnswer(Hexagon(), degrees, spanning, answer);
     }
   }
@@ -171,13 +171,13 @@ TEST(KnownAnswers, AHexagonAbove30DegreesHasTwelveParallelSets) {
   answer.fp = 84;
   answer.components = 1;
   for (const double degrees : {30.1, 31.0, 45.0, 59.0}) {
-    ExpectAnswer(Hexagon(), degrees, Spanning::kUniform, answer);
+    ExpectAnswer(Hexagon(), degrees, planning::Spanning::kUniform, answer);
   }
   answer.concurrent = {2, 2, 2, 2};
   answer.fc = 12;
   answer.cp = 12;
   for (const double degrees : {30.1, 31.0, 45.0, 59.0}) {
-    ExpectAnswer(Hexagon(), degrees, Spanning::kAdaptive, answer);
+    ExpectAnswer(Hexagon(), degrees, planning::Spanning::kAdaptive, answer);
   }
 }
 
@@ -185,12 +185,13 @@ TEST(KnownAnswers, AHexagonAbove30DegreesHasTwelveParallelSets) {
 // it, and those on its short sides always. At 46° the long sides do over a wider stretch; still the
 // square's counts, since corners look alike.
 TEST(KnownAnswers, ABarIsCountedLikeASquare) {
-  const Polygon bar = Polygon::FromRings({{{0, 0}, {20, 0}, {20, 1}, {0, 1}}}, "bar");
+  const object::Polygon bar =
+      object::Polygon::FromRings({{{0, 0}, {20, 0}, {20, 1}, {0, 1}}}, "bar");
   Answer answer;
   answer.two_finger = {2, 2, 2, 1};
   answer.ff = 1;
   answer.components = 1;
-  ExpectAnswer(bar, 10, Spanning::kAdaptive, answer);
+  ExpectAnswer(bar, 10, planning::Spanning::kAdaptive, answer);
 }
 
 // A slot between two prongs: sides that face away from each other are stretched. At 10° the 4
@@ -198,9 +199,9 @@ TEST(KnownAnswers, ABarIsCountedLikeASquare) {
 // squeeze, the slot's two sides stretch, and the slot's floor and the prongs' ends squeeze with the
 // bottom.
 TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
-  const Polygon fork = Polygon::FromRings(
+  const object::Polygon fork = object::Polygon::FromRings(
       {{{0, 0}, {3, 0}, {3, 4}, {2, 4}, {2, 1}, {1, 1}, {1, 4}, {0, 4}}}, "fork");
-  const PolygonGraph graph = MakeGraph(fork, 10, Spanning::kUniform);
+  const PolygonGraph graph = MakeGraph(fork, 10, planning::Spanning::kUniform);
   const auto parts = [&](int a, int b) {
     std::vector<int> found;
     for (const int v : graph.SetsOn({a, b})) {

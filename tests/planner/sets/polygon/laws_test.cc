@@ -25,22 +25,23 @@ std::vector<std::int64_t> AllCounts(const PolygonGraph& graph) {
   return all;
 }
 
-Polygon Map(const Polygon& polygon, const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f,
-            bool mirrored = false, int first = 0) {
+object::Polygon Map(const object::Polygon& polygon,
+                    const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f,
+                    bool mirrored = false, int first = 0) {
   std::vector<Ring> rings = polygon.rings();
   for (Ring& ring : rings) {
     for (Eigen::Vector2d& p : ring) p = f(p);
     if (mirrored) std::reverse(ring.begin(), ring.end());
     std::rotate(ring.begin(), ring.begin() + first, ring.end());
   }
-  return Polygon::FromRings(rings, "mapped");
+  return object::Polygon::FromRings(rings, "mapped");
 }
 
 TEST(GraphLaws, CountsAreTheSameScaledMirroredTurnedAndRenumbered) {
   using V = Eigen::Vector2d;
   int changed_by_friction = 0;
   for (const auto& [name, polygon] : SmallPolygons()) {
-    const std::vector<Polygon> same = {
+    const std::vector<object::Polygon> same = {
         Map(polygon, [](const V& p) { return V(0x1p-7 * p); }),
         Map(polygon, [](const V& p) { return V(0x1p20 * p); }),
         Map(
@@ -50,9 +51,9 @@ TEST(GraphLaws, CountsAreTheSameScaledMirroredTurnedAndRenumbered) {
             polygon, [](const V& p) { return p; }, false, 2),
     };
     for (const double degrees : {10.0, 35.0, 50.0}) {
-      for (const Spanning spanning : kSpannings) {
+      for (const planning::Spanning spanning : kSpannings) {
         const auto expected = AllCounts(MakeGraph(polygon, degrees, spanning));
-        for (const Polygon& other : same) {
+        for (const object::Polygon& other : same) {
           EXPECT_EQ(AllCounts(MakeGraph(other, degrees, spanning)), expected)
               << name << " " << degrees << "° " << Name(spanning);
         }
@@ -68,7 +69,7 @@ TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
   int checked = 0;
   int lost_by_uniform = 0;
   for (const auto& [name, polygon] : SmallPolygons()) {
-    for (const Spanning spanning : kSpannings) {
+    for (const planning::Spanning spanning : kSpannings) {
       for (const double degrees : {5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0}) {
         const PolygonGraph less = MakeGraph(polygon, degrees, spanning);
         const PolygonGraph more = MakeGraph(polygon, degrees + 7, spanning);
@@ -80,7 +81,7 @@ TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
               return other.type == set.type &&
                      std::count(other.parts.begin(), other.parts.end(), part) == 1;
             });
-            if (spanning == Spanning::kAdaptive) {
+            if (spanning == planning::Spanning::kAdaptive) {
               EXPECT_TRUE(kept) << name << " " << degrees << "°";
               ++checked;
             } else if (!kept) {

@@ -21,7 +21,7 @@ using Parameters = std::array<double, 3>;
 /// a.
 class ParallelOracle {
  public:
-  ParallelOracle(const Polygon& polygon, double half_angle)
+  ParallelOracle(const object::Polygon& polygon, double half_angle)
       : polygon_(polygon), half_angle_(half_angle) {}
 
   [[nodiscard]] bool IsParallel(const Triple& triple, int centre, const Parameters& u) const {
@@ -55,7 +55,7 @@ class ParallelOracle {
     return w.dot(Normal(edge)) > std::cos(half_angle_);
   }
 
-  const Polygon& polygon_;
+  const object::Polygon& polygon_;
   double half_angle_;
 };
 
@@ -73,20 +73,20 @@ bool Contains(const std::vector<FilteredRegion>& regions, double x, double y, do
   return false;
 }
 
-const std::vector<Polygon>& Polygons() {
-  static const std::vector<Polygon> polygons = [] {
-    std::vector<Polygon> list;
+const std::vector<object::Polygon>& Polygons() {
+  static const std::vector<object::Polygon> polygons = [] {
+    std::vector<object::Polygon> list;
     // A U, a zigzag band, an irregular heptagon and steps.
-    list.push_back(Polygon::FromRings(
+    list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {5, 0.3}, {5.2, 3}, {3.6, 3.3}, {3.4, 1.2}, {1.4, 1.1}, {1.2, 3.1}, {-0.2, 2.9}}},
         "u"));
-    list.push_back(Polygon::FromRings(
+    list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {2, 0.5}, {4, -0.2}, {6, 0.4}, {6.1, 1.6}, {4.1, 1.1}, {2.1, 1.8}, {-0.1, 1.2}}},
         "band"));
-    list.push_back(Polygon::FromRings(
+    list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {2, -1}, {4.2, 0.1}, {4.8, 2}, {3, 3.9}, {0.7, 3.1}, {-0.6, 1.7}}}, "heptagon"));
     // Its two left steps lie on one side of the end of its bottom.
-    list.push_back(Polygon::FromRings(
+    list.push_back(object::Polygon::FromRings(
         {{{0, 0}, {8, -1}, {9, -1}, {9, 1}, {2, 1.2}, {1.2, 1.2}, {1.2, 1}, {1, 1}, {0, 0.9}}},
         "steps"));
     return list;
@@ -114,7 +114,7 @@ TEST_P(ParallelTest, GraspsOfTheDefinitionLieInTheSetAndItsProjections) {
   int empty = 0;
   int sets = 0;
   int unseen = 0;
-  for (const Polygon& polygon : Polygons()) {
+  for (const object::Polygon& polygon : Polygons()) {
     const double tangent = std::tan(half_angle());
     const ParallelOracle oracle(polygon, half_angle());
     const IntervalScope scope;
@@ -169,7 +169,7 @@ TEST_P(ParallelTest, WhatTheProjectionsHoldBelongsToAGrasp) {
   int inside = 0;
   int outside = 0;
   int missed = 0;
-  for (const Polygon& polygon : Polygons()) {
+  for (const object::Polygon& polygon : Polygons()) {
     const ParallelOracle oracle(polygon, half_angle());
     const IntervalScope scope;
     const EdgeTable edges(polygon, std::tan(half_angle()));
@@ -210,7 +210,7 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
   std::uniform_real_distribution<double> uniform(0, 1);
   int several = 0;
   int shared = 0;
-  for (const Polygon& polygon : Polygons()) {
+  for (const object::Polygon& polygon : Polygons()) {
     const ParallelOracle oracle(polygon, half_angle());
     const IntervalScope scope;
     const EdgeTable edges(polygon, std::tan(half_angle()));

@@ -24,60 +24,63 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
-PlanRequest Options(double degrees, std::uint64_t seed = 0) {
-  PlanRequest options;
+planning::PlanRequest Options(double degrees, std::uint64_t seed = 0) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
   return options;
 }
 
-Polygon Model(const std::string& name) {
-  const ObjectFile file = ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
-  return dynamic_cast<const Polygon&>(*file.object);
+object::Polygon Model(const std::string& name) {
+  const object::ObjectFile file =
+      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
+  return dynamic_cast<const object::Polygon&>(*file.object);
 }
 
 /// Contacts at parameters of edges.
-Grasp MakeGrasp(const Polygon& polygon, const std::vector<std::pair<int, double>>& places) {
-  Grasp grasp;
-  for (const auto& [edge, u] : places) grasp.push_back(ContactAt(polygon, edge, u));
+grasp::Grasp MakeGrasp(const object::Polygon& polygon,
+                       const std::vector<std::pair<int, double>>& places) {
+  grasp::Grasp grasp;
+  for (const auto& [edge, u] : places) grasp.push_back(grasp::ContactAt(polygon, edge, u));
   return grasp;
 }
 
-std::vector<Grasp> RestsOf(const Plan& plan) {
-  std::vector<Grasp> rests = {ContactsOf(plan.initial)};
-  FingerGrasp holding = plan.initial;
-  for (const Step& step : plan.steps) {
-    holding = GraspAfter(holding, step);
-    rests.push_back(ContactsOf(holding));
+std::vector<grasp::Grasp> RestsOf(const plan::Plan& plan) {
+  std::vector<grasp::Grasp> rests = {plan::ContactsOf(plan.initial)};
+  plan::FingerGrasp holding = plan.initial;
+  for (const plan::Step& step : plan.steps) {
+    holding = plan::GraspAfter(holding, step);
+    rests.push_back(plan::ContactsOf(holding));
   }
   return rests;
 }
 
 /// A random grasp of every type that the polygon has.
-std::map<GraspType, Grasp> DrawEveryType(const Polygon& polygon, double degrees,
-                                         std::uint64_t seed) {
-  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, double degrees,
+                                                std::uint64_t seed) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   RandomStream random(seed, RandomUse::kStart);
   std::map<GraspType, std::vector<int>> vertices;
   for (int v = 0; v < graph.vertex_count(); ++v) vertices[graph.sets()[v].type].push_back(v);
-  std::map<GraspType, Grasp> grasps;
+  std::map<GraspType, grasp::Grasp> grasps;
   for (const auto& [type, all] : vertices) {
     // A set that is too thin for doubles gives no grasp.
-    Grasp& grasp = grasps[type];
+    grasp::Grasp& grasp = grasps[type];
     while (grasp.empty()) grasp = cells.DrawGrasp(all[random.Index(all.size())], random);
   }
   return grasps;
 }
 
 /// True iff two vertices that hold these grasps, or a part of them, are in one component.
-bool AreJoined(const Polygon& polygon, double degrees, const Grasp& a, const Grasp& b) {
-  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+bool AreJoined(const object::Polygon& polygon, double degrees, const grasp::Grasp& a,
+               const grasp::Grasp& b) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
-  const Components components = graph.components();
+  const search::Components components = graph.components();
   for (const auto& of_a : cells.FindAttachments(a)) {
     for (const auto& of_b : cells.FindAttachments(b)) {
       if (components.of_vertex[of_a.place.set] == components.of_vertex[of_b.place.set]) return true;
@@ -87,16 +90,16 @@ bool AreJoined(const Polygon& polygon, double degrees, const Grasp& a, const Gra
 }
 
 /// What the checker, which knows nothing of the planner, says of a plan, and the plan's own words.
-void ExpectGoodPlan(const Polygon& polygon, const PlanResult& result, const Grasp& start,
-                    const Grasp& goal) {
+void ExpectGoodPlan(const object::Polygon& polygon, const planning::PlanResult& result,
+                    const grasp::Grasp& start, const grasp::Grasp& goal) {
   ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const Plan& plan = *result.plan;
-  CheckOptions options;
+  const plan::Plan& plan = *result.plan;
+  plan::CheckOptions options;
   options.start = &start;
   options.goal = &goal;
-  const PlanCheck check = CheckPlan(polygon, plan, options);
-  for (const StepCheck& step : check.steps) {
-    EXPECT_EQ(ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
+  const plan::PlanCheck check = plan::CheckPlan(polygon, plan, options);
+  for (const plan::StepCheck& step : check.steps) {
+    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
   }
   EXPECT_TRUE(check.passed());
   EXPECT_EQ(plan.planner, "polygon");
@@ -108,8 +111,8 @@ void ExpectGoodPlan(const Polygon& polygon, const PlanResult& result, const Gras
   }
   // Two aligns in a row would be one.
   for (std::size_t i = 0; i + 1 < plan.steps.size(); ++i) {
-    EXPECT_FALSE(std::holds_alternative<Align>(plan.steps[i]) &&
-                 std::holds_alternative<Align>(plan.steps[i + 1]))
+    EXPECT_FALSE(std::holds_alternative<plan::Align>(plan.steps[i]) &&
+                 std::holds_alternative<plan::Align>(plan.steps[i + 1]))
         << "steps " << i + 1 << " and " << i + 2;
   }
 }
@@ -130,7 +133,7 @@ TEST_P(PlanOnPolygonAt, LeadsFromEveryTypeToEveryType) {
       for (const auto& [goal_type, goal] : DrawEveryType(polygon, degrees, 2)) {
         SCOPED_TRACE(name + ", type " + std::to_string(static_cast<int>(start_type)) + " to " +
                      std::to_string(static_cast<int>(goal_type)));
-        const PlanResult result =
+        const planning::PlanResult result =
             PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(degrees));
         if (AreJoined(polygon, degrees, start, goal)) {
           ExpectGoodPlan(polygon, result, start, goal);
@@ -155,17 +158,18 @@ INSTANTIATE_TEST_SUITE_P(HalfAngles, PlanOnPolygonAt, testing::Values(10.0, 20.0
 TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
   int plans = 0;
   for (const char* name : {"square.wkt", "triangle.wkt", "polygon20.wkt", "polygon40.wkt"}) {
-    const Polygon polygon = Model(name);
+    const object::Polygon polygon = Model(name);
     for (const double degrees : {15.0, 35.0}) {
       for (std::uint64_t seed = 0; seed < 3; ++seed) {
         SCOPED_TRACE(std::string(name) + ", seed " + std::to_string(seed));
-        const PlanResult result =
+        const planning::PlanResult result =
             PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(degrees, seed));
         ASSERT_EQ(result.status, Status::kFound) << result.message;
-        const Grasp start = ContactsOf(result.plan->initial);
+        const grasp::Grasp start = plan::ContactsOf(result.plan->initial);
         ExpectGoodPlan(polygon, result, start, result.plan->goal);
-        for (const Grasp* grasp : {&start, &result.plan->goal}) {
-          EXPECT_TRUE(QualityAtLeast(*grasp, polygon.wrench_frame(), Radians(degrees), 0.01));
+        for (const grasp::Grasp* grasp : {&start, &result.plan->goal}) {
+          EXPECT_TRUE(
+              grasp::QualityAtLeast(*grasp, polygon.wrench_frame(), Radians(degrees), 0.01));
         }
         ++plans;
       }
@@ -175,13 +179,13 @@ TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
 }
 
 TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
-  const Polygon polygon = Model("polygon15.wkt");
+  const object::Polygon polygon = Model("polygon15.wkt");
   std::map<std::size_t, int> contacts;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, RandomAny(), RandomAny(), Options(25, seed));
     if (result.status != Status::kFound) continue;
-    const Grasp start = ContactsOf(result.plan->initial);
+    const grasp::Grasp start = plan::ContactsOf(result.plan->initial);
     ExpectGoodPlan(polygon, result, start, result.plan->goal);
     ++contacts[start.size()];
   }
@@ -192,9 +196,9 @@ TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
 
 TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
   // At 20° the triangle has no grasp of two fingers.
-  const Polygon triangle = Model("triangle.wkt");
+  const object::Polygon triangle = Model("triangle.wkt");
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(PolygonPlanner(), triangle, RandomAny(), RandomAny(), Options(20, seed));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.plan->initial, SizeIs(3));
@@ -203,9 +207,9 @@ TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
 }
 
 TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
-  const Polygon polygon = Model("polygon15.wkt");
+  const object::Polygon polygon = Model("polygon15.wkt");
   const auto plan = [&](std::uint64_t seed) {
-    return FormatPlan(
+    return plan::FormatPlan(
         *PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
   };
   EXPECT_EQ(plan(3), plan(3));
@@ -213,62 +217,63 @@ TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
 }
 
 TEST(PlanOnPolygon, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.4}, {2, 0.6}});
-  const Grasp goal = {start[1], start[0]};
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.4}, {2, 0.6}});
+  const grasp::Grasp goal = {start[1], start[0]};
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
 
 TEST(PlanOnPolygon, OneAlignLeadsFromGraspToGraspOfASet) {
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.3}, {2, 0.7}});
-  const Grasp goal = MakeGrasp(square, {{2, 0.35}, {0, 0.65}});
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.3}, {2, 0.7}});
+  const grasp::Grasp goal = MakeGrasp(square, {{2, 0.35}, {0, 0.65}});
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
-  EXPECT_TRUE(std::holds_alternative<Align>(result.plan->steps.front()));
+  EXPECT_TRUE(std::holds_alternative<plan::Align>(result.plan->steps.front()));
 }
 
 TEST(PlanOnPolygon, TwoFingersAcrossTheSquareTurnByOneSwitch) {
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const grasp::Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
-  const auto& step = std::get<Switch>(result.plan->steps.front());
+  const auto& step = std::get<plan::Switch>(result.plan->steps.front());
   EXPECT_THAT(step.place, SizeIs(2));
   EXPECT_THAT(step.release, SizeIs(2));
 }
 
 TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
   // No three edges of the square make a set that these grasps are in; two of their contacts do.
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
-  const Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
+  const grasp::Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(10));
   ExpectGoodPlan(square, result, start, goal);
-  const auto& first = std::get<Switch>(result.plan->steps.front());
+  const auto& first = std::get<plan::Switch>(result.plan->steps.front());
   EXPECT_THAT(first.place, IsEmpty());
   EXPECT_FALSE(first.release.empty());
-  const auto& last = std::get<Switch>(result.plan->steps.back());
+  const auto& last = std::get<plan::Switch>(result.plan->steps.back());
   EXPECT_FALSE(last.place.empty());
   EXPECT_THAT(last.release, IsEmpty());
 }
 
 TEST(PlanOnPolygon, MarginIsTheSmallestOfThePlansGrasps) {
-  const Polygon polygon = Model("polygon15.wkt");
-  const PlanResult result = PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, 5));
+  const object::Polygon polygon = Model("polygon15.wkt");
+  const planning::PlanResult result =
+      PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, 5));
   ASSERT_EQ(result.status, Status::kFound);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Grasp& grasp : RestsOf(*result.plan)) {
-    const auto required = ComputeRequiredHalfAngle(grasp, polygon.wrench_frame());
+  for (const grasp::Grasp& grasp : RestsOf(*result.plan)) {
+    const auto required = grasp::ComputeRequiredHalfAngle(grasp, polygon.wrench_frame());
     smallest = std::min(smallest, Radians(20) - required.value().upper);
   }
   EXPECT_EQ(result.margin, smallest);
@@ -276,15 +281,15 @@ TEST(PlanOnPolygon, MarginIsTheSmallestOfThePlansGrasps) {
 }
 
 TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
-  const Polygon polygon = Model("polygon20.wkt");
+  const object::Polygon polygon = Model("polygon20.wkt");
   int good = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed));
     ASSERT_EQ(result.status, Status::kFound);
-    const std::vector<Grasp> rests = RestsOf(*result.plan);
-    const bool all = std::all_of(rests.begin(), rests.end(), [&](const Grasp& grasp) {
-      return QualityAtLeast(grasp, polygon.wrench_frame(), Radians(20), 0.01);
+    const std::vector<grasp::Grasp> rests = RestsOf(*result.plan);
+    const bool all = std::all_of(rests.begin(), rests.end(), [&](const grasp::Grasp& grasp) {
+      return grasp::QualityAtLeast(grasp, polygon.wrench_frame(), Radians(20), 0.01);
     });
     EXPECT_EQ(all, result.warnings.empty()) << "seed " << seed;
     good += all ? 1 : 0;
@@ -293,10 +298,10 @@ TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
 }
 
 TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
-  const Polygon square = Square(1);
-  PlanRequest options = Options(20);
+  const object::Polygon square = Square(1);
+  planning::PlanRequest options = Options(20);
   options.criteria.min_quality = 0.9;  // more than any grasp has at this friction
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
                Given(MakeGrasp(square, {{1, 0.5}, {3, 0.5}})), options);
   ASSERT_EQ(result.status, Status::kFound);
@@ -305,10 +310,11 @@ TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
 }
 
 TEST(PlanOnPolygon, CannotDrawAGraspBetterThanAll) {
-  for (const GraspChoice& choice : {Random(), RandomAny()}) {
-    PlanRequest options = Options(20);
+  for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
+    planning::PlanRequest options = Options(20);
     options.criteria.min_quality = 0.9;
-    const PlanResult result = PlanWith(PolygonPlanner(), Square(1), choice, choice, options);
+    const planning::PlanResult result =
+        PlanWith(PolygonPlanner(), Square(1), choice, choice, options);
     EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_THAT(result.message, HasSubstr(choice.name + ": no"));
     EXPECT_FALSE(result.plan.has_value());
@@ -317,19 +323,19 @@ TEST(PlanOnPolygon, CannotDrawAGraspBetterThanAll) {
 
 TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   constexpr double kDegrees = 3;
-  const Polygon polygon = Model("polygon15.wkt");
-  const PolygonGraph graph = MakeGraph(polygon, kDegrees, Spanning::kAdaptive);
-  const Components components = graph.components();
+  const object::Polygon polygon = Model("polygon15.wkt");
+  const PolygonGraph graph = MakeGraph(polygon, kDegrees, planning::Spanning::kAdaptive);
+  const search::Components components = graph.components();
   ASSERT_GT(components.count(), 1);
   GraphCells cells(polygon, graph);
   RandomStream random(1, RandomUse::kStart);
   int apart = 0;
   for (int v = 0; v < graph.vertex_count(); ++v) {
     if (components.of_vertex[v] == components.of_vertex[0]) continue;
-    const Grasp start = cells.DrawGrasp(v, random);
-    const Grasp goal = cells.DrawGrasp(0, random);
+    const grasp::Grasp start = cells.DrawGrasp(v, random);
+    const grasp::Grasp goal = cells.DrawGrasp(0, random);
     if (AreJoined(polygon, kDegrees, start, goal)) continue;
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(kDegrees));
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_FALSE(result.plan.has_value());
@@ -345,17 +351,17 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
 
 /// Two pairs across the square whose torques cancel, so that hardly any friction holds, while each
 /// pair alone leans by atan 0.2 = 11.3°.
-Grasp MakePinwheel(const Polygon& square) {
+grasp::Grasp MakePinwheel(const object::Polygon& square) {
   return MakeGrasp(square, {{0, 0.6}, {2, 0.6}, {1, 0.4}, {3, 0.4}});
 }
 
 TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
-  const Polygon square = Square(1);
-  const Grasp pinwheel = MakePinwheel(square);
-  const Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const auto message = [&](const Grasp& from, const Grasp& to) {
-    const PlanResult result = PlanWith(PolygonPlanner(), square, Given(from, "from.json"),
-                                       Given(to, "to.json"), Options(5));
+  const object::Polygon square = Square(1);
+  const grasp::Grasp pinwheel = MakePinwheel(square);
+  const grasp::Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const auto message = [&](const grasp::Grasp& from, const grasp::Grasp& to) {
+    const planning::PlanResult result = PlanWith(PolygonPlanner(), square, Given(from, "from.json"),
+                                                 Given(to, "to.json"), Options(5));
     EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_FALSE(result.plan.has_value());
     return result.message;
@@ -366,7 +372,7 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   ExpectGoodPlan(square,
                  PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pair), Options(15)),
                  pinwheel, pair);
-  const PlanResult same =
+  const planning::PlanResult same =
       PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pinwheel), Options(5));
   ExpectGoodPlan(square, same, pinwheel, pinwheel);
   EXPECT_THAT(same.plan->steps, IsEmpty());
@@ -375,28 +381,28 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
 TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
   // The normals of a regular triangle span the plane up to 30°: under uniform spanning more
   // friction leaves pairs of fingers alone, to which these turned grasps are too far off.
-  const Polygon triangle = RegularPolygon(3);
-  const Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
-  const Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
-  PlanRequest options = Options(35);
-  const PlanResult adaptive =
+  const object::Polygon triangle = RegularPolygon(3);
+  const grasp::Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
+  const grasp::Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
+  planning::PlanRequest options = Options(35);
+  const planning::PlanResult adaptive =
       PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
   ExpectGoodPlan(triangle, adaptive, start, goal);
   ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
-  EXPECT_TRUE(std::holds_alternative<Align>(adaptive.plan->steps.front()));
-  options.spanning = Spanning::kUniform;
-  const PlanResult uniform =
+  EXPECT_TRUE(std::holds_alternative<plan::Align>(adaptive.plan->steps.front()));
+  options.spanning = planning::Spanning::kUniform;
+  const planning::PlanResult uniform =
       PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
   ExpectGoodPlan(triangle, uniform, start, goal);
-  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.front()).place.empty());
-  EXPECT_FALSE(std::get<Switch>(uniform.plan->steps.back()).place.empty());
+  EXPECT_FALSE(std::get<plan::Switch>(uniform.plan->steps.front()).place.empty());
+  EXPECT_FALSE(std::get<plan::Switch>(uniform.plan->steps.back()).place.empty());
 }
 
 TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
-  const Polygon square = Square(1);
-  const Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
-  const Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
-  const PlanResult result =
+  const object::Polygon square = Square(1);
+  const grasp::Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
+  const grasp::Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
+  const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
   ExpectGoodPlan(square, result, start, goal);
 }
@@ -405,17 +411,18 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
   int joined_under_adaptive = 0;
   int plans = 0;
   for (const auto& [name, polygon] : SmallPolygons()) {
-    const auto joined = [&](Spanning spanning) {
+    const auto joined = [&](planning::Spanning spanning) {
       return MakeGraph(polygon, 20, spanning)
           .edge_count(GraspType::kConcurrent, GraspType::kParallel);
     };
-    EXPECT_EQ(joined(Spanning::kUniform), 0) << name;
-    joined_under_adaptive += joined(Spanning::kAdaptive) > 0 ? 1 : 0;
-    PlanRequest options = Options(20, 1);
-    options.spanning = Spanning::kUniform;
-    const PlanResult result = PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
+    EXPECT_EQ(joined(planning::Spanning::kUniform), 0) << name;
+    joined_under_adaptive += joined(planning::Spanning::kAdaptive) > 0 ? 1 : 0;
+    planning::PlanRequest options = Options(20, 1);
+    options.spanning = planning::Spanning::kUniform;
+    const planning::PlanResult result =
+        PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
     if (result.status != Status::kFound) continue;
-    ExpectGoodPlan(polygon, result, ContactsOf(result.plan->initial), result.plan->goal);
+    ExpectGoodPlan(polygon, result, plan::ContactsOf(result.plan->initial), result.plan->goal);
     ++plans;
   }
   EXPECT_GT(joined_under_adaptive, 0);
@@ -423,9 +430,9 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
 }
 
 TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
-  const Polygon square = Square(1);
-  const Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const auto refusal = [&](const Grasp& start) -> std::string {
+  const object::Polygon square = Square(1);
+  const grasp::Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
+  const auto refusal = [&](const grasp::Grasp& start) -> std::string {
     try {
       (void)PlanWith(PolygonPlanner(), square, Given(start), Given(good), Options(20));
     } catch (const InputError& error) {
@@ -445,12 +452,12 @@ TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
 }
 
 TEST(PlanOnPolygon, RefusesOptionsOutOfRange) {
-  const Polygon square = Square(1);
+  const object::Polygon square = Square(1);
   EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(90)),
                std::invalid_argument);
   EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(0)),
                std::invalid_argument);
-  PlanRequest options = Options(20);
+  planning::PlanRequest options = Options(20);
   options.criteria.min_quality = -1;
   EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), options),
                std::invalid_argument);

@@ -15,10 +15,10 @@ namespace {
 struct Draw {
   std::vector<int> edges;
   Eigen::VectorXd parameters;
-  Grasp grasp;
+  grasp::Grasp grasp;
 };
 
-Draw DrawContacts(const Polygon& polygon, int count, std::mt19937_64& engine) {
+Draw DrawContacts(const object::Polygon& polygon, int count, std::mt19937_64& engine) {
   std::vector<int> all(polygon.face_count());
   for (int e = 0; e < polygon.face_count(); ++e) all[e] = e;
   Draw draw;
@@ -27,7 +27,7 @@ Draw DrawContacts(const Polygon& polygon, int count, std::mt19937_64& engine) {
   std::uniform_real_distribution<double> uniform;
   for (int k = 0; k < count; ++k) {
     draw.parameters[k] = uniform(engine);
-    draw.grasp.push_back(ContactAt(polygon, draw.edges[k], draw.parameters[k]));
+    draw.grasp.push_back(grasp::ContactAt(polygon, draw.edges[k], draw.parameters[k]));
   }
   return draw;
 }
@@ -39,7 +39,7 @@ struct Agreement {
   int too_close = 0;
 };
 
-void Compare(const PolygonGraph& graph, const Polygon& polygon, const Draw& draw,
+void Compare(const PolygonGraph& graph, const object::Polygon& polygon, const Draw& draw,
              const std::vector<DirectKind>& kinds, Agreement& count) {
   for (const int vertex : graph.SetsOn(draw.edges)) {
     const GraspSet& set = graph.sets()[vertex];
@@ -65,7 +65,7 @@ TEST(SetCells, HoldWhatTheDirectConditionsSay) {
   Agreement count;
   for (const auto& [name, polygon] : SmallPolygons()) {
     for (const double degrees : {10.0, 25.0, 50.0}) {
-      for (const Spanning spanning : kSpannings) {
+      for (const planning::Spanning spanning : kSpannings) {
         SCOPED_TRACE(name + " at " + std::to_string(degrees) + "°, " + Name(spanning));
         const PolygonGraph graph = MakeGraph(polygon, degrees, spanning);
         for (int i = 0; i < 300; ++i) {
@@ -86,7 +86,7 @@ TEST(SetCells, HoldWhatTheDirectConditionsSay) {
 TEST(SetCells, EveryPartOfASetHasACellWithSlackAtItsCentre) {
   int cells = 0;
   for (const auto& [name, polygon] : SmallPolygons()) {
-    const PolygonGraph graph = MakeGraph(polygon, 50, Spanning::kAdaptive);
+    const PolygonGraph graph = MakeGraph(polygon, 50, planning::Spanning::kAdaptive);
     for (const GraspSet& set : graph.sets()) {
       const SetCells of_set(polygon, set);
       const auto contacts = static_cast<Eigen::Index>(set.edges.size());
@@ -109,7 +109,7 @@ TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
   int parallel = 0;
   int clear = 0;
   for (const auto& [name, polygon] : SmallPolygons()) {
-    const PolygonGraph graph = MakeGraph(polygon, 30, Spanning::kAdaptive);
+    const PolygonGraph graph = MakeGraph(polygon, 30, planning::Spanning::kAdaptive);
     for (const GraspSet& set : graph.sets()) {
       if (set.type != GraspType::kParallel) continue;
       const double width = ClearWidth(polygon, set);
@@ -128,8 +128,8 @@ TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
   // Two fingers across the unit square, on the bottom and the top: with room to the ends of the
   // edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
   for (const double size : {1.0, 1000.0}) {
-    const Polygon square = Square(size);
-    const PolygonGraph graph = MakeGraph(square, 45, Spanning::kAdaptive);
+    const object::Polygon square = Square(size);
+    const PolygonGraph graph = MakeGraph(square, 45, planning::Spanning::kAdaptive);
     const std::vector<int> vertices = graph.SetsOn({0, 2});
     ASSERT_EQ(vertices.size(), 1U);
     const SetCells cells(square, graph.sets()[vertices.front()]);
@@ -142,12 +142,12 @@ TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
 }
 
 TEST(SetCells, ContactAndParameterAreInverse) {
-  const Polygon& ring = SmallPolygons().back().polygon;
+  const object::Polygon& ring = SmallPolygons().back().polygon;
   for (int edge = 0; edge < ring.face_count(); ++edge) {
-    const Contact contact = ContactAt(ring, edge, 0.3);
+    const grasp::Contact contact = grasp::ContactAt(ring, edge, 0.3);
     EXPECT_EQ(contact.face, edge);
     EXPECT_EQ(contact.n, ring.inward_normal(edge));
-    EXPECT_NEAR(ParameterOf(ring, contact), 0.3, 1e-15);
+    EXPECT_NEAR(grasp::ParameterOf(ring, contact), 0.3, 1e-15);
     EXPECT_NEAR(ring.DistanceToBorder(edge, contact.p), 0.3 * ring.face_measure(edge), 1e-12);
   }
 }

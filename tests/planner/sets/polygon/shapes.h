@@ -6,14 +6,16 @@
 
 namespace regrasp::polygon {
 
-inline PolygonGraph MakeGraph(const Polygon& polygon, double degrees, Spanning spanning) {
+inline PolygonGraph MakeGraph(const object::Polygon& polygon, double degrees,
+                              planning::Spanning spanning) {
   return PolygonGraph(polygon, Radians(degrees), spanning);
 }
 
-[[nodiscard]] inline const char* Name(Spanning spanning) {
-  return spanning == Spanning::kUniform ? "uniform" : "adaptive";
+[[nodiscard]] inline const char* Name(planning::Spanning spanning) {
+  return spanning == planning::Spanning::kUniform ? "uniform" : "adaptive";
 }
 
-inline constexpr Spanning kSpannings[] = {Spanning::kUniform, Spanning::kAdaptive};
+inline constexpr planning::Spanning kSpannings[] = {planning::Spanning::kUniform,
+                                                    planning::Spanning::kAdaptive};
 
 }  // namespace regrasp::polygon

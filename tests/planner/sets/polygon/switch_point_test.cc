@@ -50,8 +50,8 @@ bool GraphDecides(const GraspSet& a, const GraspSet& b) {
   return is(GraspType::kParallel) && common == 2;
 }
 
-void CheckSwitches(const Polygon& polygon, double degrees, SwitchCount& count) {
-  const PolygonGraph graph = MakeGraph(polygon, degrees, Spanning::kAdaptive);
+void CheckSwitches(const object::Polygon& polygon, double degrees, SwitchCount& count) {
+  const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   std::vector<int> neighbours;
   for (int v = 0; v < graph.vertex_count(); ++v) {
@@ -91,14 +91,14 @@ TEST(SwitchPoint, IsFoundWhereTheGraphHasASwitchAndNowhereElse) {
 class AcrossTheSquare : public testing::Test {
  protected:
   AcrossTheSquare()
-      : graph_(MakeGraph(square_, 30, Spanning::kAdaptive)), cells_(square_, graph_) {}
+      : graph_(MakeGraph(square_, 30, planning::Spanning::kAdaptive)), cells_(square_, graph_) {}
 
   SwitchSide Side(const std::vector<int>& edges) {
     const int vertex = graph_.SetsOn(edges).front();
     return {&graph_.sets()[vertex], &cells_.of(vertex), std::nullopt};
   }
 
-  Polygon square_ = Square(1);
+  object::Polygon square_ = Square(1);
   PolygonGraph graph_;
   GraphCells cells_;
 };
@@ -146,7 +146,7 @@ TEST_F(AcrossTheSquare, ImprovingRaisesTheScoreInsideTheSets) {
 
 TEST(ImproveSwitch, MovesKeptContactsTogether) {
   const NamedPolygon& blob = SmallPolygons()[4];
-  const PolygonGraph graph = MakeGraph(blob.polygon, 25, Spanning::kAdaptive);
+  const PolygonGraph graph = MakeGraph(blob.polygon, 25, planning::Spanning::kAdaptive);
   GraphCells cells(blob.polygon, graph);
   std::vector<int> neighbours;
   int kept = 0;

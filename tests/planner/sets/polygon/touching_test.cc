@@ -42,7 +42,8 @@ bool Joined(const PolygonGraph& graph, int a, int b) {
 }
 
 /// Both oracles agree with the graph.
-void ExpectOraclesAgree(const Polygon& polygon, const PolygonGraph& graph, Spanning spanning) {
+void ExpectOraclesAgree(const object::Polygon& polygon, const PolygonGraph& graph,
+                        planning::Spanning spanning) {
   std::string difference;
   EXPECT_GT(CompareWithSetOperations(polygon, graph, HalfAngle(), spanning, difference).cells, 0);
   EXPECT_EQ(difference, "");
@@ -61,21 +62,21 @@ TEST(Touching, CellsThatTouchInAPointAreNotJoined) {
   constexpr int kLeft = 0;
   constexpr int kRight = 3;
   constexpr int kSlopes[] = {5, 7};
-  for (const Spanning spanning : kSpannings) {
+  for (const planning::Spanning spanning : kSpannings) {
     for (const double apart : kApart) {
       SCOPED_TRACE(std::to_string(apart) + " " + Name(spanning));
       const double top = 3.5 - apart;
       const double foot = 3.25 - apart;
-      const Polygon house = Polygon::FromRings({{{0, 0},
-                                                 {1, 0},
-                                                 {1.5, 0.5},
-                                                 {2, 0},
-                                                 {3, 0},
-                                                 {4.25, foot},
-                                                 {4, top},
-                                                 {-1, top},
-                                                 {-1.25, foot}}},
-                                               "house");
+      const object::Polygon house = object::Polygon::FromRings({{{0, 0},
+                                                                 {1, 0},
+                                                                 {1.5, 0.5},
+                                                                 {2, 0},
+                                                                 {3, 0},
+                                                                 {4.25, foot},
+                                                                 {4, top},
+                                                                 {-1, top},
+                                                                 {-1.25, foot}}},
+                                                               "house");
       const PolygonGraph graph(house, HalfAngle(), spanning);
       const int a = VertexOn(graph, GraspType::kConcurrent, {kLeft, kSlopes[0], kSlopes[1]});
       const int b = VertexOn(graph, GraspType::kConcurrent, {kRight, kSlopes[0], kSlopes[1]});
@@ -93,15 +94,15 @@ TEST(Touching, CellsThatTouchInAPointAreNotJoined) {
 TEST(Touching, CellsThatTouchAlongASegmentAreNotJoined) {
   for (const double apart : kApart) {
     SCOPED_TRACE(apart);
-    const Polygon polygon = Polygon::FromRings(
+    const object::Polygon polygon = object::Polygon::FromRings(
         {{{0, 0}, {1, 0}, {2.875, -1 - apart}, {4, 0}, {3, 2}, {-0.4, 3.6}, {-0.8, 3.2}}}, "turn");
-    const PolygonGraph graph(polygon, HalfAngle(), Spanning::kUniform);
+    const PolygonGraph graph(polygon, HalfAngle(), planning::Spanning::kUniform);
     const int a = VertexOn(graph, GraspType::kConcurrent, {0, 3, 5});
     const int b = VertexOn(graph, GraspType::kConcurrent, {1, 3, 5});
     ASSERT_GE(a, 0);
     ASSERT_GE(b, 0);
     EXPECT_EQ(Joined(graph, a, b), apart < 0);
-    ExpectOraclesAgree(polygon, graph, Spanning::kUniform);
+    ExpectOraclesAgree(polygon, graph, planning::Spanning::kUniform);
   }
 }
 
@@ -109,20 +110,20 @@ TEST(Touching, CellsThatTouchAlongASegmentAreNotJoined) {
 // two, [0, 0.25] and [0.75, 1], and the floor as centre need floor contacts left of 1 + 2/4 = 1.5;
 // with the third, which begins at 2, contacts squeeze right of 2 − 2/4 = 1.5.
 TEST(Touching, ContactsThatTouchDoNotJoinAParallelAndATwoFingerSet) {
-  for (const Spanning spanning : kSpannings) {
+  for (const planning::Spanning spanning : kSpannings) {
     for (const double apart : kApart) {
       SCOPED_TRACE(std::to_string(apart) + " " + Name(spanning));
-      const Polygon hall = Polygon::FromRings({{{0, 0},
-                                                {4, 0},
-                                                {4, 2},
-                                                {2 + apart, 2},
-                                                {1.5, 3},
-                                                {1, 2},
-                                                {0.75, 2},
-                                                {0.5, 3},
-                                                {0.25, 2},
-                                                {0, 2}}},
-                                              "hall");
+      const object::Polygon hall = object::Polygon::FromRings({{{0, 0},
+                                                                {4, 0},
+                                                                {4, 2},
+                                                                {2 + apart, 2},
+                                                                {1.5, 3},
+                                                                {1, 2},
+                                                                {0.75, 2},
+                                                                {0.5, 3},
+                                                                {0.25, 2},
+                                                                {0, 2}}},
+                                                              "hall");
       const PolygonGraph graph(hall, HalfAngle(), spanning);
       const int parallel = VertexOn(graph, GraspType::kParallel, {0, 5, 8});
       const int squeeze = VertexOn(graph, GraspType::kTwoFinger, {0, 2});

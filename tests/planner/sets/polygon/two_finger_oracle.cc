@@ -46,7 +46,7 @@ Range SeenRange(const SetCell& cell, const Edge& edge, double tangent) {
 
 }  // namespace
 
-TwoFingerCount CompareTwoFingerSets(const Polygon& polygon, const PolygonGraph& graph,
+TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const PolygonGraph& graph,
                                     double half_angle, std::string& difference) {
   std::ostringstream out;
   TwoFingerCount count;

@@ -18,7 +18,8 @@ struct TwoFingerCount {
 /// borders, sets by clipping the unit square of the two parameters, and the switches to concurrent
 /// sets by their ranges of contacts, those of concurrent sets from CGAL's Boolean operations.
 /// @param difference  set to what differs, left empty where nothing does.
-[[nodiscard]] TwoFingerCount CompareTwoFingerSets(const Polygon& polygon, const PolygonGraph& graph,
-                                                  double half_angle, std::string& difference);
+[[nodiscard]] TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon,
+                                                  const PolygonGraph& graph, double half_angle,
+                                                  std::string& difference);
 
 }  // namespace regrasp::polygon

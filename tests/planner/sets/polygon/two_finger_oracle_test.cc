@@ -13,7 +13,7 @@ TEST(TwoFingerOracle, SetsAndSwitchesOfSmallPolygonsAreThoseOfExactClipping) {
   TwoFingerCount total;
   for (const auto& [name, polygon] : SmallPolygons()) {
     for (const double degrees : {5.0, 10.0, 20.0, 35.0, 50.0}) {
-      for (const Spanning spanning : kSpannings) {
+      for (const planning::Spanning spanning : kSpannings) {
         const PolygonGraph graph = MakeGraph(polygon, degrees, spanning);
         std::string difference;
         const TwoFingerCount count =
@@ -31,12 +31,12 @@ TEST(TwoFingerOracle, SetsAndSwitchesOfSmallPolygonsAreThoseOfExactClipping) {
 }
 
 TEST(TwoFingerOracle, NoticesAnotherFriction) {
-  const Polygon& blob = SmallPolygons()[4].polygon;
+  const object::Polygon& blob = SmallPolygons()[4].polygon;
   std::string difference;
-  EXPECT_GT(
-      CompareTwoFingerSets(blob, MakeGraph(blob, 20, Spanning::kUniform), Radians(25), difference)
-          .sets,
-      0);
+  EXPECT_GT(CompareTwoFingerSets(blob, MakeGraph(blob, 20, planning::Spanning::kUniform),
+                                 Radians(25), difference)
+                .sets,
+            0);
   EXPECT_NE(difference, "");
 }
 

@@ -25,17 +25,17 @@ constexpr int kSamples = 65;
 /// A solid and the graph that plans are made on.
 struct PlanningCase {
   std::string name;
-  const Polyhedron* body;
-  PlanRequest options;
+  const object::Polyhedron* body;
+  planning::PlanRequest options;
   std::unique_ptr<PolyhedronGraph> graph;
 };
 
 std::vector<NamedBody> Bodies() {
   std::vector<NamedBody> bodies;
   for (const std::string name : {"stone", "tetrahedron", "body14", "body24", "body36", "body38"}) {
-    const ObjectFile file =
-        ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name + ".obj");
-    bodies.push_back({name, dynamic_cast<const Polyhedron&>(*file.object)});
+    const object::ObjectFile file =
+        object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name + ".obj");
+    bodies.push_back({name, dynamic_cast<const object::Polyhedron&>(*file.object)});
   }
   for (const NamedBody& small : SmallBodies()) bodies.push_back(small);
   return bodies;
@@ -45,10 +45,10 @@ std::vector<NamedBody> Bodies() {
 std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
   std::vector<PlanningCase> cases;
   for (const NamedBody& named : bodies) {
-    for (const auto& [degrees, spanning] : {std::pair{10.0, Spanning::kUniform},
-                                            {14.0, Spanning::kUniform},
-                                            {10.0, Spanning::kAdaptive},
-                                            {20.0, Spanning::kAdaptive}}) {
+    for (const auto& [degrees, spanning] : {std::pair{10.0, planning::Spanning::kUniform},
+                                            {14.0, planning::Spanning::kUniform},
+                                            {10.0, planning::Spanning::kAdaptive},
+                                            {20.0, planning::Spanning::kAdaptive}}) {
       PlanningCase made{named.name + ", " + std::to_string(degrees) + "°, " + Name(spanning),
                         &named.body,
                         {},
@@ -70,10 +70,10 @@ struct Tally {
 };
 
 /// Every grasp from waypoint to waypoint, by the one function.
-Tally Walk(const Align& align, const WrenchFrame& frame, double half_angle) {
+Tally Walk(const plan::Align& align, const object::WrenchFrame& frame, double half_angle) {
   Tally tally{1};
   for (std::size_t w = 0; w + 1 < align.waypoints.size(); ++w) {
-    GraspMotion motion;
+    motion::GraspMotion motion;
     for (std::size_t k = 0; k < align.waypoints[w].size(); ++k) {
       EXPECT_EQ(align.waypoints[w][k].finger, align.waypoints[w + 1][k].finger);
       motion.emplace_back(align.waypoints[w][k].contact, align.waypoints[w + 1][k].contact);
@@ -81,7 +81,8 @@ Tally Walk(const Align& align, const WrenchFrame& frame, double half_angle) {
     ++tally.segments;
     for (int i = 0; i < kSamples; ++i) {
       const double t = static_cast<double>(i) / (kSamples - 1);
-      tally.not_closed += IsForceClosure(GraspAt(motion, t), frame, half_angle) ? 0 : 1;
+      tally.not_closed +=
+          grasp::IsForceClosure(motion::GraspAt(motion, t), frame, half_angle) ? 0 : 1;
       ++tally.grasps;
     }
   }
@@ -106,14 +107,15 @@ int ForEachPlan(int count, Visit visit) {
   for (std::uint64_t seed = 1; plans < count && seed <= kPlans; ++seed) {
     for (const PlanningCase& one : cases) {
       if (plans == count) break;
-      PlanRequest options = one.options;
+      planning::PlanRequest options = one.options;
       options.seed = seed;
-      const GraspChoice random{GraspChoice::Kind::kRandom, {}, "random"};
-      const PlanResult result =
+      const planning::GraspChoice random{planning::GraspChoice::Kind::kRandom, {}, "random"};
+      const planning::PlanResult result =
           PlanWith(PolyhedronPlanner(one.graph.get()), *one.body, random, random, options);
-      if (result.status == PlanResult::Status::kNoGrasp) continue;  // none is as good as asked for
+      if (result.status == planning::PlanResult::Status::kNoGrasp)
+        continue;  // none is as good as asked for
       SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
-      EXPECT_EQ(result.status, PlanResult::Status::kFound) << result.message;
+      EXPECT_EQ(result.status, planning::PlanResult::Status::kFound) << result.message;
       if (!result.plan) continue;
       ++plans;
       visit(one, *result.plan);
@@ -125,9 +127,9 @@ int ForEachPlan(int count, Visit visit) {
 TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure) {
   Tally all;
   std::map<std::string, int> aligns_of_body;
-  const int plans = ForEachPlan(kPlans, [&](const PlanningCase& one, const Plan& plan) {
-    for (const Step& step : plan.steps) {
-      const auto* align = std::get_if<Align>(&step);
+  const int plans = ForEachPlan(kPlans, [&](const PlanningCase& one, const plan::Plan& plan) {
+    for (const plan::Step& step : plan.steps) {
+      const auto* align = std::get_if<plan::Align>(&step);
       if (!align) continue;
       EXPECT_GE(align->waypoints.size(), 2u);
       const Tally walked = Walk(*align, one.body->wrench_frame(), one.options.criteria.half_angle);
@@ -151,10 +153,10 @@ TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure
 template <typename Visit>
 int ForEachUniformAlign(Visit visit) {
   int aligns = 0;
-  ForEachPlan(kPlansOfControls, [&](const PlanningCase& one, const Plan& plan) {
-    if (one.options.spanning != Spanning::kUniform) return;
-    for (const Step& step : plan.steps) {
-      if (const auto* align = std::get_if<Align>(&step)) {
+  ForEachPlan(kPlansOfControls, [&](const PlanningCase& one, const plan::Plan& plan) {
+    if (one.options.spanning != planning::Spanning::kUniform) return;
+    for (const plan::Step& step : plan.steps) {
+      if (const auto* align = std::get_if<plan::Align>(&step)) {
         visit(one, *align);
         ++aligns;
       }
@@ -164,17 +166,17 @@ int ForEachUniformAlign(Visit visit) {
 }
 
 TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
-  const int pushed = ForEachUniformAlign([](const PlanningCase& one, const Align& align) {
+  const int pushed = ForEachUniformAlign([](const PlanningCase& one, const plan::Align& align) {
     // So far along its own plane that no other torque balances that of its force.
-    Align off = align;
-    for (FingerGrasp& grasp : off.waypoints) {
-      Contact& contact = grasp.front().contact;
+    plan::Align off = align;
+    for (plan::FingerGrasp& grasp : off.waypoints) {
+      grasp::Contact& contact = grasp.front().contact;
       contact.p += 1000 * one.body->diameter() * contact.n.unitOrthogonal();
     }
     const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
     // One waypoint only: between good ones the way is bad all the same.
-    Align bent = align;
+    plan::Align bent = align;
     bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
     EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.half_angle).not_closed, 0);
   });
@@ -182,10 +184,10 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
 }
 
 TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
-  const int turned = ForEachUniformAlign([](const PlanningCase& one, const Align& align) {
+  const int turned = ForEachUniformAlign([](const PlanningCase& one, const plan::Align& align) {
     // A finger that pushes out of the object instead of into it.
-    Align wrong = align;
-    for (FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
+    plan::Align wrong = align;
+    for (plan::FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
     const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
   });

@@ -10,18 +10,18 @@ namespace regrasp::polyhedron {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-const char* Name(Spanning spanning) {
-  return spanning == Spanning::kUniform ? "uniform" : "adaptive";
+const char* Name(planning::Spanning spanning) {
+  return spanning == planning::Spanning::kUniform ? "uniform" : "adaptive";
 }
 
-Polyhedron RegularTetrahedron() {
-  const PolygonSoup soup{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
-                         {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
-  return Polyhedron::FromSoup(soup, "regular tetrahedron");
+object::Polyhedron RegularTetrahedron() {
+  const object::PolygonSoup soup{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+  return object::Polyhedron::FromSoup(soup, "regular tetrahedron");
 }
 
-Polyhedron RegularOctahedron() {
-  PolygonSoup soup;
+object::Polyhedron RegularOctahedron() {
+  object::PolygonSoup soup;
   for (int axis = 0; axis < 3; ++axis) {
     soup.vertices.push_back(Vector3d::Unit(axis));
     soup.vertices.push_back(-Vector3d::Unit(axis));
@@ -35,22 +35,22 @@ Polyhedron RegularOctahedron() {
       }
     }
   }
-  return Polyhedron::FromSoup(soup, "regular octahedron");
+  return object::Polyhedron::FromSoup(soup, "regular octahedron");
 }
 
-Polyhedron Box(const Vector3d& size) {
-  PolygonSoup soup;
+object::Polyhedron Box(const Vector3d& size) {
+  object::PolygonSoup soup;
   for (int i = 0; i < 8; ++i) {
     const Vector3d corner(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
     soup.vertices.push_back(corner.cwiseProduct(size));
   }
   soup.facets = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                  {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
-  return Polyhedron::FromSoup(soup, "box");
+  return object::Polyhedron::FromSoup(soup, "box");
 }
 
-Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper) {
-  PolygonSoup soup;
+object::Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper) {
+  object::PolygonSoup soup;
   for (const Ring& ring : rings) {
     for (const Vector2d& p : ring) soup.vertices.emplace_back(p.x(), p.y(), 0);
   }
@@ -59,8 +59,8 @@ Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper) 
     const Vector3d& p = soup.vertices[i];
     soup.vertices.push_back(Vector3d(taper * p.x(), taper * p.y(), height));
   }
-  const Polygon outline = Polygon::FromRings(rings, "outline");
-  for (const auto& [a, b, c] : TriangulatePolygon(outline)) {
+  const object::Polygon outline = object::Polygon::FromRings(rings, "outline");
+  for (const auto& [a, b, c] : object::TriangulatePolygon(outline)) {
     soup.facets.push_back({c, b, a});
     soup.facets.push_back({above + a, above + b, above + c});
   }
@@ -74,7 +74,7 @@ Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper) 
     }
     first += n;
   }
-  return Polyhedron::FromSoup(soup, "frustum");
+  return object::Polyhedron::FromSoup(soup, "frustum");
 }
 
 std::vector<Ring> LOutline() {
@@ -103,8 +103,8 @@ Eigen::Affine3d Skewed() {
   return map;
 }
 
-Polyhedron SkewedBody(const Polyhedron& body) {
-  return Polyhedron::FromSoup(Mapped(body, Skewed()), "skewed");
+object::Polyhedron SkewedBody(const object::Polyhedron& body) {
+  return object::Polyhedron::FromSoup(Mapped(body, Skewed()), "skewed");
 }
 
 }  // namespace
@@ -121,8 +121,8 @@ const std::vector<NamedBody>& SmallBodies() {
   return bodies;
 }
 
-PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map) {
-  PolygonSoup soup;
+object::PolygonSoup Mapped(const object::Polyhedron& body, const Eigen::Affine3d& map) {
+  object::PolygonSoup soup;
   for (const Vector3d& v : body.vertices()) soup.vertices.push_back(map * v);
   for (const auto& t : body.triangles()) {
     std::vector<int> facet(t.begin(), t.end());

@@ -16,28 +16,30 @@ namespace regrasp::polyhedron {
 /// A solid with a name for messages.
 struct NamedBody {
   std::string name;
-  Polyhedron body;
+  object::Polyhedron body;
 };
 
-inline constexpr Spanning kBothSpannings[] = {Spanning::kUniform, Spanning::kAdaptive};
+inline constexpr planning::Spanning kBothSpannings[] = {planning::Spanning::kUniform,
+                                                        planning::Spanning::kAdaptive};
 
-[[nodiscard]] const char* Name(Spanning spanning);
+[[nodiscard]] const char* Name(planning::Spanning spanning);
 
 /// Vertices of a cube with every second corner: edges of 2√2, the centre at the origin.
-[[nodiscard]] Polyhedron RegularTetrahedron();
+[[nodiscard]] object::Polyhedron RegularTetrahedron();
 
 /// The ends of the three unit axes.
-[[nodiscard]] Polyhedron RegularOctahedron();
+[[nodiscard]] object::Polyhedron RegularOctahedron();
 
 /// About the origin.
-[[nodiscard]] Polyhedron Box(const Eigen::Vector3d& size);
+[[nodiscard]] object::Polyhedron Box(const Eigen::Vector3d& size);
 
 using Ring = std::vector<Eigen::Vector2d>;
 
 /// The part between z = 0 and z = `height` of the cone over an outline (counter-clockwise, then
 /// holes, clockwise) whose copy at the top is `taper` times as large about the origin: its two ends
 /// have the outline's shape, holes go through.
-[[nodiscard]] Polyhedron Frustum(const std::vector<Ring>& rings, double height, double taper);
+[[nodiscard]] object::Polyhedron Frustum(const std::vector<Ring>& rings, double height,
+                                         double taper);
 
 /// An L about the origin, and a square with a square hole.
 [[nodiscard]] std::vector<Ring> LOutline();
@@ -58,7 +60,7 @@ template <class Check>
 void ForEachSmallBody(std::span<const double> angles, const Check& check) {
   for (const NamedBody& named : SmallBodies()) {
     for (const double degrees : angles) {
-      for (const Spanning spanning : kBothSpannings) {
+      for (const planning::Spanning spanning : kBothSpannings) {
         SCOPED_TRACE(named.name + " " + std::to_string(degrees) + " " + Name(spanning));
         check(named.body, degrees, spanning);
       }
@@ -67,6 +69,7 @@ void ForEachSmallBody(std::span<const double> angles, const Check& check) {
 }
 
 /// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.
-[[nodiscard]] PolygonSoup Mapped(const Polyhedron& body, const Eigen::Affine3d& map);
+[[nodiscard]] object::PolygonSoup Mapped(const object::Polyhedron& body,
+                                         const Eigen::Affine3d& map);
 
 }  // namespace regrasp::polyhedron

@@ -12,25 +12,25 @@ namespace regrasp::polyhedron {
 namespace {
 
 TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereverItComes) {
-  const Polyhedron body = RegularOctahedron();
+  const object::Polyhedron body = RegularOctahedron();
   const CountedDeadline never;
-  const PolyhedronGraph graph(body, Radians(15), Spanning::kAdaptive, never.deadline());
+  const PolyhedronGraph graph(body, Radians(15), planning::Spanning::kAdaptive, never.deadline());
   ASSERT_GT(graph.vertex_count(), 0);
   const CountedDeadline listing;
-  static_cast<void>(FindQuadrupleCandidates(body, std::tan(Radians(15)), Spanning::kAdaptive,
-                                            listing.deadline()));
+  static_cast<void>(FindQuadrupleCandidates(body, std::tan(Radians(15)),
+                                            planning::Spanning::kAdaptive, listing.deadline()));
   EXPECT_EQ(listing.looks(), 2 * (8 * 7 / 2));  // each pair of faces twice
   // Cells are joined on each of their four triples of faces.
   EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
-    static_cast<void>(PolyhedronGraph(body, Radians(15), Spanning::kAdaptive, deadline));
+    static_cast<void>(PolyhedronGraph(body, Radians(15), planning::Spanning::kAdaptive, deadline));
   });
 }
 
 TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
-  const Polyhedron body = RegularOctahedron();
-  const GraspChoice random = {GraspChoice::Kind::kRandom, {}, "random"};
-  PlanRequest options;
+  const object::Polyhedron body = RegularOctahedron();
+  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(15);
   ExpectPlanEndsWhereverItComes("polyhedron", 11, [&](const Deadline& deadline) {
     options.deadline = deadline;

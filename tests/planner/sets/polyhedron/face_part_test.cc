@@ -73,7 +73,7 @@ bool AreDisjoint(const FacePart& a, const FacePart& b) {
 }
 
 /// Checks everything that holds of all bodies; how many parts they have in all.
-int CheckParts(const Polyhedron& body, const FaceParts& split) {
+int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(split.first.size(), body.faces().size() + 1);
   EXPECT_EQ(split.first.back(), static_cast<int>(split.parts.size()));
   const double small = kRounding * body.diameter() * body.diameter();
@@ -101,7 +101,7 @@ int CheckParts(const Polyhedron& body, const FaceParts& split) {
 
 /// The hull of a face contains its parts, touches them at all of its own corners, and is the part
 /// where there is one; how many faces have several.
-int CheckHulls(const Polyhedron& body, const FaceParts& split) {
+int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(split.hulls.size(), body.faces().size());
   const double small = kRounding * body.diameter();
   int several = 0;
@@ -166,7 +166,8 @@ TEST(SplitFaces, PartsOfSmallBodiesAreConvexDisjointAndCoverTheirFaces) {
 }
 
 TEST(SplitFaces, ConvexFacesAreOnePart) {
-  for (const Polyhedron& body : {Box({1, 2, 3}), RegularOctahedron(), RegularTetrahedron()}) {
+  for (const object::Polyhedron& body :
+       {Box({1, 2, 3}), RegularOctahedron(), RegularTetrahedron()}) {
     const FaceParts split = SplitFaces(body);
     EXPECT_EQ(CheckParts(body, split), body.face_count());
     EXPECT_TRUE(split.joints.empty());
@@ -175,7 +176,7 @@ TEST(SplitFaces, ConvexFacesAreOnePart) {
 }
 
 TEST(SplitFaces, AnLIsTwoPartsWithOneJoint) {
-  const Polyhedron body = Frustum(LOutline(), 1, 0.5);
+  const object::Polyhedron body = Frustum(LOutline(), 1, 0.5);
   ASSERT_EQ(body.face_count(), 8);
   const FaceParts split = SplitFaces(body);
   EXPECT_EQ(CheckParts(body, split), 10);
@@ -184,7 +185,7 @@ TEST(SplitFaces, AnLIsTwoPartsWithOneJoint) {
 }
 
 TEST(SplitFaces, AFrameIsPartsInACircle) {
-  const Polyhedron body = Frustum(FrameOutline(), 1, 0.5);
+  const object::Polyhedron body = Frustum(FrameOutline(), 1, 0.5);
   ASSERT_EQ(body.face_count(), 10);
   const FaceParts split = SplitFaces(body);
   const int parts = CheckParts(body, split) - 8;  // of the two frames
@@ -203,7 +204,7 @@ TEST(SplitFaces, AStarOfManyCornersIsCutAtItsConcaveOnes) {
     const double r = i % 2 == 0 ? 2 : 1;
     star.emplace_back(r * std::cos(angle), r * std::sin(angle));
   }
-  const Polyhedron body = Frustum({star}, 1, 0.5);
+  const object::Polyhedron body = Frustum({star}, 1, 0.5);
   const FaceParts split = SplitFaces(body);
   const int parts = CheckParts(body, split) - 2 * kTips;
   // At least a part more for every two concave corners, at most four times as many.
@@ -214,7 +215,7 @@ TEST(SplitFaces, AStarOfManyCornersIsCutAtItsConcaveOnes) {
 }
 
 TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
-  const Polyhedron body = Frustum(LOutline(), 1, 0.5);
+  const object::Polyhedron body = Frustum(LOutline(), 1, 0.5);
   const FaceParts split = SplitFaces(body);
   const auto several = std::ranges::find_if(
       split.joints, [](const PartJoint& joint) { return joint.parts[0] != joint.parts[1]; });

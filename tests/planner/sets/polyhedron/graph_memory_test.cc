@@ -20,12 +20,15 @@ const double kHalfAngle = Radians(15);
 #if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
 TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const char* file : {"body40.obj", "body47.obj", "body67.obj"}) {
-    const ObjectFile read = ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
-    const auto& solid = dynamic_cast<const Polyhedron&>(*read.object);
+    const object::ObjectFile read =
+        object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
+    const auto& solid = dynamic_cast<const object::Polyhedron&>(*read.object);
     const double used = PeakBytesOf([&] {
-      static_cast<void>(PolyhedronGraph(solid, kHalfAngle, Spanning::kAdaptive).vertex_count());
+      static_cast<void>(
+          PolyhedronGraph(solid, kHalfAngle, planning::Spanning::kAdaptive).vertex_count());
     });
-    const double estimate = EstimatePolyhedronGraph(solid, kHalfAngle, Spanning::kAdaptive).bytes();
+    const double estimate =
+        EstimatePolyhedronGraph(solid, kHalfAngle, planning::Spanning::kAdaptive).bytes();
     ASSERT_GT(used, 4e6) << file;
     EXPECT_GT(estimate, used / 2) << file;
     EXPECT_LT(estimate, used * 2) << file;
@@ -36,8 +39,8 @@ TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
   double last = 0;
   for (const int n : {8, 16, 32, 64, 128, 256, 512}) {
-    const MemoryNeed need =
-        EstimatePolyhedronGraph(MakeStone(n, {1, 1.2, 0.8}, 1), kHalfAngle, Spanning::kAdaptive);
+    const MemoryNeed need = EstimatePolyhedronGraph(MakeStone(n, {1, 1.2, 0.8}, 1), kHalfAngle,
+                                                    planning::Spanning::kAdaptive);
     EXPECT_EQ(need.count, n);
     EXPECT_GT(need.bytes(), last) << n;
     last = need.bytes();
@@ -46,12 +49,13 @@ TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
 }
 
 TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  PlanRequest options;
+  planning::PlanRequest options;
   options.criteria.half_angle = kHalfAngle;
   options.memory = 1e9;
-  const PlanResult result = PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1),
-                                     {GraspChoice::Kind::kRandom, {}, "start"},
-                                     {GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const planning::PlanResult result =
+      PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1),
+               {planning::GraspChoice::Kind::kRandom, {}, "start"},
+               {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
 }

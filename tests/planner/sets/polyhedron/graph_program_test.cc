@@ -50,7 +50,7 @@ SeenFrom SetOf(const FaceParts& parts, int half, double tangent) {
 
 class GraphOracle {
  public:
-  GraphOracle(const Polyhedron& body, double degrees, Spanning spanning)
+  GraphOracle(const object::Polyhedron& body, double degrees, planning::Spanning spanning)
       : graph_(body, Radians(degrees), spanning),
         parts_(graph_.finder().parts()),
         scale_(body.diameter()) {
@@ -206,9 +206,9 @@ class GraphOracle {
         open.push_back({static_cast<int>(i), static_cast<int>(j)});
       }
     }
-    const Components hang =
-        FindComponents(static_cast<int>(possible.size()), static_cast<int>(open.size()),
-                       [&](int i) { return std::span<const int>(open[i]); });
+    const search::Components hang =
+        search::FindComponents(static_cast<int>(possible.size()), static_cast<int>(open.size()),
+                               [&](int i) { return std::span<const int>(open[i]); });
     for (std::size_t i = 1; i < possible.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (FindCell(candidate.faces, possible[i]) != FindCell(candidate.faces, possible[j])) {
@@ -268,10 +268,11 @@ void Record(const Count& count) {
 template <class Check>
 Count CheckAll(const Check& check) {
   Count count;
-  ForEachSmallBody(kDegrees, [&](const Polyhedron& body, double degrees, Spanning spanning) {
-    GraphOracle oracle(body, degrees, spanning);
-    check(oracle, count);
-  });
+  ForEachSmallBody(
+      kDegrees, [&](const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
+        GraphOracle oracle(body, degrees, spanning);
+        check(oracle, count);
+      });
   return count;
 }
 

@@ -23,9 +23,9 @@ bool Contains(PolyhedronGraph& graph, const FocusCell& cell, const Vector3d& x) 
 }
 
 TEST(PolyhedronGraph, OfARegularTetrahedronIsOneCellAboutItsCentre) {
-  const Polyhedron body = RegularTetrahedron();
+  const object::Polyhedron body = RegularTetrahedron();
   for (const double degrees : {1, 10, 19}) {
-    PolyhedronGraph graph(body, Radians(degrees), Spanning::kUniform);
+    PolyhedronGraph graph(body, Radians(degrees), planning::Spanning::kUniform);
     EXPECT_EQ(graph.candidate_count(), 1);
     EXPECT_EQ(graph.combination_count(), 1);
     ASSERT_EQ(graph.vertex_count(), 1);
@@ -44,18 +44,18 @@ TEST(PolyhedronGraph, OfARegularTetrahedronIsOneCellAboutItsCentre) {
 }
 
 TEST(PolyhedronGraph, OfARegularTetrahedronEndsAtTheArcSineOfAThird) {
-  const Polyhedron body = RegularTetrahedron();
+  const object::Polyhedron body = RegularTetrahedron();
   const double limit = std::asin(1.0 / 3);
-  EXPECT_EQ(PolyhedronGraph(body, limit - 1e-6, Spanning::kUniform).vertex_count(), 1);
-  EXPECT_EQ(PolyhedronGraph(body, limit + 1e-6, Spanning::kUniform).candidate_count(), 0);
-  PolyhedronGraph above(body, limit + 0.2, Spanning::kAdaptive);
+  EXPECT_EQ(PolyhedronGraph(body, limit - 1e-6, planning::Spanning::kUniform).vertex_count(), 1);
+  EXPECT_EQ(PolyhedronGraph(body, limit + 1e-6, planning::Spanning::kUniform).candidate_count(), 0);
+  PolyhedronGraph above(body, limit + 0.2, planning::Spanning::kAdaptive);
   ASSERT_EQ(above.vertex_count(), 1);
   EXPECT_NEAR(above.cells().front().tangent, std::tan(limit), 1e-9);
   EXPECT_LE(above.cells().front().tangent, std::tan(limit));
 }
 
 TEST(PolyhedronGraph, OfBoxesIsEmpty) {
-  for (const Spanning spanning : kBothSpannings) {
+  for (const planning::Spanning spanning : kBothSpannings) {
     for (const Vector3d& size : {Vector3d(1, 1, 1), Vector3d(1, 2, 5)}) {
       const PolyhedronGraph graph(Box(size), Radians(15), spanning);
       EXPECT_EQ(graph.candidate_count(), 0);
@@ -66,8 +66,8 @@ TEST(PolyhedronGraph, OfBoxesIsEmpty) {
 }
 
 TEST(PolyhedronGraph, OfARegularOctahedronIsTwoTetrahedraOfFaces) {
-  const Polyhedron body = RegularOctahedron();
-  PolyhedronGraph graph(body, Radians(10), Spanning::kUniform);
+  const object::Polyhedron body = RegularOctahedron();
+  PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
   EXPECT_TRUE(graph.links().empty());
@@ -91,9 +91,9 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
     base.emplace_back(std::cos(angle), std::sin(angle));
   }
   // A regular tetrahedron's height is √2; a third of it is left.
-  const Polyhedron body = Frustum({base}, std::sqrt(2.0) / 3, 2.0 / 3);
+  const object::Polyhedron body = Frustum({base}, std::sqrt(2.0) / 3, 2.0 / 3);
   ASSERT_EQ(body.face_count(), 5);
-  const PolyhedronGraph graph(body, Radians(10), Spanning::kUniform);
+  const PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 1);
   ASSERT_EQ(graph.vertex_count(), 1);
   for (const int face : graph.cells().front().faces) {
@@ -102,7 +102,7 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
 }
 
 TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronToo) {
-  PolygonSoup soup;
+  object::PolygonSoup soup;
   const Vector3d corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   // Corner i is cut off a third of the way to each j, at vertex 3 i + (place of j among the
   // others).
@@ -123,9 +123,9 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
     const auto& [a, b, c] = around[i];
     soup.facets.push_back({vertex(i, a), vertex(i, b), vertex(i, c)});
   }
-  const Polyhedron body = Polyhedron::FromSoup(soup, "truncated tetrahedron");
+  const object::Polyhedron body = object::Polyhedron::FromSoup(soup, "truncated tetrahedron");
   ASSERT_EQ(body.face_count(), 8);
-  PolyhedronGraph graph(body, Radians(10), Spanning::kUniform);
+  PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
   EXPECT_TRUE(graph.links().empty());
@@ -139,21 +139,21 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
 
 /// A regular tetrahedron whose bottom is a roof: its ridge goes from a corner down to a point in
 /// the plane of the side opposite, `drop` of that side's height below the bottom edge.
-Polyhedron TetrahedronOverRoof(double drop) {
+object::Polyhedron TetrahedronOverRoof(double drop) {
   const double half_edge = std::sqrt(3.0) / 2;
   const Vector3d a(-half_edge, -0.5, 0), b(half_edge, -0.5, 0), c(0, 1, 0);
   const Vector3d apex(0, 0, std::sqrt(2.0));
   const Vector3d middle = (a + b) / 2;
   const Vector3d low = middle + drop * (middle - apex);
-  return Polyhedron::FromSoup(
+  return object::Polyhedron::FromSoup(
       {{a, b, c, apex, low}, {{0, 4, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 4}, {1, 4, 2}}},
       "roofed tetrahedron");
 }
 
 TEST(PolyhedronGraph, TwoHalvesOfABottomAreLinkedWhereAFocusPointSeesBoth) {
-  const Polyhedron body = TetrahedronOverRoof(0.05);
+  const object::Polyhedron body = TetrahedronOverRoof(0.05);
   ASSERT_EQ(body.face_count(), 5);
-  PolyhedronGraph graph(body, Radians(10), Spanning::kUniform);
+  PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
   ASSERT_EQ(graph.links().size(), 1U);
@@ -171,8 +171,9 @@ TEST(PolyhedronGraph, TwoHalvesOfABottomAreLinkedWhereAFocusPointSeesBoth) {
 
 TEST(PolyhedronGraph, RefusesAnglesThatAreNone) {
   for (const double degrees : {0.0, -10.0, 90.0, 180.0, std::nan("")}) {
-    EXPECT_THROW(PolyhedronGraph(RegularTetrahedron(), Radians(degrees), Spanning::kUniform),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        PolyhedronGraph(RegularTetrahedron(), Radians(degrees), planning::Spanning::kUniform),
+        std::invalid_argument);
   }
 }
 

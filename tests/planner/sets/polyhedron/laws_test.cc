@@ -37,7 +37,7 @@ void PrintTo(const Counts& c, std::ostream* out) {
        << c.vertices << ", links " << c.links << ", components " << c.components;
 }
 
-Counts CountsOf(const Polyhedron& body, double degrees, Spanning spanning) {
+Counts CountsOf(const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
   const PolyhedronGraph graph(body, Radians(degrees), spanning);
   return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
           graph.links().size(), graph.components().count()};
@@ -57,10 +57,10 @@ template <class Change>
 int ExpectSameCounts(const Change& change) {
   int vertices = 0;
   for (const auto& [name, body] : Bodies()) {
-    const Polyhedron changed = Polyhedron::FromSoup(change(body), "changed");
+    const object::Polyhedron changed = object::Polyhedron::FromSoup(change(body), "changed");
     EXPECT_EQ(changed.face_count(), body.face_count());
     for (const double degrees : kDegrees) {
-      for (const Spanning spanning : kBothSpannings) {
+      for (const planning::Spanning spanning : kBothSpannings) {
         SCOPED_TRACE(name + " " + std::to_string(degrees) + " " + Name(spanning));
         const Counts before = CountsOf(body, degrees, spanning);
         EXPECT_EQ(CountsOf(changed, degrees, spanning), before);
@@ -76,7 +76,7 @@ auto MapBy(const Linear& linear, const Vector3d& shift = Vector3d::Zero()) {
   Affine3d map = Affine3d::Identity();
   map.linear() = linear;
   map.translation() = shift;
-  return [map](const Polyhedron& body) { return Mapped(body, map); };
+  return [map](const object::Polyhedron& body) { return Mapped(body, map); };
 }
 
 TEST(PolyhedronLaws, CountsDoNotDependOnMotions) {
@@ -98,14 +98,14 @@ TEST(PolyhedronLaws, CountsDoNotDependOnMirroring) {
 }
 
 TEST(PolyhedronLaws, CountsDoNotDependOnTheOrderOfFacetsAndVertices) {
-  const auto shuffled = [](const Polyhedron& body) {
+  const auto shuffled = [](const object::Polyhedron& body) {
     std::mt19937 engine(kSeed);
-    PolygonSoup soup = Mapped(body, Affine3d::Identity());
+    object::PolygonSoup soup = Mapped(body, Affine3d::Identity());
     std::shuffle(soup.facets.begin(), soup.facets.end(), engine);
     std::vector<int> order(soup.vertices.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     std::shuffle(order.begin(), order.end(), engine);
-    PolygonSoup result;
+    object::PolygonSoup result;
     result.vertices.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) result.vertices[order[i]] = soup.vertices[i];
     for (std::vector<int>& facet : soup.facets) {
@@ -118,11 +118,11 @@ TEST(PolyhedronLaws, CountsDoNotDependOnTheOrderOfFacetsAndVertices) {
 }
 
 TEST(PolyhedronLaws, CountsDoDependOnStretching) {
-  const Polyhedron body = MakeStone(24, {1.5, 1, 0.8}, 5);
+  const object::Polyhedron body = MakeStone(24, {1.5, 1, 0.8}, 5);
   const auto stretch = MapBy(Eigen::Matrix3d(Vector3d(1, 1, 3).asDiagonal()));
-  const Polyhedron stretched = Polyhedron::FromSoup(stretch(body), "stretched");
-  EXPECT_FALSE(CountsOf(stretched, 10, Spanning::kUniform) ==
-               CountsOf(body, 10, Spanning::kUniform));
+  const object::Polyhedron stretched = object::Polyhedron::FromSoup(stretch(body), "stretched");
+  EXPECT_FALSE(CountsOf(stretched, 10, planning::Spanning::kUniform) ==
+               CountsOf(body, 10, planning::Spanning::kUniform));
 }
 
 /// The cell of each piece, by its halves.
@@ -140,8 +140,8 @@ TEST(PolyhedronLaws, UnderAdaptiveSpanningMoreFrictionKeepsPiecesComponentsAndLi
     SCOPED_TRACE(name);
     const double degrees[] = {3, 8, 14, 22, 40, 70};
     for (std::size_t i = 0; i + 1 < std::size(degrees); ++i) {
-      PolyhedronGraph less(body, Radians(degrees[i]), Spanning::kAdaptive);
-      PolyhedronGraph more(body, Radians(degrees[i + 1]), Spanning::kAdaptive);
+      PolyhedronGraph less(body, Radians(degrees[i]), planning::Spanning::kAdaptive);
+      PolyhedronGraph more(body, Radians(degrees[i + 1]), planning::Spanning::kAdaptive);
       const auto in_less = CellsByPiece(less);
       const auto in_more = CellsByPiece(more);
       std::map<int, int> image;  // of the cells
@@ -171,8 +171,8 @@ TEST(PolyhedronLaws, UniformCellsAreThoseAdaptiveCellsThatHaveTheWholeFriction) 
   int compared = 0;
   for (const auto& [name, body] : Bodies()) {
     SCOPED_TRACE(name);
-    const PolyhedronGraph uniform(body, Radians(10), Spanning::kUniform);
-    const PolyhedronGraph adaptive(body, Radians(10), Spanning::kAdaptive);
+    const PolyhedronGraph uniform(body, Radians(10), planning::Spanning::kUniform);
+    const PolyhedronGraph adaptive(body, Radians(10), planning::Spanning::kAdaptive);
     std::set<std::array<int, 4>> of_uniform, of_adaptive;
     for (const auto& [halves, cell] : CellsByPiece(uniform)) of_uniform.insert(halves);
     for (const auto& [halves, cell] : CellsByPiece(adaptive)) {
@@ -188,7 +188,7 @@ TEST(PolyhedronLaws, FewDecisionsAreTooCloseToCall) {
   std::int64_t unclear = 0, combinations = 0;
   for (const auto& [name, body] : Bodies()) {
     for (const double degrees : kDegrees) {
-      const PolyhedronGraph graph(body, Radians(degrees), Spanning::kUniform);
+      const PolyhedronGraph graph(body, Radians(degrees), planning::Spanning::kUniform);
       unclear += graph.unclear_count();
       combinations += graph.candidate_count();
     }
@@ -199,8 +199,8 @@ TEST(PolyhedronLaws, FewDecisionsAreTooCloseToCall) {
 
 TEST(PolyhedronLaws, NeighboursAreMutualAndTheSameTwice) {
   for (const auto& [name, body] : Bodies()) {
-    const PolyhedronGraph graph(body, Radians(12), Spanning::kAdaptive);
-    const PolyhedronGraph again(body, Radians(12), Spanning::kAdaptive);
+    const PolyhedronGraph graph(body, Radians(12), planning::Spanning::kAdaptive);
+    const PolyhedronGraph again(body, Radians(12), planning::Spanning::kAdaptive);
     EXPECT_EQ(graph.links(), again.links());
     std::size_t ends = 0;
     std::vector<int> neighbours, back;

@@ -80,10 +80,10 @@ std::size_t ExpectPlainCandidates(const std::vector<Vector3d>& normals) {
   std::size_t count = 0;
   const std::vector<Limited> plain = FindPlainly(normals);
   for (const double degrees : {1, 10, 18, 40}) {
-    for (const Spanning spanning : kBothSpannings) {
+    for (const planning::Spanning spanning : kBothSpannings) {
       SCOPED_TRACE(testing::Message() << normals.size() << " normals, " << degrees << " degrees");
       const double tangent = std::tan(Radians(degrees));
-      const double least = spanning == Spanning::kUniform ? tangent : 0;
+      const double least = spanning == planning::Spanning::kUniform ? tangent : 0;
       std::vector<Limited> expected;
       for (const Limited& limited : plain) {
         EXPECT_GT(std::abs(limited.limit - least), kTooClose);
@@ -122,7 +122,7 @@ TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
   std::mt19937_64 engine(kSeed);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto normals = RandomNormals(25, Vector3d::Ones(), engine);
-  const auto found = FindQuadrupleCandidates(normals, 10, Spanning::kAdaptive);
+  const auto found = FindQuadrupleCandidates(normals, 10, planning::Spanning::kAdaptive);
   ASSERT_GT(found.size(), 500U);
   int beyond = 0;
   for (std::size_t i = 0; i < found.size(); i += 5) {
@@ -161,7 +161,7 @@ TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
   EXPECT_EQ(beyond, static_cast<int>((found.size() + 4) / 5));
 }
 
-std::size_t CountOf(const Polyhedron& body, double degrees, Spanning spanning) {
+std::size_t CountOf(const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
   std::vector<Vector3d> normals;
   for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
   return FindQuadrupleCandidates(normals, std::tan(Radians(degrees)), spanning).size();
@@ -169,15 +169,15 @@ std::size_t CountOf(const Polyhedron& body, double degrees, Spanning spanning) {
 
 TEST(NormalQuadruples, OfARegularTetrahedronSpanBelowTheArcSineOfAThird) {
   const double limit = Degrees(std::asin(1.0 / 3));
-  const Polyhedron body = RegularTetrahedron();
-  EXPECT_EQ(CountOf(body, limit - 1e-6, Spanning::kUniform), 1U);
-  EXPECT_EQ(CountOf(body, limit + 1e-6, Spanning::kUniform), 0U);
-  EXPECT_EQ(CountOf(body, limit + 1e-6, Spanning::kAdaptive), 1U);
-  EXPECT_EQ(CountOf(body, 80, Spanning::kAdaptive), 1U);
+  const object::Polyhedron body = RegularTetrahedron();
+  EXPECT_EQ(CountOf(body, limit - 1e-6, planning::Spanning::kUniform), 1U);
+  EXPECT_EQ(CountOf(body, limit + 1e-6, planning::Spanning::kUniform), 0U);
+  EXPECT_EQ(CountOf(body, limit + 1e-6, planning::Spanning::kAdaptive), 1U);
+  EXPECT_EQ(CountOf(body, 80, planning::Spanning::kAdaptive), 1U);
 }
 
 TEST(NormalQuadruples, OfBoxesDoNotSpanAndOfAnOctahedronTwoTetrahedraDo) {
-  for (const Spanning spanning : kBothSpannings) {
+  for (const planning::Spanning spanning : kBothSpannings) {
     EXPECT_EQ(CountOf(Box({1, 2, 3}), 5, spanning), 0U);
     // Normals (±1, ±1, ±1): any four that span leave no two opposite ones with another pair
     // coplanar; what remains are every second corner of the cube, and the other ones.

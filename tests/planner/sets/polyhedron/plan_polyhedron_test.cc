@@ -19,11 +19,12 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = GraspChoice::Kind;
-using Status = PlanResult::Status;
+using Kind = planning::GraspChoice::Kind;
+using Status = planning::PlanResult::Status;
 
-PlanRequest Options(double degrees, std::uint64_t seed, Spanning spanning = Spanning::kAdaptive) {
-  PlanRequest options;
+planning::PlanRequest Options(double degrees, std::uint64_t seed,
+                              planning::Spanning spanning = planning::Spanning::kAdaptive) {
+  planning::PlanRequest options;
   options.criteria.half_angle = Radians(degrees);
   options.seed = seed;
   options.spanning = spanning;
@@ -31,18 +32,18 @@ PlanRequest Options(double degrees, std::uint64_t seed, Spanning spanning = Span
 }
 
 /// What the checker, which knows nothing of the planner, says of a plan.
-void ExpectGoodPlan(const Polyhedron& body, const PlanResult& result) {
+void ExpectGoodPlan(const object::Polyhedron& body, const planning::PlanResult& result) {
   ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const Plan& plan = *result.plan;
-  const PlanCheck check = CheckPlan(body, plan);
-  for (const StepCheck& step : check.steps) {
-    EXPECT_EQ(ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
+  const plan::Plan& plan = *result.plan;
+  const plan::PlanCheck check = plan::CheckPlan(body, plan);
+  for (const plan::StepCheck& step : check.steps) {
+    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
   }
   EXPECT_TRUE(check.passed());
   EXPECT_EQ(plan.planner, "polyhedron");
   EXPECT_EQ(plan.fingers, kPolyhedronFingers);
-  for (const Step& step : plan.steps) {
-    if (const auto* change = std::get_if<Switch>(&step)) {
+  for (const plan::Step& step : plan.steps) {
+    if (const auto* change = std::get_if<plan::Switch>(&step)) {
       EXPECT_THAT(change->place, SizeIs(1));
       EXPECT_THAT(change->release, SizeIs(1));
     }
@@ -54,19 +55,19 @@ TEST(PlanOnPolyhedron, LeadsFromARandomGraspToAnother) {
   int aligns = 0;
   int none = 0;
   for (const auto& [name, body] : SmallBodies()) {
-    for (const Spanning spanning : kBothSpannings) {
+    for (const planning::Spanning spanning : kBothSpannings) {
       for (const double degrees : {10.0, 25.0}) {
         for (const std::uint64_t seed : {1, 2, 3}) {
           SCOPED_TRACE(name + ", " + Name(spanning) + ", seed " + std::to_string(seed));
-          const PlanResult result = PlanWith(PolyhedronPlanner(), body, Random(), Random(),
-                                             Options(degrees, seed, spanning));
+          const planning::PlanResult result = PlanWith(PolyhedronPlanner(), body, Random(),
+                                                       Random(), Options(degrees, seed, spanning));
           if (result.status == Status::kNoGrasp) {
             ++none;
             continue;
           }
           ExpectGoodPlan(body, result);
-          for (const Step& step : result.plan->steps) {
-            (std::holds_alternative<Switch>(step) ? switches : aligns) += 1;
+          for (const plan::Step& step : result.plan->steps) {
+            (std::holds_alternative<plan::Switch>(step) ? switches : aligns) += 1;
           }
         }
       }
@@ -83,9 +84,9 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
   int joined = 0;
   int apart = 0;
   for (const auto& [name, body] : SmallBodies()) {
-    PolyhedronGraph graph(body, Radians(14), Spanning::kUniform);
+    PolyhedronGraph graph(body, Radians(14), planning::Spanning::kUniform);
     FocusGeometry geometry(body, graph);
-    const Components components = graph.components();
+    const search::Components components = graph.components();
     RandomStream random(3, RandomUse::kGoal);
     for (int i = 0; i < 40 && graph.vertex_count() > 0; ++i) {
       const int a = static_cast<int>(random.Index(graph.vertex_count()));
@@ -93,9 +94,9 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
       const auto start = geometry.Draw(a, random);
       const auto goal = geometry.Draw(b, random);
       ASSERT_TRUE(start && goal);
-      const PlanResult result =
+      const planning::PlanResult result =
           PlanWith(PolyhedronPlanner(), body, Given(geometry.GraspOf(*start)),
-                   Given(geometry.GraspOf(*goal)), Options(14, 0, Spanning::kUniform));
+                   Given(geometry.GraspOf(*goal)), Options(14, 0, planning::Spanning::kUniform));
       SCOPED_TRACE(name + ", cells " + std::to_string(a) + " and " + std::to_string(b));
       if (components.of_vertex[a] == components.of_vertex[b]) {
         ++joined;
@@ -115,13 +116,14 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
   int drawn = 0;
   for (const auto& [name, body] : SmallBodies()) {
     for (const double degrees : {8.0, 30.0}) {
-      PolyhedronGraph graph(body, Radians(degrees), Spanning::kAdaptive);
+      PolyhedronGraph graph(body, Radians(degrees), planning::Spanning::kAdaptive);
       FocusGeometry geometry(body, graph);
       RandomStream random(5, RandomUse::kStart);
       for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 40) {
         const auto grasp = geometry.Draw(cell, random);
         ASSERT_TRUE(grasp);
-        EXPECT_TRUE(IsForceClosure(geometry.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
+        EXPECT_TRUE(
+            grasp::IsForceClosure(geometry.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
             << name << ", cell " << cell;
         const auto located = geometry.Locate(geometry.GraspOf(*grasp));
         EXPECT_TRUE(
@@ -135,24 +137,25 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
 }
 
 TEST(PlanOnPolyhedron, HasNothingToDoWhereTheGoalIsTheStart) {
-  const Polyhedron& body = SmallBodies().front().body;
-  const PlanResult some = PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
+  const object::Polyhedron& body = SmallBodies().front().body;
+  const planning::PlanResult some =
+      PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
   ASSERT_TRUE(some.plan) << some.message;
-  Grasp start = ContactsOf(some.plan->initial);
-  Grasp same = start;
+  grasp::Grasp start = plan::ContactsOf(some.plan->initial);
+  grasp::Grasp same = start;
   std::ranges::reverse(same);
-  const PlanResult result =
+  const planning::PlanResult result =
       PlanWith(PolyhedronPlanner(), body, Given(start), Given(same), Options(15, 1));
   ASSERT_EQ(result.status, Status::kFound);
   EXPECT_THAT(result.plan->steps, IsEmpty());
 }
 
 TEST(PlanOnPolyhedron, IsTheSameBitForBit) {
-  const Polyhedron& body = SmallBodies().back().body;
+  const object::Polyhedron& body = SmallBodies().back().body;
   const auto text = [&](std::uint64_t seed) {
-    const PlanResult result =
+    const planning::PlanResult result =
         PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(12, seed));
-    return result.plan ? FormatPlan(*result.plan) : result.message;
+    return result.plan ? plan::FormatPlan(*result.plan) : result.message;
   };
   EXPECT_EQ(text(4), text(4));
   EXPECT_NE(text(4), text(5));
@@ -160,16 +163,16 @@ TEST(PlanOnPolyhedron, IsTheSameBitForBit) {
 
 TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
   // Two pairs on opposite faces of a box: force closure, but no four normals span.
-  const Polyhedron box = Box({2, 2, 2});
+  const object::Polyhedron box = Box({2, 2, 2});
   const auto contact = [&](const Eigen::Vector3d& p) {
     const int face = box.FacesNear(p, 1e-9).front();
-    return Contact{p, box.inward_normal(face), face};
+    return grasp::Contact{p, box.inward_normal(face), face};
   };
-  const Grasp grasp = {contact({-1, 0.1, 0}), contact({1, -0.1, 0}), contact({0, -1, 0.1}),
-                       contact({0, 1, -0.1})};
-  const Grasp other = {contact({-1, 0.2, 0}), contact({1, -0.2, 0}), contact({0, -1, 0.2}),
-                       contact({0, 1, -0.2})};
-  const PlanResult result =
+  const grasp::Grasp grasp = {contact({-1, 0.1, 0}), contact({1, -0.1, 0}), contact({0, -1, 0.1}),
+                              contact({0, 1, -0.1})};
+  const grasp::Grasp other = {contact({-1, 0.2, 0}), contact({1, -0.2, 0}), contact({0, -1, 0.2}),
+                              contact({0, 1, -0.2})};
+  const planning::PlanResult result =
       PlanWith(PolyhedronPlanner(), box, Given(grasp), Given(other), Options(25, 0));
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(
@@ -182,18 +185,19 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
 }
 
 TEST(PlanOnPolyhedron, RefusesGraspsThatDoNotServe) {
-  const Polyhedron& body = SmallBodies().front().body;
-  const PlanResult some = PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
+  const object::Polyhedron& body = SmallBodies().front().body;
+  const planning::PlanResult some =
+      PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
   ASSERT_TRUE(some.plan) << some.message;
-  const Grasp good = ContactsOf(some.plan->initial);
-  const Grasp three(good.begin(), good.begin() + 3);
+  const grasp::Grasp good = plan::ContactsOf(some.plan->initial);
+  const grasp::Grasp three(good.begin(), good.begin() + 3);
   EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(three), Given(good), Options(15, 1)),
                InputError);
   EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(good), Given(three), Options(15, 1)),
                InputError);
   EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(0, 1)),
                std::invalid_argument);
-  PlanRequest options = Options(15, 1);
+  planning::PlanRequest options = Options(15, 1);
   options.criteria.min_quality = -1;
   EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), options),
                std::invalid_argument);
@@ -205,7 +209,7 @@ TEST(PlanOnPolyhedron, RefusesGraspsThatDoNotServe) {
 TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
   int seen = 0;
   for (const auto& [name, body] : SmallBodies()) {
-    PolyhedronGraph graph(body, Radians(12), Spanning::kAdaptive);
+    PolyhedronGraph graph(body, Radians(12), planning::Spanning::kAdaptive);
     FocusGeometry geometry(body, graph);
     RandomStream random(9, RandomUse::kStart);
     for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 10) {
@@ -214,7 +218,7 @@ TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
       const auto view = DescribeFocus(body, geometry.GraspOf(*drawn), Radians(12));
       ASSERT_TRUE(view) << name;
       const double tangent = graph.cells()[cell].tangent;
-      for (const Contact& contact : geometry.GraspOf(*drawn)) {
+      for (const grasp::Contact& contact : geometry.GraspOf(*drawn)) {
         const Eigen::Vector3d line = view->focus - contact.p;
         const double height = std::abs(contact.n.dot(line));
         EXPECT_LE((line - contact.n.dot(line) * contact.n).norm(), tangent * height * (1 + 1e-9));

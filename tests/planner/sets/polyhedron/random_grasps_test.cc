@@ -38,7 +38,7 @@ struct Seen {
 
 class GraspDraw {
  public:
-  GraspDraw(const Polyhedron& body, const FaceParts& parts) : body_(body), parts_(parts) {}
+  GraspDraw(const object::Polyhedron& body, const FaceParts& parts) : body_(body), parts_(parts) {}
 
   /// Around the body, nearer and farther.
   Vector3d FocusPoint() {
@@ -99,20 +99,20 @@ class GraspDraw {
     return -1;
   }
 
-  const Polyhedron& body_;
+  const object::Polyhedron& body_;
   const FaceParts& parts_;
   std::mt19937_64 engine_{kSeed};
   std::uniform_real_distribution<double> unit_{0, 1};
   std::normal_distribution<double> normal_;
 };
 
-bool IsHeld(const Polyhedron& body, const std::array<Seen, 4>& grasp,
+bool IsHeld(const object::Polyhedron& body, const std::array<Seen, 4>& grasp,
             const std::array<int, 4>& faces, double half_angle) {
-  std::vector<Contact> contacts;
+  std::vector<grasp::Contact> contacts;
   for (std::size_t k = 0; k < grasp.size(); ++k) {
     contacts.push_back({grasp[k].contact, body.inward_normal(faces[k]), faces[k]});
   }
-  return IsForceClosure(contacts, body.wrench_frame(), half_angle);
+  return grasp::IsForceClosure(contacts, body.wrench_frame(), half_angle);
 }
 
 struct Count {
@@ -124,7 +124,7 @@ struct Count {
 
 class GraspOracle {
  public:
-  GraspOracle(const Polyhedron& body, double degrees, Spanning spanning)
+  GraspOracle(const object::Polyhedron& body, double degrees, planning::Spanning spanning)
       : body_(body),
         half_angle_(Radians(degrees)),
         graph_(body, half_angle_, spanning),
@@ -151,7 +151,7 @@ class GraspOracle {
       }
       for (const QuadrupleCandidate& candidate : candidates_) {
         const auto grasp = Choose(candidate, seen);
-        if (grasp) CheckGrasp(candidate, *grasp, focus, count);
+        if (grasp) grasp::CheckGrasp(candidate, *grasp, focus, count);
       }
     }
   }
@@ -196,8 +196,8 @@ class GraspOracle {
     return grasp;
   }
 
-  void CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
-                  const Vector3d& focus, Count& count) {
+  void grasp::CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
+                         const Vector3d& focus, Count& count) {
     std::array<int, 4> halves;
     for (std::size_t k = 0; k < grasp.size(); ++k) halves[k] = grasp[k].half;
     const auto cell = cell_of_.find(halves);
@@ -229,7 +229,7 @@ class GraspOracle {
     return height > 0 && line.squaredNorm() < height * height * (1 + tangent * tangent);
   }
 
-  const Polyhedron& body_;
+  const object::Polyhedron& body_;
   double half_angle_;
   PolyhedronGraph graph_;
   GraspDraw draw_;
@@ -240,10 +240,11 @@ class GraspOracle {
 template <class Check>
 Count CheckAll(const Check& check) {
   Count count;
-  ForEachSmallBody(kDegrees, [&](const Polyhedron& body, double degrees, Spanning spanning) {
-    GraspOracle oracle(body, degrees, spanning);
-    check(oracle, count);
-  });
+  ForEachSmallBody(
+      kDegrees, [&](const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
+        GraspOracle oracle(body, degrees, spanning);
+        check(oracle, count);
+      });
   return count;
 }
 

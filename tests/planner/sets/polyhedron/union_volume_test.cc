@@ -76,21 +76,22 @@ TEST(UnionVolume, IsTheLeastOverItsContacts) {
   constexpr int kCells = 60;
   PointSource source;
   for (const double tangent : {0.1, 0.7, 2.0}) {
-    const int halves = ForEachHalf(tangent, [&](const Polyhedron& body, const FacePart& part,
-                                                const UnionVolume& volume, const Vector3d& axis) {
-      const std::vector<Vector3d> contacts = ContactsOf(part, kCells);
-      // From any point of the part to the grid it is less than this.
-      const double spacing = body.diameter() / kCells;
-      for (int i = 0; i < 10; ++i) {
-        const Vector3d x = body.mass_properties().centroid + source.Next(body.diameter());
-        double least = std::numeric_limits<double>::infinity();
-        for (const Vector3d& contact : contacts) {
-          least = std::min(least, OfContact(x, contact, axis, tangent));
-        }
-        EXPECT_LE(volume.At(x), least + kRounding);
-        EXPECT_GE(volume.At(x), least - spacing);
-      }
-    });
+    const int halves =
+        ForEachHalf(tangent, [&](const object::Polyhedron& body, const FacePart& part,
+                                 const UnionVolume& volume, const Vector3d& axis) {
+          const std::vector<Vector3d> contacts = ContactsOf(part, kCells);
+          // From any point of the part to the grid it is less than this.
+          const double spacing = body.diameter() / kCells;
+          for (int i = 0; i < 10; ++i) {
+            const Vector3d x = body.mass_properties().centroid + source.Next(body.diameter());
+            double least = std::numeric_limits<double>::infinity();
+            for (const Vector3d& contact : contacts) {
+              least = std::min(least, OfContact(x, contact, axis, tangent));
+            }
+            EXPECT_LE(volume.At(x), least + kRounding);
+            EXPECT_GE(volume.At(x), least - spacing);
+          }
+        });
     EXPECT_GT(halves, 100);
   }
 }
@@ -98,7 +99,7 @@ TEST(UnionVolume, IsTheLeastOverItsContacts) {
 TEST(UnionVolume, CutsTouchTheFunctionAtTheirPointAndAreBelowItElsewhere) {
   PointSource source;
   int compared = 0;
-  ForEachHalf(0.5, [&](const Polyhedron& body, const FacePart&, const UnionVolume& volume,
+  ForEachHalf(0.5, [&](const object::Polyhedron& body, const FacePart&, const UnionVolume& volume,
                        const Vector3d&) {
     const Vector3d centre = body.mass_properties().centroid;
     for (int i = 0; i < kPoints; ++i) {
@@ -116,7 +117,7 @@ TEST(UnionVolume, CutsTouchTheFunctionAtTheirPointAndAreBelowItElsewhere) {
 
 TEST(UnionVolume, IsConvexAlongRandomSegments) {
   PointSource source;
-  ForEachHalf(0.36, [&](const Polyhedron& body, const FacePart&, const UnionVolume& volume,
+  ForEachHalf(0.36, [&](const object::Polyhedron& body, const FacePart&, const UnionVolume& volume,
                         const Vector3d&) {
     for (int i = 0; i < kPoints; ++i) {
       const Vector3d a = source.Next(body.diameter()), b = source.Next(body.diameter());
