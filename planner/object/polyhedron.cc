@@ -8,8 +8,8 @@
 
 #include "planner/object/closest_on_segment.h"
 #include "planner/object/diameter.h"
-#include "planner/object/face_index.h"
 #include "planner/object/face_joining.h"
+#include "planner/object/face_tree.h"
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/size_limits.h"
@@ -119,32 +119,32 @@ Polyhedron::Polyhedron(std::vector<Vector3d> vertices, std::vector<std::array<in
       triangles_(std::move(triangles)),
       face_of_triangle_(std::move(face_of_triangle)),
       faces_(std::move(faces)),
-      index_(std::make_shared<FaceIndex>(vertices_, triangles_, faces_, diameter)) {}
+      face_tree_(std::make_shared<FaceTree>(vertices_, triangles_, faces_, diameter)) {}
 
 Vector3d Polyhedron::inward_normal(int face) const { return faces_[face].inward_normal; }
 
 double Polyhedron::face_measure(int face) const { return faces_[face].area; }
 
 Vector3d Polyhedron::ClosestPoint(int face, const Vector3d& point) const {
-  return index_->ClosestPoint(face, point);
+  return face_tree_->ClosestPoint(face, point);
 }
 
 std::vector<int> Polyhedron::FacesNear(const Vector3d& point, double tolerance) const {
-  return index_->FacesNear(point, tolerance);
+  return face_tree_->FacesNear(point, tolerance);
 }
 
 std::vector<int> Polyhedron::FacesNearSegment(const Vector3d& a, const Vector3d& b,
                                               double tolerance) const {
-  return index_->FacesNearSegment(a, b, tolerance);
+  return face_tree_->FacesNearSegment(a, b, tolerance);
 }
 
 double Polyhedron::DistanceToBorder(int face, const Vector3d& point) const {
-  return index_->DistanceToBorder(face, point);
+  return face_tree_->DistanceToBorder(face, point);
 }
 
 bool Polyhedron::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
-  return index_->ContainsSegment(face, a, b, tolerance);
+  return face_tree_->ContainsSegment(face, a, b, tolerance);
 }
 
 std::vector<FaceBorder> Polyhedron::BordersOf(int face) const {

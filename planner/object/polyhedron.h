@@ -12,7 +12,7 @@
 
 namespace regrasp::object {
 
-class FaceIndex;
+class FaceTree;
 
 /// A solid bounded by a closed triangle mesh whose coplanar neighbours are joined into faces.
 class Polyhedron final : public Object {
@@ -76,7 +76,7 @@ class Polyhedron final : public Object {
   std::vector<int> face_of_triangle_;
   std::vector<Face> faces_;
   /// Shared between copies: it does not change, and it is as large as the mesh.
-  std::shared_ptr<const FaceIndex> index_;
+  std::shared_ptr<const FaceTree> face_tree_;
 };
 
 }  // namespace regrasp::object

@@ -123,7 +123,7 @@ void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
       world.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * offset[i];
     }
   });
-  for (const int f : fingers) world.engine().SetSite(f, SiteIndex::kNone);
+  for (const int f : fingers) world.engine().SetSite(f, SiteIndex());
 }
 
 void SwitchFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B,

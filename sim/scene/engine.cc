@@ -202,11 +202,11 @@ void Engine::SetTarget(int finger, const Vector3d& target) {
 void Engine::SetSite(int finger, SiteIndex site) {
   mjModel& m = *impl_->model;
   for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~impl_->BitOf(finger);
-  if (site != SiteIndex::kNone) AddSite(finger, site);
+  if (site.valid()) AddSite(finger, site);
 }
 
 void Engine::AddSite(int finger, SiteIndex site) {
-  for (const int g : impl_->geoms_of_site[static_cast<int>(site)]) {
+  for (const int g : impl_->geoms_of_site[site]) {
     impl_->model->geom_conaffinity[g] |= impl_->BitOf(finger);
   }
 }

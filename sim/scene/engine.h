@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/index.h"
+
 namespace regrasp::sim {
 
 /// The engine warned of the state of a simulation or refused to go on, or a state is not finite.
@@ -27,9 +29,8 @@ struct EngineUnits {
   [[nodiscard]] double force_N() const { return mass_kg * length_m / (time_s * time_s); }
 };
 
-/// One of the places where fingers touch, Scene::sites (sim/scene/scene.h): not to be mixed up with
-/// a finger's number, nor with an index of the engine.
-enum class SiteIndex : int { kNone = -1 };
+/// One of the places where fingers touch, Scene::sites (sim/scene/scene.h).
+using SiteIndex = Index<struct SiteTag>;
 
 /// MuJoCo's model and data of one scene (sim/scene/scene.h): a body "object" whose centre of mass
 /// is its origin, free or on the joints x, y and turn about z, and fingers "finger0" … on a slide
@@ -65,7 +66,7 @@ class Engine {
   void ShiftTip(int finger, const Eigen::Vector3d& offset);
   /// What the finger's servo steers for: its tip position at rest under no force.
   void SetTarget(int finger, const Eigen::Vector3d& target);
-  /// The patches of this site, and no others, stop the finger; none where kNone.
+  /// The patches of this site, and no others, stop the finger; none where it is not valid.
   void SetSite(int finger, SiteIndex site);
   void AddSite(int finger, SiteIndex site);
   /// Acceleration along −z, m/s².

@@ -48,7 +48,7 @@ struct SiteCollector {
     for (const plan::FingerContact& held : grasp) {
       const SiteIndex index = Add(held.finger, held.contact, held.contact);
       SiteIndex& first = scene.fingers[held.finger].first_site;
-      if (first == SiteIndex::kNone) first = index;
+      if (!first.valid()) first = index;
     }
   }
 
@@ -277,11 +277,11 @@ Eigen::Matrix3d Inertia(const object::Object& body, double scale, const ReplaySe
 
 void PlaceFingersAtStart(const object::Object& object, Scene& scene) {
   for (SceneFinger& finger : scene.fingers) {
-    if (finger.first_site == SiteIndex::kNone) {
+    if (!finger.first_site.valid()) {
       finger.start_S = Vector3d::UnitX() * kParkingDistance * scene.settings.diameter_m;
       continue;
     }
-    const ContactSite& place = scene.site(finger.first_site).place;
+    const ContactSite& place = scene.sites[finger.first_site].place;
     finger.start_S =
         place.from - object.inward_normal(place.face) * scene.settings.fingertip_radius_m;
   }
@@ -389,7 +389,7 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
 SiteIndex FindSite(const Scene& scene, const grasp::Contact& from_S, const grasp::Contact& to_S) {
   // A finger that turns at an edge is at its new face's site already.
   const Vector3d begin = from_S.face == to_S.face ? from_S.p : to_S.p;
-  SiteIndex best = SiteIndex::kNone;
+  SiteIndex best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.sites.size(); ++i) {
     const ContactSite& site = scene.sites[i].place;

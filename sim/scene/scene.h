@@ -24,7 +24,7 @@ struct SceneSite {
 /// A finger of the hand, whether the plan uses it or not.
 struct SceneFinger {
   int collision_bit = 0;                              ///< 0 where it never touches
-  SiteIndex first_site = SiteIndex::kNone;            ///< where the plan first puts it
+  SiteIndex first_site;                               ///< where the plan first puts it
   Eigen::Vector3d start_S = Eigen::Vector3d::Zero();  ///< its tip at the beginning
 };
 
@@ -45,10 +45,6 @@ struct Scene {
   std::vector<SceneFinger> fingers;  ///< by the number of the finger
   std::vector<SceneEntry> entries;   ///< as in the report: 0 is the hold, k the plan's k-th step
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m², about the centroid
-
-  [[nodiscard]] const SceneSite& site(SiteIndex index) const {
-    return sites[static_cast<int>(index)];
-  }
 };
 
 /// Metres about the centroid; normal and face stay.

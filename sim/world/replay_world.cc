@@ -15,8 +15,8 @@ namespace {
 /// Where the plan first puts a finger; on no face where it never does.
 grasp::Contact FirstContact(const object::Object& body, const Scene& scene, int finger) {
   const SiteIndex first = scene.fingers[finger].first_site;
-  if (first == SiteIndex::kNone) return {};
-  const ContactSite& place = scene.site(first).place;
+  if (!first.valid()) return {};
+  const ContactSite& place = scene.sites[first].place;
   return {place.from, body.inward_normal(place.face), place.face};
 }
 
@@ -32,7 +32,7 @@ ReplayWorld::ReplayWorld(const object::Object& body, const plan::Plan& plan, Sce
       fingers_(scene_.fingers.size()),
       monitor_(scene_.settings) {
   for (std::size_t f = 0; f < fingers_.size(); ++f) {
-    engine_.SetSite(static_cast<int>(f), SiteIndex::kNone);
+    engine_.SetSite(static_cast<int>(f), SiteIndex());
     fingers_[f].anchor_S = scene_.fingers[f].start_S;
     fingers_[f].contact = FirstContact(body, scene_, static_cast<int>(f));
   }

@@ -12,14 +12,14 @@ namespace regrasp::object {
 ///
 /// A query costs microseconds on meshes of 50 000 triangles. It keeps its own copy of the geometry.
 /// Queries are const and safe from several threads.
-class FaceIndex {
+class FaceTree {
  public:
-  FaceIndex(const std::vector<Eigen::Vector3d>& vertices,
-            const std::vector<std::array<int, 3>>& triangles,
-            const std::vector<Polyhedron::Face>& faces, double diameter);
-  ~FaceIndex();
-  FaceIndex(const FaceIndex&) = delete;
-  FaceIndex& operator=(const FaceIndex&) = delete;
+  FaceTree(const std::vector<Eigen::Vector3d>& vertices,
+           const std::vector<std::array<int, 3>>& triangles,
+           const std::vector<Polyhedron::Face>& faces, double diameter);
+  ~FaceTree();
+  FaceTree(const FaceTree&) = delete;
+  FaceTree& operator=(const FaceTree&) = delete;
 
   /// As the functions of Object with these names.
   [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const;

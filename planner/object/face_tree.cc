@@ -1,4 +1,4 @@
-#include "planner/object/face_index.h"
+#include "planner/object/face_tree.h"
 
 #include <CGAL/AABB_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
@@ -174,7 +174,7 @@ CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
 
 }  // namespace
 
-struct FaceIndex::Impl {
+struct FaceTree::Impl {
   double diameter = 0;
   double rounding = 0;              ///< of distances between points of the surface
   std::vector<Vector3d> normals;    ///< by face
@@ -190,7 +190,7 @@ struct FaceIndex::Impl {
 
 /// True iff the segment ab is within a distance of the face, and over it up to rounding where one
 /// looks along its normal.
-bool FaceIndex::Impl::Covers(int face, const Vector3d& a, const Vector3d& b, double within) const {
+bool FaceTree::Impl::Covers(int face, const Vector3d& a, const Vector3d& b, double within) const {
   const PlaneView view(a, normals[face]);
   const double strictness = within / rounding;
   // The points near one triangle form an interval, as the distance to a convex set is convex along
@@ -208,9 +208,9 @@ bool FaceIndex::Impl::Covers(int face, const Vector3d& a, const Vector3d& b, dou
   return CoverUnitInterval(std::move(near));
 }
 
-FaceIndex::FaceIndex(const std::vector<Vector3d>& vertices,
-                     const std::vector<std::array<int, 3>>& triangles,
-                     const std::vector<Polyhedron::Face>& faces, double diameter) {
+FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
+                   const std::vector<std::array<int, 3>>& triangles,
+                   const std::vector<Polyhedron::Face>& faces, double diameter) {
   auto impl = std::make_unique<Impl>();
   impl->diameter = diameter;
   double farthest = 0;
@@ -245,13 +245,13 @@ FaceIndex::FaceIndex(const std::vector<Vector3d>& vertices,
   impl_ = std::move(impl);
 }
 
-FaceIndex::~FaceIndex() = default;
+FaceTree::~FaceTree() = default;
 
-Vector3d FaceIndex::ClosestPoint(int face, const Vector3d& point) const {
+Vector3d FaceTree::ClosestPoint(int face, const Vector3d& point) const {
   return ToVector(impl_->surface[face].Closest(ToPoint(point)));
 }
 
-std::vector<int> FaceIndex::FacesNear(const Vector3d& point, double tolerance) const {
+std::vector<int> FaceTree::FacesNear(const Vector3d& point, double tolerance) const {
   // Wider than asked by more than rounding; the distances below decide.
   const CGAL::Bbox_3 box = Around(point, point, tolerance + kRounding * impl_->diameter);
   std::vector<TriangleIterator> candidates;
@@ -270,8 +270,8 @@ std::vector<int> FaceIndex::FacesNear(const Vector3d& point, double tolerance) c
   return faces;
 }
 
-std::vector<int> FaceIndex::FacesNearSegment(const Vector3d& a, const Vector3d& b,
-                                             double tolerance) const {
+std::vector<int> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                            double tolerance) const {
   const Segment segment(ToPoint(a), ToPoint(b));
   const double within = tolerance + kRounding * impl_->diameter;
   std::set<int> faces;
@@ -290,12 +290,12 @@ std::vector<int> FaceIndex::FacesNearSegment(const Vector3d& a, const Vector3d& 
   return {faces.begin(), faces.end()};
 }
 
-double FaceIndex::DistanceToBorder(int face, const Vector3d& point) const {
+double FaceTree::DistanceToBorder(int face, const Vector3d& point) const {
   return (ToVector(impl_->border[face].Closest(ToPoint(point))) - point).norm();
 }
 
-bool FaceIndex::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
-                                double tolerance) const {
+bool FaceTree::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
+                               double tolerance) const {
   const double within = std::max(tolerance, kRounding * impl_->diameter);
   const Vector3d from = ClosestPoint(face, a), to = ClosestPoint(face, b);
   if ((from - a).norm() > within || (to - b).norm() > within) return false;
