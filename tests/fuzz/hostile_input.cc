@@ -29,13 +29,13 @@ void ExpectOneLine(const std::string& message) {
   }
 }
 
-void ExpectFaceIsFound(const Object& object, int face) {
+void ExpectFaceIsFound(const object::Object& object, int face) {
   const Eigen::Vector3d normal = object.inward_normal(face);
   if (!(std::abs(normal.norm() - 1) <= kUnitTolerance)) ReportFinding("a normal is not unit");
   if (!(object.face_measure(face) > 0)) ReportFinding("a face without area");
   const Eigen::Vector3d point = object.ClosestPoint(face, object.mass_properties().centroid);
   if (!point.allFinite()) ReportFinding("a closest point is not finite");
-  const double tolerance = kPointTolerance * object.diameter();
+  const double tolerance = object::kPointTolerance * object.diameter();
   if (!std::ranges::count(object.FacesNear(point, tolerance), face)) {
     ReportFinding("a face is not near a point of its own");
   }
@@ -66,11 +66,11 @@ void ReadHostileInput(const std::function<void()>& read) {
   }
 }
 
-void ExpectSound(const Object& object) {
+void ExpectSound(const object::Object& object) {
   if (!(object.diameter() > 0 && std::isfinite(object.diameter()))) {
     ReportFinding("the diameter is not a positive number");
   }
-  const MassProperties& mass = object.mass_properties();
+  const object::MassProperties& mass = object.mass_properties();
   if (!(mass.volume > 0) || !mass.centroid.allFinite() || !mass.inertia.allFinite()) {
     ReportFinding("the mass properties are not those of a solid");
   }

@@ -2,9 +2,9 @@
 
 namespace regrasp {
 
-const Polyhedron& SmallSolid() {
+const object::Polyhedron& SmallSolid() {
   // Never destroyed: nothing runs behind the end of main.
-  static const Polyhedron* const cube = new Polyhedron(Polyhedron::FromSoup(
+  static const object::Polyhedron* const cube = new object::Polyhedron(object::Polyhedron::FromSoup(
       {{{-1, -1, -1},
         {1, -1, -1},
         {1, 1, -1},
@@ -18,9 +18,9 @@ const Polyhedron& SmallSolid() {
   return *cube;
 }
 
-const Polygon& SmallPolygon() {
-  static const Polygon* const square =
-      new Polygon(Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square"));
+const object::Polygon& SmallPolygon() {
+  static const object::Polygon* const square = new object::Polygon(
+      object::Polygon::FromRings({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, "square"));
   return *square;
 }
 

@@ -11,6 +11,8 @@
 
 namespace regrasp::sim {
 
+using regrasp::OnEdge;
+
 inline plan::FingerContact OnEdge(const object::Polygon& polygon, int finger, int edge,
                                   double share) {
   return {finger, OnEdge(polygon, edge, share)};

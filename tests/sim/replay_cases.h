@@ -18,8 +18,8 @@ inline object::ObjectFile ReadModel(const std::string& name) {
 }
 
 /// The contact at `p` on the face whose inward normal is `n`; face −1 where there is none.
-inline grasp::Contact grasp::ContactAt(const object::Object& object, const Eigen::Vector3d& p,
-                                       const Eigen::Vector3d& n) {
+inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vector3d& p,
+                                const Eigen::Vector3d& n) {
   grasp::Contact contact{p, n.normalized(), -1};
   for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - contact.n).norm() < 1e-6) contact.face = face;
@@ -64,8 +64,8 @@ struct CubeCase {
     const Eigen::Vector3d p(x, y, z);
     Eigen::Index axis = 0;
     p.cwiseAbs().maxCoeff(&axis);
-    return {finger, grasp::ContactAt(object, p,
-                                     -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
+    return {finger,
+            ContactAt(object, p, -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
   }
   [[nodiscard]] plan::FingerGrasp Start() const {
     return {At(0, 0.03, 0.004, 0.002), At(1, -0.03, 0.002, -0.004), At(2, 0.003, 0.03, 0.004),

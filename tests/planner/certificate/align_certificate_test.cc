@@ -25,12 +25,12 @@ plan::FingerGrasp Held(const grasp::Grasp& grasp) {
 
 /// Two ways over the sides of a cube; the waypoints name the fingers in different orders.
 plan::Align MakeAlign() {
-  grasp::Grasp middle = CrossedGrasp();
+  grasp::Grasp middle = motion::CrossedGrasp();
   middle[0].p.y() += 0.1;
   middle[3].p.z() -= 0.1;
   grasp::Grasp end = middle;
   end[2].p.x() -= 0.1;
-  plan::Align align{{Held(CrossedGrasp()), Held(middle), Held(end)}};
+  plan::Align align{{Held(motion::CrossedGrasp()), Held(middle), Held(end)}};
   std::ranges::reverse(align.waypoints[1]);
   std::ranges::rotate(align.waypoints[2], align.waypoints[2].begin() + 1);
   return align;

@@ -20,12 +20,13 @@ constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
 void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
-  RandomBoxes random(dimension);
+  motion::RandomBoxes random(dimension);
   int proved = 0;
   int refuted = 0;
   for (int i = 0; i < 300; ++i) {
     const grasp::Grasp grasp = random.Draw(contacts);
-    const grasp::ForceClosure test = grasp::TestForceClosure(grasp, FrameOf(dimension), kHalfAngle);
+    const grasp::ForceClosure test =
+        grasp::TestForceClosure(grasp, motion::FrameOf(dimension), kHalfAngle);
     const GraspProof proof = FindGraspProof(grasp, dimension, kHalfAngle);
     const motion::ProofVerdict verdict = CheckGraspProof(grasp, dimension, kMu, proof);
     if (verdict.kind == Kind::kForceClosure) {
@@ -51,7 +52,7 @@ TEST(ProofTest, ProofsOfRandomGraspsHoldExactlyAndAgreeWithTheTest) {
 }
 
 TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
-  const grasp::Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = motion::CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   ASSERT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
   // More friction never takes a proof away.
@@ -73,7 +74,7 @@ TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
 }
 
 TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
-  const grasp::Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = motion::CrossedGrasp();
   const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   GraspProof wrong = proof;
   wrong.forces[2] += Vector3d(0.5, 0, 0);  // out of balance by much: so is what makes up for it
@@ -96,7 +97,7 @@ TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
 }
 
 TEST(ProofTest, WrittenDecimalsStillProve) {
-  const grasp::Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = motion::CrossedGrasp();
   GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
   for (Vector3d& force : proof.forces) force = (force * 1e6).array().round() / 1e6;
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
@@ -113,7 +114,7 @@ TEST(ProofTest, ContactsOnOneLineProveNothing) {
 }
 
 TEST(ProofTest, TwistsThatDoNotSeparateAreRefused) {
-  const grasp::Grasp grasp = CrossedGrasp();
+  const grasp::Grasp grasp = motion::CrossedGrasp();
   GraspProof proof;
   proof.kind = GraspProof::Kind::kTwist;
   proof.v = Vector3d(1, 0, 0);

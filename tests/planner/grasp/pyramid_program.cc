@@ -17,7 +17,8 @@ constexpr int kRows = 7;  // balance, and the sum of the normal forces
 /// Lower bound of the margin: any number below what a test compares with.
 constexpr double kLeastMargin = -1e3;
 
-Vector6 WrenchOf(const Contact& contact, const WrenchFrame& frame, const Eigen::Vector3d& force) {
+Vector6 WrenchOf(const Contact& contact, const object::WrenchFrame& frame,
+                 const Eigen::Vector3d& force) {
   Vector6 wrench;
   wrench << force, (contact.p - frame.origin).cross(force) / frame.radius;
   return wrench;
@@ -84,8 +85,9 @@ std::vector<Eigen::Vector3d> Edges(const Contact& contact, int dimension, double
 
 }  // namespace
 
-std::optional<double> PyramidMargin(std::span<const Contact> contacts, const WrenchFrame& frame,
-                                    double half_angle, const Pyramid& pyramid, const Wrench& load) {
+std::optional<double> PyramidMargin(std::span<const Contact> contacts,
+                                    const object::WrenchFrame& frame, double half_angle,
+                                    const Pyramid& pyramid, const Wrench& load) {
   Program program;
   for (int r = 0; r < 3; ++r) {
     program.SetRow(1 + r, -load.force[r]);

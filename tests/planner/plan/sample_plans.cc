@@ -6,14 +6,14 @@ namespace regrasp::plan {
 
 namespace {
 
-const Contact kRight{{1, 0.05, -0.1}, {-1, 0, 0}};
-const Contact kLeft{{-1, -0.1, 0.05}, {1, 0, 0}};
-const Contact kAbove{{0.1, -0.05, 1}, {0, 0, -1}};
-const Contact kBelow{{-0.05, 0.1, -1}, {0, 0, 1}};
-const Contact kBack{{0.05, 1, 0.1}, {0, -1, 0}};
-const Contact kFront{{-0.1, -1, 0.05}, {0, 1, 0}};
+const grasp::Contact kRight{{1, 0.05, -0.1}, {-1, 0, 0}};
+const grasp::Contact kLeft{{-1, -0.1, 0.05}, {1, 0, 0}};
+const grasp::Contact kAbove{{0.1, -0.05, 1}, {0, 0, -1}};
+const grasp::Contact kBelow{{-0.05, 0.1, -1}, {0, 0, 1}};
+const grasp::Contact kBack{{0.05, 1, 0.1}, {0, -1, 0}};
+const grasp::Contact kFront{{-0.1, -1, 0.05}, {0, 1, 0}};
 
-Contact Moved(const Contact& contact, double x, double y, double z) {
+grasp::Contact Moved(const grasp::Contact& contact, double x, double y, double z) {
   return {contact.p + Eigen::Vector3d(x, y, z), contact.n};
 }
 

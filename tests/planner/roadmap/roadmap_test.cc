@@ -16,11 +16,10 @@
 namespace regrasp::roadmap {
 namespace {
 
-constexpr double criteria::kSamePoint = 1e-7;
+constexpr double kSamePoint = 1e-7;
 
 Roadmap MakeRoadmap(const std::vector<grasp::Contact>& points, double degrees) {
-  return Roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(degrees),
-                 criteria::kSamePoint);
+  return Roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(degrees), kSamePoint);
 }
 
 std::vector<grasp::Contact> CubePoints(int count, std::uint64_t seed = 1) {
@@ -128,7 +127,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
   std::int64_t cut = 0;
   for (const double radius : {0.006, 0.012}) {
     const Roadmap roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(25),
-                          criteria::kSamePoint, radius);
+                          kSamePoint, radius);
     int kept = 0;
     for (int v = 0; v < plain.vertex_count(); ++v) {
       const bool apart = criteria::KeepApart(plain.grasp(v), radius);

@@ -44,8 +44,8 @@ inline object::Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
   return object::Polyhedron::FromSoup(soup, "convex body");
 }
 
-inline std::vector<Contact> Centroids(const object::Polyhedron& solid) {
-  std::vector<Contact> contacts;
+inline std::vector<grasp::Contact> Centroids(const object::Polyhedron& solid) {
+  std::vector<grasp::Contact> contacts;
   for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
     const auto& v = solid.vertices();

@@ -84,8 +84,8 @@ TEST(ReplayAlign, TurnsAFingerOverAnEdgeWithAndWithoutASpareFinger) {
   start.push_back(cube.At(4, 0.03, -0.010, -0.003));
   plan::FingerGrasp edge = start, turned = start, end = start;
   const Eigen::Vector3d corner(0.03, 0.03, 0.002);
-  edge[0].contact = grasp::ContactAt(cube.object, corner, {-1, 0, 0});
-  turned[0].contact = grasp::ContactAt(cube.object, corner, {0, -1, 0});
+  edge[0].contact = ContactAt(cube.object, corner, {-1, 0, 0});
+  turned[0].contact = ContactAt(cube.object, corner, {0, -1, 0});
   end[0] = cube.At(0, 0.015, 0.03, 0.002);
   ASSERT_GE(turned[0].contact.face, 0);
   for (const auto& [fingers, mode] : {std::pair{6, AlignMode::kImitated}, {5, AlignMode::kSlid}}) {
@@ -102,8 +102,8 @@ TEST(ReplayAlign, TurnsAFingerOverAnEdgeWithAndWithoutASpareFinger) {
 TEST(InterpolateContacts, TurnsNormalsOnTheGreatCircle) {
   const CubeCase cube;
   const Eigen::Vector3d corner(0.03, 0.03, 0);
-  const plan::FingerGrasp from = {{0, grasp::ContactAt(cube.object, corner, {-1, 0, 0})}};
-  const plan::FingerGrasp to = {{0, grasp::ContactAt(cube.object, corner, {0, -1, 0})}};
+  const plan::FingerGrasp from = {{0, ContactAt(cube.object, corner, {-1, 0, 0})}};
+  const plan::FingerGrasp to = {{0, ContactAt(cube.object, corner, {0, -1, 0})}};
   const grasp::Contact middle = Interpolate(from, to, 0.5)[0].contact;
   EXPECT_LT((middle.n - Eigen::Vector3d(-1, -1, 0).normalized()).norm(), 1e-12);
   EXPECT_EQ(middle.p, corner);

@@ -20,17 +20,17 @@ void ExpectPassesAsPlanned(const object::Object& object, const plan::Plan& plan)
 TEST(ReplayConcave, TouchesTheInnerCornerFacesOfTheLBlock) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;
-  const grasp::Contact inner_y = grasp::ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0});
-  const grasp::Contact inner_x = grasp::ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0});
+  const grasp::Contact inner_y = ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0});
+  const grasp::Contact inner_x = ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0});
   ASSERT_GE(inner_y.face, 0);
   ASSERT_GE(inner_x.face, 0);
   plan::Plan plan = MakePlan({{0, inner_y},
-                              {1, grasp::ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
                               {2, inner_x},
-                              {3, grasp::ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+                              {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
                              30);
   // Closer to the concave edge than a fingertip is usually thick.
-  plan.steps = {plan::Switch{{{4, grasp::ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}}, {0}}};
+  plan.steps = {plan::Switch{{{4, ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}}, {0}}};
   ExpectPassesAsPlanned(l, plan);
   EXPECT_LT(ReplayPlan(l, plan, {}).settings.fingertip_radius_m, 0.0015);
 }
@@ -79,7 +79,7 @@ TEST(ContactPatches, AreARectangleInsideAFaceAndEndAtItsBorder) {
   const auto& cube = dynamic_cast<const object::Polyhedron&>(*file.object);
   int checked = 0;
   for (const double y : {0.0, 0.0299, 0.03}) {
-    const grasp::Contact contact = grasp::ContactAt(cube, {0.03, y, 0.001}, {-1, 0, 0});
+    const grasp::Contact contact = ContactAt(cube, {0.03, y, 0.001}, {-1, 0, 0});
     const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_TRUE(patches[0].rectangle);
@@ -122,7 +122,7 @@ TEST(ContactPatches, AreRectanglesInTheCornersOfFacesToo) {
   int checked = 0;
   // Near a corner, on a border near it, in the corner itself.
   for (const auto& [y, z] : {std::pair{0.0295, 0.0297}, {0.03, 0.0297}, {0.03, 0.03}}) {
-    const grasp::Contact contact = grasp::ContactAt(cube, {0.03, y, z}, {-1, 0, 0});
+    const grasp::Contact contact = ContactAt(cube, {0.03, y, z}, {-1, 0, 0});
     const auto patches = MakeContactPatches(cube, {contact.face, contact.p, contact.p}, 0.002);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_TRUE(patches[0].rectangle);
@@ -140,7 +140,7 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
   const object::ObjectFile file = ReadModel("body40.obj");
   const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   const auto at = [&](int finger, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-    const grasp::Contact near = grasp::ContactAt(body, p, n);
+    const grasp::Contact near = ContactAt(body, p, n);
     return plan::FingerContact{finger, {body.ClosestPoint(near.face, p), near.n, near.face}};
   };
   const plan::Plan plan =
@@ -165,9 +165,9 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
 TEST(Clearance, IsTheDistanceToAWallAtARightAngle) {
   // A ball that touches two walls at right angles touches each at its radius from the other.
   const object::ObjectFile file = ReadModel("l_block.obj");
-  const grasp::Contact contact = grasp::ContactAt(*file.object, {0.0415, 0.04, 0}, {0, -1, 0});
+  const grasp::Contact contact = ContactAt(*file.object, {0.0415, 0.04, 0}, {0, -1, 0});
   EXPECT_NEAR(criteria::ComputeClearance(*file.object, contact, 0.02), 0.0015, 1e-9);
-  const grasp::Contact free = grasp::ContactAt(*file.object, {0.07, 0, 0}, {0, 1, 0});
+  const grasp::Contact free = ContactAt(*file.object, {0.07, 0, 0}, {0, 1, 0});
   EXPECT_EQ(criteria::ComputeClearance(*file.object, free, 0.02), 0.02);
 }
 

@@ -229,7 +229,7 @@ TEST(ReplayScale, MillimetresWithAScaleAreMetres) {
   const object::Polyhedron big = object::Polyhedron::FromSoup(soup, "cube in millimetres");
   const auto enlarge = [&](plan::FingerGrasp& grasp) {
     for (plan::FingerContact& held : grasp) {
-      held.contact = grasp::ContactAt(big, 1000 * held.contact.p, held.contact.n);
+      held.contact = ContactAt(big, 1000 * held.contact.p, held.contact.n);
     }
   };
   plan::Plan millimetres = metres;

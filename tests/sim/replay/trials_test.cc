@@ -82,10 +82,8 @@ TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
 
 TEST(ContactNoise, KeepsToBordersAndCornersAndWithoutDeviationChangesNothing) {
   const CubeCase cube;
-  const plan::FingerContact border{0,
-                                   grasp::ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
-  const plan::FingerContact corner{1,
-                                   grasp::ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
+  const plan::FingerContact border{0, ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
+  const plan::FingerContact corner{1, ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
   const plan::Plan plan = MakePlan({border, corner}, 25);
   RandomStream random(1, RandomUse::kTrialContacts, 0);
   const plan::Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);

@@ -114,18 +114,18 @@ object::Polyhedron MakeThinBox() {
 TEST(NonconvexContacts, FingersPressInABlindHole) {
   const object::Polyhedron body = MakeBlindHole();
   TouchCount count = Hold(body,
-                          WithFingers({grasp::ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
-                                       grasp::ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
-                                       grasp::ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
-                                       grasp::ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
+                          WithFingers({ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
+                                       ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
+                                       ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
+                                       ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
                           30);
   ExpectTouchesItsOwn(count, 4);
   // Two on opposite walls of the hole, pressing outwards, one on its ground.
   count = Hold(body,
-               WithFingers({grasp::ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
-                            grasp::ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
-                            grasp::ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
-                            grasp::ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
+               WithFingers({ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
+                            ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
+                            ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
+                            ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
                30);
   ExpectTouchesItsOwn(count, 4);
 }
@@ -134,28 +134,26 @@ TEST(NonconvexContacts, FingersPinchThinWallsFromBothSides) {
   // The walls are thinner than the pieces of surface under a contact are thick. Two pinches alone
   // let the body turn about the line between them.
   const object::Polyhedron body = MakeThinBox();
-  const TouchCount count =
-      Hold(body,
-           WithFingers({grasp::ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
-                        grasp::ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
-                        grasp::ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
-                        grasp::ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
-                        grasp::ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
-                        grasp::ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
-           30);
+  const TouchCount count = Hold(body,
+                                WithFingers({ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
+                                             ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
+                                             ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
+                                             ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
+                                             ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
+                                             ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
+                                30);
   ExpectTouchesItsOwn(count, 6);
 }
 
 TEST(NonconvexContacts, FingersPressOutwardsInAChannel) {
   const object::ObjectFile file = ReadModel("u_channel.obj");
   const object::Object& body = *file.object;
-  const TouchCount count =
-      Hold(body,
-           WithFingers({grasp::ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
-                        grasp::ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
-                        grasp::ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
-                        grasp::ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
-           30);
+  const TouchCount count = Hold(body,
+                                WithFingers({ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
+                                             ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
+                                             ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
+                                             ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
+                                30);
   ExpectTouchesItsOwn(count, 4);
 }
 
@@ -166,13 +164,12 @@ TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth
   for (const double share : {1e-1, 1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(share);
     const double d = share * l.diameter();
-    const TouchCount count =
-        Hold(l,
-             WithFingers({grasp::ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
-                          grasp::ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
-                          grasp::ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
-                          grasp::ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
-             30);
+    const TouchCount count = Hold(l,
+                                  WithFingers({ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
+                                               ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
+                                               ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
+                                               ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
+                                  30);
     ExpectTouchesItsOwn(count, 4);
     ++holds;
   }
@@ -213,12 +210,11 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
     SCOPED_TRACE(deeper);
     const double D = MakePitted(0.01, 0.01).diameter();
     const object::Polyhedron body = MakePitted(std::abs(deeper) * D, deeper * D);
-    plan::Plan plan =
-        MakePlan(WithFingers({grasp::ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
-                              grasp::ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
-                              grasp::ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
-                              grasp::ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
-                 30);
+    plan::Plan plan = MakePlan(WithFingers({ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
+                                            ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
+                                            ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
+                                            ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
+                               30);
     for (const plan::FingerContact& held : plan.initial) ASSERT_GE(held.contact.face, 0);
     const ReplayResult result = ReplayPlan(body, plan, {});
     ASSERT_EQ(result.steps.size(), 1u);
@@ -291,11 +287,9 @@ TEST(NonconvexContacts, RandomGraspsTouchTheirOwnFacesAndNothingElse) {
 TEST(NonconvexContacts, WrongContactsAreSeen) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;
-  const plan::FingerGrasp grasp =
-      WithFingers({grasp::ContactAt(l, {0.05, 0.04, 0.012}, {0, -1, 0}),
-                   grasp::ContactAt(l, {0.05, 0, 0.012}, {0, 1, 0}),
-                   grasp::ContactAt(l, {0.04, 0.05, -0.012}, {-1, 0, 0}),
-                   grasp::ContactAt(l, {0, 0.05, -0.012}, {1, 0, 0})});
+  const plan::FingerGrasp grasp = WithFingers(
+      {ContactAt(l, {0.05, 0.04, 0.012}, {0, -1, 0}), ContactAt(l, {0.05, 0, 0.012}, {0, 1, 0}),
+       ContactAt(l, {0.04, 0.05, -0.012}, {-1, 0, 0}), ContactAt(l, {0, 0.05, -0.012}, {1, 0, 0})});
   const ReplayResult result = ReplayPlan(l, MakePlan(grasp, 30), {});
   const plan::Snapshot& rest = result.steps.at(0).snapshot;
   const auto count = [&](const plan::FingerGrasp& planned, const plan::Snapshot& seen) {
@@ -306,7 +300,7 @@ TEST(NonconvexContacts, WrongContactsAreSeen) {
   ExpectTouchesItsOwn(count(grasp, rest), 4);
   // Planned on the other wall of the corner.
   plan::FingerGrasp other = grasp;
-  other[0].contact = grasp::ContactAt(l, {0.04, 0.05, 0.012}, {-1, 0, 0});
+  other[0].contact = ContactAt(l, {0.04, 0.05, 0.012}, {-1, 0, 0});
   EXPECT_EQ(count(other, rest).ghosts, 1);
   EXPECT_GT(count(other, rest).largest_error, kTouch);
   // A force from the side, as of a wall that is not there.

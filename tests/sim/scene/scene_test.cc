@@ -38,10 +38,10 @@ TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
 TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;
-  plan::Plan plan = MakePlan({{0, grasp::ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
-                              {1, grasp::ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
-                              {2, grasp::ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
-                              {3, grasp::ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+  plan::Plan plan = MakePlan({{0, ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
+                              {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {2, ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
+                              {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
                              30);
   const auto model = LoadFromFile(SceneMjcf(l, plan, {}));
   ASSERT_NE(model, nullptr);

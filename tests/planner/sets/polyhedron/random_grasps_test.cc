@@ -151,7 +151,7 @@ class GraspOracle {
       }
       for (const QuadrupleCandidate& candidate : candidates_) {
         const auto grasp = Choose(candidate, seen);
-        if (grasp) grasp::CheckGrasp(candidate, *grasp, focus, count);
+        if (grasp) CheckGrasp(candidate, *grasp, focus, count);
       }
     }
   }
@@ -196,8 +196,8 @@ class GraspOracle {
     return grasp;
   }
 
-  void grasp::CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
-                         const Vector3d& focus, Count& count) {
+  void CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
+                  const Vector3d& focus, Count& count) {
     std::array<int, 4> halves;
     for (std::size_t k = 0; k < grasp.size(); ++k) halves[k] = grasp[k].half;
     const auto cell = cell_of_.find(halves);
