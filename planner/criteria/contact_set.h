@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "planner/hand/hand.h"
+
 namespace regrasp::criteria {
 
 /// The contacts that a hand holds at once, by their numbers in a GraspMemory, in ascending order.
 class ContactSet {
  public:
-  static constexpr int kMostHeld = 5;
+  static constexpr int kMostHeld = hand::kFingersInSpace;
   /// Numbers are smaller.
   static constexpr int kMostNumbers = std::numeric_limits<std::int16_t>::max();
 

@@ -1,7 +1,10 @@
 #include "planner/criteria/grasp_criteria.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
+#include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/quality_filter.h"
@@ -10,23 +13,89 @@ namespace regrasp::criteria {
 
 namespace {
 
-/// Of qualities that are only compared: to a hundredth they would take ten times as long.
+using Contacts = std::span<const grasp::Contact>;
+
+/// Of measures that are only compared: to a hundredth they would take ten times as long. Of those
+/// that are told.
 constexpr double kScoreGap = 0.1;
+constexpr double kToldGap = 0.01;
 
-}  // namespace
+/// Something that a grasp has the better the more of, and that is asked for beyond force closure.
+struct Criterion {
+  const char* name;              ///< in messages, after "a"
+  double GraspCriteria::*asked;  ///< at least so much; 0: not asked for
+  /// @param filter  may be null.
+  bool (*is_met)(Contacts, const object::WrenchFrame&, const GraspCriteria&,
+                 grasp::QualityFilter* filter);
+  /// How much of it a grasp has, a lower bound. @param gap  relative, of the bound.
+  double (*measure)(Contacts, const object::WrenchFrame&, const GraspCriteria&, double gap);
+};
 
-bool MeetsCriteria(const grasp::Grasp& grasp, const object::WrenchFrame& frame,
-                   const GraspCriteria& criteria, grasp::QualityFilter* filter) {
-  if (criteria.min_quality <= 0) return true;
+bool HasQuality(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria,
+                grasp::QualityFilter* filter) {
   if (filter != nullptr) return filter->IsClearlyAtLeast(grasp, criteria.min_quality);
   return grasp::QualityAtLeast(grasp, frame, criteria.half_angle, criteria.min_quality);
 }
 
-double Shortfall(const grasp::Grasp& grasp, const object::WrenchFrame& frame,
-                 const GraspCriteria& criteria) {
-  return grasp::ComputeQuality(grasp, frame, criteria.half_angle, kScoreGap).lower /
-             criteria.min_quality -
-         1;
+double QualityOf(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria,
+                 double gap) {
+  return grasp::ComputeQuality(grasp, frame, criteria.half_angle, gap).lower;
+}
+
+constexpr std::array kCriteria = {
+    Criterion{"quality", &GraspCriteria::min_quality, HasQuality, QualityOf},
+};
+
+}  // namespace
+
+bool GraspCriteria::AsksMore() const {
+  return std::ranges::any_of(kCriteria, [this](const Criterion& c) { return this->*c.asked > 0; });
+}
+
+GraspCriteria GraspCriteria::Relaxed(double share) const {
+  GraspCriteria relaxed = *this;
+  for (const Criterion& criterion : kCriteria) relaxed.*criterion.asked *= share;
+  return relaxed;
+}
+
+bool MeetsCriteria(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria,
+                   grasp::QualityFilter* filter) {
+  return std::ranges::all_of(kCriteria, [&](const Criterion& criterion) {
+    return criteria.*criterion.asked <= 0 || criterion.is_met(grasp, frame, criteria, filter);
+  });
+}
+
+double Shortfall(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Criterion& criterion : kCriteria) {
+    const double asked = criteria.*criterion.asked;
+    if (asked <= 0) continue;
+    least = std::min(least, criterion.measure(grasp, frame, criteria, kScoreGap) / asked - 1);
+  }
+  return least;
+}
+
+std::vector<UnmetCriterion> FindUnmet(Contacts grasp, const object::WrenchFrame& frame,
+                                      const GraspCriteria& criteria) {
+  std::vector<UnmetCriterion> unmet;
+  for (const Criterion& criterion : kCriteria) {
+    const double asked = criteria.*criterion.asked;
+    if (asked <= 0) continue;
+    const double reached = criterion.measure(grasp, frame, criteria, kToldGap);
+    if (reached < asked) unmet.push_back({criterion.name, asked, reached});
+  }
+  return unmet;
+}
+
+std::string WithWhatIsAsked(const GraspCriteria& criteria) {
+  std::string text;
+  for (const Criterion& criterion : kCriteria) {
+    const double asked = criteria.*criterion.asked;
+    if (asked <= 0) continue;
+    text += (text.empty() ? " with a " : " and a ") + std::string(criterion.name) +
+            " of at least " + FormatShort(asked);
+  }
+  return text;
 }
 
 bool CanMeet(const grasp::Contact& a, const grasp::Contact& b, double same_point,
@@ -35,7 +104,7 @@ bool CanMeet(const grasp::Contact& a, const grasp::Contact& b, double same_point
   return fingertip_radius <= 0 || KeepApart(std::array{a, b}, fingertip_radius);
 }
 
-bool CanAllMeet(const grasp::Grasp& grasp, double same_point, double fingertip_radius) {
+bool CanAllMeet(Contacts grasp, double same_point, double fingertip_radius) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!CanMeet(grasp[i], grasp[j], same_point, fingertip_radius)) return false;

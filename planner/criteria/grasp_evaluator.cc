@@ -1,19 +1,16 @@
 #include "planner/criteria/grasp_evaluator.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "planner/criteria/clearance.h"
 #include "planner/criteria/reach.h"
-#include "planner/grasp/force_closure.h"
-#include "planner/grasp/quality.h"
+#include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_half_angle.h"
 
 namespace regrasp::criteria {
 
 namespace {
-
-/// Of required half-angles that are only compared, radians.
-constexpr double kScoreAccuracy = 1e-5;
 
 std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
   std::vector<double> numbers;
@@ -28,18 +25,34 @@ std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
 }  // namespace
 
 GraspEvaluator::GraspEvaluator(const object::Object& object, const GraspCriteria& criteria,
-                               const hand::Hand& hand)
+                               const hand::Hand& hand, QualityTest quality)
     : object_(object),
       frame_(object.wrench_frame()),
+      asked_(criteria),
       criteria_(criteria),
+      asks_more_(criteria.AsksMore()),
       hand_(hand),
-      same_point_(kSamePoint * object.diameter()) {}
+      quality_(quality),
+      same_point_(kSamePoint * object.diameter()),
+      half_angle_(criteria.half_angle),
+      filter_(frame_, criteria.half_angle) {}
 
-bool GraspEvaluator::CanAllMeet(const grasp::Grasp& grasp) const {
+void GraspEvaluator::SetHalfAngle(double half_angle) {
+  grasp::CheckHalfAngle(half_angle);
+  half_angle_ = half_angle;
+}
+
+void GraspEvaluator::SetShare(double share) {
+  share_ = share;
+  criteria_ = asked_.Relaxed(share);
+  asks_more_ = criteria_.AsksMore();
+}
+
+bool GraspEvaluator::CanAllMeet(Contacts grasp) const {
   return criteria::CanAllMeet(grasp, same_point_, finger_radius());
 }
 
-bool GraspEvaluator::AreReachable(const grasp::Grasp& contacts) const {
+bool GraspEvaluator::AreReachable(Contacts contacts) const {
   return std::ranges::all_of(contacts, [&](const grasp::Contact& contact) {
     return HasClearance(object_, contact) && CanReach(object_, contact, finger_radius());
   });
@@ -49,27 +62,60 @@ bool GraspEvaluator::IsReachable(const grasp::Grasp& grasp) const {
   return CanAllMeet(grasp) && AreReachable(grasp);
 }
 
-bool GraspEvaluator::IsGood(const grasp::Grasp& grasp) const {
+bool GraspEvaluator::HoldsAt(Contacts grasp, double half_angle) const {
+  ++counts_.force_closure;
+  grasp::UnitContacts contacts = grasp::MakeUnitContacts(grasp, frame_);
+  grasp::SetUnitForces(contacts, half_angle);
+  grasp::Recentre(contacts);
+  const grasp::ForceClosure answer = dimension() == 3 ? grasp::DecideForceClosure<6>(contacts)
+                                                      : grasp::DecideForceClosure<3>(contacts);
+  return answer.decision == grasp::Decision::kYes;
+}
+
+bool GraspEvaluator::MeetsCriteria(Contacts grasp) const {
+  if (!asks_more_) return true;
+  ++counts_.criteria;
+  return criteria::MeetsCriteria(grasp, frame_, criteria_,
+                                 quality_ == QualityTest::kQuick ? &filter_ : nullptr);
+}
+
+bool GraspEvaluator::IsAdmitted(const grasp::Grasp& grasp) const {
   // What takes least time and refuses most comes first.
-  return CanAllMeet(grasp) && grasp::IsForceClosure(grasp, frame_, half_angle()) &&
-         MeetsCriteria(grasp, frame_, criteria_) && AreReachable(grasp);
+  return CanAllMeet(grasp) && HoldsAt(grasp, half_angle_) && MeetsCriteria(grasp);
+}
+
+bool GraspEvaluator::IsGood(const grasp::Grasp& grasp) const {
+  return IsAdmitted(grasp) && AreReachable(grasp);
+}
+
+bool GraspEvaluator::WorkOut(Contacts grasp, KnownGrasp& known) const {
+  if (half_angle_ < known.holds_at) {
+    const bool holds = HoldsAt(grasp, half_angle_) && CanAllMeet(grasp);
+    (holds ? known.holds_at : known.fails_at) = half_angle_;
+    if (!holds) return false;
+  }
+  if (share_ <= known.good_at || !asks_more_) return true;
+  const bool good = MeetsCriteria(grasp);
+  (good ? known.good_at : known.poor_at) = share_;
+  return good;
+}
+
+double GraspEvaluator::ComputeRequired(Contacts grasp, double accuracy) const {
+  const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame_, accuracy);
+  return required ? required->upper : std::numbers::pi / 2;
 }
 
 double GraspEvaluator::Score(const grasp::Grasp& grasp) const {
-  const auto [known, is_new] = scores_.try_emplace(NumbersOf(grasp), 0);
-  if (is_new) known->second = ComputeScore(grasp);
-  return known->second;
-}
-
-double GraspEvaluator::ComputeScore(const grasp::Grasp& grasp) const {
-  if (!IsReachable(grasp) || !grasp::IsForceClosure(grasp, frame_, half_angle())) return -1;
-  if (!MeetsCriteria(grasp, frame_, criteria_)) return Shortfall(grasp, frame_, criteria_);
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame_, kScoreAccuracy);
-  return required ? std::max(half_angle() - required->upper, 0.0) : 0;
-}
-
-double GraspEvaluator::Quality(const grasp::Grasp& grasp) const {
-  return grasp::ComputeQuality(grasp, frame_, half_angle()).lower;
+  const auto contacts = [&] { return Contacts(grasp); };
+  const auto [entry, is_new] = known_.try_emplace(NumbersOf(grasp));
+  KnownGrasp& known = entry->second;
+  if (is_new && !AreReachable(grasp)) known.fails_at = KnownGrasp::kInfinity;
+  if (Admits(known, contacts)) {
+    return std::max(half_angle_ - RequiredHalfAngle(known, contacts), 0.0);
+  }
+  if (share_ < known.poor_at) return -1;
+  if (known.shortfall == 0) known.shortfall = Shortfall(grasp, frame_, asked_);
+  return known.shortfall;
 }
 
 }  // namespace regrasp::criteria

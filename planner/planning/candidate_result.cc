@@ -34,7 +34,7 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   plan.steps = candidate.steps;
   plan.goal = goal;
   result.margin = SmallestMargin(candidate.rests, evaluator);
-  result.warnings = QualityWarnings(candidate.rests, evaluator);
+  result.warnings = RestWarnings(candidate.rests, evaluator);
   return result;
 }
 

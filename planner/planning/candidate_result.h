@@ -15,8 +15,8 @@ namespace regrasp::planning {
 [[nodiscard]] std::optional<plan::PlanObstacle> FindObstacle(
     const CandidateSequence& candidate, const criteria::GraspEvaluator& evaluator);
 
-/// The answer that a sequence is: its plan, with its margin and a warning where a grasp is below
-/// the quality that is asked for; none where fingers of the hand cannot carry it out.
+/// The answer that a sequence is: its plan, with its margin and a warning where a grasp does not
+/// meet the criteria; none where fingers of the hand cannot carry it out.
 /// @param request  its hand has as many fingers as the plan is for.
 [[nodiscard]] PlanResult ResultOf(const CandidateSequence& candidate,
                                   const criteria::GraspEvaluator& evaluator,

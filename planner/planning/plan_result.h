@@ -17,7 +17,7 @@ struct PlanResult {
   };
   Status status = Status::kFound;
   std::string message;                ///< for a negative answer: what was searched
-  std::vector<std::string> warnings;  ///< grasps below the quality that was asked for
+  std::vector<std::string> warnings;  ///< of grasps that don't meet the criteria
   std::vector<std::string> notes;     ///< what was gained by making the sequence better, for people
   /// The plan, all but the object's file, digest and scale. Set where the status is kFound.
   std::optional<plan::Plan> plan;

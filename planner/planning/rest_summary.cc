@@ -22,31 +22,36 @@ double SmallestMargin(const std::vector<Rest>& rests, const criteria::GraspEvalu
   return smallest;
 }
 
-std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
-                                         const criteria::GraspEvaluator& evaluator) {
+std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
+                                      const criteria::GraspEvaluator& evaluator) {
   const auto name = [&](std::size_t step) {
     if (step == 0) return std::string("the start grasp (step 0)");
     return "the grasp after step " + std::to_string(step) + " of " +
            std::to_string(rests.size() - 1);
   };
-  double weakest = evaluator.min_quality();
-  std::size_t step = 0;
   std::vector<std::string> warnings;
+  std::vector<std::pair<criteria::UnmetCriterion, std::size_t>> weakest;
   for (std::size_t i = 0; i < rests.size(); ++i) {
-    if (evaluator.Score(rests[i].grasp) >= 0) continue;
-    if (warnings.empty() && !evaluator.IsReachable(rests[i].grasp)) {
-      warnings.push_back("a fingertip has no room in " + name(i) +
+    const grasp::Grasp& grasp = rests[i].grasp;
+    if (evaluator.Score(grasp) >= 0) continue;
+    if (warnings.empty() && !evaluator.IsReachable(grasp)) {
+      warnings.push_back("a fingertip has no clearance in " + name(i) +
                          ": a contact is in a concave corner");
     }
-    const double quality = evaluator.Quality(rests[i].grasp);
-    if (quality >= weakest) continue;
-    weakest = quality;
-    step = i;
+    for (const auto& unmet : FindUnmet(grasp, evaluator.frame(), evaluator.criteria())) {
+      const auto known = std::ranges::find_if(
+          weakest, [&](const auto& other) { return other.first.name == unmet.name; });
+      if (known == weakest.end()) {
+        weakest.emplace_back(unmet, i);
+      } else if (unmet.reached < known->first.reached) {
+        *known = {unmet, i};
+      }
+    }
   }
-  if (weakest < evaluator.min_quality()) {
-    warnings.push_back(
-        "the sequence passes grasps below the quality " + FormatShort(evaluator.min_quality()) +
-        " that was asked for; the weakest is " + name(step) + " with " + FormatShort(weakest));
+  for (const auto& [unmet, step] : weakest) {
+    warnings.push_back(std::string("the sequence passes grasps below the ") + unmet.name + " " +
+                       FormatShort(unmet.asked) + " that was asked for; the weakest is " +
+                       name(step) + " with " + FormatShort(unmet.reached));
   }
   return warnings;
 }

@@ -12,10 +12,10 @@ namespace regrasp::planning {
 [[nodiscard]] double SmallestMargin(const std::vector<Rest>& rests,
                                     const criteria::GraspEvaluator& evaluator);
 
-/// Warnings that name the weakest grasp, where one is below the quality that is asked for, and the
-/// first one where a fingertip has no room.
+/// Warnings that name the first grasp where a fingertip has no clearance and, for each criterion
+/// that is not met everywhere, the grasp that is weakest in it.
 /// @param rests  before all steps and after each.
-[[nodiscard]] std::vector<std::string> QualityWarnings(const std::vector<Rest>& rests,
-                                                       const criteria::GraspEvaluator& evaluator);
+[[nodiscard]] std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
+                                                    const criteria::GraspEvaluator& evaluator);
 
 }  // namespace regrasp::planning

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/planning/random_goal.h"
@@ -62,9 +61,8 @@ class ClusterSearch {
     if (grasp) return *grasp;
     throw sampling::NoGrasp{choice.name + ": none of " +
                             std::to_string(sampling::kMaxSurfaceDraws) + " grasps drawn from " +
-                            std::to_string(contacts.size()) +
-                            " contact points is force closure with a quality of at least " +
-                            FormatShort(request_.criteria.min_quality)};
+                            std::to_string(contacts.size()) + " contact points is force closure" +
+                            criteria::WithWhatIsAsked(request_.criteria)};
   }
 
   planning::PlanResult PlanBetween(const planning::GraspChoice& start,
@@ -75,14 +73,14 @@ class ClusterSearch {
     ContactClusters clusters = roadmap_.clusters;
     const Quadruple from = Join(start.grasp, clusters);
     const Quadruple to = Join(goal.grasp, clusters);
-    GraspOracle oracle(clusters.contacts(), roadmap_.frame, SamePoint(), request_.criteria,
-                       request_.hand, request_.deadline);
+    GraspOracle oracle(*request_.object, clusters.contacts(), request_.criteria, request_.hand,
+                       request_.deadline);
     const auto find = [&] {
       return FindContactChain(roadmap_, clusters, oracle, from, to, request_.last_resort);
     };
     ContactChain chain = find();
     if (chain.grasps.empty()) {
-      oracle.SetMinQuality(0);
+      oracle.SetShare(0);
       chain = find();
     }
     if (chain.grasps.empty()) return NoSequence(chain);
@@ -149,8 +147,6 @@ class ClusterSearch {
                                       : "; the last resort gave up, having reached " + sizes;
     return result;
   }
-
-  double SamePoint() const { return criteria::kSamePoint * request_.object->diameter(); }
 
   const planning::PlanRequest& request_;
   criteria::GraspEvaluator evaluator_;

@@ -12,7 +12,7 @@
 #include "planner/planning/switch_sequence.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/find_contact.h"
-#include "planner/roadmap/vertex_quality.h"
+#include "planner/roadmap/known_vertices.h"
 #include "planner/sampling/no_grasp.h"
 #include "planner/search/fewest_switches.h"
 #include "planner/search/widest_path.h"
@@ -24,6 +24,9 @@ namespace {
 /// Vertices that a random draw looks at before it gives up; a second of quality tests.
 constexpr int kMaxVertexDraws = 20'000;
 
+/// Radians: differences of margin that a plan does not care for (6e-6 degrees).
+constexpr double kMarginTolerance = 1e-7;
+
 /// Quality tests between two reports of progress, a tenth of a second or so.
 constexpr int kProgressEvery = 100;
 
@@ -33,11 +36,12 @@ class ContactPointSearch {
   ContactPointSearch(const std::vector<grasp::Contact>& contacts,
                      const planning::PlanRequest& request)
       : request_(request),
-        frame_(request.object->wrench_frame()),
         start_(request.start),
         goal_(request.goal),
         roadmap_(RoadmapOver(contacts)),
-        quality_(roadmap_, frame_, request.criteria) {}
+        evaluator_(*request.object, request.criteria, request.hand),
+        known_(roadmap_.vertex_count(), criteria::KnownGrasp::HeldAt(request.criteria.half_angle)) {
+  }
 
   planning::PlanResult Run() {
     const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
@@ -87,12 +91,12 @@ class ContactPointSearch {
     for (std::size_t i = 0; i < draws; ++i) {
       std::swap(pool[i], pool[i + random.Index(pool.size() - i)]);
       request_.deadline.Check();
-      if (quality_.IsGood(pool[i])) return pool[i];
+      if (IsGood(pool[i])) return pool[i];
     }
-    throw sampling::NoGrasp{
-        choice.name + ": none of " + std::to_string(draws) + " grasps drawn from the " +
-        (start ? "start's component of the roadmap" : "roadmap") + " has a quality of at least " +
-        FormatShort(request_.criteria.min_quality)};
+    throw sampling::NoGrasp{choice.name + ": no grasp" +
+                            criteria::WithWhatIsAsked(request_.criteria) + " is among " +
+                            std::to_string(draws) + " drawn from the " +
+                            (start ? "start's component of the roadmap" : "roadmap")};
   }
 
   std::vector<int> Pool(std::optional<int> start) const {
@@ -106,11 +110,22 @@ class ContactPointSearch {
     return pool;
   }
 
+  bool IsGood(int vertex) {
+    return evaluator_.Admits(known_[vertex], [&] { return roadmap_.grasp(vertex); });
+  }
+
+  /// Radians, to kMarginTolerance.
+  double Margin(int vertex) {
+    return request_.criteria.half_angle -
+           evaluator_.RequiredHalfAngle(
+               known_[vertex], [&] { return roadmap_.grasp(vertex); }, kMarginTolerance);
+  }
+
   std::vector<int> FindPath(int start, int goal) {
     const search::VertexFilter good = [&](int vertex) {
       request_.deadline.Check();
-      const bool is_good = quality_.IsGood(vertex);
-      if (quality_.quality_count() % kProgressEvery == 0) ReportSearch();
+      const bool is_good = IsGood(vertex);
+      if (evaluator_.counts().criteria % kProgressEvery == 0) ReportSearch();
       return is_good;
     };
     const search::VertexFilter any = [&](int) {
@@ -123,7 +138,7 @@ class ContactPointSearch {
 
   void ReportSearch() const {
     request_.progress("searching a sequence among " + std::to_string(roadmap_.vertex_count()) +
-                      " grasps, quality of " + std::to_string(quality_.quality_count()) +
+                      " grasps, quality of " + std::to_string(evaluator_.counts().criteria) +
                       " tested");
   }
 
@@ -131,7 +146,7 @@ class ContactPointSearch {
     const std::optional<int> switches = search::FewestSwitches(roadmap_, start, goal, admits);
     if (!switches) return {};
     return search::WidestPath(roadmap_, start, goal, *switches, admits,
-                              [&](int vertex) { return quality_.Margin(vertex); });
+                              [&](int vertex) { return Margin(vertex); });
   }
 
   std::string NoSequenceMessage(int start, int goal) const {
@@ -157,16 +172,15 @@ class ContactPointSearch {
     planning::CandidateSequence candidate = {
         std::move(sequence.initial), std::move(sequence.steps), {}};
     for (grasp::Grasp& grasp : grasps) candidate.rests.push_back({std::move(grasp), std::nullopt});
-    const criteria::GraspEvaluator evaluator(*request_.object, request_.criteria, request_.hand);
-    return planning::ResultOf(candidate, evaluator, "roadmap", request_, goal_.grasp);
+    return planning::ResultOf(candidate, evaluator_, "roadmap", request_, goal_.grasp);
   }
 
   const planning::PlanRequest& request_;
-  object::WrenchFrame frame_;
   planning::GraspChoice start_;
   planning::GraspChoice goal_;
   Roadmap roadmap_;
-  VertexQuality quality_;
+  criteria::GraspEvaluator evaluator_;
+  KnownVertices known_;
 };
 
 }  // namespace

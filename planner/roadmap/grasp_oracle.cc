@@ -5,17 +5,11 @@
 
 namespace regrasp::roadmap {
 
-GraspOracle::GraspOracle(std::span<const grasp::Contact> contacts, const object::WrenchFrame& frame,
-                         double same_point, const criteria::GraspCriteria& criteria,
-                         const hand::Hand& hand, Deadline deadline)
-    : memory_(frame, same_point, criteria, hand), deadline_(std::move(deadline)) {
-  memory_.Append(contacts);
-}
-
-grasp::Grasp GraspOracle::GraspOf(const Quadruple& contacts) const {
-  grasp::Grasp grasp;
-  for (const int contact : contacts) grasp.push_back(memory_.contact(contact));
-  return grasp;
+GraspOracle::GraspOracle(const object::Object& object, std::span<const grasp::Contact> contacts,
+                         const criteria::GraspCriteria& criteria, const hand::Hand& hand,
+                         Deadline deadline)
+    : GraspMemory(object, criteria, hand), deadline_(std::move(deadline)) {
+  Append(contacts);
 }
 
 bool GraspOracle::Admits(const Quadruple& ascending) {
@@ -24,7 +18,7 @@ bool GraspOracle::Admits(const Quadruple& ascending) {
   if (std::ranges::adjacent_find(ascending) != ascending.end()) return false;
   criteria::ContactSet set;
   for (const int contact : ascending) set.Insert(contact);
-  return memory_.Admits(set);
+  return GraspMemory::Admits(set);
 }
 
 }  // namespace regrasp::roadmap

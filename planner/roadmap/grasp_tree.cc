@@ -82,7 +82,7 @@ bool GraspTree::Step() {
   const int contact = replacements_.lists[replacements_.list_of[from[offer.slot]]][offer.position];
   Push(offer.from, offer.slot, offer.position + 1);
   const std::optional<Quadruple> grasp = Replaced(from, offer.slot, contact);
-  if (!grasp || Has(*grasp) || oracle_.ExcludeEachOther(from[offer.slot], contact)) return false;
+  if (!grasp || Has(*grasp) || !oracle_.CanMeet(from[offer.slot], contact)) return false;
   if (replacements_.allows && !replacements_.allows(*grasp)) return false;
   if (!oracle_.Admits(*grasp)) return false;
   Reach(*grasp, offer.from);

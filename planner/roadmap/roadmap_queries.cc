@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <chrono>
 
-#include "planner/criteria/grasp_criteria.h"
-#include "planner/grasp/force_closure.h"
 #include "planner/sampling/draw_grasp.h"
 
 namespace regrasp::roadmap {
 
-std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap, double same_point,
+std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
+                                          const criteria::GraspEvaluator& evaluator,
                                           RandomStream& random) {
   const std::vector<grasp::Contact>& contacts = roadmap.clusters.contacts();
   for (int draw = 0; draw < sampling::kMaxSurfaceDraws; ++draw) {
@@ -18,26 +17,25 @@ std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap, doubl
     std::sort(numbers.begin(), numbers.end());
     grasp::Grasp grasp;
     for (const int contact : numbers) grasp.push_back(contacts[contact]);
-    if (criteria::CanAllMeet(grasp, same_point, 0) &&
-        grasp::IsForceClosure(grasp, roadmap.frame, roadmap.half_angle)) {
-      return numbers;
-    }
+    if (evaluator.IsAdmitted(grasp)) return numbers;
   }
   return std::nullopt;
 }
 
-std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap, double same_point,
-                                          int count, std::uint64_t seed, bool last_resort) {
+std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
+                                          const object::Polyhedron& solid, int count,
+                                          std::uint64_t seed, bool last_resort) {
+  const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
+  const criteria::GraspEvaluator evaluator(solid, force_closure);
   RandomStream starts(seed, RandomUse::kStart);
   RandomStream goals(seed, RandomUse::kGoal);
   std::vector<RandomQuery> queries;
   for (int i = 0; i < count; ++i) {
-    const auto start = DrawContactGrasp(roadmap, same_point, starts);
-    const auto goal = DrawContactGrasp(roadmap, same_point, goals);
+    const auto start = DrawContactGrasp(roadmap, evaluator, starts);
+    const auto goal = DrawContactGrasp(roadmap, evaluator, goals);
     if (!start || !goal) break;
     const auto begin = std::chrono::steady_clock::now();
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
-                       {roadmap.half_angle, 0});
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), force_closure);
     ContactChain chain =
         FindContactChain(roadmap, roadmap.clusters, oracle, *start, *goal, last_resort);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/object/polyhedron.h"
 #include "planner/roadmap/contact_chain.h"
 
@@ -12,9 +13,10 @@ namespace regrasp::roadmap {
 
 /// A force-closure grasp of four of the contact points, all of them equally likely; nullopt where
 /// none of kMaxSurfaceDraws draws is one.
-/// @param same_point  contacts no farther apart than this are in no grasp.
+/// @param evaluator  of the roadmap's solid and half-angle.
 [[nodiscard]] std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
-                                                        double same_point, RandomStream& random);
+                                                        const criteria::GraspEvaluator& evaluator,
+                                                        RandomStream& random);
 
 /// A query between two random force-closure grasps, and the time that it took.
 struct RandomQuery {
@@ -26,9 +28,10 @@ struct RandomQuery {
 
 /// Queries between force-closure grasps drawn from all contact points, joined or not, as in tables
 /// 6.1 to 6.6 of Phoka 2010. The same seed gives the same queries whatever the clusters.
+/// @param solid  of the roadmap.
 /// @returns fewer than `count` where grasps can't be drawn.
 [[nodiscard]] std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
-                                                        double same_point, int count,
+                                                        const object::Polyhedron& solid, int count,
                                                         std::uint64_t seed, bool last_resort);
 
 }  // namespace regrasp::roadmap

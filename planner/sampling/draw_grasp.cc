@@ -107,9 +107,8 @@ grasp::Grasp DrawOnSurface(const object::Object& object, const ContactLimits& co
     if (auto grasp = DrawGoodGrasp(draw, evaluator)) return *std::move(grasp);
   }
   throw NoGrasp{name + ": none of " + std::to_string(kMaxSurfaceDraws) + " grasps of " +
-                Range(contacts) +
-                " contacts drawn on the surface is force closure with a quality of at least " +
-                FormatShort(evaluator.min_quality()) +
+                Range(contacts) + " contacts drawn on the surface is force closure" +
+                criteria::WithWhatIsAsked(evaluator.criteria()) +
                 (radius > 0 ? ", its fingers" + OfRadius(radius) + " apart" : "")};
 }
 

@@ -50,9 +50,8 @@ grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
       }
     }
   }
-  throw sampling::NoGrasp{name + ": no grasp with a quality of at least " +
-                          FormatShort(evaluator.min_quality()) + " was drawn from " +
-                          std::to_string(sets) + " sets of grasps" +
+  throw sampling::NoGrasp{name + ": no grasp" + criteria::WithWhatIsAsked(evaluator.criteria()) +
+                          " was drawn from " + std::to_string(sets) + " sets of grasps" +
                           (pools.size() > 1 ? " in the start's component" : "")};
 }
 

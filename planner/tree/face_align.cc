@@ -24,8 +24,8 @@ constexpr int kTestsOfAProof = 6;
 /// A motion that needs shorter pieces of a proof keeps too close to the limit.
 constexpr double kShortestStretch = 1.0 / 64;
 
-/// Of the quality that grasps at rest have: only those are shaken.
-constexpr double kQualityAtTurns = 0.25;
+/// Of the criteria that grasps at rest meet: only those are shaken.
+constexpr double kShareAtTurns = 0.25;
 
 motion::GraspMotion MotionBetween(const grasp::Grasp& from, const grasp::Grasp& to) {
   motion::GraspMotion motion;
@@ -210,12 +210,12 @@ std::vector<grasp::Grasp> FindWaypoints(const ContactPairs& pairs, const SearchS
 
 /// Whether the grasps at the turns, where fingers wait, have some of the quality that is asked for.
 bool AreGood(const std::vector<grasp::Grasp>& waypoints, SearchSpace& space) {
-  const double asked = space.min_quality();
+  const double asked = space.share();
   if (!space.criteria().AsksMore()) return true;
-  space.SetMinQuality(kQualityAtTurns * asked);
+  space.SetShare(kShareAtTurns * asked);
   const bool good = std::all_of(waypoints.begin() + 1, waypoints.end() - 1,
                                 [&](const grasp::Grasp& grasp) { return space.IsAdmitted(grasp); });
-  space.SetMinQuality(asked);
+  space.SetShare(asked);
   return good;
 }
 

@@ -9,7 +9,7 @@ namespace regrasp::tree {
 
 namespace {
 
-/// Qualities on the way to the one that is asked for.
+/// Shares of the criteria that are asked for one after the other.
 constexpr int kLevels = 8;
 
 /// Attempts in a row without a gain after which a path is left as it is.
@@ -25,11 +25,7 @@ class QualityRepair {
  public:
   QualityRepair(const sampling::SurfaceSampler& source, RandomStream& random, SearchSpace& space,
                 GraspPath& path)
-      : source_(source),
-        random_(random),
-        space_(space),
-        path_(path),
-        quality_(space.min_quality()) {}
+      : source_(source), random_(random), space_(space), path_(path) {}
 
   double Run() {
     int failures = 0;
@@ -38,20 +34,20 @@ class QualityRepair {
       if (weakest < 0) break;
       failures = Raise(weakest, level + 1) ? 0 : failures + 1;
     }
-    const double reached = QualityOf(Weakest().second);
-    space_.SetMinQuality(quality_);
+    const double reached = ShareOf(Weakest().second);
+    space_.SetShare(1);
     return reached;
   }
 
  private:
-  [[nodiscard]] double QualityOf(int level) const { return quality_ * level / kLevels; }
+  [[nodiscard]] static double ShareOf(int level) { return static_cast<double>(level) / kLevels; }
 
   /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the way there.
   int LevelOf(const PathStep& step) {
     const bool is_end = &step == &path_.steps.back();
     int level = kLevels;
     for (; level > 0; --level) {
-      space_.SetMinQuality(QualityOf(level));
+      space_.SetShare(ShareOf(level));
       if ((is_end || space_.Admits(step.to)) && (!step.align || AdmitsPath(*step.align, space_))) {
         break;
       }
@@ -75,7 +71,7 @@ class QualityRepair {
     Subpath stretch = SubpathBetween(path_, std::max(weakest - around, 0), end);
     if (static_cast<int>(stretch.contacts.size()) >= kMostSubsetContacts) return false;
     FillAround(stretch, kMostSubsetContacts, source_, random_, space_);
-    space_.SetMinQuality(QualityOf(level));
+    space_.SetShare(ShareOf(level));
     const auto better = SearchSubsets(
         GraspNumber(path_, stretch.begin), GraspNumber(path_, stretch.end), stretch.contacts,
         UseAligns::kYes, stretch.end - stretch.begin + kMoreRepairSteps, space_);
@@ -88,7 +84,6 @@ class QualityRepair {
   RandomStream& random_;
   SearchSpace& space_;
   GraspPath& path_;
-  double quality_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "planner/tree/search_space.h"
 
+#include <algorithm>
+
 namespace regrasp::tree {
 
 namespace {
@@ -14,9 +16,8 @@ constexpr std::int64_t kShotCost = 40;
 
 SearchSpace::SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
                          const hand::Hand& hand)
-    : criteria::GraspMemory(object.wrench_frame(), criteria::kSamePoint * object.diameter(),
-                            criteria, hand, criteria::QualityTest::kQuick),
-      object_(object) {}
+    : criteria::GraspMemory(object, criteria, hand, criteria::QualityTest::kQuick),
+      fingers_(std::min(hand.FingersIn(object.dimension()), criteria::ContactSet::kMostHeld)) {}
 
 std::int64_t SearchSpace::tests() const {
   return counts().force_closure + kShotCost * shot_count() + more_tests_;

@@ -16,7 +16,7 @@ struct SearchLimits {
 };
 
 /// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps
-/// that a sequence may pass (GraspMemory, by the quick test of quality). Counts what it tests,
+/// that a sequence may pass, by the quick test of quality. Counts what it tests,
 /// which is what searches spend.
 class SearchSpace : public criteria::GraspMemory {
  public:
@@ -24,9 +24,8 @@ class SearchSpace : public criteria::GraspMemory {
   SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
               const hand::Hand& hand = {});
 
-  [[nodiscard]] const object::Object& object() const { return object_; }
-  /// That the hand has: 5 in space, 4 in the plane.
-  [[nodiscard]] int fingers() const { return dimension() == 3 ? 5 : 4; }
+  /// Fingers of the hand that may be used: all of it, but no more than hold at once.
+  [[nodiscard]] int fingers() const { return fingers_; }
 
   /// Tests of force closure so far, those of certificates included, and what qualities cost.
   [[nodiscard]] std::int64_t tests() const;
@@ -37,7 +36,7 @@ class SearchSpace : public criteria::GraspMemory {
   [[nodiscard]] bool out_of_time() const { return out_of_time_; }
 
  private:
-  const object::Object& object_;
+  int fingers_;
   std::int64_t more_tests_ = 0;  ///< that the memory does not count
   SearchLimits limits_;
   std::int64_t next_look_ = 0;  ///< at the clock, by tests

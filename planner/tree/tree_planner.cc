@@ -20,10 +20,10 @@ namespace {
 
 using Status = planning::PlanResult::Status;
 
-/// Where the first sequence can't be mended to the quality that is asked for, others are looked for
-/// whose grasps have these shares of it from the beginning, each with this part of the effort.
-constexpr std::array kQualityShares = {0.6, 1.0};
-constexpr int kQualityEffortShare = 4;
+/// Where the first sequence can't be repaired to meet the criteria, others are looked for whose
+/// grasps meet these shares of them from the beginning, each with this part of the effort.
+constexpr std::array kShares = {0.6, 1.0};
+constexpr int kShareEffortShare = 4;
 
 /// Bisections of the friction at which a sequence is found, and the largest that is tried, radians.
 constexpr int kExplainSteps = 8;
@@ -39,7 +39,6 @@ class TreeSearch {
       : request_(request),
         object_(*request.object),
         half_angle_(request.criteria.half_angle),
-        min_quality_(request.criteria.min_quality),
         effort_(request.effort.value_or(TreePlanner::kDefaultEffort)),
         evaluator_(object_, request.criteria, request.hand),
         source_(object_, request.hand.fingertip_radius),
@@ -52,7 +51,7 @@ class TreeSearch {
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // The contacts of the path alone: the search may have come across thousands.
-    SearchSpace space = MakeSpace(half_angle_, min_quality_, effort_);
+    SearchSpace space = MakeSpace(half_angle_, 1, effort_);
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, space);
     planning::PlanResult result =
@@ -70,11 +69,12 @@ class TreeSearch {
     bool out_of_time = false;
   };
 
-  SearchSpace MakeSpace(double half_angle, double min_quality, std::int64_t effort) const {
+  /// @param share  of the criteria that is asked for.
+  SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort) const {
     criteria::GraspCriteria criteria = request_.criteria;
     criteria.half_angle = half_angle;
-    criteria.min_quality = min_quality;
     SearchSpace space(object_, criteria, request_.hand);
+    space.SetShare(share);
     space.SetLimits({effort, request_.deadline});
     return space;
   }
@@ -100,18 +100,17 @@ class TreeSearch {
     return path;
   }
 
-  /// The path, or one whose grasps all have the quality that is asked for; where none is found, one
-  /// whose weakest grasp is as good as could be reached, and no more is then asked for.
+  /// The path, or one whose grasps all meet the criteria; where none is found, one whose weakest
+  /// grasp is as good as could be reached, and no more is then asked for.
   GraspPath MakeGood(GraspPath path, const grasp::Grasp& from, const grasp::Grasp& to,
                      SearchSpace& space) {
     if (AreAdmitted(path, space)) return path;
     if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
-    request_.progress("looking for grasps of a quality of " + FormatShort(min_quality_));
+    request_.progress("looking for grasps" + criteria::WithWhatIsAsked(request_.criteria));
     double best = Repair(path, space);
-    for (const double share : kQualityShares) {
-      if (best == min_quality_) return path;
-      SearchSpace wide =
-          MakeSpace(half_angle_, share * min_quality_, effort_ / kQualityEffortShare);
+    for (const double share : kShares) {
+      if (best == 1) return path;
+      SearchSpace wide = MakeSpace(half_angle_, share, effort_ / kShareEffortShare);
       const auto found = Search(from, to, wide);
       // What is not found with less asked for is not going to be found with more.
       if (!found) break;
@@ -122,16 +121,16 @@ class TreeSearch {
       best = reached;
       path = std::move(other);
     }
-    space.SetMinQuality(best);
+    space.SetShare(best);
     return path;
   }
 
-  /// @returns the quality that all grasps of the path have then.
+  /// @returns the share of the criteria that all grasps of the path meet then.
   double Repair(GraspPath& path, SearchSpace& space) {
-    space.SetMinQuality(0);
+    space.SetShare(0);
     path = ShortcutPath(std::move(path), source_, random_, space);
     path = MaximiseMargin(std::move(path), kMoreSteps, source_, random_, space);
-    space.SetMinQuality(min_quality_);
+    space.SetShare(1);
     return RepairQuality(source_, random_, space, path);
   }
 
@@ -211,8 +210,7 @@ class TreeSearch {
 
   const planning::PlanRequest& request_;
   const object::Object& object_;
-  double half_angle_;   ///< of the request's criteria
-  double min_quality_;  ///< of the request's criteria
+  double half_angle_;  ///< of the request's criteria
   std::int64_t effort_;
   criteria::GraspEvaluator evaluator_;
   sampling::SurfaceSampler source_;
@@ -223,13 +221,16 @@ class TreeSearch {
 }  // namespace
 
 TreePlanner::TreePlanner()
-    : planning::Planner({.name = "general",
-                         .what = "any force-closure grasps, on any object",
-                         .in_plane = planning::PlannerScope{4, {2, 4}, {2, 3}},
-                         .in_space = planning::PlannerScope{5, {3, 5}, {4, 4}},
-                         .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
-                                     planning::PlanOption::kEffort, planning::PlanOption::kExplain},
-                         .has_own_grasps = false}) {}
+    : planning::Planner(
+          {.name = "general",
+           .what = "any force-closure grasps, on any object",
+           .in_plane =
+               planning::PlannerScope{hand::kFingersInPlane, {2, hand::kFingersInPlane}, {2, 3}},
+           .in_space =
+               planning::PlannerScope{hand::kFingersInSpace, {3, hand::kFingersInSpace}, {4, 4}},
+           .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
+                       planning::PlanOption::kEffort, planning::PlanOption::kExplain},
+           .has_own_grasps = false}) {}
 
 planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {
   return TreeSearch(request).Plan(name());
