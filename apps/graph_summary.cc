@@ -38,8 +38,8 @@ QuerySummary RunQueries(const roadmap::ClusteredRoadmap& roadmap, int count,
   QuerySummary summary;
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
   for (const roadmap::RandomQuery& query :
-       roadmap::RunRandomQueries(roadmap, criteria::kSamePoint * request.object->diameter(), count,
-                                 request.seed, request.last_resort)) {
+       roadmap::RunRandomQueries(roadmap, dynamic_cast<const object::Polyhedron&>(*request.object),
+                                 count, request.seed, request.last_resort)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
     summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);

@@ -1,6 +1,7 @@
 // Force closure of random 4-contact grasps: exact cones against the two usual ways, an 8-sided
 // pyramid in a linear program (GLPK) and the hull of the wrenches (Qhull), on the same grasps in
-// the same run. Prints how the verdicts compare and the ratios of the times.
+// the same run. Prints how the verdicts compare and the ratios of the times. Beside them grasps of
+// three contacts in the plane.
 
 #include <benchmark/benchmark.h>
 
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -28,6 +30,8 @@ constexpr int kGrasps = 2000;
 constexpr int kHullGrasps = 100;  // Qhull takes milliseconds each
 constexpr std::array kDegrees{10.0, 20.0};
 const object::WrenchFrame kFrame{Eigen::Vector3d::Zero(), 1, 3};
+const object::WrenchFrame kPlane{Eigen::Vector3d::Zero(), 1, 2};
+constexpr int kPlanarContacts = 3;
 
 /// Half of the points on a ball with normals up to 17° off, half on a box.
 grasp::Contact RandomContact(std::mt19937_64& engine, bool box) {
@@ -54,6 +58,25 @@ const std::vector<grasp::Grasp>& Grasps() {
     std::vector<grasp::Grasp> result(kGrasps);
     for (int g = 0; g < kGrasps; ++g) {
       for (int i = 0; i < kContacts; ++i) result[g].push_back(RandomContact(engine, g % 2 == 0));
+    }
+    return result;
+  }();
+  return grasps;
+}
+
+/// On a circle, normals up to 17° off.
+const std::vector<grasp::Grasp>& PlanarGrasps() {
+  static const std::vector<grasp::Grasp> grasps = [] {
+    std::mt19937_64 engine(2026);
+    std::uniform_real_distribution<double> turn(-std::numbers::pi, std::numbers::pi);
+    std::uniform_real_distribution<double> lean(-0.3, 0.3);
+    std::vector<grasp::Grasp> result(kGrasps);
+    for (grasp::Grasp& grasp : result) {
+      for (int i = 0; i < kPlanarContacts; ++i) {
+        const double at = turn(engine);
+        const double inward = at + std::numbers::pi + lean(engine);
+        grasp.push_back({{std::cos(at), std::sin(at), 0}, {std::cos(inward), std::sin(inward), 0}});
+      }
     }
     return result;
   }();
@@ -88,6 +111,16 @@ void Time(benchmark::State& state) {
   state.counters["degrees"] = kDegrees[state.range(0)];
 }
 
+void TimePlanar(benchmark::State& state) {
+  const double half_angle = Radians(kDegrees[state.range(0)]);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(grasp::IsForceClosure(PlanarGrasps()[next], kPlane, half_angle));
+    next = (next + 1) % kGrasps;
+  }
+  state.counters["degrees"] = kDegrees[state.range(0)];
+}
+
 void TimeRequired(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
@@ -115,6 +148,7 @@ BENCHMARK(Time<QhullForceClosure, kHullGrasps>)
     ->Name("Qhull, 8 sides")
     ->DenseRange(0, 1)
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK(TimePlanar)->Name("exact cones in the plane")->DenseRange(0, 1);
 BENCHMARK(TimeRequired)->Name("required half-angle")->Unit(benchmark::kMicrosecond);
 BENCHMARK(TimeSubsets)->Name("all 4-subsets")->Arg(60)->Arg(70)->Unit(benchmark::kMillisecond);
 

@@ -111,7 +111,7 @@ void BM_SubsetsByGlpk(benchmark::State& state) {
 void BM_Queries(benchmark::State& state) {
   const roadmap::ClusteredRoadmap& roadmap =
       RoadmapOf(state.range(0), static_cast<int>(state.range(1)));
-  const double same_point = criteria::kSamePoint * Body(state.range(0)).diameter();
+  const object::Polyhedron& solid = Body(state.range(0));
   double seconds = 0;
   double longest = 0;
   double joined = 0;
@@ -119,7 +119,7 @@ void BM_Queries(benchmark::State& state) {
   std::uint64_t seed = kSeed;
   for (auto _ : state) {
     for (const roadmap::RandomQuery& query :
-         roadmap::RunRandomQueries(roadmap, same_point, kQueries, seed++, /*last_resort=*/true)) {
+         roadmap::RunRandomQueries(roadmap, solid, kQueries, seed++, /*last_resort=*/true)) {
       seconds += query.seconds;
       longest = std::max(longest, query.seconds);
       joined += query.chain.grasps.empty() ? 0 : 1;

@@ -71,9 +71,10 @@ std::vector<std::string> QueryRow(const Setting& setting, const roadmap::Cluster
 /// take, how many of the first 30 that they take they link, and Algorithm 3 of the first 30 that
 /// neither takes.
 std::vector<std::string> LocalRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
-                                  double same_point) {
-  roadmap::GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
-                              {roadmap.half_angle, 0});
+                                  const object::Polyhedron& solid) {
+  const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
+  const criteria::GraspEvaluator evaluator(solid, force_closure);
+  roadmap::GraspOracle oracle(solid, roadmap.clusters.contacts(), force_closure);
   roadmap::LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
   RandomStream random(kSeed, RandomUse::kStart);
   struct Count {
@@ -87,7 +88,7 @@ std::vector<std::string> LocalRow(const Setting& setting, const roadmap::Cluster
   int samples = 0;
   for (; samples < kSamples; ++samples) {
     const std::optional<roadmap::Quadruple> grasp =
-        roadmap::DrawContactGrasp(roadmap, same_point, random);
+        roadmap::DrawContactGrasp(roadmap, evaluator, random);
     if (!grasp) break;
     const bool takes_first = local.OwnRepresentatives(*grasp).has_value();
     const bool takes_second = local.FindNearestCluster(*grasp).has_value();
@@ -160,7 +161,6 @@ class Tables {
     const std::string name = setting.body + std::to_string(setting.triangles) + ".obj";
     const object::ObjectFile file = object::ReadObject(models_ / name);
     const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
-    const double same_point = criteria::kSamePoint * solid.diameter();
     roadmap::ClusteredRoadmapOptions options;
     options.half_angle = Radians(kDegrees);
     options.clusters = setting.clusters;
@@ -169,12 +169,12 @@ class Tables {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     queries_[table].rows.push_back(QueryRow(
         setting, roadmap, time.count(),
-        roadmap::RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/false)));
-    local_[table].rows.push_back(LocalRow(setting, roadmap, same_point));
+        roadmap::RunRandomQueries(roadmap, solid, kQueries, kSeed, /*last_resort=*/false)));
+    local_[table].rows.push_back(LocalRow(setting, roadmap, solid));
     int answered = 0;
     int exhausted = 0;
     for (const roadmap::RandomQuery& query :
-         roadmap::RunRandomQueries(roadmap, same_point, kQueries, kSeed, /*last_resort=*/true)) {
+         roadmap::RunRandomQueries(roadmap, solid, kQueries, kSeed, /*last_resort=*/true)) {
       exhausted += query.chain.exhausted && query.chain.grasps.empty() ? 1 : 0;
       answered += query.chain.grasps.empty() ? 0 : 1;
     }

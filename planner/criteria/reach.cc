@@ -17,17 +17,17 @@ namespace {
 constexpr double kTouches = 1 - 1e-9;
 constexpr double kRounding = 1e-12;
 
-/// How far from the contact the way of a finger is free is told to this share of the diameter.
+/// How far from the contact the path of a finger is free is told to this share of the diameter.
 constexpr double kDistanceAccuracy = 1e-4;
 constexpr int kDistanceDigits = 3;
 
 /// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
-/// `way` before it rests.
+/// `travel` before it rests.
 bool IsBlocked(const object::Object& object, const grasp::Contact& contact, double radius,
-               double way) {
+               double travel) {
   const Vector3d rest = BallCentre(contact, radius);
   const double within = std::max(kTouches * radius - kRounding * object.diameter(), 0.0);
-  const auto near = object.FacesNearSegment(rest, rest - way * contact.n, within);
+  const auto near = object.FacesNearSegment(rest, rest - travel * contact.n, within);
   return std::ranges::any_of(near, [&](int face) { return face != contact.face; });
 }
 
@@ -58,12 +58,6 @@ bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
   return true;
 }
 
-bool CanHold(const object::Object& object, std::span<const grasp::Contact> grasp, double radius) {
-  return KeepApart(grasp, radius) && std::ranges::all_of(grasp, [&](const grasp::Contact& contact) {
-           return CanReach(object, contact, radius);
-         });
-}
-
 void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
   if (radius <= object.diameter()) return;
   throw InputError(name + ": " + FormatShort(radius) + " is more than the object's diameter of " +
@@ -84,11 +78,11 @@ std::optional<std::string> FindObstacle(const object::Object& object, const gras
   double free = 0;
   double blocked = object.diameter();
   while (blocked - free > kDistanceAccuracy * object.diameter()) {
-    const double way = (free + blocked) / 2;
-    (IsBlocked(object, contact, radius, way) ? blocked : free) = way;
+    const double travel = (free + blocked) / 2;
+    (IsBlocked(object, contact, radius, travel) ? blocked : free) = travel;
   }
-  return "the object blocks its way to the contact along the normal: a finger of radius " +
-         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free way there";
+  return "the object blocks its path to the contact along the normal: a finger of radius " +
+         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free path there";
 }
 
 }  // namespace regrasp::criteria

@@ -13,7 +13,7 @@ namespace regrasp::criteria {
 /// normal of its contact. Where it rests it is the ball that touches at the contact, with centre
 /// p − r n; it comes and goes straight along the normal, from beyond the object's far side. What it
 /// sweeps is the capsule about the segment from p − r n to p − (r + D) n: no point of the object is
-/// farther than the diameter D from p, so that nothing is in the way after that.
+/// farther than the diameter D from p, so that nothing blocks its path after that.
 ///
 /// In the plane all this holds for discs. Lengths are the object's own units; contacts know their
 /// faces. A radius of 0 is a finger that is a point, and reaches everything but the walls of sealed
@@ -30,10 +30,6 @@ namespace regrasp::criteria {
 /// rounding. Law: independent of the order of the contacts.
 [[nodiscard]] bool KeepApart(std::span<const grasp::Contact> contacts, double radius);
 
-/// Both, for all contacts of a grasp.
-[[nodiscard]] bool CanHold(const object::Object& object, std::span<const grasp::Contact> grasp,
-                           double radius);
-
 /// Fingers thicker than the object is long are a mistake in the unit of length.
 /// @param name  what gave the radius, for the message.
 /// @throws InputError  the radius is larger than the object's diameter.
@@ -43,7 +39,7 @@ void CheckFingerRadius(const object::Object& object, double radius, const std::s
 [[nodiscard]] Eigen::Vector3d BallCentre(const grasp::Contact& contact, double radius);
 
 /// Why a finger cannot reach a contact, for people: what fits there, or how far from the contact
-/// its way is blocked. Nullopt where it can.
+/// its path is blocked. Nullopt where it can.
 [[nodiscard]] std::optional<std::string> FindObstacle(const object::Object& object,
                                                       const grasp::Contact& contact, double radius);
 

@@ -16,7 +16,7 @@ struct FingerFriction {
   double required = 0;
   bool needed = true;  ///< the grasp is not force closure without this finger
   /// The smallest half-angle of all the others at which the grasp is force closure without this
-  /// finger, radians; nullopt where none below π/2 serves.
+  /// finger, radians; nullopt where none below π/2 is enough.
   std::optional<double> without;
 };
 

@@ -22,7 +22,7 @@ struct ForceClosure {
 /// What is within this of the border, relative to the size of the grasp's wrenches in the contacts'
 /// own frame, is too close to call: a twist must separate by more, a ball about the origin or a
 /// step beyond it be larger. Evaluating a wrench or a support loses some twenty roundings, 5e-15;
-/// the rest is room for the inverse of the basic columns.
+/// the rest is left for the inverse of the basic columns.
 inline constexpr double kForceClosureEpsilon = 1e-12;
 
 /// Decides force closure with circular friction cones (cone edges in the plane), in space and in

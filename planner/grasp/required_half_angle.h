@@ -18,7 +18,7 @@ struct RequiredHalfAngle {
 /// The smallest half-angle θ at which the contacts are force closure, to `tolerance` radians.
 /// Where angles closer to it are too close to call the bounds are farther apart than that, by up to
 /// 1e-7 in all random grasps seen.
-/// @returns nullopt where none below π/2 serves (to within 1e-6 rad).
+/// @returns nullopt where none below π/2 is enough (to within 1e-6 rad).
 /// @throws std::invalid_argument  as TestForceClosure; tolerance not > 0.
 [[nodiscard]] std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(
     std::span<const Contact> contacts, const object::WrenchFrame& frame, double tolerance = 1e-9);

@@ -10,7 +10,7 @@
 namespace regrasp::grasp {
 
 /// The simplex method (lp::Simplex) over the wrenches of friction cones, with the true circular
-/// cone as its pricing step: one linear program with infinitely many columns serves force closure,
+/// cone as its pricing step: one linear program with infinitely many columns decides force closure,
 /// quality and grasp forces.
 ///
 /// The columns are the wrenches w(g) = (g, q × g) of the rim forces g = axial n + tangential t of

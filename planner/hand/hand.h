@@ -4,7 +4,7 @@ namespace regrasp::hand {
 
 /// Fingers of the hand that plans are made for where nothing else is said: four contacts hold
 /// nearly every solid and three nearly every planar object, and one finger switches. Sets of held
-/// contacts have room for no more; a hand with more fingers leaves the others free.
+/// contacts hold no more; a hand with more fingers leaves the others free.
 inline constexpr int kFingersInSpace = 5;
 inline constexpr int kFingersInPlane = 4;
 

@@ -53,8 +53,8 @@ struct PlannerTraits {
   bool has_own_grasps = true;
 };
 
-/// A way to plan. Whoever wants a plan calls Solve (solve.h), which sees to all that planners have
-/// in common; a planner supplies its traits and the planning alone.
+/// A method of planning. Whoever wants a plan calls Solve (solve.h), which sees to all that
+/// planners have in common; a planner supplies its traits and the planning alone.
 class Planner {
  public:
   virtual ~Planner() = default;
@@ -67,10 +67,10 @@ class Planner {
     return dimension == 2 ? traits_.in_plane : traits_.in_space;
   }
 
-  /// What it is about to build for a request that it serves; nullopt: nothing large.
+  /// What it is about to build for a request that it can serve; nullopt: nothing large.
   [[nodiscard]] virtual std::optional<MemoryNeed> EstimateMemory(const PlanRequest& request) const;
 
-  /// @param request  that it serves; its hand has a number of fingers, start and goal are grasps
+  /// @param request  that it can serve; its hand has a number of fingers, start and goal are grasps
   ///                 that the planner takes, or kRandom where it has grasps of its own.
   /// @throws NoGrasp, TimeUp  for Solve.
   [[nodiscard]] virtual PlanResult Plan(const PlanRequest& request) const = 0;

@@ -19,8 +19,8 @@ class ChainSearch {
   ContactChain ByRoadmap(const Quadruple& start, const Quadruple& goal) {
     LocalPlanners local(clusters_, roadmap_.roadmap, oracle_);
     ContactChain chain;
-    const LocalPlanners::Way from = LinkOrAdd(start, local);
-    const LocalPlanners::Way to = LinkOrAdd(goal, local);
+    const LocalPlanners::Path from = LinkOrAdd(start, local);
+    const LocalPlanners::Path to = LinkOrAdd(goal, local);
     chain.start_link = from.link;
     chain.goal_link = to.link;
     const std::vector<Quadruple> middle = JoinInRoadmap(from, to, start, goal);
@@ -52,16 +52,16 @@ class ChainSearch {
   }
 
  private:
-  /// The way of an end to the roadmap. Algorithm 3 adds an end to the roadmap even where no way
+  /// The path of an end to the roadmap. Algorithm 3 adds an end to the roadmap even where no path
   /// leads on to a vertex of before: the other end, added as well, may be joined to it.
-  static LocalPlanners::Way LinkOrAdd(const Quadruple& end, LocalPlanners& local) {
-    LocalPlanners::Way way = local.Link(end);
-    if (way.grasps.empty()) way.grasps = {end};
-    return way;
+  static LocalPlanners::Path LinkOrAdd(const Quadruple& end, LocalPlanners& local) {
+    LocalPlanners::Path path = local.Link(end);
+    if (path.grasps.empty()) path.grasps = {end};
+    return path;
   }
 
-  static bool IsAdded(const LocalPlanners::Way& way) {
-    return way.link == RoadmapLink::kAlgorithm3 || way.link == RoadmapLink::kNone;
+  static bool IsAdded(const LocalPlanners::Path& path) {
+    return path.link == RoadmapLink::kAlgorithm3 || path.link == RoadmapLink::kNone;
   }
 
   static std::vector<int> ContactsOf(const Quadruple& start, const Quadruple& goal) {
@@ -88,8 +88,9 @@ class ChainSearch {
     return roadmap_.components.of_vertex[*roadmap_.roadmap.Find(clusters)];
   }
 
-  std::vector<Quadruple> JoinInRoadmap(const LocalPlanners::Way& from, const LocalPlanners::Way& to,
-                                       const Quadruple& start, const Quadruple& goal) {
+  std::vector<Quadruple> JoinInRoadmap(const LocalPlanners::Path& from,
+                                       const LocalPlanners::Path& to, const Quadruple& start,
+                                       const Quadruple& goal) {
     std::vector<int> contacts = clusters_.representatives();
     const auto take = [&](const Quadruple& grasp) {
       for (const int contact : grasp) {

@@ -24,9 +24,6 @@ namespace {
 /// Vertices that a random draw looks at before it gives up; a second of quality tests.
 constexpr int kMaxVertexDraws = 20'000;
 
-/// Radians: differences of margin that a plan does not care for (6e-6 degrees).
-constexpr double kMarginTolerance = 1e-7;
-
 /// Quality tests between two reports of progress, a tenth of a second or so.
 constexpr int kProgressEvery = 100;
 

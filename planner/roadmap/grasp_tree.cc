@@ -76,16 +76,16 @@ void GraspTree::Push(int from, int slot, int position) {
 
 bool GraspTree::Step() {
   assert(!exhausted());
-  const QueueEntry offer = queue_.top();
+  const QueueEntry entry = queue_.top();
   queue_.pop();
-  const Quadruple from = reached_[offer.from].grasp;
-  const int contact = replacements_.lists[replacements_.list_of[from[offer.slot]]][offer.position];
-  Push(offer.from, offer.slot, offer.position + 1);
-  const std::optional<Quadruple> grasp = Replaced(from, offer.slot, contact);
-  if (!grasp || Has(*grasp) || !oracle_.CanMeet(from[offer.slot], contact)) return false;
+  const Quadruple from = reached_[entry.from].grasp;
+  const int contact = replacements_.lists[replacements_.list_of[from[entry.slot]]][entry.position];
+  Push(entry.from, entry.slot, entry.position + 1);
+  const std::optional<Quadruple> grasp = Replaced(from, entry.slot, contact);
+  if (!grasp || Has(*grasp) || !oracle_.CanMeet(from[entry.slot], contact)) return false;
   if (replacements_.allows && !replacements_.allows(*grasp)) return false;
   if (!oracle_.Admits(*grasp)) return false;
-  Reach(*grasp, offer.from);
+  Reach(*grasp, entry.from);
   return true;
 }
 

@@ -84,7 +84,8 @@ struct Junction {
   std::size_t to_size = 0;
 };
 
-/// Joins two grasps by a tree from each, grown in turn, each towards the other's root.
+/// Joins two grasps by a tree from each, grown in turn, each towards the other's root: a best-first
+/// search from both ends (Pohl 1971).
 /// @param distance    between two contacts, >= 0.
 /// @param most_steps  replacements looked at before it gives up.
 [[nodiscard]] Junction JoinGrasps(const Quadruple& from, const Quadruple& to,

@@ -179,14 +179,14 @@ std::vector<Quadruple> LocalPlanners::RunAlgorithm3(const Quadruple& grasp) {
   return {};
 }
 
-LocalPlanners::Way LocalPlanners::Link(const Quadruple& grasp) {
+LocalPlanners::Path LocalPlanners::Link(const Quadruple& grasp) {
   if (IsVertex(grasp)) return {RoadmapLink::kVertex, {grasp}};
-  std::vector<Quadruple> way = RunAlgorithm1(grasp);
-  if (!way.empty()) return {RoadmapLink::kAlgorithm1, std::move(way)};
-  way = RunAlgorithm2(grasp);
-  if (!way.empty()) return {RoadmapLink::kAlgorithm2, std::move(way)};
-  way = RunAlgorithm3(grasp);
-  if (!way.empty()) return {RoadmapLink::kAlgorithm3, std::move(way)};
+  std::vector<Quadruple> path = RunAlgorithm1(grasp);
+  if (!path.empty()) return {RoadmapLink::kAlgorithm1, std::move(path)};
+  path = RunAlgorithm2(grasp);
+  if (!path.empty()) return {RoadmapLink::kAlgorithm2, std::move(path)};
+  path = RunAlgorithm3(grasp);
+  if (!path.empty()) return {RoadmapLink::kAlgorithm3, std::move(path)};
   return {};
 }
 

@@ -31,14 +31,14 @@ class LocalPlanners {
   /// @param oracle    of the contacts of `clusters`. All must outlive this object.
   LocalPlanners(const ContactClusters& clusters, const Roadmap& roadmap, GraspOracle& oracle);
 
-  /// A way from a grasp to a vertex of the roadmap, both included; empty where there is none.
-  struct Way {
+  /// A path from a grasp to a vertex of the roadmap, both included; empty where there is none.
+  struct Path {
     RoadmapLink link = RoadmapLink::kNone;
     std::vector<Quadruple> grasps;
   };
   /// The first of the algorithms that finds one, in their order. A grasp that is a vertex itself
   /// needs none.
-  [[nodiscard]] Way Link(const Quadruple& grasp);
+  [[nodiscard]] Path Link(const Quadruple& grasp);
 
   /// Where the algorithms 1 and 2 would lead: the vertex of the representatives of the grasp's
   /// clusters; and the vertex that differs from these in one cluster, whose centre is nearest to
@@ -51,7 +51,7 @@ class LocalPlanners {
   };
   [[nodiscard]] std::optional<NearestCluster> FindNearestCluster(const Quadruple& grasp);
 
-  /// The algorithms one by one; empty where they don't apply or find no way.
+  /// The algorithms one by one; empty where they don't apply or find no path.
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm1(const Quadruple& grasp);
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm2(const Quadruple& grasp);
   [[nodiscard]] std::vector<Quadruple> RunAlgorithm3(const Quadruple& grasp);
@@ -61,7 +61,7 @@ class LocalPlanners {
   [[nodiscard]] bool IsVertex(const Quadruple& grasp);
   /// Contacts near both `contact` and the representative of `cluster`, and both of them: S_i.
   [[nodiscard]] std::vector<int> Between(int contact, int cluster) const;
-  /// A way by contacts of the sets between each contact of the grasp and its cluster.
+  /// A path by contacts of the sets between each contact of the grasp and its cluster.
   [[nodiscard]] std::vector<Quadruple> JoinWithin(const Quadruple& grasp,
                                                   const std::array<int, 4>& clusters,
                                                   const Quadruple& goal);

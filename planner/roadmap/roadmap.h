@@ -17,9 +17,9 @@ namespace regrasp::roadmap {
 /// Four contact points, indices in ascending order.
 using Quadruple = std::array<int, 4>;
 
-/// The plain roadmap: every force-closure grasp of four of the contact points is a vertex; two
-/// grasps that share three contacts are joined, as the fifth finger can take the new contact before
-/// the old one leaves.
+/// The plain roadmap (Kavraki and others 1996, of grasps: Phoka 2010, chapter VI): every
+/// force-closure grasp of four of the contact points is a vertex; two grasps that share three
+/// contacts are joined, as the fifth finger can take the new contact before the old one leaves.
 ///
 /// Edges are not stored: grasps are listed by the triples of contacts that they contain, and two
 /// different grasps share at most one triple. Contacts at the same point (two normals on an edge of

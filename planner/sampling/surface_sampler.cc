@@ -171,11 +171,11 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
 
 Vector3d SurfaceSampler::DrawInwards(int face, const Vector3d& border, double reach,
                                      RandomStream& random) const {
-  const Vector3d way = DrawIn(RangeOf(face), random).p - border;
+  const Vector3d inside = DrawIn(RangeOf(face), random).p - border;
   // The best grasps are the widest ones: most of the draws stay as near to the border as they may.
   const double u = random.Uniform();
   const double inwards = 5 * kFromBorder * object_.diameter() + u * u * u * u * reach;
-  return object_.ClosestPoint(face, border + std::min(1.0, inwards / way.norm()) * way);
+  return object_.ClosestPoint(face, border + std::min(1.0, inwards / inside.norm()) * inside);
 }
 
 }  // namespace regrasp::sampling

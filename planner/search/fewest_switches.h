@@ -11,7 +11,7 @@ namespace regrasp::search {
 using VertexFilter = std::function<bool(int vertex)>;
 
 /// The fewest switches from `start` to `goal` over vertices that `admits` lets pass (not asked of
-/// the two ends); nullopt where there is no way.
+/// the two ends); nullopt where there is no path.
 ///
 /// A* (Hart, Nilsson and Raphael 1968) with MinSwitches as its bound: `admits` is asked only of
 /// vertices on the search's own front, as it may cost far more than the search. A flood from the

@@ -69,20 +69,20 @@ std::optional<ShortestPaths> FindShortestPaths(const SwitchingGraph& graph, int 
     if (from_start.front().empty() || from_goal.front().empty()) return std::nullopt;
     (from_start.front().size() <= from_goal.front().size() ? from_start : from_goal).Grow();
   }
-  ShortestPaths ways;
-  ways.switches = from_start.radius() + from_goal.radius();
-  ways.depth.assign(graph.vertex_count(), kUnreached);
+  ShortestPaths paths;
+  paths.switches = from_start.radius() + from_goal.radius();
+  paths.depth.assign(graph.vertex_count(), kUnreached);
   const auto keep = [&](Ball& ball, const auto& depth_at) {
     std::vector<int> layer = middle;
-    for (const int vertex : layer) ways.depth[vertex] = depth_at(ball.radius());
+    for (const int vertex : layer) paths.depth[vertex] = depth_at(ball.radius());
     for (int distance = ball.radius() - 1; distance >= 0; --distance) {
       layer = ball.Inwards(layer, distance);
-      for (const int vertex : layer) ways.depth[vertex] = depth_at(distance);
+      for (const int vertex : layer) paths.depth[vertex] = depth_at(distance);
     }
   };
   keep(from_start, [](int distance) { return distance; });
-  keep(from_goal, [&](int distance) { return ways.switches - distance; });
-  return ways;
+  keep(from_goal, [&](int distance) { return paths.switches - distance; });
+  return paths;
 }
 
 }  // namespace regrasp::search

@@ -15,7 +15,7 @@ struct ShortestPaths {
 
 /// Breadth-first search from both ends at once, a layer at a time on the side whose front is
 /// smaller (Pohl 1971), then back to the ends from where the two meet.
-/// @returns nullopt where there is no way.
+/// @returns nullopt where there is no path.
 [[nodiscard]] std::optional<ShortestPaths> FindShortestPaths(const SwitchingGraph& graph, int start,
                                                              int goal);
 

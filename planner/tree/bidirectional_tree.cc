@@ -26,10 +26,10 @@ constexpr double kNarrower = 0.7;
 /// the small faces of a mesh there are no others.
 constexpr double kLeastTravel = 0.05;
 
-/// Contacts have no way to go on it.
+/// Contacts have nowhere to go on it.
 bool IsSmall(int face, const object::Object& object) {
-  const double way = kLeastTravel * object.diameter();
-  return object.face_measure(face) < (object.dimension() == 3 ? way * way : way);
+  const double travel = kLeastTravel * object.diameter();
+  return object.face_measure(face) < (object.dimension() == 3 ? travel * travel : travel);
 }
 
 /// So many candidates later than the grasp before it on its tuple of faces a grasp gets its turn.
@@ -82,7 +82,7 @@ void BidirectionalTree::AddCandidates() {
     candidates_.push_back(space_.Add(source_.Draw(random_)));
   }
   for (Tree& tree : trees_) {
-    for (const QueueEntry& offer : tree.waiting) tree.offers.push(offer);
+    for (const QueueEntry& entry : tree.waiting) tree.queue.push(entry);
     tree.waiting.clear();
   }
 }
@@ -90,20 +90,20 @@ void BidirectionalTree::AddCandidates() {
 void BidirectionalTree::GrowBySwitches(int side, std::int64_t until) {
   Tree& tree = trees_[side];
   while (!found_ && space_.tests() < until && !space_.IsSpent()) {
-    if (tree.offers.empty()) {
+    if (tree.queue.empty()) {
       if (tree.waiting.empty() || !space_.has_capacity()) return;
       AddCandidates();
     }
-    QueueEntry offer = tree.offers.top();
-    tree.offers.pop();
-    if (offer.next >= static_cast<int>(candidates_.size())) {
-      tree.waiting.push_back(offer);
+    QueueEntry entry = tree.queue.top();
+    tree.queue.pop();
+    if (entry.next >= static_cast<int>(candidates_.size())) {
+      tree.waiting.push_back(entry);
       continue;
     }
-    TryCandidate(side, offer.node, candidates_[offer.next]);
-    ++offer.next;
-    ++offer.rank;
-    tree.offers.push(offer);
+    TryCandidate(side, entry.node, candidates_[entry.next]);
+    ++entry.next;
+    ++entry.rank;
+    tree.queue.push(entry);
   }
 }
 
@@ -141,20 +141,20 @@ void BidirectionalTree::MakeQueueEntry(int side, int node) {
     return;
   }
   const int on_tuple = static_cast<int>(tree.reached.OnTuple(TupleOf(set, space_)).size());
-  tree.offers.push({kBehind * (on_tuple - 1), node, 0});
+  tree.queue.push({kBehind * (on_tuple - 1), node, 0});
 }
 
 std::vector<BidirectionalTree::NodeAt> BidirectionalTree::NearestOnTuple(
     int side, const criteria::ContactSet& set, int most) const {
   const ReachedGrasps& reached = trees_[side].reached;
-  std::vector<NodeAt> ways;
+  std::vector<NodeAt> nearest;
   for (const int node : reached.OnTuple(TupleOf(set, space_))) {
-    ways.push_back({DistanceBetween(set, reached[node], space_), node});
+    nearest.push_back({DistanceBetween(set, reached[node], space_), node});
   }
-  most = std::min(most, static_cast<int>(ways.size()));
-  std::partial_sort(ways.begin(), ways.begin() + most, ways.end());
-  ways.resize(most);
-  return ways;
+  most = std::min(most, static_cast<int>(nearest.size()));
+  std::partial_sort(nearest.begin(), nearest.begin() + most, nearest.end());
+  nearest.resize(most);
+  return nearest;
 }
 
 void BidirectionalTree::Meet(int side, int node) {
@@ -179,7 +179,7 @@ void BidirectionalTree::Meet(int side, int node) {
   std::vector<NodeAt> near = NearestOnTuple(1 - side, set, kAlignsToMeet);
   // A full hand, which can switch to nothing, may still come to the other's faces across edges.
   if (near.empty() && set.size() == space_.fingers()) near.push_back({0, any});
-  for (const auto& [way, there] : near) {
+  for (const auto& [distance, there] : near) {
     if (auto align = AlignBetween(set, other[there], space_)) {
       join(there, {set, {{other[there], std::move(align)}}});
       return;
@@ -216,8 +216,8 @@ bool BidirectionalTree::AlignAround(int side, int node, double reach) {
   const auto is_valid = [this](const grasp::Contact& contact) { return source_.IsValid(contact); };
   if (!space_.IsAdmitted(drawn) || !std::ranges::all_of(drawn, is_valid)) return false;
   const criteria::ContactSet set = space_.Add(drawn);
-  for (const auto& [way, near] : NearestOnTuple(side, set, 1)) {
-    if (way < least_travel) return false;
+  for (const auto& [distance, near] : NearestOnTuple(side, set, 1)) {
+    if (distance < least_travel) return false;
     node = near;
   }
   return AlignTo(side, node, set) >= 0;
@@ -256,7 +256,7 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
     const auto found =
         FindTransition(before, leaving, source_.DrawOn(face, random_), source_, random_, space_);
     if (!found) continue;
-    const int last = AlignAlong(side, node, std::span(found->way).subspan(1));
+    const int last = AlignAlong(side, node, std::span(found->path).subspan(1));
     if (last < 0 || found_) continue;
     const criteria::ContactSet after = space_.Add(found->after);
     space_.Accept(after);
@@ -281,13 +281,13 @@ int BidirectionalTree::AlignTo(int side, int node, const criteria::ContactSet& s
   return trees_[side].reached.Find(set);
 }
 
-int BidirectionalTree::AlignAlong(int side, int node, std::span<const grasp::Grasp> way) {
-  if (way.empty() || found_) return node;
+int BidirectionalTree::AlignAlong(int side, int node, std::span<const grasp::Grasp> path) {
+  if (path.empty() || found_) return node;
   if (!space_.has_capacity()) return -1;
-  if (const int end = AlignTo(side, node, space_.Add(way.back())); end >= 0) return end;
-  if (way.size() == 1) return -1;
-  const int middle = AlignAlong(side, node, way.first(way.size() / 2));
-  return middle < 0 ? -1 : AlignAlong(side, middle, way.subspan(way.size() / 2));
+  if (const int end = AlignTo(side, node, space_.Add(path.back())); end >= 0) return end;
+  if (path.size() == 1) return -1;
+  const int middle = AlignAlong(side, node, path.first(path.size() / 2));
+  return middle < 0 ? -1 : AlignAlong(side, middle, path.subspan(path.size() / 2));
 }
 
 }  // namespace regrasp::tree

@@ -12,7 +12,7 @@
 
 namespace regrasp::tree {
 
-/// Joins two grasps by a tree of grasps from each, grown in turn.
+/// Joins two grasps by a tree of grasps from each, grown in turn (Kuffner and LaValle 2000).
 ///
 /// A tree grows by finger switches, every one of its grasps with every candidate contact, fair to
 /// all: no grasp sees a candidate before the others have seen those before it. Candidates are the
@@ -47,7 +47,7 @@ class BidirectionalTree {
   };
   struct Tree {
     ReachedGrasps reached;
-    std::priority_queue<QueueEntry> offers;
+    std::priority_queue<QueueEntry> queue;
     std::vector<QueueEntry> waiting;  ///< grasps that have seen all candidates
   };
 
@@ -64,7 +64,7 @@ class BidirectionalTree {
   /// Reaches a grasp by an align, whose node is returned; −1 where none was proved.
   int AlignTo(int side, int node, const criteria::ContactSet& set);
   /// The same for the last of several grasps, over some of the others where it has to be.
-  int AlignAlong(int side, int node, std::span<const grasp::Grasp> way);
+  int AlignAlong(int side, int node, std::span<const grasp::Grasp> path);
   void TryCandidate(int side, int node, int candidate);
   void TryToReach(int side, const criteria::ContactSet& set, int parent);
   void Reach(int side, const criteria::ContactSet& set, int parent,
@@ -73,11 +73,11 @@ class BidirectionalTree {
   void MakeQueueEntry(int side, int node);
   void Meet(int side, int node);
   struct NodeAt {
-    double way;
+    double distance;
     int node;
     auto operator<=>(const NodeAt&) const = default;
   };
-  /// Nodes of the tuple in a tree, those with the least way to the grasp first.
+  /// Nodes of the tuple in a tree, those nearest to the grasp first.
   [[nodiscard]] std::vector<NodeAt> NearestOnTuple(int side, const criteria::ContactSet& set,
                                                    int most) const;
   void AddCandidates();

@@ -22,7 +22,7 @@ constexpr double kProbe = 0.5;
 constexpr int kTestsOfAProof = 6;
 
 /// A motion that needs shorter pieces of a proof keeps too close to the limit.
-constexpr double kShortestStretch = 1.0 / 64;
+constexpr double kShortestPiece = 1.0 / 64;
 
 /// Of the criteria that grasps at rest meet: only those are shaken.
 constexpr double kShareAtTurns = 0.25;
@@ -84,14 +84,14 @@ class Pairing {
   [[nodiscard]] int operator[](int i) const { return chosen_[i]; }
 
  private:
-  /// Changes of face, and the way.
+  /// Changes of face, and the distance.
   using Cost = std::pair<int, double>;
   static constexpr Cost kNever = {std::numeric_limits<int>::max(), 0};
 
   static Cost CostOf(const grasp::Contact& a, const grasp::Contact& b, const SearchSpace& space) {
-    const double way = (a.p - b.p).norm();
-    if (a.face == b.face) return {0, way};
-    return MayHandOver(a, b, space.object()) ? Cost{1, way} : kNever;
+    const double distance = (a.p - b.p).norm();
+    if (a.face == b.face) return {0, distance};
+    return MayHandOver(a, b, space.object()) ? Cost{1, distance} : kNever;
   }
 
   void Assign(int i, unsigned taken, const Cost& cost) {
@@ -149,7 +149,7 @@ class JointPath {
   }
 
  private:
-  /// Of a route's contacts: how much of the way is behind them.
+  /// Of a route's contacts: how much of the path is behind them.
   static std::vector<double> SharesOf(const SurfaceRoute& route) {
     const double whole = LengthOf(route);
     std::vector<double> shares = {0};
@@ -233,7 +233,7 @@ std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<grasp::Grasp> way
   for (const motion::GraspMotion& motion : motions) {
     space.CountTests(kTestsOfAProof);
     auto proof =
-        motion::FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestStretch);
+        motion::FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestPiece);
     if (!proof) return std::nullopt;
     align.proof.push_back(*std::move(proof));
   }
@@ -261,13 +261,13 @@ bool AdmitsPath(const FaceAlign& align, SearchSpace& space) {
 
 double TravelOf(const FaceAlign& align, const SearchSpace& space) {
   const std::vector<grasp::Grasp> waypoints = WaypointsOf(align, space);
-  double way = 0;
+  double travel = 0;
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
     for (std::size_t i = 0; i < waypoints[w].size(); ++i) {
-      way += (waypoints[w][i].p - waypoints[w - 1][i].p).norm();
+      travel += (waypoints[w][i].p - waypoints[w - 1][i].p).norm();
     }
   }
-  return way;
+  return travel;
 }
 
 FaceTuple TupleOf(const criteria::ContactSet& set, const SearchSpace& space) {
@@ -302,9 +302,9 @@ double DistanceBetween(const criteria::ContactSet& from, const criteria::Contact
                        const SearchSpace& space) {
   const auto pairs = PairContacts(from, to, space);
   if (!pairs) return std::numeric_limits<double>::infinity();
-  double way = 0;
-  for (const auto& [a, b] : *pairs) way += (space.contact(a).p - space.contact(b).p).norm();
-  return way;
+  double travel = 0;
+  for (const auto& [a, b] : *pairs) travel += (space.contact(a).p - space.contact(b).p).norm();
+  return travel;
 }
 
 std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,

@@ -31,7 +31,7 @@ struct FaceAlign {
 /// the space asks. AlignBetween only returns such aligns.
 [[nodiscard]] bool AdmitsPath(const FaceAlign& align, SearchSpace& space);
 
-/// The way of all contacts of an align together; turns of normals add nothing.
+/// The travel of all contacts of an align together; turns of normals add nothing.
 [[nodiscard]] double TravelOf(const FaceAlign& align, const SearchSpace& space);
 
 /// The faces of a grasp's contacts, ascending.
@@ -48,19 +48,19 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 
 /// Pairs the contacts of two grasps for an align: common ones stay, the others go to one on their
 /// own face, or go over to another one (MayHandOver). Of all pairings the one with the fewest
-/// contacts that change their faces, of those the one with the least straight way in all.
+/// contacts that change their faces, of those the one with the least straight distance in all.
 ///
 /// Takes well under a microsecond, most of all where there is none.
 [[nodiscard]] std::optional<ContactPairs> PairContacts(const criteria::ContactSet& from,
                                                        const criteria::ContactSet& to,
                                                        const SearchSpace& space);
 
-/// The straight way of all contacts together from one grasp to another; infinite where they can't
-/// be paired.
+/// The straight distance of all contacts together from one grasp to another; infinite where they
+/// can't be paired.
 [[nodiscard]] double DistanceBetween(const criteria::ContactSet& from,
                                      const criteria::ContactSet& to, const SearchSpace& space);
 
-/// Aligns from one grasp to another, force closure at the space's half-angle all the way: contacts
+/// Aligns from one grasp to another, force closure at the space's half-angle throughout: contacts
 /// go along their routes (FindSurfaceRoute), all at rates that bring them to their ends at once,
 /// and stop while one of them turns at an edge.
 ///

@@ -23,10 +23,10 @@ struct GraspPath {
   }
 };
 
-/// The same align the other way round.
+/// The same align backwards.
 [[nodiscard]] FaceAlign Reversed(FaceAlign align);
 
-/// The same path the other way round.
+/// The same path backwards.
 [[nodiscard]] GraspPath Reversed(const GraspPath& path);
 
 /// Goes on with `more`, which begins where `path` ends.

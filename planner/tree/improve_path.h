@@ -10,22 +10,23 @@ namespace regrasp::tree {
 /// The same path with its contacts numbered by another space.
 [[nodiscard]] GraspPath Renumber(const GraspPath& path, const SearchSpace& from, SearchSpace& to);
 
-/// Shortens a path: stretches of it are replaced by ways with fewer steps, over the contacts of the
-/// stretch and some random ones, by switches and aligns, as long as one is found. Never longer.
+/// Shortens a path: subpaths of it are replaced by paths of fewer steps, over the contacts of the
+/// subpath and some random ones, by switches and aligns, as long as one is found (shortcuts,
+/// Geraerts and Overmars 2007). Never longer.
 [[nodiscard]] GraspPath ShortcutPath(GraspPath path, const sampling::SurfaceSampler& source,
                                      RandomStream& random, SearchSpace& space);
 
 /// Widens a path, with at most `more_steps` steps more: its weakest grasps and aligns come to need
-/// less friction. Stretches of it are replaced by the widest ways (SearchWidest) over their
-/// contacts and some random ones. A stretch can't become better than its two ends.
+/// less friction. Subpaths of it are replaced by the widest paths (SearchWidest) over their
+/// contacts and some random ones. A subpath can't become better than its two ends.
 [[nodiscard]] GraspPath MaximiseMargin(GraspPath path, int more_steps,
                                        const sampling::SurfaceSampler& source, RandomStream& random,
                                        SearchSpace& space);
 /// So many are worth while where the margin counts more than the number of steps.
 inline constexpr int kMoreSteps = 2;
 
-/// Lessens the way of all fingers together (TravelOf), with no more steps than before: stretches of
-/// the path are replaced by the ways of the least travel (SearchLeastTravel) over their contacts
+/// Lessens the travel of all fingers together (TravelOf), with no more steps than before: subpaths
+/// of the path are replaced by those of the least travel (SearchLeastTravel) over their contacts
 /// and some random ones near those, as long as that gains anything.
 [[nodiscard]] GraspPath MinimiseTravel(GraspPath path, const sampling::SurfaceSampler& source,
                                        RandomStream& random, SearchSpace& space);

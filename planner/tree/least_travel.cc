@@ -31,11 +31,11 @@ class TravelSearch {
   std::optional<GraspPath> Search() {
     for (;;) {
       FindLastPaths();
-      const std::vector<Mask> way = Find();
-      if (way.empty()) return std::nullopt;
-      auto path = graph_.MakePath(way);
+      const std::vector<Mask> masks = Find();
+      if (masks.empty()) return std::nullopt;
+      auto path = graph_.MakePath(masks);
       if (!path) continue;
-      // Over an edge an align's way is longer than the straight one.
+      // Over an edge an align's path is longer than the straight one.
       if (TravelOf(*path, space_) < bound_) return path;
       return std::nullopt;
     }
@@ -44,7 +44,7 @@ class TravelSearch {
  private:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
-  /// A way to a grasp, and the one that it goes on from.
+  /// A path to a grasp, and the one that it goes on from.
   struct Label {
     double travel;
     int steps;
@@ -59,15 +59,15 @@ class TravelSearch {
 
   void FindLastPaths() {
     last_path_.assign(graph_.mask_count(), kNone);
-    const auto any = [](Mask /*mask*/, double /*way*/ = 0) { return true; };
+    const auto any = [](Mask /*mask*/, double /*travel*/ = 0) { return true; };
     graph_.ForEachSwitch(graph_.to(), any,
                          [&](Mask mask) { last_path_[mask] = PathOfSwitch(mask, graph_.to()); });
-    graph_.ForEachAlign(graph_.to(), any, [&](Mask mask, double way) {
-      last_path_[mask] = std::min(last_path_[mask], way);
+    graph_.ForEachAlign(graph_.to(), any, [&](Mask mask, double travel) {
+      last_path_[mask] = std::min(last_path_[mask], travel);
     });
   }
 
-  /// The grasps of the way; none where there is none.
+  /// The grasps of the path; none where there is none.
   std::vector<Mask> Find() {
     fewest_.assign(graph_.mask_count(), std::numeric_limits<int>::max());
     settled_.clear();
@@ -88,13 +88,13 @@ class TravelSearch {
 
   void Expand(const Label& label, int number) {
     const int steps = label.steps + 1;
-    const auto push = [&](Mask next, double way) {
-      if (label.travel + way < bound_) queue_.push({label.travel + way, steps, next, number});
+    const auto push = [&](Mask next, double travel) {
+      if (label.travel + travel < bound_) queue_.push({label.travel + travel, steps, next, number});
     };
     if (last_path_[label.mask] < kNone) push(graph_.to(), last_path_[label.mask]);
     if (steps >= most_steps_) return;
-    const auto matters = [&](Mask next, double way = 0) {
-      return fewest_[next] > steps && label.travel + way < bound_ &&
+    const auto matters = [&](Mask next, double travel = 0) {
+      return fewest_[next] > steps && label.travel + travel < bound_ &&
              (steps + 1 < most_steps_ || last_path_[next] < kNone);
     };
     graph_.ForEachSwitch(label.mask, matters,
@@ -106,25 +106,25 @@ class TravelSearch {
   [[nodiscard]] double PathOfSwitch(Mask from, Mask to) const {
     const Mask left = from & ~to;
     if (left == 0) return 0;
-    double way = 0;
+    double travel = 0;
     for (Mask placed = to & ~from; placed != 0; placed &= placed - 1) {
       const std::vector<double>& to_others = distances_[std::countr_zero(placed)];
       double nearest = std::numeric_limits<double>::infinity();
       for (Mask rest = left; rest != 0; rest &= rest - 1) {
         nearest = std::min(nearest, to_others[std::countr_zero(rest)]);
       }
-      way += nearest;
+      travel += nearest;
     }
-    return way;
+    return travel;
   }
 
   [[nodiscard]] std::vector<Mask> PathToLast() const {
-    std::vector<Mask> way;
+    std::vector<Mask> path;
     for (int at = static_cast<int>(settled_.size()) - 1; at >= 0; at = settled_[at].parent) {
-      way.push_back(settled_[at].mask);
+      path.push_back(settled_[at].mask);
     }
-    std::reverse(way.begin(), way.end());
-    return way;
+    std::reverse(path.begin(), path.end());
+    return path;
   }
 
   SubsetGraph graph_;
@@ -133,7 +133,7 @@ class TravelSearch {
   double bound_;
   std::vector<std::vector<double>> distances_;
   std::vector<double> last_path_;  ///< by mask: of one step to the goal; kNone where there is none
-  std::vector<int> fewest_;        ///< by mask: steps of the ways settled so far
+  std::vector<int> fewest_;        ///< by mask: steps of the paths settled so far
   std::vector<Label> settled_;
   std::priority_queue<Label> queue_;
 };

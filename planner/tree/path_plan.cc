@@ -46,7 +46,7 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
 /// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
 double PathOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet& to,
                     const SearchSpace& space) {
-  double way = 0;
+  double travel = 0;
   for (const int placed : to) {
     if (from.Has(placed)) continue;
     double nearest = -1;
@@ -55,9 +55,9 @@ double PathOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet
       const double distance = (space.contact(left).p - space.contact(placed).p).norm();
       if (nearest < 0 || distance < nearest) nearest = distance;
     }
-    way += std::max(nearest, 0.0);
+    travel += std::max(nearest, 0.0);
   }
-  return way;
+  return travel;
 }
 
 }  // namespace
@@ -83,13 +83,13 @@ planning::CandidateSequence MakeCandidate(const GraspPath& path, const grasp::Gr
 }
 
 double TravelOf(const GraspPath& path, const SearchSpace& space) {
-  double way = 0;
+  double travel = 0;
   const criteria::ContactSet* before = &path.start;
   for (const PathStep& step : path.steps) {
-    way += step.align ? TravelOf(*step.align, space) : PathOfSwitch(*before, step.to, space);
+    travel += step.align ? TravelOf(*step.align, space) : PathOfSwitch(*before, step.to, space);
     before = &step.to;
   }
-  return way;
+  return travel;
 }
 
 }  // namespace regrasp::tree

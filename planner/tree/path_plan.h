@@ -13,8 +13,8 @@ namespace regrasp::tree {
                                                         const grasp::Grasp& start,
                                                         const SearchSpace& space);
 
-/// The way of all fingers together: along the surface in an align, straight from where one leaves
-/// to where one comes in a switch.
+/// The travel of all fingers together: along the surface in an align, straight from where one
+/// leaves to where one comes in a switch.
 [[nodiscard]] double TravelOf(const GraspPath& path, const SearchSpace& space);
 
 }  // namespace regrasp::tree

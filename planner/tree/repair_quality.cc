@@ -42,7 +42,8 @@ class QualityRepair {
  private:
   [[nodiscard]] static double ShareOf(int level) { return static_cast<double>(level) / kLevels; }
 
-  /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the way there.
+  /// Of a step: of the grasp that it leads to, if that is not the path's end, and of the align that
+  /// leads there.
   int LevelOf(const PathStep& step) {
     const bool is_end = &step == &path_.steps.back();
     int level = kLevels;
@@ -68,15 +69,15 @@ class QualityRepair {
   bool Raise(int weakest, int level) {
     const int around = 1 + static_cast<int>(random_.Index(kMostAround));
     const int end = std::min(weakest + around, static_cast<int>(path_.steps.size()));
-    Subpath stretch = SubpathBetween(path_, std::max(weakest - around, 0), end);
-    if (static_cast<int>(stretch.contacts.size()) >= kMostSubsetContacts) return false;
-    FillAround(stretch, kMostSubsetContacts, source_, random_, space_);
+    Subpath subpath = SubpathBetween(path_, std::max(weakest - around, 0), end);
+    if (static_cast<int>(subpath.contacts.size()) >= kMostSubsetContacts) return false;
+    FillAround(subpath, kMostSubsetContacts, source_, random_, space_);
     space_.SetShare(ShareOf(level));
     const auto better = SearchSubsets(
-        GraspNumber(path_, stretch.begin), GraspNumber(path_, stretch.end), stretch.contacts,
-        UseAligns::kYes, stretch.end - stretch.begin + kMoreRepairSteps, space_);
+        GraspNumber(path_, subpath.begin), GraspNumber(path_, subpath.end), subpath.contacts,
+        UseAligns::kYes, subpath.end - subpath.begin + kMoreRepairSteps, space_);
     if (!better) return false;
-    ReplaceSubpath(*better, stretch, path_);
+    ReplaceSubpath(*better, subpath, path_);
     return true;
   }
 

@@ -9,8 +9,8 @@ namespace regrasp::tree {
 
 /// Raises a path's weakest grasps, up to the criteria of the space.
 ///
-/// The surroundings of the weakest grasp, a few steps before and behind, are replaced by a way over
-/// their contacts and random ones near them whose grasps are all a bit better; this again and
+/// The surroundings of the weakest grasp, a few steps before and behind, are replaced by a path
+/// over their contacts and random ones near them whose grasps are all a bit better; this again and
 /// again, until all grasps but the ends meet the criteria, or nothing is gained any more.
 ///
 /// @param path  of force-closure grasps, good or not.

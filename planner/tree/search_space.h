@@ -5,7 +5,6 @@
 
 #include "planner/base/deadline.h"
 #include "planner/criteria/grasp_memory.h"
-#include "planner/object/object.h"
 
 namespace regrasp::tree {
 

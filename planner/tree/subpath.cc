@@ -30,53 +30,53 @@ const criteria::ContactSet& GraspNumber(const GraspPath& path, int number) {
 }
 
 Subpath SubpathBetween(const GraspPath& path, int begin, int end) {
-  Subpath stretch{begin, end, {}};
+  Subpath subpath{begin, end, {}};
   for (int number = begin; number <= end; ++number) {
-    AddContacts(GraspNumber(path, number), stretch.contacts);
+    AddContacts(GraspNumber(path, number), subpath.contacts);
   }
-  return stretch;
+  return subpath;
 }
 
 Subpath LongestSubpath(const GraspPath& path, int begin) {
-  Subpath stretch{begin, begin, {}};
+  Subpath subpath{begin, begin, {}};
   for (int end = begin; end <= static_cast<int>(path.steps.size()); ++end) {
-    std::vector<int> contacts = stretch.contacts;
+    std::vector<int> contacts = subpath.contacts;
     AddContacts(GraspNumber(path, end), contacts);
     if (static_cast<int>(contacts.size()) > kSubpathContacts) break;
-    stretch.contacts = std::move(contacts);
-    stretch.end = end;
+    subpath.contacts = std::move(contacts);
+    subpath.end = end;
   }
-  return stretch;
+  return subpath;
 }
 
-GraspPath PartOf(const GraspPath& path, const Subpath& stretch) {
+GraspPath PartOf(const GraspPath& path, const Subpath& subpath) {
   const auto first = path.steps.begin();
-  return {GraspNumber(path, stretch.begin), {first + stretch.begin, first + stretch.end}};
+  return {GraspNumber(path, subpath.begin), {first + subpath.begin, first + subpath.end}};
 }
 
-void FillUp(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+void FillUp(Subpath& subpath, int most, const sampling::SurfaceSampler& source,
             RandomStream& random, SearchSpace& space) {
-  while (static_cast<int>(stretch.contacts.size()) < most && space.has_capacity()) {
-    AddContact(space.Add(source.Draw(random)), stretch.contacts);
+  while (static_cast<int>(subpath.contacts.size()) < most && space.has_capacity()) {
+    AddContact(space.Add(source.Draw(random)), subpath.contacts);
   }
 }
 
-void FillAround(Subpath& stretch, int most, const sampling::SurfaceSampler& source,
+void FillAround(Subpath& subpath, int most, const sampling::SurfaceSampler& source,
                 RandomStream& random, SearchSpace& space) {
-  const auto own = static_cast<int>(stretch.contacts.size());
+  const auto own = static_cast<int>(subpath.contacts.size());
   for (int draw = 0; draw < kDraws * (most - own); ++draw) {
-    if (static_cast<int>(stretch.contacts.size()) == most || !space.has_capacity()) return;
-    const grasp::Contact& near = space.contact(stretch.contacts[random.Index(own)]);
+    if (static_cast<int>(subpath.contacts.size()) == most || !space.has_capacity()) return;
+    const grasp::Contact& near = space.contact(subpath.contacts[random.Index(own)]);
     const int halvings = static_cast<int>(random.Index(kHalvings + 1));
     const double reach = space.object().diameter() * std::ldexp(0.5, -halvings);
     const grasp::Contact contact = source.DrawAround(near, reach, random);
-    if (source.IsValid(contact)) AddContact(space.Add(contact), stretch.contacts);
+    if (source.IsValid(contact)) AddContact(space.Add(contact), subpath.contacts);
   }
 }
 
-void ReplaceSubpath(const GraspPath& by, const Subpath& stretch, GraspPath& path) {
+void ReplaceSubpath(const GraspPath& by, const Subpath& subpath, GraspPath& path) {
   const auto first = path.steps.begin();
-  const auto place = path.steps.erase(first + stretch.begin, first + stretch.end);
+  const auto place = path.steps.erase(first + subpath.begin, first + subpath.end);
   path.steps.insert(place, by.steps.begin(), by.steps.end());
 }
 

@@ -61,7 +61,7 @@ void SubsetGraph::FindTargets() {
     }
     std::sort(over.begin(), over.end());
     over.resize(std::min<std::size_t>(over.size(), kOverChoices));
-    for (const auto& [way, k] : over) targets_[i].push_back({k, 1, way});
+    for (const auto& [distance, k] : over) targets_[i].push_back({k, 1, distance});
   }
 }
 
@@ -95,7 +95,8 @@ void SubsetGraph::AddMoves(Mask mask, const Move& moved, int first,
       const Mask bit = Mask{1} << target.contact;
       if (((mask | moved.to) & bit) != 0 || moved.over + target.edges > over_) continue;
       const Mask to = (moved.to & ~(Mask{1} << i)) | bit;
-      AddMoves(mask, {to, moved.over + target.edges, moved.way + target.way}, i + 1, moves);
+      AddMoves(mask, {to, moved.over + target.edges, moved.distance + target.distance}, i + 1,
+               moves);
     }
   }
 }

@@ -58,15 +58,16 @@ class SubsetGraph {
     });
   }
 
-  /// All that one align may lead to, with the straight way of all contacts together; the same more
-  /// than once where contacts can be paired in several ways.
-  /// @param matters, visit  also told the way.
+  /// All that one align may lead to, with the straight distance of all contacts together; the same
+  /// more than once where contacts can be paired in several manners.
+  /// @param matters, visit  also told the distance.
   template <typename Matters, typename Visit>
   void ForEachAlign(Mask mask, const Matters& matters, const Visit& visit) {
     if (!aligns_) return;
     for (const Move& move : MovesFrom(mask)) {
-      if (move.over > over_ || !matters(move.to, move.way) || IsRefused(mask, move.to)) continue;
-      visit(move.to, move.way);
+      if (move.over > over_ || !matters(move.to, move.distance) || IsRefused(mask, move.to))
+        continue;
+      visit(move.to, move.distance);
     }
   }
 
@@ -92,7 +93,7 @@ class SubsetGraph {
 
   /// Whether a grasp of all fingers holds with no finger less. A hand that is full switches to
   /// nothing but a part of what it holds, and its aligns have no spare finger to be carried out
-  /// with: full grasps are passed only where there is no other way.
+  /// with: full grasps are passed only where there is no other path.
   [[nodiscard]] bool NeedsAll(const criteria::ContactSet& set) const;
 
   void FindTargets();
@@ -123,13 +124,13 @@ class SubsetGraph {
   struct Target {
     int contact;
     int edges;  ///< 1 where that is on another face
-    double way;
+    double distance;
   };
   /// An align that has not been proved.
   struct Move {
     Mask to;
     int over;  ///< contacts that go over an edge
-    double way;
+    double distance;
   };
   /// All grasps with each contact at itself or at another one of its face, or over an edge.
   /// Enumerated once: searches come back to the same grasps at other half-angles.

@@ -88,10 +88,10 @@ class SubsetSearch {
   void FindNext(Side& side) {
     side.next.clear();
     for (const Mask mask : side.level) {
-      const auto is_new = [&](Mask next, double /*way*/ = 0) {
+      const auto is_new = [&](Mask next, double /*travel*/ = 0) {
         return side.parents[next] == kUnseen;
       };
-      const auto reach = [&](Mask next, double /*way*/ = 0) {
+      const auto reach = [&](Mask next, double /*travel*/ = 0) {
         side.parents[next] = mask;
         side.next.push_back(next);
       };

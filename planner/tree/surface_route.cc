@@ -14,13 +14,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Each moves the points of a route nearer to the shortest way; it has kMostCrossings at most.
+/// Each moves the points of a route nearer to the shortest path; it has kMostCrossings at most.
 constexpr int kPullRounds = 8;
 
 /// A point this near an edge, over the diameter, is on it: what rounding leaves of the border.
 constexpr double kOnEdge = 1e-10;
 
-/// The point of an edge on the shortest way from p to q, which lie on its two sides.
+/// The point of an edge on the shortest path from p to q, which lie on its two sides.
 Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   const double length = (edge.b - edge.a).norm();
   if (!(length > 0)) return edge.a;
@@ -38,7 +38,7 @@ Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const 
 struct Entry {
   int face;
   Vector3d at;
-  double way;  ///< to there
+  double length;  ///< of the path to there
   int crossings;
   int parent;               ///< −1 for the first face
   object::FaceBorder edge;  ///< of the parent, that was crossed
@@ -62,7 +62,7 @@ class RouteSearch {
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
         queue;
     const auto push = [&](const Entry& entry) {
-      queue.emplace(entry.way + (to_.p - entry.at).norm(), static_cast<int>(entries_.size()));
+      queue.emplace(entry.length + (to_.p - entry.at).norm(), static_cast<int>(entries_.size()));
       entries_.push_back(entry);
     };
     std::set<int> done;
@@ -76,7 +76,7 @@ class RouteSearch {
       for (const object::FaceBorder& edge : object_.BordersOf(entry.face)) {
         if (!CanCross(entry.face, edge) || done.contains(edge.beyond)) continue;
         const Vector3d at = CrossingPoint(edge, entry.at, to_.p);
-        push({edge.beyond, at, entry.way + (at - entry.at).norm(), entry.crossings + 1, number,
+        push({edge.beyond, at, entry.length + (at - entry.at).norm(), entry.crossings + 1, number,
               edge});
       }
     }

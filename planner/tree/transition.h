@@ -11,9 +11,9 @@ namespace regrasp::tree {
 
 /// How a grasp gets to a place at which a finger can be switched.
 struct Transition {
-  /// Grasps of the first tuple of faces, each a little way from the one before, all of them
+  /// Grasps of the first tuple of faces, each a little apart from the one before, all of them
   /// admitted, and contact by contact in the same order. The first is where the search began.
-  std::vector<grasp::Grasp> way;
+  std::vector<grasp::Grasp> path;
   /// What the last of them is switched to: one of its contacts has left, another one is placed.
   grasp::Grasp after;
 };

@@ -89,11 +89,11 @@ class Reach(ProgramCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         # Finger 1 presses outwards from inside the hole, 5 cm wide.
         self.assertIn("finger 1", done.stdout)
-        self.assertIn("0.046 of free way", done.stdout)
+        self.assertIn("0.046 of free path", done.stdout)
 
     def test_a_given_grasp_that_fingers_cannot_hold_is_bad_input(self):
         self.assert_refused(
-            2, ["hole_block.start.json: /contacts", "finger 1", "blocks its way"],
+            2, ["hole_block.start.json: /contacts", "finger 1", "blocks its path"],
             "--object", self.model("hole_block.obj"), *FRICTION, "--start",
             self.model("hole_block.start.json"), "--goal", self.model("hole_block.goal.json"),
             "--finger-radius", "0.002", "--output", "plan.json")

@@ -36,8 +36,7 @@ class GraspMemoryTest : public testing::Test {
  protected:
   [[nodiscard]] GraspMemory Memory(double degrees, double min_quality, const hand::Hand& hand = {},
                                    QualityTest quality = QualityTest::kExact) const {
-    GraspMemory memory(square_.wrench_frame(), kSamePoint, {Radians(degrees), min_quality}, hand,
-                       quality);
+    GraspMemory memory(square_, {Radians(degrees), min_quality}, hand, quality);
     memory.Append(contacts_);
     return memory;
   }
@@ -85,7 +84,7 @@ TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
   const auto tests = memory.counts().force_closure;
   const auto criteria = memory.counts().criteria;
   // Less quality: force closure is known; with none nothing is asked.
-  memory.SetMinQuality(0);
+  memory.SetShare(0);
   for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
   EXPECT_EQ(memory.counts().force_closure, tests);
   EXPECT_EQ(memory.counts().criteria, criteria);
@@ -109,7 +108,7 @@ TEST_F(GraspMemoryTest, AcceptsTheEndsOfASequenceWhateverTheyAreWorth) {
   EXPECT_FALSE(memory.Admits(bottom));
   memory.Accept(bottom);
   EXPECT_TRUE(memory.Admits(bottom));
-  memory.SetMinQuality(1);
+  memory.SetShare(20);
   EXPECT_TRUE(memory.Admits(bottom));
 }
 

@@ -17,8 +17,8 @@ using By = ContactChain::By;
 
 /// A clustered roadmap of a small mesh and all grasps of its contacts.
 struct Problem {
-  Problem(const object::Polyhedron& solid, double degrees, int clusters)
-      : same_point(criteria::kSamePoint * solid.diameter()),
+  Problem(object::Polyhedron body, double degrees, int clusters)
+      : solid(std::move(body)),
         // As many contact points as triangles: their centroids.
         roadmap(solid, {.half_angle = Radians(degrees),
                         .contacts = static_cast<int>(solid.triangles().size()),
@@ -31,23 +31,21 @@ struct Problem {
 
   [[nodiscard]] ContactChain Find(const Quadruple& start, const Quadruple& goal,
                                   bool last_resort) const {
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
-                       {roadmap.half_angle, 0});
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.half_angle, 0});
     return FindContactChain(roadmap, roadmap.clusters, oracle, start, goal, last_resort);
   }
 
   /// Whether start and goal are joined among the representatives and the contacts of those ends
   /// that the algorithms 1 and 2 did not link.
   [[nodiscard]] bool JoinedByRoadmap(const Quadruple& start, const Quadruple& goal) const {
-    GraspOracle oracle(roadmap.clusters.contacts(), roadmap.frame, same_point,
-                       {roadmap.half_angle, 0});
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.half_angle, 0});
     LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
     std::set<int> contacts(roadmap.clusters.representatives().begin(),
                            roadmap.clusters.representatives().end());
     const auto end = [&](const Quadruple& grasp) {
-      const LocalPlanners::Way way = local.Link(grasp);
-      if (way.link != RoadmapLink::kAlgorithm3 && way.link != RoadmapLink::kNone) {
-        return way.grasps.back();
+      const LocalPlanners::Path path = local.Link(grasp);
+      if (path.link != RoadmapLink::kAlgorithm3 && path.link != RoadmapLink::kNone) {
+        return path.grasps.back();
       }
       contacts.insert(grasp.begin(), grasp.end());
       return grasp;
@@ -69,7 +67,7 @@ struct Problem {
     return pairs;
   }
 
-  double same_point;
+  object::Polyhedron solid;
   ClusteredRoadmap roadmap;
   IsGrasp is_grasp;
   std::vector<int> numbers;
@@ -145,11 +143,10 @@ TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
   for (const char* name : {"ellipsoid500", "mug500", "spanner500"}) {
     const object::Polyhedron solid = ReadMesh(name);
     const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
-    const double same_point = criteria::kSamePoint * solid.diameter();
     const auto is_grasp =
         ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle);
     int found = 0;
-    for (const RandomQuery& query : RunRandomQueries(roadmap, same_point, 30, 1, true)) {
+    for (const RandomQuery& query : RunRandomQueries(roadmap, solid, 30, 1, true)) {
       const ContactChain& chain = query.chain;
       EXPECT_EQ(FaultOf(chain.grasps, query.start, query.goal, is_grasp), std::nullopt)
           << name << (chain.exhausted ? ": exhausted" : ": gave up") << " at " << chain.start_size
@@ -163,11 +160,10 @@ TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
 TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
   const object::Polyhedron solid = ReadMesh("spanner500");
   const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
-  const double same_point = criteria::kSamePoint * solid.diameter();
   int by_roadmap = 0;
   int by_last_resort = 0;
-  const auto with = RunRandomQueries(roadmap, same_point, 30, 1, true);
-  const auto without = RunRandomQueries(roadmap, same_point, 30, 1, false);
+  const auto with = RunRandomQueries(roadmap, solid, 30, 1, true);
+  const auto without = RunRandomQueries(roadmap, solid, 30, 1, false);
   ASSERT_EQ(with.size(), without.size());
   for (std::size_t i = 0; i < with.size(); ++i) {
     EXPECT_EQ(with[i].start, without[i].start);
@@ -187,11 +183,10 @@ TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
 
 TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
   const object::Polyhedron solid = ReadMesh("mug500");
-  const double same_point = criteria::kSamePoint * solid.diameter();
   const auto ends = [&](int clusters, std::uint64_t seed) {
     const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = clusters});
     std::vector<std::pair<Quadruple, Quadruple>> ends;
-    for (const RandomQuery& query : RunRandomQueries(roadmap, same_point, 5, seed, false)) {
+    for (const RandomQuery& query : RunRandomQueries(roadmap, solid, 5, seed, false)) {
       ends.emplace_back(query.start, query.goal);
     }
     return ends;
@@ -203,22 +198,24 @@ TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
 
 TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {
   const object::Polyhedron solid = MakeConvexBody(20, 3);
-  const double same_point = criteria::kSamePoint * solid.diameter();
   const ClusteredRoadmapOptions options = {
       .half_angle = Radians(10), .contacts = 36, .clusters = 6};
   const ClusteredRoadmap roadmap(solid, options);
   const auto is_grasp =
       ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle);
+  const criteria::GraspCriteria criteria = {roadmap.half_angle, 0};
+  const criteria::GraspEvaluator evaluator(solid, criteria);
   RandomStream random(1, RandomUse::kStart);
   std::set<Quadruple> drawn;
   for (int i = 0; i < 100; ++i) {
-    const auto grasp = DrawContactGrasp(roadmap, same_point, random);
+    const auto grasp = DrawContactGrasp(roadmap, evaluator, random);
     ASSERT_TRUE(grasp.has_value());
     EXPECT_TRUE(is_grasp(*grasp));
     drawn.insert(*grasp);
   }
   EXPECT_GT(drawn.size(), 50u);
-  EXPECT_EQ(DrawContactGrasp(roadmap, solid.diameter(), random), std::nullopt);
+  const criteria::GraspEvaluator thick(solid, criteria, {.fingertip_radius = solid.diameter()});
+  EXPECT_EQ(DrawContactGrasp(roadmap, thick, random), std::nullopt);
 }
 
 }  // namespace

@@ -14,14 +14,18 @@
 namespace regrasp::roadmap {
 namespace {
 
-constexpr double kNear = 1e-7;
-
 struct Body {
   object::Polyhedron solid = MakeConvexBody(11, 2);
+  double same_point = criteria::kSamePoint * solid.diameter();
   std::vector<grasp::Contact> contacts = Centroids(solid);
   object::WrenchFrame frame = solid.wrench_frame();
-  GraspOracle Oracle(double min_quality = 0) const {
-    return {contacts, frame, kNear, {Radians(20), min_quality}};
+  [[nodiscard]] grasp::Grasp GraspOf(const Quadruple& numbers) const {
+    grasp::Grasp grasp;
+    for (const int number : numbers) grasp.push_back(contacts[number]);
+    return grasp;
+  }
+  [[nodiscard]] GraspOracle Oracle(double min_quality = 0) const {
+    return {solid, contacts, {Radians(20), min_quality}};
   }
 };
 
@@ -53,7 +57,7 @@ TEST(GraspOracle, AdmitsForceClosureGraspsAndTestsEachOnce) {
   const std::vector<Quadruple> all = AllQuadruples(18);
   for (int round = 0; round < 2; ++round) {
     for (const Quadruple& grasp : all) {
-      const bool expected = grasp::IsForceClosure(oracle.GraspOf(grasp), body.frame, Radians(20));
+      const bool expected = grasp::IsForceClosure(body.GraspOf(grasp), body.frame, Radians(20));
       EXPECT_EQ(oracle.Admits(grasp), expected);
       if (expected) ++admitted;
     }
@@ -74,7 +78,7 @@ TEST(GraspOracle, AsksOfForceClosureGraspsOnlyWhetherTheyMeetTheCriteria) {
   for (const Quadruple& grasp : AllQuadruples(18)) {
     const bool holds = plain.Admits(grasp);
     if (holds) ++force_closure;
-    EXPECT_EQ(picky.Admits(grasp), holds && grasp::QualityAtLeast(plain.GraspOf(grasp), body.frame,
+    EXPECT_EQ(picky.Admits(grasp), holds && grasp::QualityAtLeast(body.GraspOf(grasp), body.frame,
                                                                   Radians(20), kQuality));
     if (holds && !picky.Admits(grasp)) ++refused;
   }
@@ -89,7 +93,7 @@ TEST(GraspOracle, TestsNoGraspForForceClosureAgainWhenLessIsAskedFor) {
   GraspOracle plain = body.Oracle();
   const std::vector<Quadruple> all = AllQuadruples(18);
   for (const Quadruple& grasp : all) (void)oracle.Admits(grasp);
-  oracle.SetMinQuality(0);
+  oracle.SetShare(0);
   for (const Quadruple& grasp : all) EXPECT_EQ(oracle.Admits(grasp), plain.Admits(grasp));
   EXPECT_EQ(oracle.counts().force_closure, std::ssize(all));
 }
@@ -97,7 +101,7 @@ TEST(GraspOracle, TestsNoGraspForForceClosureAgainWhenLessIsAskedFor) {
 TEST(GraspOracle, MakesAnEndWhenTheTimeIsUp) {
   const Body body;
   const Deadline over = std::chrono::steady_clock::now();
-  GraspOracle oracle(body.contacts, body.frame, kNear, {Radians(20), 0}, {}, over);
+  GraspOracle oracle(body.solid, body.contacts, {Radians(20), 0}, {}, over);
   EXPECT_THROW((void)oracle.Admits({0, 1, 2, 3}), TimeUp);
 }
 
@@ -107,13 +111,14 @@ TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
   // A twin of contact 0, a hair off and leaning.
   grasp::Contact twin = body.contacts[0];
   twin.n = (twin.n + 0.1 * twin.n.unitOrthogonal()).normalized();
-  twin.p += 0.5 * kNear * twin.n.unitOrthogonal();
+  twin.p += 0.5 * body.same_point * twin.n.unitOrthogonal();
   body.contacts.push_back(twin);
   GraspOracle oracle = body.Oracle();
-  const grasp::Contact away = {twin.p + 3 * kNear * twin.n.unitOrthogonal(), twin.n, twin.face};
+  const grasp::Contact away = {twin.p + 3 * body.same_point * twin.n.unitOrthogonal(), twin.n,
+                               twin.face};
   std::vector<grasp::Contact> apart = body.contacts;
   apart.back() = away;
-  GraspOracle farther(apart, body.frame, kNear, {Radians(20), 0});
+  GraspOracle farther(body.solid, apart, {Radians(20), 0});
   int refused = 0;
   for (int b = 1; b < 18; ++b) {
     for (int c = b + 1; c < 18; ++c) {
@@ -129,7 +134,7 @@ TEST(GraspOracle, AdmitsNoGraspWithTwoContactsAtOnePoint) {
 TEST(GraspOracle, RefusesMoreContactsThanSetsHaveNumbers) {
   const Body body;
   const std::vector<grasp::Contact> many(criteria::ContactSet::kMostNumbers + 1, body.contacts[0]);
-  EXPECT_THROW(GraspOracle(many, body.frame, kNear, {Radians(20), 0}), std::invalid_argument);
+  EXPECT_THROW(GraspOracle(body.solid, many, {Radians(20), 0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -13,20 +13,20 @@
 namespace regrasp::roadmap {
 namespace {
 
-constexpr double kNear = 1e-9;
 constexpr std::int64_t kEnoughSteps = std::numeric_limits<std::int64_t>::max();
 
 /// A mesh of at most forty triangles and all grasps of their centroids.
 struct Problem {
-  Problem(const object::Polyhedron& solid, double degrees)
-      : contacts(Centroids(solid)),
+  Problem(object::Polyhedron body, double degrees)
+      : solid(std::move(body)),
+        contacts(Centroids(solid)),
         frame(solid.wrench_frame()),
         half_angle(Radians(degrees)),
         is_grasp(ForceClosureOf(contacts, frame, half_angle)),
         numbers(contacts.size()),
         graph((std::iota(numbers.begin(), numbers.end(), 0), Subsets(numbers, is_grasp))) {}
 
-  [[nodiscard]] GraspOracle Oracle() const { return {contacts, frame, kNear, {half_angle, 0}}; }
+  [[nodiscard]] GraspOracle Oracle() const { return {solid, contacts, {half_angle, 0}}; }
   [[nodiscard]] double Distance(int a, int b) const {
     return (contacts[a].p - contacts[b].p).norm() + (contacts[a].n - contacts[b].n).norm();
   }
@@ -38,6 +38,7 @@ struct Problem {
         [this](int a, int b) { return Distance(a, b); }, most_steps, oracle);
   }
 
+  object::Polyhedron solid;
   std::vector<grasp::Contact> contacts;
   object::WrenchFrame frame;
   double half_angle;

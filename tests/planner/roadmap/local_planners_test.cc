@@ -25,12 +25,13 @@ std::vector<grasp::Contact> RepresentativesOf(const ContactClusters& clusters) {
 
 /// The clusters of a small mesh, their roadmap, and the same once more by brute force.
 struct Problem {
-  Problem(const object::Polyhedron& solid, double degrees, int cluster_count)
-      : frame(solid.wrench_frame()),
+  Problem(object::Polyhedron body, double degrees, int cluster_count)
+      : solid(std::move(body)),
+        frame(solid.wrench_frame()),
         half_angle(Radians(degrees)),
         clusters(Centroids(solid), frame, half_angle, cluster_count, 1),
         roadmap(RepresentativesOf(clusters), frame, half_angle, kNear),
-        oracle(clusters.contacts(), frame, kNear, {half_angle, 0}),
+        oracle(solid, clusters.contacts(), {half_angle, 0}),
         local(clusters, roadmap, oracle),
         is_grasp(ForceClosureOf(clusters.contacts(), frame, half_angle)),
         vertices(Subsets(clusters.representatives(), is_grasp)) {}
@@ -81,11 +82,12 @@ struct Problem {
     for (int i = 0; i < 4; ++i) sets[i] = SetBetween(grasp[i], of[i]);
     return sets;
   }
-  /// Grasps from which a way leads within the sets, by brute force.
+  /// Grasps from which a path leads within the sets, by brute force.
   [[nodiscard]] std::set<Quadruple> LocalGrasps(const std::array<std::vector<int>, 4>& sets) const {
     return Product(sets, is_grasp);
   }
 
+  object::Polyhedron solid;
   object::WrenchFrame frame;
   double half_angle;
   ContactClusters clusters;
@@ -133,22 +135,22 @@ TEST_P(LocalPlannersOn, OwnRepresentativesAreAVertexOrNothing) {
   EXPECT_LT(with, std::ssize(sample_));
 }
 
-TEST_P(LocalPlannersOn, Algorithm1FindsAWayWhereTheLocalRoadmapHasOne) {
+TEST_P(LocalPlannersOn, Algorithm1FindsAPathWhereTheLocalRoadmapHasOne) {
   int found = 0;
   for (const Quadruple& grasp : sample_) {
     const auto own = problem_.local.OwnRepresentatives(grasp);
-    const std::vector<Quadruple> way = problem_.local.RunAlgorithm1(grasp);
+    const std::vector<Quadruple> path = problem_.local.RunAlgorithm1(grasp);
     if (!own) {
-      EXPECT_TRUE(way.empty());
+      EXPECT_TRUE(path.empty());
       continue;
     }
     const std::set<Quadruple> local =
         problem_.LocalGrasps(problem_.SetsBetween(grasp, problem_.ClustersOf(grasp)));
     GraspGraph graph(local);
-    ASSERT_EQ(!way.empty(), graph.Joined(grasp, *own));
-    if (way.empty()) continue;
-    EXPECT_EQ(FaultOf(way, grasp, *own, problem_.is_grasp), std::nullopt);
-    for (const Quadruple& on_way : way) EXPECT_TRUE(local.contains(on_way));
+    ASSERT_EQ(!path.empty(), graph.Joined(grasp, *own));
+    if (path.empty()) continue;
+    EXPECT_EQ(FaultOf(path, grasp, *own, problem_.is_grasp), std::nullopt);
+    for (const Quadruple& on_path : path) EXPECT_TRUE(local.contains(on_path));
     ++found;
   }
   EXPECT_GT(found, 0);
@@ -185,14 +187,14 @@ TEST_P(LocalPlannersOn, FindNearestClusterIsTheNearestOfAllVertices) {
   EXPECT_GT(found, 0);
 }
 
-TEST_P(LocalPlannersOn, Algorithm2FindsAWayWhereTheLocalRoadmapHasOne) {
+TEST_P(LocalPlannersOn, Algorithm2FindsAPathWhereTheLocalRoadmapHasOne) {
   int found = 0;
   int shared = 0;
   for (const Quadruple& grasp : sample_) {
     const auto nearest = problem_.local.FindNearestCluster(grasp);
-    const std::vector<Quadruple> way = problem_.local.RunAlgorithm2(grasp);
+    const std::vector<Quadruple> path = problem_.local.RunAlgorithm2(grasp);
     if (!nearest) {
-      EXPECT_TRUE(way.empty());
+      EXPECT_TRUE(path.empty());
       continue;
     }
     std::array<int, 4> moved = problem_.ClustersOf(grasp);
@@ -200,21 +202,21 @@ TEST_P(LocalPlannersOn, Algorithm2FindsAWayWhereTheLocalRoadmapHasOne) {
     const auto sets = problem_.SetsBetween(grasp, moved);
     const std::set<Quadruple> local = problem_.LocalGrasps(sets);
     GraspGraph graph(local);
-    EXPECT_EQ(!way.empty(), graph.Joined(grasp, nearest->vertex));
+    EXPECT_EQ(!path.empty(), graph.Joined(grasp, nearest->vertex));
     for (int i = 0; i < 4; ++i) {
       const int mover = grasp[nearest->slot];
       if (i != nearest->slot && std::count(sets[i].begin(), sets[i].end(), mover) > 0) ++shared;
     }
-    if (way.empty()) continue;
-    EXPECT_EQ(FaultOf(way, grasp, nearest->vertex, problem_.is_grasp), std::nullopt);
-    for (const Quadruple& on_way : way) EXPECT_TRUE(local.contains(on_way));
+    if (path.empty()) continue;
+    EXPECT_EQ(FaultOf(path, grasp, nearest->vertex, problem_.is_grasp), std::nullopt);
+    for (const Quadruple& on_path : path) EXPECT_TRUE(local.contains(on_path));
     ++found;
   }
   EXPECT_GT(found, 0);
   EXPECT_GT(shared, 0) << "no contact that moves stands for two clusters";
 }
 
-TEST_P(LocalPlannersOn, Algorithm3FindsAWayWhereTheLargerRoadmapHasOne) {
+TEST_P(LocalPlannersOn, Algorithm3FindsAPathWhereTheLargerRoadmapHasOne) {
   int found = 0;
   for (const Quadruple& grasp : sample_) {
     if (problem_.vertices.contains(grasp)) continue;
@@ -226,26 +228,26 @@ TEST_P(LocalPlannersOn, Algorithm3FindsAWayWhereTheLargerRoadmapHasOne) {
     const bool expected =
         std::any_of(problem_.vertices.begin(), problem_.vertices.end(),
                     [&](const Quadruple& vertex) { return graph.Joined(grasp, vertex); });
-    const std::vector<Quadruple> way = problem_.local.RunAlgorithm3(grasp);
-    ASSERT_EQ(!way.empty(), expected);
-    if (way.empty()) continue;
-    EXPECT_EQ(FaultOf(way, grasp, way.back(), problem_.is_grasp), std::nullopt);
-    EXPECT_TRUE(problem_.vertices.contains(way.back()));
-    for (const Quadruple& on_way : way) {
-      EXPECT_TRUE(graph.Has(on_way));
-      EXPECT_TRUE(on_way == way.back() || !problem_.vertices.contains(on_way));
+    const std::vector<Quadruple> path = problem_.local.RunAlgorithm3(grasp);
+    ASSERT_EQ(!path.empty(), expected);
+    if (path.empty()) continue;
+    EXPECT_EQ(FaultOf(path, grasp, path.back(), problem_.is_grasp), std::nullopt);
+    EXPECT_TRUE(problem_.vertices.contains(path.back()));
+    for (const Quadruple& on_path : path) {
+      EXPECT_TRUE(graph.Has(on_path));
+      EXPECT_TRUE(on_path == path.back() || !problem_.vertices.contains(on_path));
     }
     ++found;
   }
   EXPECT_GT(found, 0);
 }
 
-TEST_P(LocalPlannersOn, LinkTakesTheFirstThatFindsAWay) {
+TEST_P(LocalPlannersOn, LinkTakesTheFirstThatFindsAPath) {
   std::map<RoadmapLink, int> links;
   std::vector<Quadruple> grasps = sample_;
   grasps.insert(grasps.end(), problem_.vertices.begin(), problem_.vertices.end());
   for (const Quadruple& grasp : grasps) {
-    const LocalPlanners::Way way = problem_.local.Link(grasp);
+    const LocalPlanners::Path path = problem_.local.Link(grasp);
     RoadmapLink expected = RoadmapLink::kNone;
     std::vector<Quadruple> expected_path;
     if (problem_.vertices.contains(grasp)) {
@@ -261,9 +263,9 @@ TEST_P(LocalPlannersOn, LinkTakesTheFirstThatFindsAWay) {
       expected = RoadmapLink::kAlgorithm3;
       expected_path = three;
     }
-    EXPECT_EQ(way.link, expected);
-    EXPECT_EQ(way.grasps, expected_path);
-    ++links[way.link];
+    EXPECT_EQ(path.link, expected);
+    EXPECT_EQ(path.grasps, expected_path);
+    ++links[path.link];
   }
   EXPECT_GT(links[RoadmapLink::kVertex], 0);
   EXPECT_GT(links[RoadmapLink::kAlgorithm1], 0);

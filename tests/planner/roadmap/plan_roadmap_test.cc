@@ -12,8 +12,8 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/contact_point_search.h"
 #include "planner/roadmap/roadmap_planner.h"
-#include "planner/roadmap/vertex_quality.h"
 #include "planner/search/fewest_switches.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
@@ -261,7 +261,7 @@ TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
   const planning::PlanResult result =
       PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_EQ(result.status, Status::kNoGrasp);
-  EXPECT_THAT(result.message, HasSubstr("random: none of"));
+  EXPECT_THAT(result.message, HasSubstr("random: no grasp with a quality of at least 0.9"));
 }
 
 TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {

@@ -83,14 +83,15 @@ TEST_P(ImprovePathCases, LessTravelIsNeverMoreStepsAndIsWhatTravelOfSays) {
   EXPECT_GT(less, 0);
 }
 
-TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
+TEST_P(ImprovePathCases, RepairedPathsHaveTheQualityThatTheyAreSaidToHave) {
   constexpr double kQuality = 0.01;
   // In the plane paths are found at once, and few of them pass weak grasps.
   const int seeds = GetParam().contacts == 3 ? 24 : 6;
-  int mended = 0;
+  int repaired = 0;
   int weak = 0;
   for (int seed = 0; seed < seeds; ++seed) {
-    SearchSpace space(*file_.object, criteria_);
+    SearchSpace space(*file_.object, {criteria_.half_angle, kQuality});
+    space.SetShare(0);
     RandomStream random(seed, RandomUse::kCandidates);
     GraspPath path = ShortcutPath(Draw(kQuality, seed, space), source_, random, space);
     const auto quality_of = [&](const criteria::ContactSet& set) {
@@ -99,16 +100,16 @@ TEST_P(ImprovePathCases, MendedPathsHaveTheQualityThatTheyAreSaidToHave) {
           .upper;
     };
     for (const PathStep& step : path.steps) weak += quality_of(step.to) < kQuality ? 1 : 0;
-    space.SetMinQuality(kQuality);
+    space.SetShare(1);
     const double reached = RepairQuality(source_, random, space, path);
-    EXPECT_EQ(space.min_quality(), kQuality);
-    EXPECT_LE(reached, kQuality);
+    EXPECT_EQ(space.share(), 1);
+    EXPECT_LE(reached, 1);
     ExpectIsPath(path, space);
-    for (const PathStep& step : path.steps) EXPECT_GE(quality_of(step.to), reached);
-    mended += reached == kQuality ? 1 : 0;
+    for (const PathStep& step : path.steps) EXPECT_GE(quality_of(step.to), reached * kQuality);
+    repaired += reached == 1 ? 1 : 0;
   }
   EXPECT_GT(weak, 0);
-  EXPECT_GT(mended, seeds / 2);
+  EXPECT_GT(repaired, seeds / 2);
 }
 
 TEST(LeastTravel, IsTheLeastOfAllWaysOfSoManySwitches) {

@@ -78,6 +78,33 @@ TEST(PlanGeneralTest, TheSameArgumentsGiveTheSameBytesAndAnotherSeedAnotherPlan)
   EXPECT_NE(plan(4), plan(5));
 }
 
+TEST(SearchSpaceTest, HasTheFingersOfTheHandButNoMoreThanHoldAtOnce) {
+  const object::ObjectFile solid = ReadModel("cube.obj");
+  const object::ObjectFile planar = ReadModel("polygon15.wkt");
+  const auto fingers = [](const object::ObjectFile& file, int of_hand) {
+    return SearchSpace(*file.object, {Radians(15), 0}, {.fingers = of_hand}).fingers();
+  };
+  EXPECT_EQ(fingers(solid, 0), hand::kFingersInSpace);
+  EXPECT_EQ(fingers(planar, 0), hand::kFingersInPlane);
+  EXPECT_EQ(fingers(solid, 4), 4);
+  EXPECT_EQ(fingers(planar, 3), 3);
+  EXPECT_EQ(fingers(planar, 5), 5);
+  EXPECT_EQ(fingers(solid, 6), criteria::ContactSet::kMostHeld);
+}
+
+TEST(PlanGeneralTest, AHandWithMoreFingersLeavesSomeFree) {
+  for (const char* model : {"cube.obj", "polygon15.wkt"}) {
+    const object::ObjectFile file = ReadModel(model);
+    planning::PlanRequest options = Options(15, 1);
+    options.hand.fingers = 7;
+    const planning::PlanResult result =
+        PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
+    ASSERT_TRUE(result.plan) << result.message;
+    EXPECT_EQ(result.plan->fingers, 7);
+    EXPECT_TRUE(plan::CheckPlan(*file.object, *result.plan).passed());
+  }
+}
+
 TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneServe) {
   const auto joins = [](const char* model, int from, int to) {
     const object::ObjectFile file = ReadModel(model);

@@ -168,7 +168,7 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
         EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
                                           expected + kAccuracy));
       }
-      // Where its own bound forbids it, no way is looked for.
+      // Where its own bound forbids it, no path is looked for.
       EXPECT_FALSE(
           SearchWidest(from, to, contacts, UseAligns::kNo, steps, criteria.half_angle, space));
     }

@@ -24,7 +24,7 @@ void ExpectLegal(const object::Object& object, const SurfaceRoute& route) {
   }
 }
 
-/// The shortest way over one edge of all its points, each leg straight.
+/// The shortest path over one edge of all its points, each leg straight.
 double ShortestOver(const object::FaceBorder& edge, const Vector3d& p, const Vector3d& q) {
   constexpr int kPoints = 20'000;
   double least = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ TEST(SurfaceRoute, GoesOverSeveralTrianglesOfAMesh) {
     const auto route = FindSurfaceRoute(body, from, to);
     if (!route) continue;
     ExpectLegal(body, *route);
-    // On a body so smooth the way along the surface is hardly longer than the straight line.
+    // On a body so smooth the path along the surface is hardly longer than the straight line.
     EXPECT_LT(LengthOf(*route), 1.2 * (from.p - to.p).norm() + 1e-3 * body.diameter());
     longest = std::max(longest, static_cast<int>(route->size()));
   }

@@ -39,14 +39,14 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
     const auto transition = FindTransition(before, leaving, placed, source, random, space);
     if (!transition) continue;
     ++found;
-    ASSERT_FALSE(transition->way.empty());
-    EXPECT_EQ(transition->way.front().front().p, before.front().p);
-    for (const grasp::Grasp& grasp : transition->way) {
+    ASSERT_FALSE(transition->path.empty());
+    EXPECT_EQ(transition->path.front().front().p, before.front().p);
+    for (const grasp::Grasp& grasp : transition->path) {
       EXPECT_EQ(FacesOf(grasp), FacesOf(before));
       EXPECT_TRUE(grasp::IsForceClosure(grasp, object.wrench_frame(), criteria.half_angle));
     }
-    const grasp::Grasp& last = transition->way.back();
-    if (transition->way.size() > 1) ++moved;
+    const grasp::Grasp& last = transition->path.back();
+    if (transition->path.size() > 1) ++moved;
     EXPECT_TRUE(
         grasp::IsForceClosure(transition->after, object.wrench_frame(), criteria.half_angle));
     for (int k = 0; k < 4; ++k) {
@@ -102,7 +102,7 @@ TEST(FindTransition, IsTheSameForTheSameSeed) {
     ASSERT_EQ(once.has_value(), again.has_value());
     if (!once) continue;
     ++found;
-    ASSERT_EQ(once->way.size(), again->way.size());
+    ASSERT_EQ(once->path.size(), again->path.size());
     for (int k = 0; k < 4; ++k) EXPECT_EQ(once->after[k].p, again->after[k].p);
   }
   EXPECT_GT(found, 0);

@@ -1,0 +1,69 @@
+#include "planner/planning/rest_summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/grasp/quality.h"
+#include "planner/object/polygon.h"
+#include "tests/fixtures/polygons.h"
+
+namespace regrasp::planning {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class RestSummary : public testing::Test {
+ protected:
+  /// Fingers of the unit square's bottom and top.
+  [[nodiscard]] Rest At(double bottom, double top) const {
+    return {{{{bottom, 0, 0}, square_.inward_normal(0), 0},
+             {{top, 1, 0}, square_.inward_normal(2), 2}},
+            std::nullopt};
+  }
+
+  const object::Polygon square_ = Square(1);
+  const criteria::GraspEvaluator evaluator_{square_, {Radians(30), 0.04}};
+  const Rest good_ = At(0.5, 0.5);
+  // tan 30° = 0.577.
+  const Rest weak_ = At(0.22, 0.78);
+  const Rest weaker_ = At(0.22, 0.79);
+};
+
+TEST_F(RestSummary, GoodGraspsGiveNoWarning) {
+  EXPECT_THAT(RestWarnings({good_, good_}, evaluator_), IsEmpty());
+}
+
+TEST_F(RestSummary, OfTheGraspsBelowACriterionTheWeakestIsNamed) {
+  const double quality =
+      grasp::ComputeQuality(weaker_.grasp, square_.wrench_frame(), Radians(30)).lower;
+  EXPECT_THAT(RestWarnings({good_, weak_, weaker_, weak_}, evaluator_),
+              ElementsAre(AllOf(HasSubstr("below the quality 0.04 that was asked for"),
+                                HasSubstr("after step 2 of 3 with " + FormatShort(quality)))));
+  EXPECT_THAT(RestWarnings({weak_, good_}, evaluator_),
+              ElementsAre(HasSubstr("the start grasp (step 0)")));
+}
+
+TEST_F(RestSummary, AFingertipInACornerIsNamed) {
+  const object::Polygon notch = object::Polygon::FromRings(
+      {{{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 1}, {0, 1}}}, "notch");
+  const criteria::GraspEvaluator evaluator(notch, {Radians(30), 0});
+  const Rest corner = {{{{1.9999, 0, 0}, {0, 1, 0}, 0}, {{1.9999, 1, 0}, {0, -1, 0}, 4}},
+                       std::nullopt};
+  EXPECT_THAT(RestWarnings({corner}, evaluator),
+              ElementsAre(HasSubstr("a fingertip has no clearance in the start grasp")));
+}
+
+TEST_F(RestSummary, TheSmallestMarginIsThatOfTheWeakestGrasp) {
+  EXPECT_NEAR(SmallestMargin({good_, At(0.4, 0.6), good_}, evaluator_),
+              Radians(30) - std::atan(0.2), 1e-6);
+}
+
+}  // namespace
+}  // namespace regrasp::planning

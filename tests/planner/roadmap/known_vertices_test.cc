@@ -1,0 +1,22 @@
+#include "planner/roadmap/known_vertices.h"
+
+#include <gtest/gtest.h>
+
+namespace regrasp::roadmap {
+namespace {
+
+TEST(KnownVertices, KeepWhatIsLearntOfEachVertexApart) {
+  KnownVertices known(3, criteria::KnownGrasp::HeldAt(0.5));
+  criteria::KnownGrasp& last = known[2];
+  last.required = 0.25;
+  known[0].required = 0.125;
+  // More vertices do not move what is known of others.
+  EXPECT_EQ(&known[2], &last);
+  EXPECT_EQ(known[2].required, 0.25);
+  EXPECT_EQ(known[0].required, 0.125);
+  EXPECT_EQ(known[1].required, criteria::KnownGrasp::kUnknown);
+  EXPECT_EQ(known[1].holds_at, 0.5);
+}
+
+}  // namespace
+}  // namespace regrasp::roadmap
