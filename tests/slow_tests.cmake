@@ -44,7 +44,7 @@ set(regrasp_slow_tests
   GraphProgram.*
   HostileFiles.AnyPart*
   HostileFiles.GraspsOfFar*
-  */ImprovePathCases.Mended*
+  */ImprovePathCases.Repaired*
   JoinGrasps.*
   LargestSwitch.*
   LimitedChild.EndsATaskThatHangs
