@@ -57,8 +57,8 @@ class SurfaceDraw {
     faces_ = std::discrete_distribution<int>(areas.begin(), areas.end());
   }
 
-  grasp::Contact Draw() { return DrawOn(faces_(engine_)); }
-  grasp::Contact DrawOn(int face) {
+  grasp::Contact Draw() { return DrawOn(FaceIndex(faces_(engine_))); }
+  grasp::Contact DrawOn(FaceIndex face) {
     const int triangle = solid_.faces()[face].triangles[triangles_[face](engine_)];
     std::uniform_real_distribution<double> uniform(0, 1);
     double a = uniform(engine_);

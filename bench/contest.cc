@@ -15,7 +15,7 @@ constexpr std::uint64_t kDrawSeed = 1;
 
 std::optional<grasp::Grasp> Draw(const object::Object& object, const ContestSetting& setting,
                                  const criteria::GraspEvaluator& evaluator, RandomStream& random) {
-  const sampling::ContactLimits contacts = {setting.fewest_contacts, setting.most_contacts};
+  const grasp::ContactLimits contacts = {setting.fewest_contacts, setting.most_contacts};
   try {
     return sampling::DrawOnSurface(object, contacts, evaluator, random, "");
   } catch (const sampling::NoGrasp&) {

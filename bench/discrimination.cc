@@ -86,9 +86,7 @@ plan::Plan PlanOf(const Body& body, const grasp::Grasp& initial, double half_ang
   plan.dimension = body.object().dimension();
   plan.half_angle = half_angle;
   plan.fingers = body.hold() + 1;
-  for (const grasp::Contact& contact : initial) {
-    plan.initial.push_back({static_cast<int>(plan.initial.size()), contact});
-  }
+  plan.initial = plan::FingersInOrder(initial);
   plan.goal = initial;
   return plan;
 }
@@ -151,7 +149,8 @@ std::vector<Sample> ExamineSwitches(const Body& body, int count, std::uint64_t s
     if (!grasp::QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality))
       continue;
     plan::Plan plan = PlanOf(body, first, half_angle);
-    plan.steps.push_back(plan::Switch{{{body.hold(), second.back()}}, {0}});
+    plan.steps.push_back(
+        plan::Switch{{{FingerIndex(body.hold()), second.back()}}, {FingerIndex(0)}});
     plan.goal = second;
     samples.push_back(ExamineGrasp(body, plan, second, ratio, options));
   }

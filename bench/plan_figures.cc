@@ -8,19 +8,13 @@ namespace regrasp {
 
 namespace {
 
-const plan::FingerContact& ContactOf(int finger, const plan::FingerGrasp& grasp) {
-  const auto found = std::ranges::find(grasp, finger, &plan::FingerContact::finger);
-  assert(found != grasp.end());
-  return *found;
-}
-
 double TravelOf(const plan::Switch& step, const plan::FingerGrasp& before) {
   if (step.release.empty()) return 0;
   double way = 0;
   for (const plan::FingerContact& placed : step.place) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const int finger : step.release) {
-      const grasp::Contact& left = ContactOf(finger, before).contact;
+    for (const FingerIndex finger : step.release) {
+      const grasp::Contact& left = plan::FindFinger(before, finger)->contact;
       nearest = std::min(nearest, (left.p - placed.contact.p).norm());
     }
     way += nearest;
@@ -32,7 +26,7 @@ double TravelOf(const plan::Align& step) {
   double way = 0;
   for (std::size_t i = 1; i < step.waypoints.size(); ++i) {
     for (const plan::FingerContact& to : step.waypoints[i]) {
-      way += (ContactOf(to.finger, step.waypoints[i - 1]).contact.p - to.contact.p).norm();
+      way += (plan::FindFinger(step.waypoints[i - 1], to.finger)->contact.p - to.contact.p).norm();
     }
   }
   return way;

@@ -26,7 +26,7 @@ struct ExactEdge {
 };
 
 ExactEdge MakeExactEdge(const object::Polygon& polygon, int edge) {
-  const auto [a, b] = polygon.edge(edge);
+  const auto [a, b] = polygon.edge(FaceIndex(edge));
   const ExactPoint pa(a.x(), a.y());
   const ExactPoint pb(b.x(), b.y());
   const ExactVector along = pb - pa;
@@ -50,7 +50,7 @@ std::array<double, 2> GuessesOfLimit(const object::Polygon& polygon,
                                      const std::array<int, 3>& edges) {
   std::array<double, 3> angles;
   for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d n = polygon.inward_normal(edges[k]);
+    const Eigen::Vector3d n = polygon.inward_normal(FaceIndex(edges[k]));
     angles[k] = std::atan2(n.y(), n.x());
   }
   std::sort(angles.begin(), angles.end());

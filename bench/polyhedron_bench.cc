@@ -144,7 +144,7 @@ void PrintBodies(const std::vector<NamedSolid>& bodies) {
 std::vector<polyhedron::QuadrupleCandidate> SampleCandidates(const object::Polyhedron& solid,
                                                              int most) {
   std::vector<Vector3d> normals;
-  for (int f = 0; f < solid.face_count(); ++f) normals.push_back(solid.inward_normal(f));
+  for (FaceIndex f{0}; f < solid.face_count(); ++f) normals.push_back(solid.inward_normal(f));
   auto candidates = polyhedron::FindQuadrupleCandidates(normals, std::tan(Radians(kDegrees)),
                                                         planning::Spanning::kUniform);
   std::mt19937_64 engine(kSeed);

@@ -68,12 +68,8 @@ class TightDraw {
     plan.dimension = object_.dimension();
     plan.half_angle = half_angle_;
     plan.fingers = static_cast<int>(from.size());
-    plan::FingerGrasp target;
-    for (int finger = 0; finger < plan.fingers; ++finger) {
-      plan.initial.push_back({finger, from[finger]});
-      target.push_back({finger, to[finger]});
-    }
-    plan.steps.emplace_back(plan::Align{{plan.initial, target}});
+    plan.initial = plan::FingersInOrder(from);
+    plan.steps.emplace_back(plan::Align{{plan.initial, plan::FingersInOrder(to)}});
     plan.goal = to;
     return plan;
   }

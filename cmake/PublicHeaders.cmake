@@ -6,6 +6,7 @@ set(regrasp_public_headers
   planner/base/angle.h
   planner/base/deadline.h
   planner/base/error.h
+  planner/base/index.h
   # Objects.
   planner/object/mass_properties.h
   planner/object/object.h
@@ -39,7 +40,6 @@ set(regrasp_public_headers
   planner/planning/solve.h
   planner/planning/spanning.h
   planner/registry/registry.h
-  planner/sampling/contact_limits.h
   # Replay and report.
   sim/scene/measured.h
   sim/scene/settings.h

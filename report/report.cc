@@ -133,9 +133,9 @@ int Report::weakest_finger_step() const {
   std::vector<grasp::FingerFriction> weakest;
   std::vector<int> index;
   for (const ReportStep& step : steps) {
-    const int finger = step.skipped ? -1 : sim::WeakestOf(step.needs);
-    if (finger < 0) continue;
-    weakest.push_back(step.needs[finger].friction);
+    const int need = step.skipped ? -1 : sim::WeakestOf(step.needs);
+    if (need < 0) continue;
+    weakest.push_back(step.needs[need].friction);
     index.push_back(step.check.index);
   }
   const int found = grasp::WeakestFinger(weakest);
@@ -204,9 +204,7 @@ plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
   plan.dimension = object.dimension();
   plan.half_angle = half_angle;
   plan.fingers = static_cast<int>(grasp.size());
-  for (int finger = 0; finger < plan.fingers; ++finger) {
-    plan.initial.push_back({finger, grasp[finger]});
-  }
+  plan.initial = plan::FingersInOrder(grasp);
   plan.goal = grasp;
   return plan;
 }

@@ -146,8 +146,8 @@ Json MakePlan(const Report& report) {
 Json MakeGrasp(const Report& report) {
   const GraspReport& grasp = *report.grasp;
   Json fingers = Json::array();
-  for (std::size_t i = 0; i < grasp.fingers.size(); ++i) {
-    fingers.push_back(FingerNeedJson(static_cast<int>(i), grasp.fingers[i], report.half_angle));
+  for (FingerIndex finger{0}; finger < std::ssize(grasp.fingers); ++finger) {
+    fingers.push_back(FingerNeedJson(finger, grasp.fingers[finger], report.half_angle));
   }
   const int weakest = grasp::WeakestFinger(grasp.fingers);
   return {{"file", report.plan_file},

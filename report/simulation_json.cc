@@ -13,7 +13,7 @@ Json DegreesOrNull(const std::optional<double>& angle) {
   return angle ? Json(Degrees(*angle)) : Json(nullptr);
 }
 
-Json MarginOf(const sim::FingerMargins& margins, int finger) {
+Json MarginOf(const sim::FingerMargins& margins, FingerIndex finger) {
   const auto found = margins.find(finger);
   return found == margins.end() ? Json(nullptr) : Json(Degrees(found->second));
 }
@@ -24,12 +24,12 @@ Json TextOrNull(std::string_view text) {
 }
 
 Json FingersJson(const sim::StepReplay& replay) {
-  std::set<int> fingers;
+  std::set<FingerIndex> fingers;
   for (const sim::FingerMargins* margins : {&replay.rest_margins, &replay.shake_margins}) {
     for (const auto& [finger, margin] : *margins) fingers.insert(finger);
   }
   Json json = Json::array();
-  for (const int finger : fingers) {
+  for (const FingerIndex finger : fingers) {
     json.push_back({{"finger", finger},
                     {"rest_margin_deg", MarginOf(replay.rest_margins, finger)},
                     {"shake_margin_deg", MarginOf(replay.shake_margins, finger)}});
@@ -105,7 +105,7 @@ Json CauseJson(const std::optional<sim::Disagreement>& disagreement) {
           {"values", values}};
 }
 
-Json FingerNeedJson(int finger, const grasp::FingerFriction& friction, double half_angle) {
+Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction, double half_angle) {
   return {{"finger", finger},
           {"needed", friction.needed},
           {"required_half_angle_deg", Degrees(friction.required)},

@@ -23,7 +23,7 @@ namespace regrasp::report {
 [[nodiscard]] Json CauseJson(const std::optional<sim::Disagreement>& disagreement);
 
 /// What one finger needs of its own friction.
-[[nodiscard]] Json FingerNeedJson(int finger, const grasp::FingerFriction& friction,
+[[nodiscard]] Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction,
                                   double half_angle);
 
 }  // namespace regrasp::report

@@ -6,9 +6,9 @@
 
 namespace regrasp {
 
-/// A number that names one thing of a kind: a face, a finger. `using FaceIndex = Index<struct
-/// FaceTag>` makes a kind; an index of one kind is neither taken for, made from, nor compared with
-/// one of another. A plain number becomes an index only where it is said: FaceIndex(3).
+/// A number that names one thing of a kind; a tag makes a kind, as at the end of this file. An
+/// index of one kind is neither taken for, made from, nor compared with one of another. A plain
+/// number becomes an index only where that is said: FaceIndex(3).
 ///
 /// An index converts to int by itself, as Drake's TypeSafeIndex does: what belongs to the things
 /// stands in plain vectors and is found by subscript, loops compare with a count, and messages
@@ -46,6 +46,11 @@ template <class A, class B>
 bool operator==(Index<A> a, Index<B> b) = delete;
 template <class A, class B>
 std::strong_ordering operator<=>(Index<A> a, Index<B> b) = delete;
+
+/// A face of an object, an edge of a polygon.
+using FaceIndex = Index<struct FaceTag>;
+/// A finger of the hand.
+using FingerIndex = Index<struct FingerTag>;
 
 }  // namespace regrasp
 

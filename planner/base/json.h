@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "planner/base/index.h"
+
 namespace regrasp {
 
 /// JSON as this project reads it. Keys keep the order in which they are written.
@@ -27,5 +29,11 @@ inline constexpr std::size_t kMaxJsonMembers = 256;
 /// Writes JSON with an indent of 1 and a final newline; doubles read back as the same bits. Bytes
 /// that are not UTF-8, which a file's name may have, become U+FFFD.
 [[nodiscard]] std::string FormatJson(const Json& json);
+
+/// An index is its number.
+template <class Tag>
+void to_json(Json& json, Index<Tag> index) {
+  json = static_cast<int>(index);
+}
 
 }  // namespace regrasp

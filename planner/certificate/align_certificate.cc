@@ -1,7 +1,5 @@
 #include "planner/certificate/align_certificate.h"
 
-#include <algorithm>
-
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
@@ -11,8 +9,8 @@ namespace regrasp::certificate {
 grasp::Grasp ContactsInOrder(const plan::FingerGrasp& grasp, const plan::FingerGrasp& order) {
   grasp::Grasp contacts;
   for (const plan::FingerContact& held : order) {
-    const auto found = std::ranges::find(grasp, held.finger, &plan::FingerContact::finger);
-    if (found != grasp.end()) contacts.push_back(found->contact);
+    const plan::FingerContact* found = plan::FindFinger(grasp, held.finger);
+    if (found != nullptr) contacts.push_back(found->contact);
   }
   return contacts;
 }

@@ -25,7 +25,7 @@ double ComputeClearance(const object::Object& object, const grasp::Contact& cont
   for (int round = 0; round < kMostRounds; ++round) {
     const Eigen::Vector3d centre = contact.p - radius * contact.n;
     double shrunk = radius;
-    for (const int face : object.FacesNear(centre, radius * kInside)) {
+    for (const FaceIndex face : object.FacesNear(centre, radius * kInside)) {
       if (face == contact.face) continue;
       const Eigen::Vector3d to_point = object.ClosestPoint(face, centre) - contact.p;
       const double depth = -contact.n.dot(to_point);
@@ -41,7 +41,7 @@ double ComputeClearance(const object::Object& object, const grasp::Contact& cont
 bool HasClearance(const object::Object& object, const grasp::Contact& contact) {
   const double radius = kFingertipClearance * object.diameter();
   const auto near = object.FacesNear(contact.p - radius * contact.n, kTouches * radius);
-  return std::ranges::all_of(near, [&](int face) { return face == contact.face; });
+  return std::ranges::all_of(near, [&](FaceIndex face) { return face == contact.face; });
 }
 
 }  // namespace regrasp::criteria

@@ -28,12 +28,12 @@ bool IsBlocked(const object::Object& object, const grasp::Contact& contact, doub
   const Vector3d rest = BallCentre(contact, radius);
   const double within = std::max(kTouches * radius - kRounding * object.diameter(), 0.0);
   const auto near = object.FacesNearSegment(rest, rest - travel * contact.n, within);
-  return std::ranges::any_of(near, [&](int face) { return face != contact.face; });
+  return std::ranges::any_of(near, [&](FaceIndex face) { return face != contact.face; });
 }
 
 /// In a sealed cavity.
 bool IsShutIn(const object::Object& object, const grasp::Contact& contact) {
-  return contact.face >= 0 && object.IsEnclosed(contact.face);
+  return contact.face.valid() && object.IsEnclosed(contact.face);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 namespace regrasp::grasp {
 
-Contact ContactAt(const object::Polygon& polygon, int edge, double parameter) {
+Contact ContactAt(const object::Polygon& polygon, FaceIndex edge, double parameter) {
   const auto [a, b] = polygon.edge(edge);
   return {a + parameter * (b - a), polygon.inward_normal(edge), edge};
 }

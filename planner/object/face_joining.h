@@ -18,7 +18,8 @@ inline constexpr double kSliverThickness = 1e-7;
 /// the face, and its normal is within kCoplanarAngle both of its neighbour's and of the facet that
 /// the face was grown from. The second keeps a finely curved surface from becoming one face.
 /// @returns for each triangle its face, faces counted from 0 in the order of their first facet.
-[[nodiscard]] std::vector<int> JoinCoplanarFacets(const TriangleMesh& mesh,
-                                                  const SurfaceTopology& topology, double diameter);
+[[nodiscard]] std::vector<FaceIndex> JoinCoplanarFacets(const TriangleMesh& mesh,
+                                                        const SurfaceTopology& topology,
+                                                        double diameter);
 
 }  // namespace regrasp::object

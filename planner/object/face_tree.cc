@@ -179,18 +179,20 @@ struct FaceTree::Impl {
   double rounding = 0;              ///< of distances between points of the surface
   std::vector<Vector3d> normals;    ///< by face
   std::vector<Triangle> triangles;  ///< sorted by face
-  std::vector<int> face_of_triangle;
+  std::vector<FaceIndex> face_of_triangle;
   std::vector<Segment> segments;  ///< borders, sorted by face
   std::vector<Patch<TrianglePrimitive>> surface;
   std::vector<Patch<SegmentPrimitive>> border;
   TriangleTree tree;
 
-  [[nodiscard]] bool Covers(int face, const Vector3d& a, const Vector3d& b, double within) const;
+  [[nodiscard]] bool Covers(FaceIndex face, const Vector3d& a, const Vector3d& b,
+                            double within) const;
 };
 
 /// True iff the segment ab is within a distance of the face, and over it up to rounding where one
 /// looks along its normal.
-bool FaceTree::Impl::Covers(int face, const Vector3d& a, const Vector3d& b, double within) const {
+bool FaceTree::Impl::Covers(FaceIndex face, const Vector3d& a, const Vector3d& b,
+                            double within) const {
   const PlaneView view(a, normals[face]);
   const double strictness = within / rounding;
   // The points near one triangle form an interval, as the distance to a convex set is convex along
@@ -217,9 +219,9 @@ FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
   for (const Vector3d& vertex : vertices) farthest = std::max(farthest, vertex.norm());
   impl->rounding = kRounding * diameter + kCoordinateRounding * farthest;
   std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
-  for (int f = 0; f < std::ssize(faces); ++f) {
+  for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
     impl->normals.push_back(faces[f].inward_normal);
-    for (const int t : faces[f].triangles) {
+    for (const TriangleIndex t : faces[f].triangles) {
       const auto& [a, b, c] = triangles[t];
       impl->triangles.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]),
                                    ToPoint(vertices[c]));
@@ -234,7 +236,7 @@ FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
   // Only now: the patches keep iterators.
   const auto first_triangle = impl->triangles.cbegin();
   const auto first_segment = impl->segments.cbegin();
-  for (int f = 0; f < std::ssize(faces); ++f) {
+  for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
     impl->surface.emplace_back(first_triangle + (f == 0 ? 0 : triangle_ends[f - 1]),
                                first_triangle + triangle_ends[f]);
     impl->border.emplace_back(first_segment + (f == 0 ? 0 : segment_ends[f - 1]),
@@ -247,34 +249,34 @@ FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
 
 FaceTree::~FaceTree() = default;
 
-Vector3d FaceTree::ClosestPoint(int face, const Vector3d& point) const {
+Vector3d FaceTree::ClosestPoint(FaceIndex face, const Vector3d& point) const {
   return ToVector(impl_->surface[face].Closest(ToPoint(point)));
 }
 
-std::vector<int> FaceTree::FacesNear(const Vector3d& point, double tolerance) const {
+std::vector<FaceIndex> FaceTree::FacesNear(const Vector3d& point, double tolerance) const {
   // Wider than asked by more than rounding; the distances below decide.
   const CGAL::Bbox_3 box = Around(point, point, tolerance + kRounding * impl_->diameter);
   std::vector<TriangleIterator> candidates;
   impl_->tree.all_intersected_primitives(box, std::back_inserter(candidates));
-  std::map<int, double> distance_to;
+  std::map<FaceIndex, double> distance_to;
   for (const TriangleIterator& candidate : candidates) {
     const double distance = DistanceTo(*candidate, point);
     if (!(distance <= tolerance)) continue;
-    const int face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
+    const FaceIndex face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
     const auto [found, is_new] = distance_to.try_emplace(face, distance);
     found->second = std::min(found->second, distance);
   }
-  std::vector<int> faces;
+  std::vector<FaceIndex> faces;
   for (const auto& [face, distance] : distance_to) faces.push_back(face);
-  std::ranges::stable_sort(faces, {}, [&](int face) { return distance_to.at(face); });
+  std::ranges::stable_sort(faces, {}, [&](FaceIndex face) { return distance_to.at(face); });
   return faces;
 }
 
-std::vector<int> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b,
-                                            double tolerance) const {
+std::vector<FaceIndex> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                                  double tolerance) const {
   const Segment segment(ToPoint(a), ToPoint(b));
   const double within = tolerance + kRounding * impl_->diameter;
-  std::set<int> faces;
+  std::set<FaceIndex> faces;
   std::vector<TriangleIterator> candidates;
   for (int piece = 0; piece < kSegmentPieces; ++piece) {
     const auto at = [&](int k) -> Vector3d { return a + k * (b - a) / kSegmentPieces; };
@@ -282,7 +284,7 @@ std::vector<int> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b
     impl_->tree.all_intersected_primitives(Around(at(piece), at(piece + 1), within),
                                            std::back_inserter(candidates));
     for (const TriangleIterator& candidate : candidates) {
-      const int face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
+      const FaceIndex face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
       if (faces.contains(face)) continue;
       if (DistanceTo(*candidate, segment) <= tolerance) faces.insert(face);
     }
@@ -290,11 +292,11 @@ std::vector<int> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b
   return {faces.begin(), faces.end()};
 }
 
-double FaceTree::DistanceToBorder(int face, const Vector3d& point) const {
+double FaceTree::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
   return (ToVector(impl_->border[face].Closest(ToPoint(point))) - point).norm();
 }
 
-bool FaceTree::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
+bool FaceTree::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                                double tolerance) const {
   const double within = std::max(tolerance, kRounding * impl_->diameter);
   const Vector3d from = ClosestPoint(face, a), to = ClosestPoint(face, b);

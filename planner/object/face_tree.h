@@ -22,13 +22,15 @@ class FaceTree {
   FaceTree& operator=(const FaceTree&) = delete;
 
   /// As the functions of Object with these names.
-  [[nodiscard]] Eigen::Vector3d ClosestPoint(int face, const Eigen::Vector3d& point) const;
-  [[nodiscard]] std::vector<int> FacesNear(const Eigen::Vector3d& point, double tolerance) const;
-  [[nodiscard]] std::vector<int> FacesNearSegment(const Eigen::Vector3d& a,
-                                                  const Eigen::Vector3d& b, double tolerance) const;
-  [[nodiscard]] double DistanceToBorder(int face, const Eigen::Vector3d& point) const;
-  [[nodiscard]] bool ContainsSegment(int face, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                     double tolerance) const;
+  [[nodiscard]] Eigen::Vector3d ClosestPoint(FaceIndex face, const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
+                                                 double tolerance) const;
+  [[nodiscard]] std::vector<FaceIndex> FacesNearSegment(const Eigen::Vector3d& a,
+                                                        const Eigen::Vector3d& b,
+                                                        double tolerance) const;
+  [[nodiscard]] double DistanceToBorder(FaceIndex face, const Eigen::Vector3d& point) const;
+  [[nodiscard]] bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
+                                     const Eigen::Vector3d& b, double tolerance) const;
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/index.h"
 #include "planner/object/mass_properties.h"
 #include "planner/object/wrench_frame.h"
 
@@ -17,7 +18,7 @@ namespace regrasp::object {
 struct FaceBorder {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
-  int beyond = -1;  ///< the other face
+  FaceIndex beyond = {};  ///< the other face
   /// No finger that touches both faces here is in a concave edge: less than 180° of material, up to
   /// kCoplanarAngle.
   bool convex = false;
@@ -40,52 +41,53 @@ class Object {
   [[nodiscard]] virtual int face_count() const = 0;
 
   /// The unit normal of a face, pointing into the material.
-  [[nodiscard]] virtual Eigen::Vector3d inward_normal(int face) const = 0;
+  [[nodiscard]] virtual Eigen::Vector3d inward_normal(FaceIndex face) const = 0;
 
   /// Area of a face, length of an edge.
-  [[nodiscard]] virtual double face_measure(int face) const = 0;
+  [[nodiscard]] virtual double face_measure(FaceIndex face) const = 0;
 
   /// The point of the face nearest to `point`.
-  [[nodiscard]] virtual Eigen::Vector3d ClosestPoint(int face,
+  [[nodiscard]] virtual Eigen::Vector3d ClosestPoint(FaceIndex face,
                                                      const Eigen::Vector3d& point) const = 0;
 
   /// The faces within `tolerance` of `point`, nearest first, ties by index.
-  [[nodiscard]] virtual std::vector<int> FacesNear(const Eigen::Vector3d& point,
-                                                   double tolerance) const = 0;
+  [[nodiscard]] virtual std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
+                                                         double tolerance) const = 0;
 
   /// The faces within `tolerance` of some point of the segment ab, by index.
-  [[nodiscard]] virtual std::vector<int> FacesNearSegment(const Eigen::Vector3d& a,
-                                                          const Eigen::Vector3d& b,
-                                                          double tolerance) const = 0;
+  [[nodiscard]] virtual std::vector<FaceIndex> FacesNearSegment(const Eigen::Vector3d& a,
+                                                                const Eigen::Vector3d& b,
+                                                                double tolerance) const = 0;
 
   /// Distance from `point` to the face's border (its outline and the outlines of its holes).
-  [[nodiscard]] virtual double DistanceToBorder(int face, const Eigen::Vector3d& point) const = 0;
+  [[nodiscard]] virtual double DistanceToBorder(FaceIndex face,
+                                                const Eigen::Vector3d& point) const = 0;
 
   /// True iff a point that goes from a to b stays on the face: every point of the segment is within
   /// `tolerance` of it, and, seen along the face's normal, none is beside it once the ends are
   /// moved by no more than about the tolerance. Faces need not be convex and may have holes and
   /// slits: both ends inside is not enough, and a slit that is narrower than the tolerance still
   /// parts a face.
-  [[nodiscard]] virtual bool ContainsSegment(int face, const Eigen::Vector3d& a,
+  [[nodiscard]] virtual bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
                                              const Eigen::Vector3d& b, double tolerance) const = 0;
 
   /// All the borders of a face with others.
-  [[nodiscard]] virtual std::vector<FaceBorder> BordersOf(int face) const = 0;
+  [[nodiscard]] virtual std::vector<FaceBorder> BordersOf(FaceIndex face) const = 0;
 
   /// True iff two different faces have a border in common. Takes some nanoseconds where they have
   /// few borders.
-  [[nodiscard]] virtual bool AreNeighbours(int face, int other) const = 0;
+  [[nodiscard]] virtual bool AreNeighbours(FaceIndex face, FaceIndex other) const = 0;
 
   /// Points that two different faces have in common within `tolerance` of `point`: of each border
   /// of the two the nearest one, and the vertices at which they merely touch. Faces that are near
   /// each other, on the two sides of a thin wall, have none.
-  [[nodiscard]] virtual std::vector<Eigen::Vector3d> CommonPoints(int face, int other,
+  [[nodiscard]] virtual std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
                                                                   const Eigen::Vector3d& point,
                                                                   double tolerance) const = 0;
 
   /// True iff the face is a wall of a sealed cavity: of a shell that the outside does not see. No
   /// finger comes there, however thin. Never in the plane, where a finger comes from above.
-  [[nodiscard]] virtual bool IsEnclosed(int face) const = 0;
+  [[nodiscard]] virtual bool IsEnclosed(FaceIndex face) const = 0;
 
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }

@@ -72,48 +72,48 @@ Polygon::Polygon(PolygonRings rings, double diameter, MassProperties mass_proper
     const int size = static_cast<int>(ring.size());
     for (int i = 0; i < size; ++i) {
       edges_.emplace_back(ring[i], ring[(i + 1) % size]);
-      next_.push_back(first + (i + 1) % size);
-      previous_.push_back(first + (i + size - 1) % size);
+      next_.emplace_back(first + (i + 1) % size);
+      previous_.emplace_back(first + (i + size - 1) % size);
     }
   }
 }
 
-std::pair<Vector3d, Vector3d> Polygon::edge(int face) const {
+std::pair<Vector3d, Vector3d> Polygon::edge(FaceIndex face) const {
   return {InSpace(edges_[face].first), InSpace(edges_[face].second)};
 }
 
-Vector3d Polygon::inward_normal(int face) const {
+Vector3d Polygon::inward_normal(FaceIndex face) const {
   const Vector2d along = (edges_[face].second - edges_[face].first).stableNormalized();
   // Adding 0 turns −0 into +0: normals are printed.
   return {-along.y() + 0.0, along.x() + 0.0, 0};
 }
 
-double Polygon::face_measure(int face) const {
+double Polygon::face_measure(FaceIndex face) const {
   return (edges_[face].second - edges_[face].first).stableNorm();
 }
 
-Vector3d Polygon::ClosestPoint(int face, const Vector3d& point) const {
+Vector3d Polygon::ClosestPoint(FaceIndex face, const Vector3d& point) const {
   const auto [a, b] = edge(face);
   return ClosestOnSegment(a, b, point);
 }
 
-std::vector<int> Polygon::FacesNear(const Vector3d& point, double tolerance) const {
-  std::vector<std::pair<double, int>> near;
-  for (int face = 0; face < face_count(); ++face) {
+std::vector<FaceIndex> Polygon::FacesNear(const Vector3d& point, double tolerance) const {
+  std::vector<std::pair<double, FaceIndex>> near;
+  for (FaceIndex face{0}; face < face_count(); ++face) {
     const double distance = (ClosestPoint(face, point) - point).norm();
     if (distance <= tolerance) near.emplace_back(distance, face);
   }
   std::ranges::sort(near);
-  std::vector<int> faces;
+  std::vector<FaceIndex> faces;
   for (const auto& [distance, face] : near) faces.push_back(face);
   return faces;
 }
 
-std::vector<int> Polygon::FacesNearSegment(const Vector3d& a, const Vector3d& b,
-                                           double tolerance) const {
+std::vector<FaceIndex> Polygon::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                                 double tolerance) const {
   const Segment segment(ToPoint(a.head<2>()), ToPoint(b.head<2>()));
-  std::vector<int> faces;
-  for (int face = 0; face < face_count(); ++face) {
+  std::vector<FaceIndex> faces;
+  for (FaceIndex face{0}; face < face_count(); ++face) {
     const auto& [from, to] = edges_[face];
     const double squared = CGAL::squared_distance(segment, Segment(ToPoint(from), ToPoint(to)));
     if (std::sqrt(squared) <= tolerance) faces.push_back(face);
@@ -121,34 +121,34 @@ std::vector<int> Polygon::FacesNearSegment(const Vector3d& a, const Vector3d& b,
   return faces;
 }
 
-double Polygon::DistanceToBorder(int face, const Vector3d& point) const {
+double Polygon::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
   const auto [a, b] = edge(face);
   return std::min((point - a).norm(), (point - b).norm());
 }
 
-bool Polygon::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
+bool Polygon::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                               double tolerance) const {
   // An edge is convex: what lies between two points near it is near it too.
   return (ClosestPoint(face, a) - a).norm() <= tolerance &&
          (ClosestPoint(face, b) - b).norm() <= tolerance;
 }
 
-std::vector<FaceBorder> Polygon::BordersOf(int face) const {
+std::vector<FaceBorder> Polygon::BordersOf(FaceIndex face) const {
   // Seen from above the material is on the left of the edges: a convex vertex turns left.
-  const auto convex = [&](int edge, int next) {
+  const auto convex = [&](FaceIndex edge, FaceIndex next) {
     return IsConvexTurn(inward_normal(edge), inward_normal(next), Vector3d::UnitZ());
   };
   const auto [a, b] = edge(face);
-  const int before = previous_[face];
-  const int after = next_[face];
+  const FaceIndex before = previous_[face];
+  const FaceIndex after = next_[face];
   return {{a, a, before, convex(before, face)}, {b, b, after, convex(face, after)}};
 }
 
-bool Polygon::AreNeighbours(int face, int other) const {
+bool Polygon::AreNeighbours(FaceIndex face, FaceIndex other) const {
   return other == next_[face] || other == previous_[face];
 }
 
-std::vector<Vector3d> Polygon::CommonPoints(int face, int other, const Vector3d& point,
+std::vector<Vector3d> Polygon::CommonPoints(FaceIndex face, FaceIndex other, const Vector3d& point,
                                             double tolerance) const {
   std::vector<Vector3d> points;
   for (const FaceBorder& border : BordersOf(face)) {

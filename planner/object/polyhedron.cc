@@ -28,7 +28,7 @@ namespace {
 constexpr double kLeastFlatness = 0.5;
 
 void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& name) {
-  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
       const std::string complaint = EdgeComplaint(mesh.vertices[from], mesh.vertices[to], diameter);
@@ -45,7 +45,7 @@ void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& na
 /// @throws MeshError  kBadSize where a face has no normal.
 std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
                                            const SurfaceTopology& topology,
-                                           const std::vector<int>& face_of_triangle,
+                                           const std::vector<FaceIndex>& face_of_triangle,
                                            const std::string& name) {
   std::vector<Polyhedron::Face> faces(1 + *std::ranges::max_element(face_of_triangle));
   std::vector<Vector3d> area_vectors(faces.size(), Vector3d::Zero());
@@ -53,7 +53,7 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
     face.point = Vector3d::Zero();
     face.area = 0;
   }
-  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     Polyhedron::Face& face = faces[face_of_triangle[t]];
     face.triangles.push_back(t);
     const Vector3d vector = DoubleAreaVector(mesh, t) / 2;
@@ -63,7 +63,7 @@ std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
       face.point += area / 3 * mesh.vertices[from];
-      const int beyond = face_of_triangle[topology.neighbor[t][k]];
+      const FaceIndex beyond = face_of_triangle[topology.neighbor[t][k]];
       if (beyond != face_of_triangle[t]) {
         face.border.push_back({from, to});
         face.beyond.push_back(beyond);
@@ -102,7 +102,7 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
   const int outside = OrientSolid(mesh, topology, name);
-  std::vector<int> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
+  std::vector<FaceIndex> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
   std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle, name);
   for (Face& face : faces) face.enclosed = topology.shell[face.triangles.front()] != outside;
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
@@ -112,8 +112,8 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
 }
 
 Polyhedron::Polyhedron(std::vector<Vector3d> vertices, std::vector<std::array<int, 3>> triangles,
-                       std::vector<int> face_of_triangle, std::vector<Face> faces, double diameter,
-                       MassProperties mass_properties)
+                       std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces,
+                       double diameter, MassProperties mass_properties)
     : Object(diameter, std::move(mass_properties)),
       vertices_(std::move(vertices)),
       triangles_(std::move(triangles)),
@@ -121,33 +121,33 @@ Polyhedron::Polyhedron(std::vector<Vector3d> vertices, std::vector<std::array<in
       faces_(std::move(faces)),
       face_tree_(std::make_shared<FaceTree>(vertices_, triangles_, faces_, diameter)) {}
 
-Vector3d Polyhedron::inward_normal(int face) const { return faces_[face].inward_normal; }
+Vector3d Polyhedron::inward_normal(FaceIndex face) const { return faces_[face].inward_normal; }
 
-double Polyhedron::face_measure(int face) const { return faces_[face].area; }
+double Polyhedron::face_measure(FaceIndex face) const { return faces_[face].area; }
 
-Vector3d Polyhedron::ClosestPoint(int face, const Vector3d& point) const {
+Vector3d Polyhedron::ClosestPoint(FaceIndex face, const Vector3d& point) const {
   return face_tree_->ClosestPoint(face, point);
 }
 
-std::vector<int> Polyhedron::FacesNear(const Vector3d& point, double tolerance) const {
+std::vector<FaceIndex> Polyhedron::FacesNear(const Vector3d& point, double tolerance) const {
   return face_tree_->FacesNear(point, tolerance);
 }
 
-std::vector<int> Polyhedron::FacesNearSegment(const Vector3d& a, const Vector3d& b,
-                                              double tolerance) const {
+std::vector<FaceIndex> Polyhedron::FacesNearSegment(const Vector3d& a, const Vector3d& b,
+                                                    double tolerance) const {
   return face_tree_->FacesNearSegment(a, b, tolerance);
 }
 
-double Polyhedron::DistanceToBorder(int face, const Vector3d& point) const {
+double Polyhedron::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
   return face_tree_->DistanceToBorder(face, point);
 }
 
-bool Polyhedron::ContainsSegment(int face, const Vector3d& a, const Vector3d& b,
+bool Polyhedron::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
   return face_tree_->ContainsSegment(face, a, b, tolerance);
 }
 
-std::vector<FaceBorder> Polyhedron::BordersOf(int face) const {
+std::vector<FaceBorder> Polyhedron::BordersOf(FaceIndex face) const {
   const Face& own = faces_[face];
   std::vector<FaceBorder> borders;
   borders.reserve(own.border.size());
@@ -161,12 +161,12 @@ std::vector<FaceBorder> Polyhedron::BordersOf(int face) const {
   return borders;
 }
 
-bool Polyhedron::AreNeighbours(int face, int other) const {
+bool Polyhedron::AreNeighbours(FaceIndex face, FaceIndex other) const {
   return std::ranges::find(faces_[face].beyond, other) != faces_[face].beyond.end();
 }
 
-std::vector<Vector3d> Polyhedron::CommonPoints(int face, int other, const Vector3d& point,
-                                               double tolerance) const {
+std::vector<Vector3d> Polyhedron::CommonPoints(FaceIndex face, FaceIndex other,
+                                               const Vector3d& point, double tolerance) const {
   std::vector<Vector3d> points;
   const auto add = [&](const Vector3d& p) {
     if ((p - point).norm() <= tolerance) points.push_back(p);

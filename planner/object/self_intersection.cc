@@ -54,8 +54,8 @@ void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
   if (found.empty()) return;
   const auto [a, b] = std::minmax({int(found[0].first), int(found[0].second)});
   throw MeshError(MeshDefect::kSelfIntersecting,
-                  name + ": " + FacetName(mesh, a) + ": self-intersecting: meets " +
-                      FacetName(mesh, b) + ", which is not its neighbour there");
+                  name + ": " + FacetName(mesh, TriangleIndex(a)) + ": self-intersecting: meets " +
+                      FacetName(mesh, TriangleIndex(b)) + ", which is not its neighbour there");
 }
 
 }  // namespace regrasp::object

@@ -22,7 +22,7 @@ constexpr double kVolumeRounding = 64 * 2.3e-16;
 
 struct Shell {
   std::vector<std::array<int, 3>> triangles;
-  int first_triangle = -1;  ///< by which messages call it
+  TriangleIndex first_triangle;  ///< by which messages call it
   double volume = 0;
   double area = 0;
   CGAL::Bbox_3 box;
@@ -30,9 +30,9 @@ struct Shell {
 
 std::vector<Shell> CollectShells(const TriangleMesh& mesh, const SurfaceTopology& topology) {
   std::vector<Shell> shells(topology.shell_count);
-  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     Shell& shell = shells[topology.shell[t]];
-    if (shell.first_triangle < 0) shell.first_triangle = t;
+    if (!shell.first_triangle.valid()) shell.first_triangle = t;
     shell.triangles.push_back(mesh.triangles[t]);
     const Vector3d& from = mesh.vertices[mesh.triangles[shell.first_triangle][0]];
     const Vector3d area = DoubleAreaVector(mesh, t) / 2;

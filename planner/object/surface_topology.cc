@@ -12,14 +12,15 @@ namespace {
 /// One side of an edge: the corner `corner` of `triangle` and the next, ends in order.
 struct EdgeSide {
   int low, high;
-  int triangle, corner;
+  TriangleIndex triangle;
+  int corner;
   bool forward;  ///< the triangle runs from low to high
 };
 
 std::vector<EdgeSide> SortedEdgeSides(const TriangleMesh& mesh) {
   std::vector<EdgeSide> sides;
   sides.reserve(3 * mesh.triangles.size());
-  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), t, k, from < to});
@@ -55,9 +56,10 @@ void CheckEdge(const TriangleMesh& mesh, const std::string& name, const EdgeSide
   }
 }
 
-std::vector<std::array<int, 3>> JoinTriangles(const TriangleMesh& mesh, const std::string& name) {
+std::vector<std::array<TriangleIndex, 3>> JoinTriangles(const TriangleMesh& mesh,
+                                                        const std::string& name) {
   const std::vector<EdgeSide> sides = SortedEdgeSides(mesh);
-  std::vector<std::array<int, 3>> neighbor(mesh.triangles.size());
+  std::vector<std::array<TriangleIndex, 3>> neighbor(mesh.triangles.size());
   const EdgeSide* const end = sides.data() + sides.size();
   for (const EdgeSide *first = sides.data(), *last; first != end; first = last) {
     last = std::find_if(first, end, [&](const EdgeSide& side) {
@@ -75,11 +77,11 @@ int CornerOf(const std::array<int, 3>& triangle, int vertex) {
 }
 
 /// Walking about a vertex from edge to edge must meet every triangle that has it.
-void CheckFans(const TriangleMesh& mesh, const std::vector<std::array<int, 3>>& neighbor,
+void CheckFans(const TriangleMesh& mesh, const std::vector<std::array<TriangleIndex, 3>>& neighbor,
                const std::string& name) {
-  std::vector<int> triangle_at(mesh.vertices.size(), -1);
+  std::vector<TriangleIndex> triangle_at(mesh.vertices.size());
   std::vector<int> corners_at(mesh.vertices.size(), 0);
-  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     for (const int v : mesh.triangles[t]) {
       triangle_at[v] = t;
       ++corners_at[v];
@@ -87,7 +89,7 @@ void CheckFans(const TriangleMesh& mesh, const std::vector<std::array<int, 3>>& 
   }
   for (int v = 0; v < std::ssize(mesh.vertices); ++v) {
     int met = 0;
-    int t = triangle_at[v];
+    TriangleIndex t = triangle_at[v];
     do {
       t = neighbor[t][CornerOf(mesh.triangles[t], v)];
       ++met;
@@ -102,14 +104,14 @@ void CheckFans(const TriangleMesh& mesh, const std::vector<std::array<int, 3>>& 
 
 void FindShells(SurfaceTopology& topology) {
   topology.shell.assign(topology.neighbor.size(), -1);
-  for (int seed = 0; seed < std::ssize(topology.shell); ++seed) {
+  for (TriangleIndex seed{0}; seed < std::ssize(topology.shell); ++seed) {
     if (topology.shell[seed] >= 0) continue;
-    std::vector<int> stack{seed};
+    std::vector<TriangleIndex> stack{seed};
     topology.shell[seed] = topology.shell_count;
     while (!stack.empty()) {
-      const int t = stack.back();
+      const TriangleIndex t = stack.back();
       stack.pop_back();
-      for (const int next : topology.neighbor[t]) {
+      for (const TriangleIndex next : topology.neighbor[t]) {
         if (topology.shell[next] >= 0) continue;
         topology.shell[next] = topology.shell_count;
         stack.push_back(next);

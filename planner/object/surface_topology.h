@@ -11,7 +11,7 @@ namespace regrasp::object {
 /// Which triangles are neighbours on a closed, consistently oriented 2-manifold.
 struct SurfaceTopology {
   /// neighbor[t][k]: the triangle across the edge from corner k to corner k + 1 of triangle t.
-  std::vector<std::array<int, 3>> neighbor;
+  std::vector<std::array<TriangleIndex, 3>> neighbor;
   std::vector<int> shell;  ///< of each triangle: connected part of the surface, counted from 0
   int shell_count = 0;
 };

@@ -6,7 +6,7 @@
 
 namespace regrasp::object {
 
-Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, int triangle) {
+Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, TriangleIndex triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
 }
@@ -17,7 +17,7 @@ std::string VertexName(const TriangleMesh& mesh, int vertex) {
          ", " + FormatShort(p.y()) + ", " + FormatShort(p.z()) + ")";
 }
 
-std::string FacetName(const TriangleMesh& mesh, int triangle) {
+std::string FacetName(const TriangleMesh& mesh, TriangleIndex triangle) {
   return "facet " + std::to_string(mesh.facet_of_triangle[triangle]);
 }
 

@@ -5,7 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/index.h"
+
 namespace regrasp::object {
+
+using TriangleIndex = Index<struct TriangleTag>;
 
 /// Triangles with their way back to the file, so that checks can name what they find.
 struct TriangleMesh {
@@ -17,12 +21,12 @@ struct TriangleMesh {
 };
 
 /// Twice the area of a triangle times its unit outward normal.
-[[nodiscard]] Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, int triangle);
+[[nodiscard]] Eigen::Vector3d DoubleAreaVector(const TriangleMesh& mesh, TriangleIndex triangle);
 
 /// "vertex 3 (0.1, 0, 2.5)", as the file counts.
 [[nodiscard]] std::string VertexName(const TriangleMesh& mesh, int vertex);
 
 /// "facet 12", as the file counts.
-[[nodiscard]] std::string FacetName(const TriangleMesh& mesh, int triangle);
+[[nodiscard]] std::string FacetName(const TriangleMesh& mesh, TriangleIndex triangle);
 
 }  // namespace regrasp::object

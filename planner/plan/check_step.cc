@@ -17,31 +17,26 @@ namespace regrasp::plan {
 
 namespace {
 
-std::string FingerName(int finger) { return "finger " + std::to_string(finger); }
+std::string FingerName(FingerIndex finger) { return "finger " + std::to_string(finger); }
 
 std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
 
 /// "waypoint 2: finger 1", or "finger 1" where there is no place to name.
-std::string At(const std::string& place, int finger) {
+std::string At(const std::string& place, FingerIndex finger) {
   return place.empty() ? FingerName(finger) : place + ": " + FingerName(finger);
-}
-
-const FingerContact* FindFinger(const FingerGrasp& grasp, int finger) {
-  const auto found = std::ranges::find(grasp, finger, &FingerContact::finger);
-  return found == grasp.end() ? nullptr : &*found;
 }
 
 void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, const std::string& place,
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
-    if (held.contact.face >= 0) continue;
+    if (held.contact.face.valid()) continue;
     // Located contacts without a face are as given: looking again tells why.
     const LocatedContact located = LocateContact(context.object, held.contact);
     fault.Add(located.reason, At(place, held.finger) + ": " + located.detail);
   }
 }
 
-void CheckFingerNumber(const CheckContext& context, int finger, StepFault& fault) {
+void CheckFingerNumber(const CheckContext& context, FingerIndex finger, StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
             FingerName(finger) + " of a hand of " + std::to_string(context.plan.fingers));
@@ -71,7 +66,7 @@ void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, Ste
 
 /// A finger can make one contact at a time.
 void CheckNamedOnce(const FingerGrasp& grasp, const std::string& place, StepFault& fault) {
-  std::set<int> seen;
+  std::set<FingerIndex> seen;
   for (const FingerContact& held : grasp) {
     if (!seen.insert(held.finger).second) {
       fault.Add(Reason::kFingerNotFree, At(place, held.finger) + " is named twice");
@@ -159,7 +154,7 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
                                             " is not where it was: " + FormatShort(distance) +
                                             " away, normal turned by " + FormatShort(angle) +
                                             " degrees");
-    } else if (moved->contact.face >= 0 &&
+    } else if (moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
       fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
                                             " is not where it was: beyond a gap in the surface, or "
@@ -292,8 +287,8 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
       fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds");
     }
   }
-  std::set<int> released;
-  for (const int finger : step.release) {
+  std::set<FingerIndex> released;
+  for (const FingerIndex finger : step.release) {
     CheckFingerNumber(context, finger, fault);
     if (FindFinger(before, finger) == nullptr || !released.insert(finger).second) {
       fault.Add(Reason::kFingerNotHolding, FingerName(finger) + " is released, but does not hold");

@@ -8,7 +8,9 @@ grasp::Contact ReadContact(const JsonReader& json, int dimension) {
   return {json.Member("point").Vector(dimension), json.Member("normal").Vector(dimension)};
 }
 
-int ReadFinger(const JsonReader& json) { return json.Integer(0, std::numeric_limits<int>::max()); }
+FingerIndex ReadFinger(const JsonReader& json) {
+  return FingerIndex(json.Integer(0, std::numeric_limits<int>::max()));
+}
 
 namespace {
 

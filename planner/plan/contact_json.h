@@ -13,7 +13,7 @@ namespace regrasp::plan {
 [[nodiscard]] FingerGrasp ReadFingerGrasp(const JsonReader& json, int dimension);
 
 /// Reads a finger's number. Numbers outside the hand are left to the checker.
-[[nodiscard]] int ReadFinger(const JsonReader& json);
+[[nodiscard]] FingerIndex ReadFinger(const JsonReader& json);
 
 [[nodiscard]] Json ContactJson(const grasp::Contact& contact, int dimension);
 [[nodiscard]] Json GraspJson(const grasp::Grasp& grasp, int dimension);

@@ -25,11 +25,11 @@ class RingPlace {
   RingPlace(const object::Polygon& polygon, const grasp::Contact& contact) : polygon_(polygon) {
     int count = 0;
     for (const auto& ring : polygon.rings()) {
-      first_ += count;
+      first_ = FaceIndex(first_ + count);
       count = static_cast<int>(ring.size());
       if (contact.face < first_ + count) break;
     }
-    for (int edge = first_; edge < first_ + count; ++edge) {
+    for (FaceIndex edge = first_; edge < first_ + count; ++edge) {
       if (edge == contact.face) {
         place_ = begins_.back() + (contact.p - polygon.edge(edge).first).norm();
       }
@@ -53,7 +53,7 @@ class RingPlace {
         const double low = std::max(begins_[k] + turn, place_ - half);
         const double high = std::min(begins_[k + 1] + turn, place_ + half);
         if (low > high) continue;
-        const int edge = first_ + static_cast<int>(k);
+        const FaceIndex edge(first_ + static_cast<int>(k));
         parts.push_back(
             {(low + high) / 2,
              {{At(edge, low - turn - begins_[k]), At(edge, high - turn - begins_[k])}}});
@@ -67,14 +67,14 @@ class RingPlace {
   }
 
  private:
-  [[nodiscard]] grasp::Contact At(int edge, double length) const {
+  [[nodiscard]] grasp::Contact At(FaceIndex edge, double length) const {
     const auto [from, to] = polygon_.edge(edge);
     const double share = std::clamp(length / polygon_.face_measure(edge), 0.0, 1.0);
     return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
   }
 
   const object::Polygon& polygon_;
-  int first_ = 0;                     ///< edge of the ring
+  FaceIndex first_{0};                ///< edge of the ring
   std::vector<double> begins_ = {0};  ///< of its edges, then the perimeter
   double place_ = 0;
 };
@@ -120,7 +120,7 @@ class Region {
 void CheckArguments(const object::Polygon& polygon, const grasp::Grasp& grasp, double limit) {
   if (grasp.size() != 2) throw std::invalid_argument("a contact region is one of two contacts");
   for (const grasp::Contact& contact : grasp) {
-    if (contact.face < 0 || contact.face >= polygon.face_count()) {
+    if (!contact.face.valid() || contact.face >= polygon.face_count()) {
       throw std::invalid_argument("a contact of a contact region is on no edge");
     }
   }

@@ -13,11 +13,11 @@ namespace {
 grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,
                               const Eigen::Vector3d& point) {
   const double tolerance = object::kPointTolerance * object.diameter();
-  const std::vector<int> faces = object.FacesNear(point, tolerance);
+  const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) {
     json.Member("point").Fail("farther than " + FormatShort(tolerance) + " from the surface");
   }
-  const int face = faces.front();
+  const FaceIndex face = faces.front();
   if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
     json.Member("point").Fail("on a border of face " + std::to_string(face) +
                               ", where the normal cannot be left out");

@@ -22,27 +22,28 @@ bool IsUnit(const Eigen::Vector3d& normal) {
 }
 
 /// Angles between the contact's normal and those of faces near it, nearest first.
-std::vector<std::pair<double, int>> RankFaces(const std::vector<int>& faces,
-                                              const object::Object& object,
-                                              const grasp::Contact& contact) {
-  std::vector<std::pair<double, int>> ranked;
-  for (const int face : faces) {
+std::vector<std::pair<double, FaceIndex>> RankFaces(const std::vector<FaceIndex>& faces,
+                                                    const object::Object& object,
+                                                    const grasp::Contact& contact) {
+  std::vector<std::pair<double, FaceIndex>> ranked;
+  for (const FaceIndex face : faces) {
     ranked.emplace_back(grasp::AngleBetween(contact.n, object.inward_normal(face)), face);
   }
-  std::ranges::stable_sort(ranked, {}, &std::pair<double, int>::first);
+  std::ranges::stable_sort(ranked, {}, &std::pair<double, FaceIndex>::first);
   return ranked;
 }
 
-grasp::Contact Project(const object::Object& object, const grasp::Contact& contact, int face) {
+grasp::Contact Project(const object::Object& object, const grasp::Contact& contact,
+                       FaceIndex face) {
   return {object.ClosestPoint(face, contact.p), object.inward_normal(face), face};
 }
 
 }  // namespace
 
 LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
-  LocatedContact located{{contact.p, contact.n, -1}, Reason::kNone, ""};
+  LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
   const double tolerance = object::kPointTolerance * object.diameter();
-  const std::vector<int> faces = object.FacesNear(contact.p, tolerance);
+  const std::vector<FaceIndex> faces = object.FacesNear(contact.p, tolerance);
   if (faces.empty()) {
     located.reason = Reason::kOffSurface;
     located.detail = "farther than " + FormatShort(tolerance) + " from the surface";
@@ -68,7 +69,7 @@ std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
                                              const grasp::Contact& contact) {
   std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
-  const std::vector<int> faces =
+  const std::vector<FaceIndex> faces =
       object.FacesNear(contact.p, object::kPointTolerance * object.diameter());
   for (const auto& [angle, face] : RankFaces(faces, object, contact)) {
     if (angle <= kNormalTolerance) places.push_back(Project(object, contact, face));

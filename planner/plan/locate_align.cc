@@ -41,7 +41,7 @@ Choices FindChoices(const object::Object& object, const grasp::Contact& contact)
 }
 
 bool IsFault(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to) {
-  return from.face >= 0 && to.face >= 0 && FindMotionFault(object, from, to).has_value();
+  return from.face.valid() && to.face.valid() && FindMotionFault(object, from, to).has_value();
 }
 
 bool IsBetter(const Choice& a, const Choice& b) {
@@ -70,7 +70,7 @@ void Extend(const object::Object& object, const Choices& before, Choices& choice
 void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   for (std::size_t j = 1; j < chain.size(); ++j) {
     const grasp::Contact& before = *chain[j - 1];
-    if (before.face < 0 || chain[j]->face < 0 || before.face == chain[j]->face) continue;
+    if (!before.face.valid() || !chain[j]->face.valid() || before.face == chain[j]->face) continue;
     if ((before.p - chain[j]->p).norm() <= kRounding * object.diameter()) chain[j]->p = before.p;
   }
 }
@@ -95,9 +95,9 @@ void LocateChain(const object::Object& object, const std::vector<grasp::Contact*
 
 void LocateAlign(const object::Object& object, Align& align) {
   // A finger that a waypoint names twice, by mistake, is two chains.
-  std::map<std::pair<int, int>, std::vector<grasp::Contact*>> chains;
+  std::map<std::pair<FingerIndex, int>, std::vector<grasp::Contact*>> chains;
   for (FingerGrasp& waypoint : align.waypoints) {
-    std::map<int, int> named;
+    std::map<FingerIndex, int> named;
     for (FingerContact& held : waypoint) {
       chains[{held.finger, named[held.finger]++}].push_back(&held.contact);
     }

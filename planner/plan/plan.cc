@@ -8,6 +8,11 @@ const char* StepKind(const Step& step) {
   return std::holds_alternative<Switch>(step) ? "switch" : "align";
 }
 
+const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger) {
+  const auto found = std::ranges::find(grasp, finger, &FingerContact::finger);
+  return found == grasp.end() ? nullptr : &*found;
+}
+
 FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   if (const auto* align = std::get_if<Align>(&step)) {
     return align->waypoints.empty() ? before : align->waypoints.back();
@@ -19,6 +24,14 @@ FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   });
   after.insert(after.end(), finger_switch.place.begin(), finger_switch.place.end());
   return after;
+}
+
+FingerGrasp FingersInOrder(const grasp::Grasp& grasp) {
+  FingerGrasp held;
+  for (FingerIndex finger{0}; finger < std::ssize(grasp); ++finger) {
+    held.push_back({finger, grasp[finger]});
+  }
+  return held;
 }
 
 grasp::Grasp ContactsOf(const FingerGrasp& grasp) {

@@ -13,7 +13,7 @@ namespace regrasp::plan {
 
 /// A contact and the finger that makes it; fingers are numbered from 0.
 struct FingerContact {
-  int finger = 0;
+  FingerIndex finger = {};
   grasp::Contact contact;
   /// Of a contact that a switch between 2-finger grasps of a polygon places: how far both contacts
   /// of the grasp before it, and of the grasp after it, may be off along the boundary, whichever
@@ -28,7 +28,7 @@ using FingerGrasp = std::vector<FingerContact>;
 /// leave. The grasp before and the grasp after are each force closure.
 struct Switch {
   FingerGrasp place;
-  std::vector<int> release;
+  std::vector<FingerIndex> release;
 };
 
 /// A claim that an align is force closure everywhere on the way, with its proof: for each pair of
@@ -73,9 +73,15 @@ struct Plan {
 /// "hold" for entry 0 of a report, "switch" or "align" for a step.
 [[nodiscard]] const char* StepKind(const Step& step);
 
+/// The contact of a finger; null where it does not hold.
+[[nodiscard]] const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger);
+
 /// The grasp after `step` when `before` holds. Fingers keep their order; a placed finger comes
 /// last. Fingers of `release` that do not hold are ignored: the checker reports them.
 [[nodiscard]] FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step);
+
+/// Finger 0 at the first contact, 1 at the next.
+[[nodiscard]] FingerGrasp FingersInOrder(const grasp::Grasp& grasp);
 
 /// The contacts without their fingers.
 [[nodiscard]] grasp::Grasp ContactsOf(const FingerGrasp& grasp);

@@ -66,8 +66,8 @@ std::optional<double> FindInstant(double begin, double end, const Fails& fails,
 /// The instant at which the object blocks a moving finger.
 std::optional<double> FindBlocked(const object::Object& object, const motion::ContactMotion& motion,
                                   double radius) {
-  const int from = motion.At(0).face;
-  const int to = motion.At(1).face;
+  const FaceIndex from = motion.At(0).face;
+  const FaceIndex to = motion.At(1).face;
   // The far end of the segment that a finger sweeps moves fastest.
   const double length = radius + object.diameter();
   const double speed = motion.velocity().norm() + motion.turn() * length;
@@ -77,7 +77,7 @@ std::optional<double> FindBlocked(const object::Object& object, const motion::Co
     const Vector3d rest = criteria::BallCentre(contact, radius);
     const auto near =
         object.FacesNearSegment(rest, rest - object.diameter() * contact.n, radius + half * speed);
-    return std::ranges::all_of(near, [&](int face) { return face == from || face == to; });
+    return std::ranges::all_of(near, [&](FaceIndex face) { return face == from || face == to; });
   };
   return FindInstant(0, 1, fails, is_clear);
 }
@@ -101,8 +101,8 @@ std::optional<std::string> FindPathObstacle(const object::Object& object, const 
   if (radius <= 0) return std::nullopt;
   std::vector<motion::ContactMotion> motions;
   for (const FingerContact& held : from) {
-    const auto end = std::ranges::find(to, held.finger, &FingerContact::finger);
-    if (end == to.end()) return std::nullopt;
+    const FingerContact* end = FindFinger(to, held.finger);
+    if (end == nullptr) return std::nullopt;
     motions.emplace_back(held.contact, end->contact);
   }
   const auto at = [](double t) { return FormatShort(t) + " of the way: "; };

@@ -12,7 +12,7 @@ enum class FingerRole { kFree, kHolding, kPlaced, kReleased, kMoved };
 
 /// One finger at one instant, in metres and newtons, world frame.
 struct FingerState {
-  int finger = 0;
+  FingerIndex finger = {};
   FingerRole role = FingerRole::kFree;
   Eigen::Vector3d tip_W = Eigen::Vector3d::Zero();      ///< centre of the fingertip
   Eigen::Vector3d contact_W = Eigen::Vector3d::Zero();  ///< point of contact (planned, if free)

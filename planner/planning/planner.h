@@ -7,7 +7,6 @@
 
 #include "planner/planning/plan_request.h"
 #include "planner/planning/plan_result.h"
-#include "planner/sampling/contact_limits.h"
 
 namespace regrasp {
 struct MemoryNeed;
@@ -36,9 +35,9 @@ enum class PlanOption {
 
 /// What a planner can do with objects of one dimension.
 struct PlannerScope {
-  int fingers = 0;                         ///< of the hand that it plans for
-  sampling::ContactLimits contacts;        ///< of the grasps that it takes
-  sampling::ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
+  int fingers = 0;                      ///< of the hand that it plans for
+  grasp::ContactLimits contacts;        ///< of the grasps that it takes
+  grasp::ContactLimits contacts_drawn;  ///< of those that are drawn evenly over the surface
 };
 
 /// What is known of a planner before it plans.

@@ -39,7 +39,7 @@ std::optional<std::pair<int, int>> ContactsAtSamePoint(const grasp::Grasp& grasp
   return std::nullopt;
 }
 
-std::string RangeText(const sampling::ContactLimits& range) {
+std::string RangeText(const grasp::ContactLimits& range) {
   return (range.least == range.most ? "" : std::to_string(range.least) + " to ") +
          std::to_string(range.most);
 }
@@ -84,11 +84,8 @@ class GraspResolver {
              " are at the same point");
     }
     CheckForceClosure(grasp, refuse);
-    plan::FingerGrasp held;
-    for (const grasp::Contact& contact : grasp)
-      held.push_back({static_cast<int>(held.size()), contact});
-    if (const auto obstacle =
-            plan::FindRestObstacle(*request_.object, held, request_.hand.fingertip_radius)) {
+    if (const auto obstacle = plan::FindRestObstacle(*request_.object, plan::FingersInOrder(grasp),
+                                                     request_.hand.fingertip_radius)) {
       refuse("with a finger at each, by their numbers: " + *obstacle);
     }
   }

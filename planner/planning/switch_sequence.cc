@@ -16,12 +16,9 @@ bool Contains(const grasp::Grasp& grasp, const grasp::Contact& contact) {
                      [&](const grasp::Contact& other) { return SameContact(other, contact); });
 }
 
-int LowestFreeFinger(const plan::FingerGrasp& holding, int fingers) {
-  for (int finger = 0; finger < fingers; ++finger) {
-    const bool holds =
-        std::any_of(holding.begin(), holding.end(),
-                    [&](const plan::FingerContact& c) { return c.finger == finger; });
-    if (!holds) return finger;
+FingerIndex LowestFreeFinger(const plan::FingerGrasp& holding, int fingers) {
+  for (FingerIndex finger{0}; finger < fingers; ++finger) {
+    if (plan::FindFinger(holding, finger) == nullptr) return finger;
   }
   throw std::invalid_argument("the hand has too few fingers for the switch");
 }

@@ -51,7 +51,7 @@ int NearestContact(const std::vector<grasp::Contact>& contacts, const grasp::Con
 std::vector<int> ClusterOfTriangles(const object::Polyhedron& solid,
                                     const ContactClusters& clusters) {
   std::vector<int> cluster_of;
-  for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
+  for (object::TriangleIndex i{0}; i < std::ssize(solid.triangles()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
     const auto& v = solid.vertices();
     const grasp::Contact centroid = sampling::ContactOnTriangle(solid, i, (v[a] + v[b] + v[c]) / 3);

@@ -14,13 +14,13 @@ namespace {
 constexpr double kFineTriangle = 0.25;
 
 bool IsFine(const object::Polyhedron& solid, double area_per_point) {
-  for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
+  for (object::TriangleIndex i{0}; i < std::ssize(solid.triangles()); ++i) {
     if (TriangleArea(solid, i) > kFineTriangle * area_per_point) return false;
   }
   return true;
 }
 
-grasp::Contact TriangleCentroid(const object::Polyhedron& solid, int triangle) {
+grasp::Contact TriangleCentroid(const object::Polyhedron& solid, object::TriangleIndex triangle) {
   const auto& [a, b, c] = solid.triangles()[triangle];
   const auto& v = solid.vertices();
   return ContactOnTriangle(solid, triangle, (v[a] + v[b] + v[c]) / 3);
@@ -38,7 +38,7 @@ std::vector<grasp::Contact> DrawCandidates(const object::Polyhedron& solid, int 
       candidates.push_back(sampler.DrawAnywhere(random));
       continue;
     }
-    const int triangle = sampler.DrawFacet(random);
+    const object::TriangleIndex triangle = sampler.DrawTriangle(random);
     if (!taken[triangle]) candidates.push_back(TriangleCentroid(solid, triangle));
     taken[triangle] = true;
   }
@@ -80,7 +80,7 @@ std::vector<grasp::Contact> MeshContacts(const object::Polyhedron& solid, int mo
   const bool few_faces = std::int64_t{kFewFaces} * solid.face_count() < most;
   if (triangles > most || few_faces) return SpreadContactPoints(solid, most, seed);
   std::vector<grasp::Contact> points;
-  for (int i = 0; i < triangles; ++i) {
+  for (object::TriangleIndex i{0}; i < triangles; ++i) {
     if (solid.IsEnclosed(solid.face_of_triangle(i))) continue;
     points.push_back(TriangleCentroid(solid, i));
   }

@@ -19,7 +19,7 @@ struct Direction {
 
 std::vector<Direction> SortedNormals(const object::Object& polygon) {
   std::vector<Direction> sorted;
-  for (int e = 0; e < polygon.face_count(); ++e) {
+  for (FaceIndex e{0}; e < polygon.face_count(); ++e) {
     const Eigen::Vector3d normal = polygon.inward_normal(e);
     sorted.push_back({std::atan2(normal.y(), normal.x()), normal});
   }
@@ -46,7 +46,7 @@ bool HasOpposedEdges(const object::Object& polygon, double half_angle) {
 }
 
 /// The numbers of contacts to try, in their order.
-std::vector<int> DrawOrder(const object::Object& object, const ContactLimits& contacts,
+std::vector<int> DrawOrder(const object::Object& object, const grasp::ContactLimits& contacts,
                            RandomStream& random) {
   if (object.dimension() == 3) return {contacts.least};
   std::vector<int> order(contacts.most - contacts.least + 1);
@@ -72,7 +72,7 @@ std::string OfRadius(double finger_radius) {
   return finger_radius > 0 ? " of radius " + FormatShort(finger_radius) : "";
 }
 
-std::string Range(const ContactLimits& contacts) {
+std::string Range(const grasp::ContactLimits& contacts) {
   const std::string least = std::to_string(contacts.least);
   return contacts.most > contacts.least ? least + " and as many of " + std::to_string(contacts.most)
                                         : least;
@@ -89,7 +89,7 @@ std::optional<grasp::Grasp> DrawGoodGrasp(const std::function<grasp::Grasp()>& d
   return std::nullopt;
 }
 
-grasp::Grasp DrawOnSurface(const object::Object& object, const ContactLimits& contacts,
+grasp::Grasp DrawOnSurface(const object::Object& object, const grasp::ContactLimits& contacts,
                            const criteria::GraspEvaluator& evaluator, RandomStream& random,
                            const std::string& name, const std::function<void()>& before_draw) {
   const double radius = evaluator.finger_radius();

@@ -8,7 +8,6 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
-#include "planner/sampling/contact_limits.h"
 #include "planner/sampling/no_grasp.h"
 
 namespace regrasp::sampling {
@@ -29,7 +28,7 @@ namespace regrasp::sampling {
 /// @throws NoGrasp  none of kMaxSurfaceDraws draws of each number is accepted, or fingers reach
 ///                  next to nothing of the surface.
 [[nodiscard]] grasp::Grasp DrawOnSurface(
-    const object::Object& object, const ContactLimits& contacts,
+    const object::Object& object, const grasp::ContactLimits& contacts,
     const criteria::GraspEvaluator& evaluator, RandomStream& random, const std::string& name,
     const std::function<void()>& before_draw = [] {});
 

@@ -24,15 +24,16 @@ constexpr double kFirstLook = 1.0 / 64;
 
 }  // namespace
 
-double TriangleArea(const object::Polyhedron& solid, int triangle) {
+double TriangleArea(const object::Polyhedron& solid, object::TriangleIndex triangle) {
   const auto& [a, b, c] = solid.triangles()[triangle];
   const Vector3d ab = solid.vertices()[b] - solid.vertices()[a];
   const Vector3d ac = solid.vertices()[c] - solid.vertices()[a];
   return ab.cross(ac).norm() / 2;
 }
 
-grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, int triangle, const Vector3d& p) {
-  const int face = solid.face_of_triangle(triangle);
+grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, object::TriangleIndex triangle,
+                                 const Vector3d& p) {
+  const FaceIndex face = solid.face_of_triangle(triangle);
   return {solid.ClosestPoint(face, p), solid.inward_normal(face), face};
 }
 
@@ -43,13 +44,13 @@ SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radiu
       from_border_(from_border),
       solid_(dynamic_cast<const object::Polyhedron*>(&object)),
       polygon_(dynamic_cast<const object::Polygon*>(&object)) {
-  for (int face = 0; face < object.face_count(); ++face) {
+  for (FaceIndex face{0}; face < object.face_count(); ++face) {
     first_facet_.push_back(static_cast<int>(facets_.size()));
     if (object.IsEnclosed(face)) continue;
     if (solid_ == nullptr) {
       facets_.push_back(face);
     } else {
-      const std::vector<int>& triangles = solid_->faces()[face].triangles;
+      const auto& triangles = solid_->faces()[face].triangles;
       facets_.insert(facets_.end(), triangles.begin(), triangles.end());
     }
   }
@@ -59,7 +60,8 @@ SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radiu
 }
 
 double SurfaceSampler::MeasureOf(int facet) const {
-  return solid_ == nullptr ? polygon_->face_measure(facet) : TriangleArea(*solid_, facet);
+  return solid_ == nullptr ? polygon_->face_measure(FaceIndex(facet))
+                           : TriangleArea(*solid_, object::TriangleIndex(facet));
 }
 
 bool SurfaceSampler::IsValid(const grasp::Contact& contact) const {
@@ -68,7 +70,7 @@ bool SurfaceSampler::IsValid(const grasp::Contact& contact) const {
          criteria::CanReach(object_, contact, finger_radius_);
 }
 
-SurfaceSampler::Range SurfaceSampler::RangeOf(int face) const {
+SurfaceSampler::Range SurfaceSampler::RangeOf(FaceIndex face) const {
   const int first = first_facet_[face];
   return {first == 0 ? 0 : up_to_[first - 1], up_to_[first_facet_[face + 1] - 1]};
 }
@@ -82,8 +84,8 @@ std::size_t SurfaceSampler::PlaceAt(double sum) const {
   return std::min<std::size_t>(above - up_to_.begin(), up_to_.size() - 1);
 }
 
-int SurfaceSampler::DrawFacet(RandomStream& random) const {
-  return facets_[PlaceAt(DrawSum(Everywhere(), random))];
+object::TriangleIndex SurfaceSampler::DrawTriangle(RandomStream& random) const {
+  return object::TriangleIndex(facets_[PlaceAt(DrawSum(Everywhere(), random))]);
 }
 
 grasp::Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) const {
@@ -92,14 +94,14 @@ grasp::Contact SurfaceSampler::DrawIn(const Range& range, RandomStream& random) 
   const int facet = facets_[place];
   if (solid_ == nullptr) {
     const double along = sum - (place == 0 ? 0 : up_to_[place - 1]);
-    return grasp::ContactAt(*polygon_, facet, std::min(along / MeasureOf(facet), 1.0));
+    return grasp::ContactAt(*polygon_, FaceIndex(facet), std::min(along / MeasureOf(facet), 1.0));
   }
   const auto& [a, b, c] = solid_->triangles()[facet];
   const auto& v = solid_->vertices();
   const double root = std::sqrt(random.Uniform());
   const double along = random.Uniform();
   const Vector3d p = (1 - root) * v[a] + root * (1 - along) * v[b] + root * along * v[c];
-  return ContactOnTriangle(*solid_, facet, p);
+  return ContactOnTriangle(*solid_, object::TriangleIndex(facet), p);
 }
 
 grasp::Contact SurfaceSampler::DrawAnywhere(RandomStream& random) const {
@@ -124,7 +126,7 @@ grasp::Contact SurfaceSampler::Draw(RandomStream& random) const {
   return valid ? *valid : DrawAnywhere(random);
 }
 
-grasp::Contact SurfaceSampler::DrawOn(int face, RandomStream& random) const {
+grasp::Contact SurfaceSampler::DrawOn(FaceIndex face, RandomStream& random) const {
   const auto valid = DrawValid(RangeOf(face), random);
   return valid ? *valid : DrawIn(RangeOf(face), random);
 }
@@ -153,14 +155,17 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
   const Vector3d p = DrawBeside(contact, reach, random);
   // Looking for the nearest face far away is dear, and most are near.
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
-    std::vector<int> faces = object_.FacesNear(p, radius);
-    std::erase_if(faces, [&](int face) { return object_.IsEnclosed(face); });
+    std::vector<FaceIndex> faces = object_.FacesNear(p, radius);
+    std::erase_if(faces, [&](FaceIndex face) { return object_.IsEnclosed(face); });
     if (faces.empty()) continue;
     // Where an edge is nearest, so are both of its faces.
-    const auto distance = [&](int face) { return (object_.ClosestPoint(face, p) - p).norm(); };
+    const auto distance = [&](FaceIndex face) {
+      return (object_.ClosestPoint(face, p) - p).norm();
+    };
     const double nearest = distance(faces.front()) + kOffFace * object_.diameter();
-    const auto farther = std::ranges::find_if(faces, [&](int f) { return distance(f) > nearest; });
-    const int face = faces[random.Index(static_cast<std::uint64_t>(farther - faces.begin()))];
+    const auto farther =
+        std::ranges::find_if(faces, [&](FaceIndex f) { return distance(f) > nearest; });
+    const FaceIndex face = faces[random.Index(static_cast<std::uint64_t>(farther - faces.begin()))];
     const Vector3d n = object_.inward_normal(face);
     const Vector3d on_face = object_.ClosestPoint(face, p);
     const bool is_inside = (on_face - p).cross(n).norm() <= kOffFace * object_.diameter();
@@ -169,7 +174,7 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
   return contact;
 }
 
-Vector3d SurfaceSampler::DrawInwards(int face, const Vector3d& border, double reach,
+Vector3d SurfaceSampler::DrawInwards(FaceIndex face, const Vector3d& border, double reach,
                                      RandomStream& random) const {
   const Vector3d inside = DrawIn(RangeOf(face), random).p - border;
   // The best grasps are the widest ones: most of the draws stay as near to the border as they may.

@@ -6,6 +6,7 @@
 #include "planner/base/random.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/object.h"
+#include "planner/object/triangle_mesh.h"
 
 namespace regrasp::object {
 class Polygon;
@@ -35,8 +36,8 @@ class SurfaceSampler {
   /// its face.
   [[nodiscard]] bool IsValid(const grasp::Contact& contact) const;
 
-  /// A facet, by its measure: a triangle of the solid or an edge of the polygon.
-  [[nodiscard]] int DrawFacet(RandomStream& random) const;
+  /// Of a solid, by area.
+  [[nodiscard]] object::TriangleIndex DrawTriangle(RandomStream& random) const;
 
   /// Evenly over the whole surface, valid or not.
   [[nodiscard]] grasp::Contact DrawAnywhere(RandomStream& random) const;
@@ -46,7 +47,7 @@ class SurfaceSampler {
   /// Evenly over the whole surface or over one face (of no cavity), where it is valid. On nearly
   /// all of a surface contacts are: where none of kMostDraws draws is, one that is not.
   [[nodiscard]] grasp::Contact Draw(RandomStream& random) const;
-  [[nodiscard]] grasp::Contact DrawOn(int face, RandomStream& random) const;
+  [[nodiscard]] grasp::Contact DrawOn(FaceIndex face, RandomStream& random) const;
 
   /// Near a contact, on its face: beside it by no more than `reach` along each axis of the face, or
   /// where that is off the face about as far from the border there. May be invalid: that costs more
@@ -68,7 +69,7 @@ class SurfaceSampler {
 
   [[nodiscard]] double MeasureOf(int facet) const;
   [[nodiscard]] Range Everywhere() const { return {0, measure()}; }
-  [[nodiscard]] Range RangeOf(int face) const;
+  [[nodiscard]] Range RangeOf(FaceIndex face) const;
   /// A place among the running sums, and the facet there by its place in facets_.
   [[nodiscard]] double DrawSum(const Range& range, RandomStream& random) const;
   [[nodiscard]] std::size_t PlaceAt(double sum) const;
@@ -79,8 +80,8 @@ class SurfaceSampler {
   [[nodiscard]] Eigen::Vector3d DrawBeside(const grasp::Contact& contact, double reach,
                                            RandomStream& random) const;
   /// A point of the face no farther than `reach` from a point of its border.
-  [[nodiscard]] Eigen::Vector3d DrawInwards(int face, const Eigen::Vector3d& border, double reach,
-                                            RandomStream& random) const;
+  [[nodiscard]] Eigen::Vector3d DrawInwards(FaceIndex face, const Eigen::Vector3d& border,
+                                            double reach, RandomStream& random) const;
 
   const object::Object& object_;
   double finger_radius_;
@@ -92,10 +93,11 @@ class SurfaceSampler {
   std::vector<int> first_facet_;     ///< by face: place in facets_, and their number at the end
 };
 
-[[nodiscard]] double TriangleArea(const object::Polyhedron& solid, int triangle);
+[[nodiscard]] double TriangleArea(const object::Polyhedron& solid, object::TriangleIndex triangle);
 
 /// The contact at a point of a triangle of the solid: its face's normal, p on the face.
-[[nodiscard]] grasp::Contact ContactOnTriangle(const object::Polyhedron& solid, int triangle,
+[[nodiscard]] grasp::Contact ContactOnTriangle(const object::Polyhedron& solid,
+                                               object::TriangleIndex triangle,
                                                const Eigen::Vector3d& p);
 
 }  // namespace regrasp::sampling

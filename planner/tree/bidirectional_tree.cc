@@ -27,7 +27,7 @@ constexpr double kNarrower = 0.7;
 constexpr double kLeastTravel = 0.05;
 
 /// Contacts have nowhere to go on it.
-bool IsSmall(int face, const object::Object& object) {
+bool IsSmall(FaceIndex face, const object::Object& object) {
   const double travel = kLeastTravel * object.diameter();
   return object.face_measure(face) < (object.dimension() == 3 ? travel * travel : travel);
 }
@@ -245,7 +245,7 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
     space_.CountTests(kDrawCost);
     if (set.size() == space_.fingers()) continue;
     const int leaving = static_cast<int>(random_.Index(set.size()));
-    const int face = FaceAcross(side);
+    const FaceIndex face = FaceAcross(side);
     const grasp::Grasp before = space_.GraspOf(set);
     FaceTuple tuple;
     for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
@@ -264,9 +264,9 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
   }
 }
 
-int BidirectionalTree::FaceAcross(int side) {
+FaceIndex BidirectionalTree::FaceAcross(int side) {
   const ReachedGrasps& other = trees_[1 - side].reached;
-  if (random_.Index(2) == 0) return static_cast<int>(random_.Index(space_.object().face_count()));
+  if (random_.Index(2) == 0) return FaceIndex(random_.Index(space_.object().face_count()));
   const criteria::ContactSet set = other[static_cast<int>(random_.Index(other.size()))];
   return space_.contact(set[static_cast<int>(random_.Index(set.size()))]).face;
 }

@@ -60,7 +60,7 @@ class BidirectionalTree {
   /// Looks for transitions from random grasps of the tree to tuples of faces new to it.
   void GrowAcross(int side, std::int64_t until);
   /// Any face of the body, or one that the other tree's grasps are on.
-  int FaceAcross(int side);
+  FaceIndex FaceAcross(int side);
   /// Reaches a grasp by an align, whose node is returned; −1 where none was proved.
   int AlignTo(int side, int node, const criteria::ContactSet& set);
   /// The same for the last of several grasps, over some of the others where it has to be.

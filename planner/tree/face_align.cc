@@ -45,9 +45,7 @@ bool IsFree(const std::vector<grasp::Grasp>& waypoints, const SearchSpace& space
   if (space.finger_radius() == 0) return true;
   plan::Align align;
   for (const grasp::Grasp& grasp : waypoints) {
-    plan::FingerGrasp& held = align.waypoints.emplace_back();
-    for (const grasp::Contact& contact : grasp)
-      held.push_back({static_cast<int>(held.size()), contact});
+    align.waypoints.push_back(plan::FingersInOrder(grasp));
   }
   return !plan::FindStepObstacle(space.object(), align.waypoints.front(), align,
                                  space.finger_radius());

@@ -35,7 +35,7 @@ struct FaceAlign {
 [[nodiscard]] double TravelOf(const FaceAlign& align, const SearchSpace& space);
 
 /// The faces of a grasp's contacts, ascending.
-using FaceTuple = std::vector<int>;
+using FaceTuple = std::vector<FaceIndex>;
 [[nodiscard]] FaceTuple TupleOf(const criteria::ContactSet& set, const SearchSpace& space);
 
 /// Whether an align may take a contact to another face: to a neighbouring one, or near by (kNear).

@@ -36,7 +36,7 @@ Vector3d CrossingPoint(const object::FaceBorder& edge, const Vector3d& p, const 
 
 /// A face that was reached, and where it was entered.
 struct Entry {
-  int face;
+  FaceIndex face;
   Vector3d at;
   double length;  ///< of the path to there
   int crossings;
@@ -65,7 +65,7 @@ class RouteSearch {
       queue.emplace(entry.length + (to_.p - entry.at).norm(), static_cast<int>(entries_.size()));
       entries_.push_back(entry);
     };
-    std::set<int> done;
+    std::set<FaceIndex> done;
     push({from_.face, from_.p, 0, 0, -1, {}});
     while (!queue.empty()) {
       const int number = queue.top().second;
@@ -83,7 +83,7 @@ class RouteSearch {
     return -1;
   }
 
-  [[nodiscard]] bool CanCross(int face, const object::FaceBorder& edge) const {
+  [[nodiscard]] bool CanCross(FaceIndex face, const object::FaceBorder& edge) const {
     return edge.convex &&
            grasp::AngleBetween(object_.inward_normal(face), object_.inward_normal(edge.beyond)) <=
                motion::kMostTurn;
@@ -110,7 +110,7 @@ class RouteSearch {
     }
     SurfaceRoute route = {from_};
     for (std::size_t i = 0; i < crossings.size(); ++i) {
-      const int beyond = crossings[i]->face;
+      const FaceIndex beyond = crossings[i]->face;
       route.push_back({points[i + 1], route.back().n, route.back().face});
       route.push_back({points[i + 1], object_.inward_normal(beyond), beyond});
     }

@@ -26,7 +26,7 @@ std::string OverviewCaption(const ContactSpaceMap& map, double half_angle) {
          "; dots: the grasp after each step; solid: aligns; dashed: switches";
 }
 
-std::string SwitchCaption(const ContactSwitch& step, const plan::Plan& plan, int finger,
+std::string SwitchCaption(const ContactSwitch& step, const plan::Plan& plan, FingerIndex finger,
                           double place) {
   const auto& [before, after] = step.sides;
   const auto half_width = [](const ContactSwitchSide& side) {
@@ -56,7 +56,7 @@ std::optional<std::string> ContactSpaceFigures::DrawSwitch(int entry, FigureForm
   const auto step = DescribeContactSwitch(geometry_, track_, entry, names_);
   if (!step) return std::nullopt;
   const int axis = *track_[entry].shared_axis;
-  const int finger = track_[entry].grasp[axis].finger;
+  const FingerIndex finger = track_[entry].grasp[axis].finger;
   const double place = step->sides[0].grasp.y();
   return DrawContactSwitch(graph_.boundary(), *step, SwitchCaption(*step, plan_, finger, place),
                            format);

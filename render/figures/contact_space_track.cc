@@ -1,6 +1,5 @@
 #include "render/figures/contact_space_track.h"
 
-#include <algorithm>
 #include <cassert>
 #include <variant>
 
@@ -15,11 +14,6 @@ AxisGrasp OnAxes(const plan::FingerGrasp& grasp, const AxisGrasp& axes) {
   return {grasp[turned ? 1 : 0], grasp[turned ? 0 : 1]};
 }
 
-bool Holds(const plan::FingerGrasp& grasp, int finger) {
-  return std::ranges::any_of(grasp,
-                             [&](const plan::FingerContact& c) { return c.finger == finger; });
-}
-
 void Follow(const plan::Align& step, const AxisGrasp& before, TrackEntry& entry) {
   for (const plan::FingerGrasp& waypoint : step.waypoints) {
     entry.path.push_back(OnAxes(waypoint, before));
@@ -32,7 +26,7 @@ void Follow(const plan::Switch& step, const AxisGrasp& before, TrackEntry& entry
   assert(after.size() == 2);
   entry.grasp = {after[0], after[1]};
   for (int axis = 0; axis < 2; ++axis) {
-    if (!Holds(after, before[axis].finger)) continue;
+    if (plan::FindFinger(after, before[axis].finger) == nullptr) continue;
     entry.shared_axis = axis;
     const bool first = after[0].finger == before[axis].finger;
     entry.grasp[axis] = after[first ? 0 : 1];

@@ -40,7 +40,7 @@ void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centr
 
 }  // namespace
 
-void DrawFingerMarker(cairo_t* cr, int finger, const Eigen::Vector2d& centre, double radius,
+void DrawFingerMarker(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre, double radius,
                       bool outline) {
   const int count = static_cast<int>(kShapes.size());
   const MarkerShape& shape = kShapes[((finger % count) + count) % count];

@@ -12,7 +12,7 @@ namespace regrasp::render {
 /// pentagon; both repeat after five fingers), so that they stay apart in grey.
 /// @param radius   points; all shapes look about as large as a disc of this radius.
 /// @param outline  only the border, on white: where a finger has left.
-void DrawFingerMarker(cairo_t* cr, int finger, const Eigen::Vector2d& centre, double radius,
+void DrawFingerMarker(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre, double radius,
                       bool outline);
 
 }  // namespace regrasp::render

@@ -123,7 +123,7 @@ std::vector<Outline> CellOf(const object::Polygon& polygon, const grasp::Grasp& 
   return polygon::FocusCell(polygon, set);
 }
 
-Frame FrameOf(const object::Polygon& polygon, int face, double half_angle) {
+Frame FrameOf(const object::Polygon& polygon, FaceIndex face, double half_angle) {
   const auto [a, b] = polygon.edge(face);
   return polygon::MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))},
                                         std::tan(half_angle));
@@ -245,7 +245,7 @@ GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& g
     throw std::invalid_argument("DescribeGrasp: the half-angle is not in (0, pi/2)");
   }
   for (const grasp::Contact& contact : grasp) {
-    if (contact.face < 0 || contact.face >= polygon.face_count()) {
+    if (!contact.face.valid() || contact.face >= polygon.face_count()) {
       throw std::invalid_argument("DescribeGrasp: a contact has no face");
     }
   }

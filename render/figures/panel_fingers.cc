@@ -139,7 +139,7 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
 std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiagram& diagram,
                                   const std::vector<FingerShape>& shapes, const PanelView& view) {
   std::vector<Obstacle> obstacles;
-  for (int face = 0; face < polygon.face_count(); ++face) {
+  for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
     const auto [a, b] = polygon.edge(face);
     obstacles.push_back({view.ToPanel(a.head<2>()), view.ToPanel(b.head<2>()), 0, kBorderWeight});
   }
@@ -183,7 +183,7 @@ double OutwardRoom(const object::Polygon& polygon, const BorderPoint& from) {
     return a.x() * b.y() - a.y() * b.x();
   };
   double room = std::numeric_limits<double>::infinity();
-  for (int face = 0; face < polygon.face_count(); ++face) {
+  for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
     const auto [begin, end] = polygon.edge(face);
     const Vector2d a = begin.head<2>() - from.p;
     const Vector2d along = (end - begin).head<2>();

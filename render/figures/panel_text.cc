@@ -133,7 +133,7 @@ void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centr
   cairo_new_path(cr);
 }
 
-void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre) {
+void DrawFingerNumber(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre) {
   DrawMark(cr, std::to_string(finger), centre);
 }
 

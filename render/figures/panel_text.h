@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/index.h"
+
 namespace regrasp::render {
 
 /// Size of captions and of finger numbers, points: readable at the size the page is printed.
@@ -37,6 +39,6 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
 
 /// Writes a finger's number, centred, with a white halo.
-void DrawFingerNumber(cairo_t* cr, int finger, const Eigen::Vector2d& centre);
+void DrawFingerNumber(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre);
 
 }  // namespace regrasp::render

@@ -39,17 +39,11 @@ std::string Describe(const GraspDiagram& grasp, double friction) {
   return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
 }
 
-const plan::FingerContact* Find(const plan::FingerGrasp& grasp, int finger) {
-  const auto found = std::find_if(grasp.begin(), grasp.end(),
-                                  [&](const plan::FingerContact& c) { return c.finger == finger; });
-  return found == grasp.end() ? nullptr : &*found;
-}
-
 /// Where a finger is at the waypoints of an align.
-std::vector<BorderPoint> PathOf(const plan::Align& align, int finger) {
+std::vector<BorderPoint> PathOf(const plan::Align& align, FingerIndex finger) {
   std::vector<BorderPoint> path;
   for (const plan::FingerGrasp& waypoint : align.waypoints) {
-    const plan::FingerContact* at = Find(waypoint, finger);
+    const plan::FingerContact* at = plan::FindFinger(waypoint, finger);
     if (at != nullptr) path.push_back(BorderPointOf(at->contact));
   }
   return path;
@@ -73,10 +67,10 @@ void AddActions(const plan::FingerGrasp& /*before*/, const plan::Align& align,
 void AddActions(const plan::FingerGrasp& before, const plan::Switch& step,
                 std::vector<DiagramFinger>& fingers) {
   for (DiagramFinger& finger : fingers) {
-    if (Find(step.place, finger.finger) != nullptr) finger.role = plan::FingerRole::kPlaced;
+    if (plan::FindFinger(step.place, finger.finger)) finger.role = plan::FingerRole::kPlaced;
   }
-  for (const int released : step.release) {
-    const plan::FingerContact* at = Find(before, released);
+  for (const FingerIndex released : step.release) {
+    const plan::FingerContact* at = plan::FindFinger(before, released);
     if (at == nullptr) continue;
     fingers.push_back({released, plan::FingerRole::kReleased, BorderPointOf(at->contact), {}});
   }

@@ -19,7 +19,7 @@ struct BorderPoint {
 
 /// One finger in a figure.
 struct DiagramFinger {
-  int finger = 0;
+  FingerIndex finger = {};
   plan::FingerRole role = plan::FingerRole::kHolding;
   BorderPoint contact;
   /// The path of a moved finger, its start first and its contact last; empty for the others.

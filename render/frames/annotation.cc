@@ -42,7 +42,7 @@ constexpr double kConeStrip = 0.3;
 /// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
 constexpr double kShade = 0.82;
 
-Color NumberColor(int finger) {
+Color NumberColor(FingerIndex finger) {
   const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
   const Color color = FingerColor(finger);
   return {shade(color.r), shade(color.g), shade(color.b)};

@@ -46,8 +46,8 @@ BodyShape MakeSolidShape(const object::Polyhedron& body, const Normaliser& place
   for (const auto& [a, b, c] : body.triangles()) {
     shape.surface.AddFlat(place(vertices[a]), place(vertices[b]), place(vertices[c]));
   }
-  std::map<std::pair<int, int>, std::vector<int>> faces_of_edge;
-  for (int face = 0; face < body.face_count(); ++face) {
+  std::map<std::pair<int, int>, std::vector<FaceIndex>> faces_of_edge;
+  for (FaceIndex face{0}; face < body.face_count(); ++face) {
     for (const auto& [a, b] : body.faces()[face].border) {
       faces_of_edge[std::minmax(a, b)].push_back(face);
     }
@@ -75,7 +75,7 @@ BodyShape MakePrismShape(const object::Polygon& polygon, double thickness,
     shape.surface.AddFlat(p[0] + top, p[1] + top, p[2] + top);
     shape.surface.AddFlat(p[0] + bottom, p[2] + bottom, p[1] + bottom);
   }
-  for (int face = 0; face < polygon.face_count(); ++face) {
+  for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
     const auto [from, to] = polygon.edge(face);
     const Vector3d a = place(from);
     const Vector3d b = place(to);

@@ -24,7 +24,7 @@ struct PictureFrame {
 
 /// One finger as it is drawn: a ball that touches at `contact` and a stem that ends at `end`.
 struct FingerGlyph {
-  int finger = 0;
+  FingerIndex finger = {};
   plan::FingerRole role = plan::FingerRole::kHolding;
   Eigen::Vector3d contact;
   Eigen::Vector3d outward;  ///< unit, against the contact's normal

@@ -206,13 +206,13 @@ class FrameRenderer::Impl {
         continue;
       grasp::Contact contact = {X_OW * finger.contact_W / scale_, X_OW.linear() * finger.normal_W};
       double most = -1;
-      for (const int face : object_.FacesNear(contact.p, kFocusReach * object_.diameter())) {
+      for (const FaceIndex face : object_.FacesNear(contact.p, kFocusReach * object_.diameter())) {
         const double along = object_.inward_normal(face).dot(contact.n);
         if (along <= most) continue;
         most = along;
         contact.face = face;
       }
-      if (contact.face < 0) return {};
+      if (!contact.face.valid()) return {};
       contact.p = object_.ClosestPoint(contact.face, contact.p);
       grasp.push_back(contact);
     }

@@ -7,27 +7,26 @@ namespace regrasp::render {
 
 namespace {
 
-std::string List(const std::vector<int>& fingers) {
+std::string List(const std::vector<FingerIndex>& fingers) {
   std::string text;
-  for (const int finger : fingers) text += (text.empty() ? "" : ", ") + std::to_string(finger);
+  for (const FingerIndex finger : fingers)
+    text += (text.empty() ? "" : ", ") + std::to_string(finger);
   return text;
 }
 
-std::vector<int> FingersOf(const plan::FingerGrasp& grasp) {
-  std::vector<int> fingers;
+std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
+  std::vector<FingerIndex> fingers;
   for (const plan::FingerContact& contact : grasp) fingers.push_back(contact.finger);
   return fingers;
 }
 
 /// The fingers whose last waypoint is not their first, by number.
-std::vector<int> MovedFingers(const plan::Align& align) {
-  std::vector<int> moved;
+std::vector<FingerIndex> MovedFingers(const plan::Align& align) {
+  std::vector<FingerIndex> moved;
   if (align.waypoints.empty()) return moved;
   for (const plan::FingerContact& first : align.waypoints.front()) {
-    for (const plan::FingerContact& last : align.waypoints.back()) {
-      const bool same = first.finger == last.finger;
-      if (same && first.contact.p != last.contact.p) moved.push_back(first.finger);
-    }
+    const plan::FingerContact* last = plan::FindFinger(align.waypoints.back(), first.finger);
+    if (last != nullptr && first.contact.p != last->contact.p) moved.push_back(first.finger);
   }
   std::sort(moved.begin(), moved.end());
   return moved;
@@ -43,7 +42,7 @@ std::string Describe(const plan::Switch& step) {
 }
 
 std::string Describe(const plan::Align& step) {
-  const std::vector<int> moved = MovedFingers(step);
+  const std::vector<FingerIndex> moved = MovedFingers(step);
   return moved.empty() ? "align" : "align: move " + List(moved);
 }
 

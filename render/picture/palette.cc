@@ -4,7 +4,7 @@
 
 namespace regrasp::render {
 
-Color FingerColor(int finger) {
+Color FingerColor(FingerIndex finger) {
   static constexpr std::array<Color, 5> kColors = {{
       {0, 101, 165},   // blue
       {240, 176, 0},   // amber

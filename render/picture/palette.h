@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "planner/base/index.h"
+
 namespace regrasp::render {
 
 /// A colour, 8 bits a channel, sRGB.
@@ -16,7 +18,7 @@ struct Color {
 /// The five hues stay apart for the common kinds of colour blindness (after Okabe and Ito 2008, and
 /// Tol 2021), and their lightness rises in steps (CIE L* 31, 41, 52, 65, 76), so that they stay
 /// apart in grey too.
-[[nodiscard]] Color FingerColor(int finger);
+[[nodiscard]] Color FingerColor(FingerIndex finger);
 
 inline constexpr Color kInk = {34, 40, 52};       ///< edges of the object, text
 inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows

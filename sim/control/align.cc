@@ -19,8 +19,8 @@ bool Stays(const ReplayWorld& world, const grasp::Contact& from, const grasp::Co
   return from.face == to.face && (from.p - to.p).norm() <= kSamePoint * world.settings().diameter_m;
 }
 
-std::vector<int> FingersOf(const plan::FingerGrasp& grasp) {
-  std::vector<int> fingers;
+std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
+  std::vector<FingerIndex> fingers;
   for (const plan::FingerContact& held : grasp) fingers.push_back(held.finger);
   return fingers;
 }
@@ -78,15 +78,14 @@ void TellMoved(ReplayWorld& world, const std::vector<plan::FingerGrasp>& waypoin
     finger.role = finger.holding ? plan::FingerRole::kHolding : plan::FingerRole::kFree;
   }
   for (const plan::FingerContact& start : waypoints_B.front()) {
-    const auto end =
-        std::ranges::find(waypoints_B.back(), start.finger, &plan::FingerContact::finger);
-    if (end == waypoints_B.back().end() || Stays(world, start.contact, end->contact)) continue;
+    const plan::FingerContact* end = plan::FindFinger(waypoints_B.back(), start.finger);
+    if (end == nullptr || Stays(world, start.contact, end->contact)) continue;
     WorldFinger& finger = world.fingers()[start.finger];
     finger.role = plan::FingerRole::kMoved;
     finger.path_B.clear();
     for (const plan::FingerGrasp& grasp_B : waypoints_B) {
-      const auto at = std::ranges::find(grasp_B, start.finger, &plan::FingerContact::finger);
-      if (at != grasp_B.end()) finger.path_B.push_back(at->contact.p);
+      const plan::FingerContact* at = plan::FindFinger(grasp_B, start.finger);
+      if (at != nullptr) finger.path_B.push_back(at->contact.p);
     }
   }
 }

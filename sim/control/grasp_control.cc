@@ -4,13 +4,13 @@ namespace regrasp::sim {
 
 using Eigen::Vector3d;
 
-HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
+HandForces PlanHandForces(const ReplayWorld& world, const std::vector<FingerIndex>& fingers,
                           const grasp::Wrench& load_S, double half_angle) {
   HandForces forces(world.fingers().size(), Vector3d::Zero());
   if (fingers.empty()) return forces;
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
   grasp::Grasp contacts;
-  for (const int f : fingers) {
+  for (const FingerIndex f : fingers) {
     const grasp::Contact& planned = world.fingers()[f].contact;
     contacts.push_back({world.ContactPoint_B(f), planned.n, planned.face});
   }

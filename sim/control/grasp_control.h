@@ -14,7 +14,8 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// contacts as measured, with the full squeeze and the largest margin in their cones; the best
 /// effort where there are none.
 /// @param load_S  about the centroid, besides the weight.
-[[nodiscard]] HandForces PlanHandForces(const ReplayWorld& world, const std::vector<int>& fingers,
+[[nodiscard]] HandForces PlanHandForces(const ReplayWorld& world,
+                                        const std::vector<FingerIndex>& fingers,
                                         const grasp::Wrench& load_S, double half_angle);
 
 /// The forces that the fingers push with now.

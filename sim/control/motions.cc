@@ -19,7 +19,7 @@ double StandOff(const ReplayWorld& world) {
   return std::min(kStandOff * world.settings().diameter_m, 2 * world.settings().fingertip_radius_m);
 }
 
-void Touch(ReplayWorld& world, int finger) {
+void Touch(ReplayWorld& world, FingerIndex finger) {
   WorldFinger& state = world.fingers()[finger];
   const Vector3d tip = world.engine().tip(finger);
   // Same control as before: what pressed through the spring now presses through the feed-forward.
@@ -99,7 +99,7 @@ void PlaceFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
   CreepUntilTouch(world, placed_B);
 }
 
-void TransferForces(ReplayWorld& world, const std::vector<int>& fingers) {
+void TransferForces(ReplayWorld& world, const std::vector<FingerIndex>& fingers) {
   BlendForces(world, PlanHandForces(world, fingers, {}, world.half_angle()));
 }
 
@@ -108,10 +108,10 @@ void BlendForces(ReplayWorld& world, const HandForces& to) {
   world.Run(kTransferTime, [&](double share) { MixForces(world, from, to, share); });
 }
 
-void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
+void RetractFingers(ReplayWorld& world, const std::vector<FingerIndex>& fingers) {
   if (fingers.empty()) return;
   std::vector<Vector3d> start, offset;
-  for (const int f : fingers) {
+  for (const FingerIndex f : fingers) {
     WorldFinger& finger = world.fingers()[f];
     finger.holding = false;
     finger.role = plan::FingerRole::kReleased;
@@ -123,14 +123,15 @@ void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers) {
       world.fingers()[fingers[i]].anchor_S = start[i] + Smooth(share) * offset[i];
     }
   });
-  for (const int f : fingers) world.engine().SetSite(f, SiteIndex());
+  for (const FingerIndex f : fingers) world.engine().SetSite(f, SiteIndex());
 }
 
 void SwitchFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B,
-                   const std::vector<int>& released) {
+                   const std::vector<FingerIndex>& released) {
   PlaceFingers(world, placed_B);
-  std::vector<int> after = world.HoldingFingers();
-  std::erase_if(after, [&](int f) { return std::ranges::find(released, f) != released.end(); });
+  std::vector<FingerIndex> after = world.HoldingFingers();
+  std::erase_if(after,
+                [&](FingerIndex f) { return std::ranges::find(released, f) != released.end(); });
   TransferForces(world, after);
   RetractFingers(world, released);
 }

@@ -16,17 +16,17 @@ void TakeHold(ReplayWorld& world, const plan::FingerGrasp& grasp_B);
 void PlaceFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B);
 
 /// Forces change, on a straight line, into those with which `fingers` hold the object.
-void TransferForces(ReplayWorld& world, const std::vector<int>& fingers);
+void TransferForces(ReplayWorld& world, const std::vector<FingerIndex>& fingers);
 
 /// Forces change into these in kTransferTime.
 void BlendForces(ReplayWorld& world, const HandForces& to);
 
 /// Fingers that push with no force go back along the normals.
-void RetractFingers(ReplayWorld& world, const std::vector<int>& fingers);
+void RetractFingers(ReplayWorld& world, const std::vector<FingerIndex>& fingers);
 
 /// Place, transfer to the grasp without the released fingers, retract.
 void SwitchFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B,
-                   const std::vector<int>& released);
+                   const std::vector<FingerIndex>& released);
 
 /// Lengths over D, forces over the squeeze, durations in natural times (ReplaySettings).
 inline constexpr double kStandOff = 0.05;     ///< where a free finger waits before and after

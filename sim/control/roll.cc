@@ -64,7 +64,7 @@ HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B
 }
 
 /// Takes a tip along with its contact; whatever it is off the plan stays.
-void MoveAlong(ReplayWorld& world, int finger, const grasp::Contact& contact_B) {
+void MoveAlong(ReplayWorld& world, FingerIndex finger, const grasp::Contact& contact_B) {
   WorldFinger& state = world.fingers()[finger];
   const double radius = world.settings().fingertip_radius_m;
   const Vector3d offset_S =

@@ -36,16 +36,16 @@ struct SlideForces {
 
 /// Forces while `finger` slides towards `direction_B`, pressing with `normal`: the finger's is on
 /// its cone's edge, the others balance it and the weight inside narrower cones.
-SlideForces PlanSlide(const ReplayWorld& world, int finger, const grasp::Contact& at_B,
+SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                       const Vector3d& direction_B, double normal, double friction_share) {
   const double mu = world.settings().mu;
   const double radius = world.settings().diameter_m / 2;
   const Vector3d pushed_B = normal * (at_B.n + mu * direction_B);
-  std::vector<int> others = world.HoldingFingers();
+  std::vector<FingerIndex> others = world.HoldingFingers();
   std::erase(others, finger);
   grasp::Grasp contacts;
-  for (const int f : others) {
-    contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, -1});
+  for (const FingerIndex f : others) {
+    contacts.push_back({world.ContactPoint_B(f), world.fingers()[f].contact.n, {}});
   }
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
   const grasp::Wrench load{R_SB.transpose() * world.weight_S() + pushed_B,
@@ -63,7 +63,7 @@ SlideForces PlanSlide(const ReplayWorld& world, int finger, const grasp::Contact
 
 /// The smallest normal force with a good margin, or else the one with the best; with the whole
 /// friction only where kSlideFriction of it leaves no margin.
-SlideForces ChooseSlide(const ReplayWorld& world, int finger, const grasp::Contact& at_B,
+SlideForces ChooseSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
   for (const double friction_share : {kSlideFriction, 1.0}) {
@@ -85,8 +85,8 @@ Vector3d Direction(const grasp::Contact& from, const grasp::Contact& to) {
 }
 
 /// One straight segment of the path: tip and forces change together, at constant rates.
-void MoveTip(ReplayWorld& world, int finger, const grasp::Contact& from, const grasp::Contact& to,
-             const HandForces& forces_after, double duration) {
+void MoveTip(ReplayWorld& world, FingerIndex finger, const grasp::Contact& from,
+             const grasp::Contact& to, const HandForces& forces_after, double duration) {
   const HandForces forces_before = CurrentForces(world);
   WorldFinger& state = world.fingers()[finger];
   world.Run(duration, [&](double share) {
@@ -103,14 +103,14 @@ double TipTravel(const ReplayWorld& world, const grasp::Contact& from, const gra
 
 }  // namespace
 
-double SlideMargin(const ReplayWorld& world, int finger, const grasp::Contact& from_B,
+double SlideMargin(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& from_B,
                    const grasp::Contact& to_B) {
   const Vector3d direction = Direction(from_B, to_B);
   return std::min(ChooseSlide(world, finger, from_B, direction).margin,
                   ChooseSlide(world, finger, to_B, direction).margin);
 }
 
-void SlideFinger(ReplayWorld& world, int finger, const grasp::Contact& from_B,
+void SlideFinger(ReplayWorld& world, FingerIndex finger, const grasp::Contact& from_B,
                  const grasp::Contact& to_B) {
   const double travel = TipTravel(world, from_B, to_B) / world.settings().diameter_m;
   const int segments = std::max(1, static_cast<int>(std::ceil(travel / kSegment)));

@@ -49,7 +49,7 @@ double SearchReplay(ReplayWorld& world, KeepRest& rest, const Push& push) {
 
 double SearchAnalysis(const ReplayWorld& world, const Push& push) {
   grasp::Grasp contacts;
-  for (const int f : world.HoldingFingers()) contacts.push_back(world.fingers()[f].contact);
+  for (const FingerIndex f : world.HoldingFingers()) contacts.push_back(world.fingers()[f].contact);
   if (contacts.empty()) return 0;
   const auto largest = grasp::ComputeLargestLoad(contacts, world.frame_B(), world.half_angle(),
                                                  {world.weight_S(), {0, 0, 0}}, PushWrench(push, 1),

@@ -48,7 +48,7 @@ class NoisyHand {
 
   /// Directions in which a contact can be off without leaving any face that it is on.
   [[nodiscard]] std::vector<Vector3d> Directions(const grasp::Contact& contact,
-                                                 const std::vector<int>& faces) const {
+                                                 const std::vector<FaceIndex>& faces) const {
     const Vector3d n = contact.n;
     if (object_.dimension() == 2) {
       if (faces.size() > 1) return {};
@@ -65,16 +65,17 @@ class NoisyHand {
   }
 
   [[nodiscard]] bool CanTouch(const grasp::Contact& from, const grasp::Contact& at,
-                              const std::vector<int>& faces) const {
+                              const std::vector<FaceIndex>& faces) const {
     const double tolerance = object::kPointTolerance * object_.diameter();
-    const bool inside = std::ranges::all_of(
-        faces, [&](int face) { return object_.ContainsSegment(face, from.p, at.p, tolerance); });
+    const bool inside = std::ranges::all_of(faces, [&](FaceIndex face) {
+      return object_.ContainsSegment(face, from.p, at.p, tolerance);
+    });
     return inside && criteria::ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
   }
 
   [[nodiscard]] grasp::Contact Draw(const grasp::Contact& meant) {
     if (noise_.deviation == 0) return meant;
-    const std::vector<int> faces =
+    const std::vector<FaceIndex> faces =
         object_.FacesNear(meant.p, object::kPointTolerance * object_.diameter());
     const std::vector<Vector3d> directions = Directions(meant, faces);
     if (directions.empty()) return meant;
@@ -91,7 +92,7 @@ class NoisyHand {
   const object::Object& object_;
   ContactNoise noise_;
   RandomStream& random_;
-  std::map<int, Held> held_;
+  std::map<FingerIndex, Held> held_;
 };
 
 }  // namespace

@@ -22,11 +22,11 @@ using Finding = std::optional<Disagreement>;
 /// A fingertip counts as too thick only where it exceeds the clearance by more than rounding.
 constexpr double kThicker = 1 + 1e-6;
 
-std::string Finger(int finger) { return "finger " + std::to_string(finger); }
+std::string Finger(FingerIndex finger) { return "finger " + std::to_string(finger); }
 
 /// A finger that slid off its face pushes on another one; what it lacks to the planned cone then is
 /// no number to tell.
-Disagreement ConeReached(const std::string& what, int finger, double margin) {
+Disagreement ConeReached(const std::string& what, FingerIndex finger, double margin) {
   const double degrees = Degrees(std::max(margin, 0.0));
   return {.cause = Cause::kConeReached,
           .text = what + ": margin " + FormatShort(degrees, 2) + " deg",
@@ -171,7 +171,7 @@ class ReplayFault {
                                         {&step_.replay.shake_margins, "during the shake"}}) {
       const auto least = SmallestMargin(*margins);
       if (!least || *least >= kConeReached) continue;
-      const int finger = FingerOfSmallestMargin(*margins);
+      const FingerIndex finger = FingerOfSmallestMargin(*margins);
       return ConeReached("the force of " + Finger(finger) + " reached its friction cone " + when,
                          finger, *least);
     }
@@ -188,7 +188,7 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
   const StepMotion& fixed = *step.replay.fixed;
   const auto least = SmallestMargin(fixed.shake_margins);
   if (least && *least < kConeReached) {
-    const int finger = FingerOfSmallestMargin(fixed.shake_margins);
+    const FingerIndex finger = FingerOfSmallestMargin(fixed.shake_margins);
     return ConeReached("with the squeeze of the rest the force of " + Finger(finger) +
                            " reached its friction cone",
                        finger, *least);

@@ -90,7 +90,7 @@ StepMotion ShakeAtRest(ReplayWorld& world, DisturbanceResponse response) {
 
 FingerMargins MarginsNow(const ReplayWorld& world) {
   FingerMargins margins;
-  for (const int f : world.HoldingFingers()) {
+  for (const FingerIndex f : world.HoldingFingers()) {
     const Eigen::Vector3d force = world.engine().contact_force(f);
     const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
     if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;

@@ -13,8 +13,8 @@ namespace {
 plan::FingerGrasp InOrderOf(const plan::FingerGrasp& from, const plan::FingerGrasp& to) {
   plan::FingerGrasp ordered;
   for (const plan::FingerContact& held : from) {
-    const auto match = std::ranges::find(to, held.finger, &plan::FingerContact::finger);
-    ordered.push_back(match == to.end() ? held : *match);
+    const plan::FingerContact* match = plan::FindFinger(to, held.finger);
+    ordered.push_back(match == nullptr ? held : *match);
   }
   return ordered;
 }

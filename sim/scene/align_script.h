@@ -41,8 +41,8 @@ struct AlignScript {
 
 /// What a script has to keep to.
 struct AlignLimits {
-  double half_angle = 0;   ///< friction, radians
-  std::vector<int> spare;  ///< fingers that hold nothing
+  double half_angle = 0;           ///< friction, radians
+  std::vector<FingerIndex> spare;  ///< fingers that hold nothing
   /// Wherever a finger comes to rest a ball of this radius should fit
   /// (planner/criteria/clearance.h), the unit that of the object.
   double clearance = 0;

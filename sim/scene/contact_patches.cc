@@ -97,10 +97,10 @@ void DropSlivers(std::vector<Ring>& pieces, double window_area) {
   std::erase_if(pieces, [&](const Ring& piece) { return Area(piece) <= least; });
 }
 
-std::vector<Ring> ClipTriangles(const object::Polyhedron& body, int face, const Chart& chart,
+std::vector<Ring> ClipTriangles(const object::Polyhedron& body, FaceIndex face, const Chart& chart,
                                 const Rectangle& window) {
   std::vector<Ring> pieces;
-  for (const int t : body.faces()[face].triangles) {
+  for (const object::TriangleIndex t : body.faces()[face].triangles) {
     const auto& [a, b, c] = body.triangles()[t];
     const Kernel::Triangle_2 triangle(chart.Project(body.vertices()[a]),
                                       chart.Project(body.vertices()[b]),

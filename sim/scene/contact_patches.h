@@ -11,7 +11,7 @@ namespace regrasp::sim {
 /// Where a finger touches: a face (an edge, in the plane), and the straight path of the contact on
 /// it (a point where `from` is `to`). Lengths are the object's own units.
 struct ContactSite {
-  int face = -1;
+  FaceIndex face = {};
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };

@@ -92,12 +92,14 @@ struct Engine::Impl {
   int slides = 0;  ///< of a finger: 3 in space, 2 in the plane
   std::vector<int> body_of_finger;
   std::vector<int> geom_of_finger;
-  std::vector<int> finger_of_geom;  ///< −1 for the object's
+  std::vector<FingerIndex> finger_of_geom;  ///< none for the object's
   std::vector<std::vector<int>> geoms_of_site;
 
   Impl(const std::string& mjcf, int fingers, const EngineUnits& given);
-  [[nodiscard]] int First(int finger) const;  ///< index of a finger's first coordinate
-  [[nodiscard]] int BitOf(int finger) const { return model->geom_contype[geom_of_finger[finger]]; }
+  [[nodiscard]] int First(FingerIndex finger) const;  ///< index of a finger's first coordinate
+  [[nodiscard]] int BitOf(FingerIndex finger) const {
+    return model->geom_contype[geom_of_finger[finger]];
+  }
 };
 
 Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& given)
@@ -105,8 +107,8 @@ Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& give
   data.reset(mj_makeData(model.get()));
   if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
   object = mj_name2id(model.get(), mjOBJ_BODY, "object");
-  finger_of_geom.assign(model->ngeom, -1);
-  for (int f = 0; f < fingers; ++f) {
+  finger_of_geom.resize(model->ngeom);
+  for (FingerIndex f{0}; f < fingers; ++f) {
     const std::string name = "finger" + std::to_string(f);
     body_of_finger.push_back(mj_name2id(model.get(), mjOBJ_BODY, name.c_str()));
     geom_of_finger.push_back(mj_name2id(model.get(), mjOBJ_GEOM, name.c_str()));
@@ -127,7 +129,9 @@ Engine::Impl::Impl(const std::string& mjcf, int fingers, const EngineUnits& give
   mj_forward(model.get(), data.get());
 }
 
-int Engine::Impl::First(int finger) const { return model->body_jntadr[body_of_finger[finger]]; }
+int Engine::Impl::First(FingerIndex finger) const {
+  return model->body_jntadr[body_of_finger[finger]];
+}
 
 Engine::Engine(const std::string& mjcf, int fingers, const EngineUnits& units)
     : impl_(std::make_unique<Impl>(mjcf, fingers, units)) {}
@@ -148,7 +152,7 @@ Eigen::Isometry3d Engine::object_pose() const {
   return pose;
 }
 
-Vector3d Engine::tip(int finger) const {
+Vector3d Engine::tip(FingerIndex finger) const {
   const mjModel& m = *impl_->model;
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
   const mjtNum* q = impl_->data->qpos + m.jnt_qposadr[impl_->First(finger)];
@@ -157,7 +161,7 @@ Vector3d Engine::tip(int finger) const {
   return impl_->units.length_m * tip;
 }
 
-Vector3d Engine::contact_force(int finger) const {
+Vector3d Engine::contact_force(FingerIndex finger) const {
   const mjData& d = *impl_->data;
   Vector3d total = Vector3d::Zero();
   for (int i = 0; i < d.ncon; ++i) {
@@ -174,7 +178,7 @@ Vector3d Engine::contact_force(int finger) const {
   return impl_->units.force_N() * total;
 }
 
-void Engine::PlaceTip(int finger, const Vector3d& tip) {
+void Engine::PlaceTip(FingerIndex finger, const Vector3d& tip) {
   const mjModel& m = *impl_->model;
   const int joint = impl_->First(finger);
   const mjtNum* start = m.body_pos + 3 * impl_->body_of_finger[finger];
@@ -184,14 +188,14 @@ void Engine::PlaceTip(int finger, const Vector3d& tip) {
   }
 }
 
-void Engine::ShiftTip(int finger, const Vector3d& offset) {
+void Engine::ShiftTip(FingerIndex finger, const Vector3d& offset) {
   const int joint = impl_->First(finger);
   for (int k = 0; k < impl_->slides; ++k) {
     impl_->data->qpos[impl_->model->jnt_qposadr[joint] + k] += offset[k] / impl_->units.length_m;
   }
 }
 
-void Engine::SetTarget(int finger, const Vector3d& target) {
+void Engine::SetTarget(FingerIndex finger, const Vector3d& target) {
   const mjtNum* start = impl_->model->body_pos + 3 * impl_->body_of_finger[finger];
   const int slides = impl_->slides;
   for (int k = 0; k < slides; ++k) {
@@ -199,13 +203,13 @@ void Engine::SetTarget(int finger, const Vector3d& target) {
   }
 }
 
-void Engine::SetSite(int finger, SiteIndex site) {
+void Engine::SetSite(FingerIndex finger, SiteIndex site) {
   mjModel& m = *impl_->model;
   for (int g = 0; g < m.ngeom; ++g) m.geom_conaffinity[g] &= ~impl_->BitOf(finger);
   if (site.valid()) AddSite(finger, site);
 }
 
-void Engine::AddSite(int finger, SiteIndex site) {
+void Engine::AddSite(FingerIndex finger, SiteIndex site) {
   for (const int g : impl_->geoms_of_site[site]) {
     impl_->model->geom_conaffinity[g] |= impl_->BitOf(finger);
   }

@@ -56,19 +56,19 @@ class Engine {
 
   [[nodiscard]] double time() const;
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
-  [[nodiscard]] Eigen::Vector3d tip(int finger) const;
+  [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
   /// Force of a finger on the object in the last step; zero where they do not touch.
-  [[nodiscard]] Eigen::Vector3d contact_force(int finger) const;
+  [[nodiscard]] Eigen::Vector3d contact_force(FingerIndex finger) const;
 
   /// Moves a finger there at once, at rest.
-  void PlaceTip(int finger, const Eigen::Vector3d& tip);
+  void PlaceTip(FingerIndex finger, const Eigen::Vector3d& tip);
   /// Moves a finger by an offset at once; its velocity stays.
-  void ShiftTip(int finger, const Eigen::Vector3d& offset);
+  void ShiftTip(FingerIndex finger, const Eigen::Vector3d& offset);
   /// What the finger's servo steers for: its tip position at rest under no force.
-  void SetTarget(int finger, const Eigen::Vector3d& target);
+  void SetTarget(FingerIndex finger, const Eigen::Vector3d& target);
   /// The patches of this site, and no others, stop the finger; none where it is not valid.
-  void SetSite(int finger, SiteIndex site);
-  void AddSite(int finger, SiteIndex site);
+  void SetSite(FingerIndex finger, SiteIndex site);
+  void AddSite(FingerIndex finger, SiteIndex site);
   /// Acceleration along −z, m/s².
   void SetGravity(double gravity);
   /// Force and torque on the object about its centre of mass, besides gravity and fingers.

@@ -21,7 +21,7 @@ enum class AlignMode { kNone, kImitated, kSlid, kMixed };
 
 /// The smallest margin that each finger came to, radians, by the finger's number. A finger that
 /// never pressed has none.
-using FingerMargins = std::map<int, double>;
+using FingerMargins = std::map<FingerIndex, double>;
 
 /// A direction in which an object at rest is pushed or turned.
 struct Push {
@@ -44,7 +44,7 @@ struct DirectionStress {
 
 /// A finger of a grasp, by its number in the hand, and what it needs of its own friction.
 struct NeedOfFinger {
-  int finger = 0;
+  FingerIndex finger = {};
   grasp::FingerFriction friction;
 };
 

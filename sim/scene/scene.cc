@@ -34,12 +34,12 @@ struct SiteCollector {
   Scene& scene;
   double point_tolerance;  ///< metres
 
-  SiteIndex Add(int finger, const grasp::Contact& from, const grasp::Contact& to) {
+  SiteIndex Add(FingerIndex finger, const grasp::Contact& from, const grasp::Contact& to) {
     const ContactSite site{to.face, ToScene(object, scale, from.face == to.face ? from : to).p,
                            ToScene(object, scale, to).p};
     const int index = FindEqual(site);
     if (index == static_cast<int>(scene.sites.size())) scene.sites.push_back({site, {}, {}});
-    std::vector<int>& fingers = scene.sites[index].fingers;
+    std::vector<FingerIndex>& fingers = scene.sites[index].fingers;
     if (std::ranges::find(fingers, finger) == fingers.end()) fingers.push_back(finger);
     return SiteIndex(index);
   }
@@ -114,7 +114,7 @@ struct Sequence {
   void CheckFaces() const {
     const auto check = [&](const plan::FingerGrasp& grasp) {
       for (const plan::FingerContact& held : grasp) {
-        if (held.contact.face >= 0 && held.contact.face < object.face_count()) continue;
+        if (held.contact.face.valid() && held.contact.face < object.face_count()) continue;
         throw InputError("replay: a contact of finger " + std::to_string(held.finger) +
                          " is on no face of the object");
       }
@@ -161,10 +161,8 @@ std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, doub
     const plan::Step& step = sequence.plan.steps[index - 1];
     if (const auto* align = std::get_if<plan::Align>(&step)) {
       limits.spare.clear();
-      for (int f = 0; f < fingers; ++f) {
-        if (std::ranges::find(holding, f, &plan::FingerContact::finger) == holding.end()) {
-          limits.spare.push_back(f);
-        }
+      for (FingerIndex f{0}; f < fingers; ++f) {
+        if (plan::FindFinger(holding, f) == nullptr) limits.spare.push_back(f);
       }
       entries[index].script = WriteAlignScript(sequence.object, *align, limits);
     }
@@ -289,7 +287,7 @@ void PlaceFingersAtStart(const object::Object& object, Scene& scene) {
 
 /// A hand may have many more fingers than ever touch.
 void AssignCollisionBits(Scene& scene) {
-  std::set<int> touching;
+  std::set<FingerIndex> touching;
   for (const SceneSite& site : scene.sites) {
     touching.insert(site.fingers.begin(), site.fingers.end());
   }
@@ -299,7 +297,7 @@ void AssignCollisionBits(Scene& scene) {
                      std::to_string(kMostTouching) + " can be simulated");
   }
   int place = 0;
-  for (const int finger : touching) scene.fingers[finger].collision_bit = 1 << place++;
+  for (const FingerIndex finger : touching) scene.fingers[finger].collision_bit = 1 << place++;
 }
 
 /// Scripts, what is unreachable, and sites.

@@ -18,13 +18,13 @@ namespace regrasp::sim {
 struct SceneSite {
   ContactSite place;
   std::vector<ContactPatch> patches;
-  std::vector<int> fingers;  ///< which touch there
+  std::vector<FingerIndex> fingers;  ///< which touch there
 };
 
 /// A finger of the hand, whether the plan uses it or not.
 struct SceneFinger {
   int collision_bit = 0;                              ///< 0 where it never touches
-  SiteIndex first_site;                               ///< where the plan first puts it
+  SiteIndex first_site = {};                          ///< where the plan first puts it
   Eigen::Vector3d start_S = Eigen::Vector3d::Zero();  ///< its tip at the beginning
 };
 

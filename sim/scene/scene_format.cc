@@ -43,9 +43,9 @@ void Append(std::string& list, const std::string& item) {
 
 std::string Join(const Vector3d& v) { return Join({v.x(), v.y(), v.z()}); }
 
-std::string Collision(const Scene& scene, const std::vector<int>& fingers) {
+std::string Collision(const Scene& scene, const std::vector<FingerIndex>& fingers) {
   int bits = 0;
-  for (const int finger : fingers) bits |= scene.fingers[finger].collision_bit;
+  for (const FingerIndex finger : fingers) bits |= scene.fingers[finger].collision_bit;
   return " conaffinity=\"" + std::to_string(bits) + "\"";
 }
 
@@ -111,7 +111,7 @@ void AddPatches(const Scene& scene, const object::Object& body, Parts& parts) {
   }
 }
 
-void AddFinger(const Scene& scene, int finger, Parts& parts) {
+void AddFinger(const Scene& scene, FingerIndex finger, Parts& parts) {
   const std::string name = "finger" + std::to_string(finger);
   const double mass = scene.settings.finger_mass_kg;
   const double inertia =
@@ -174,8 +174,8 @@ std::string FormatScene(const Scene& scene, const object::Object& body,
   Parts parts;
   if (surface) AddSurface(body, s.diameter_m / body.diameter(), s.thickness_m, parts);
   AddPatches(scene, body, parts);
-  for (std::size_t f = 0; f < scene.fingers.size(); ++f) {
-    AddFinger(scene, static_cast<int>(f), parts);
+  for (FingerIndex f{0}; f < std::ssize(scene.fingers); ++f) {
+    AddFinger(scene, f, parts);
   }
   const Eigen::Matrix3d& I = scene.inertia;
   return Fill({{"timestep", FormatDouble(s.timestep_s)},

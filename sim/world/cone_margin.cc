@@ -10,20 +10,20 @@ double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, d
   return half_angle - std::atan2(normal.cross(force).norm(), normal.dot(force));
 }
 
-void AddMargin(int finger, double margin, FingerMargins& margins) {
+void AddMargin(FingerIndex finger, double margin, FingerMargins& margins) {
   const auto [place, is_new] = margins.emplace(finger, margin);
   if (!is_new) place->second = std::min(place->second, margin);
 }
 
 std::optional<double> SmallestMargin(const FingerMargins& margins) {
-  const int finger = FingerOfSmallestMargin(margins);
-  return finger < 0 ? std::nullopt : std::optional(margins.at(finger));
+  const FingerIndex finger = FingerOfSmallestMargin(margins);
+  return finger.valid() ? std::optional(margins.at(finger)) : std::nullopt;
 }
 
-int FingerOfSmallestMargin(const FingerMargins& margins) {
+FingerIndex FingerOfSmallestMargin(const FingerMargins& margins) {
   const auto least =
       std::ranges::min_element(margins, {}, [](const auto& entry) { return entry.second; });
-  return least == margins.end() ? -1 : least->first;
+  return least == margins.end() ? FingerIndex() : least->first;
 }
 
 }  // namespace regrasp::sim

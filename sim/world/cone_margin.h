@@ -17,13 +17,13 @@ namespace regrasp::sim {
                                 double half_angle);
 
 /// Of several margins of a finger the smallest stays.
-void AddMargin(int finger, double margin, FingerMargins& margins);
+void AddMargin(FingerIndex finger, double margin, FingerMargins& margins);
 
 /// The smallest of all.
 [[nodiscard]] std::optional<double> SmallestMargin(const FingerMargins& margins);
 
 /// The finger with the smallest, −1 for none.
-[[nodiscard]] int FingerOfSmallestMargin(const FingerMargins& margins);
+[[nodiscard]] FingerIndex FingerOfSmallestMargin(const FingerMargins& margins);
 
 /// Fingers that press with less than this, over the squeeze, have no margin: the angle of a force
 /// that comes or goes says nothing, and what it can slip is nothing.

@@ -53,20 +53,20 @@ bool MotionMonitor::lost() const {
   return moved_now_ > kLostMotion * settings_.tolerance * settings_.diameter_m;
 }
 
-void MotionMonitor::AddSlip(int finger, double slip_m) {
+void MotionMonitor::AddSlip(FingerIndex finger, double slip_m) {
   slip_ = std::max(slip_, slip_m);
   if (slipped_.empty() && slip_m > settings_.tolerance * settings_.diameter_m) {
     slipped_ = phase_ + ": finger " + std::to_string(finger) + " slipped";
   }
 }
 
-void MotionMonitor::AddGap(int finger, double gap_m) {
+void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
   if (!lost_.empty() || gap_m <= kLostGap * settings_.diameter_m) return;
   lost_ = phase_ + ": finger " + std::to_string(finger) + " is " + FormatShort(gap_m) +
           " m off the surface";
 }
 
-void MotionMonitor::AddForce(int finger, const Eigen::Vector3d& force,
+void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
                              const Eigen::Vector3d& normal) {
   if (force.dot(normal) < kPressing * settings_.squeeze_N) return;
   AddMargin(finger, ConeMargin(force, normal, std::atan(settings_.mu)), margins_);

@@ -29,12 +29,12 @@ class MotionMonitor {
   void SetGiving(bool on) { giving_ = on; }
   /// The object did not come to rest: it has moved, however far it came.
   void AddUnrest();
-  void AddSlip(int finger, double slip_m);
+  void AddSlip(FingerIndex finger, double slip_m);
   /// @param gap_m  from the surface to the fingertip of a finger at rest.
-  void AddGap(int finger, double gap_m);
+  void AddGap(FingerIndex finger, double gap_m);
   /// @param force   of a finger on the object; left out where it hardly presses (kPressing).
   /// @param normal  inward, unit.
-  void AddForce(int finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal);
+  void AddForce(FingerIndex finger, const Eigen::Vector3d& force, const Eigen::Vector3d& normal);
   /// Cone margins are smallest from here on.
   void ForgetForces() { margins_.clear(); }
 

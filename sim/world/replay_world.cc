@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Where the plan first puts a finger; on no face where it never does.
-grasp::Contact FirstContact(const object::Object& body, const Scene& scene, int finger) {
+grasp::Contact FirstContact(const object::Object& body, const Scene& scene, FingerIndex finger) {
   const SiteIndex first = scene.fingers[finger].first_site;
   if (!first.valid()) return {};
   const ContactSite& place = scene.sites[first].place;
@@ -31,10 +31,10 @@ ReplayWorld::ReplayWorld(const object::Object& body, const plan::Plan& plan, Sce
               static_cast<int>(scene_.fingers.size()), UnitsOf(scene_.settings)),
       fingers_(scene_.fingers.size()),
       monitor_(scene_.settings) {
-  for (std::size_t f = 0; f < fingers_.size(); ++f) {
-    engine_.SetSite(static_cast<int>(f), SiteIndex());
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    engine_.SetSite(f, SiteIndex());
     fingers_[f].anchor_S = scene_.fingers[f].start_S;
-    fingers_[f].contact = FirstContact(body, scene_, static_cast<int>(f));
+    fingers_[f].contact = FirstContact(body, scene_, f);
   }
   SetGravity(0);
   StartMonitoring();
@@ -46,19 +46,19 @@ object::WrenchFrame ReplayWorld::frame_B() const {
 
 double ReplayWorld::half_angle() const { return std::atan(settings().mu); }
 
-std::vector<int> ReplayWorld::HoldingFingers() const {
-  std::vector<int> holding;
-  for (std::size_t f = 0; f < fingers_.size(); ++f) {
-    if (fingers_[f].holding) holding.push_back(static_cast<int>(f));
+std::vector<FingerIndex> ReplayWorld::HoldingFingers() const {
+  std::vector<FingerIndex> holding;
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
+    if (fingers_[f].holding) holding.push_back(f);
   }
   return holding;
 }
 
-Vector3d ReplayWorld::ContactPoint_B(int finger) const {
+Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger) const {
   return ContactPoint_B(finger, X_SB().inverse());
 }
 
-Vector3d ReplayWorld::ContactPoint_B(int finger, const Isometry3d& X_BS) const {
+Vector3d ReplayWorld::ContactPoint_B(FingerIndex finger, const Isometry3d& X_BS) const {
   return X_BS * engine_.tip(finger) + settings().fingertip_radius_m * fingers_[finger].contact.n;
 }
 
@@ -75,10 +75,10 @@ void ReplayWorld::SetGravity(double gravity) {
 
 void ReplayWorld::Step() {
   const Vector3d own_weight(0, 0, settings().finger_mass_kg * gravity_);
-  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
-    engine_.SetTarget(static_cast<int>(f), finger.anchor_S + (finger.force_S + own_weight) /
-                                                                 settings().finger_stiffness_N_m);
+    engine_.SetTarget(
+        f, finger.anchor_S + (finger.force_S + own_weight) / settings().finger_stiffness_N_m);
   }
   engine_.Step();
   MonitorMotion();
@@ -100,14 +100,14 @@ void ReplayWorld::Run(double duration, const std::function<void(double)>& drive)
 
 void ReplayWorld::StartMonitoring() {
   monitor_.Start(X_SB());
-  for (const int f : HoldingFingers()) fingers_[f].touch_B = ContactPoint_B(f);
+  for (const FingerIndex f : HoldingFingers()) fingers_[f].touch_B = ContactPoint_B(f);
 }
 
 void ReplayWorld::MonitorMotion() {
   const Isometry3d X_SB = this->X_SB();
   const Isometry3d X_BS = X_SB.inverse();
   monitor_.AddPose(X_SB);
-  for (int f = 0; f < static_cast<int>(fingers_.size()); ++f) {
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
     if (!finger.holding || finger.sliding) continue;
     monitor_.AddForce(f, engine_.contact_force(f), X_SB.linear() * finger.contact.n);
@@ -117,7 +117,7 @@ void ReplayWorld::MonitorMotion() {
 }
 
 void ReplayWorld::MonitorRest() {
-  for (const int f : HoldingFingers()) {
+  for (const FingerIndex f : HoldingFingers()) {
     const grasp::Contact& contact = fingers_[f].contact;
     monitor_.AddGap(f, contact.n.dot(contact.p - ContactPoint_B(f)));
   }
@@ -135,11 +135,11 @@ plan::Snapshot ReplayWorld::TakeSnapshot() const {
   const Isometry3d X_SB = this->X_SB();
   snapshot.X_WO = Eigen::Translation3d(p_WS_) * X_SB * Eigen::Translation3d(-p_WS_);
   snapshot.fingertip_radius_m = settings().fingertip_radius_m;
-  for (std::size_t f = 0; f < fingers_.size(); ++f) {
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     const WorldFinger& finger = fingers_[f];
-    if (finger.contact.face < 0) continue;
+    if (!finger.contact.face.valid()) continue;
     plan::FingerState state;
-    state.finger = static_cast<int>(f);
+    state.finger = f;
     state.role = finger.role;
     state.tip_W = p_WS_ + engine_.tip(state.finger);
     state.normal_W = X_SB.linear() * finger.contact.n;

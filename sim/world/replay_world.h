@@ -41,13 +41,13 @@ class ReplayWorld {
   [[nodiscard]] std::vector<WorldFinger>& fingers() { return fingers_; }
   [[nodiscard]] const std::vector<WorldFinger>& fingers() const { return fingers_; }
   /// The fingers that hold, in ascending order.
-  [[nodiscard]] std::vector<int> HoldingFingers() const;
+  [[nodiscard]] std::vector<FingerIndex> HoldingFingers() const;
   [[nodiscard]] Engine& engine() { return engine_; }
   [[nodiscard]] const Engine& engine() const { return engine_; }
 
   [[nodiscard]] Eigen::Isometry3d X_SB() const { return engine_.object_pose(); }
   /// Where the fingertip meets the surface, from the measured tip and the planned normal.
-  [[nodiscard]] Eigen::Vector3d ContactPoint_B(int finger) const;
+  [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger) const;
   /// The tip of a finger that would touch the object as it lies now at `contact_B`, `gap` away.
   [[nodiscard]] Eigen::Vector3d TipAt_S(const grasp::Contact& contact_B, double gap) const;
   /// The object's weight now, newtons along −z of S.
@@ -72,7 +72,8 @@ class ReplayWorld {
   [[nodiscard]] plan::Snapshot TakeSnapshot() const;
 
  private:
-  [[nodiscard]] Eigen::Vector3d ContactPoint_B(int finger, const Eigen::Isometry3d& X_BS) const;
+  [[nodiscard]] Eigen::Vector3d ContactPoint_B(FingerIndex finger,
+                                               const Eigen::Isometry3d& X_BS) const;
   void MonitorMotion();
   void Sample();
 

@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 /// Where the object and the fingers that hold it are.
 struct Posture {
   Eigen::Isometry3d X_SB;
-  std::vector<int> fingers;
+  std::vector<FingerIndex> fingers;
   std::vector<Vector3d> tips_S;
 };
 
 Posture TakePosture(const ReplayWorld& world) {
   Posture posture{world.X_SB(), world.HoldingFingers(), {}};
-  for (const int f : posture.fingers) posture.tips_S.push_back(world.engine().tip(f));
+  for (const FingerIndex f : posture.fingers) posture.tips_S.push_back(world.engine().tip(f));
   return posture;
 }
 

@@ -6,7 +6,7 @@ namespace regrasp {
 namespace {
 
 plan::FingerContact At(int finger, double x, double y) {
-  return {finger, {{x, y, 0}, Eigen::Vector3d::UnitX(), 0}};
+  return {FingerIndex(finger), {{x, y, 0}, Eigen::Vector3d::UnitX(), FaceIndex(0)}};
 }
 
 /// Finger 2 comes 3 from finger 0 and 5 from finger 1, which both leave in time; then two fingers
@@ -15,17 +15,17 @@ plan::Plan SomePlan() {
   plan::Plan plan;
   plan.initial = {At(0, 0, 0), At(1, 8, 0)};
   plan.steps = {
-      plan::Switch{{At(2, 3, 0)}, {0}},
+      plan::Switch{{At(2, 3, 0)}, {FingerIndex(0)}},
       plan::Align{
           {{At(1, 8, 0), At(2, 3, 0)}, {At(2, 4, 0), At(1, 8, 2)}, {At(1, 8, 2), At(2, 3, 0)}}},
-      plan::Switch{{At(0, 3, 6)}, {}}, plan::Switch{{}, {2}}};
+      plan::Switch{{At(0, 3, 6)}, {}}, plan::Switch{{}, {FingerIndex(2)}}};
   return plan;
 }
 
 TEST(PlanFigures, TravelIsTheWayOfAlignsAndFromTheNearestReleasedContact) {
   EXPECT_DOUBLE_EQ(TravelOf(SomePlan()), 3 + (1 + 2) + 1);
   plan::Plan both = SomePlan();
-  both.steps = {plan::Switch{{At(2, 5, 0), At(3, 1, 0)}, {0, 1}}};
+  both.steps = {plan::Switch{{At(2, 5, 0), At(3, 1, 0)}, {FingerIndex(0), FingerIndex(1)}}};
   EXPECT_DOUBLE_EQ(TravelOf(both), 3 + 1);
 }
 

@@ -29,7 +29,7 @@ void ExpectOneLine(const std::string& message) {
   }
 }
 
-void ExpectFaceIsFound(const object::Object& object, int face) {
+void ExpectFaceIsFound(const object::Object& object, FaceIndex face) {
   const Eigen::Vector3d normal = object.inward_normal(face);
   if (!(std::abs(normal.norm() - 1) <= kUnitTolerance)) ReportFinding("a normal is not unit");
   if (!(object.face_measure(face) > 0)) ReportFinding("a face without area");
@@ -75,7 +75,7 @@ void ExpectSound(const object::Object& object) {
     ReportFinding("the mass properties are not those of a solid");
   }
   if (object.face_count() == 0) ReportFinding("an object without faces");
-  for (int face = 0; face < object.face_count(); ++face) ExpectFaceIsFound(object, face);
+  for (FaceIndex face{0}; face < object.face_count(); ++face) ExpectFaceIsFound(object, face);
 }
 
 }  // namespace regrasp

@@ -33,11 +33,11 @@ plan::Plan MakePlan() {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {1.0, -1.0}) {
       const Eigen::Vector3d p = side * Eigen::Vector3d::Unit(axis);
-      held.push_back({static_cast<int>(held.size()), {p, -p, -1}});
+      held.push_back({FingerIndex(held.size()), {p, -p, {}}});
     }
   }
   plan.initial = held;
-  plan.steps.push_back(plan::Switch{{}, {5}});
+  plan.steps.push_back(plan::Switch{{}, {FingerIndex(5)}});
   held.pop_back();
   plan::FingerGrasp moved = held;
   moved[0].contact.p.y() = moved[1].contact.p.y() = 0.1;

@@ -15,14 +15,14 @@ using regrasp::OnEdge;
 
 inline plan::FingerContact OnEdge(const object::Polygon& polygon, int finger, int edge,
                                   double share) {
-  return {finger, OnEdge(polygon, edge, share)};
+  return {FingerIndex(finger), OnEdge(polygon, edge, share)};
 }
 
 /// A contact drawn evenly over the boundary.
 inline plan::FingerContact DrawOnBoundary(const object::Polygon& polygon, int finger,
                                           std::mt19937& random) {
   std::vector<double> lengths;
-  for (int edge = 0; edge < polygon.face_count(); ++edge) {
+  for (FaceIndex edge{0}; edge < polygon.face_count(); ++edge) {
     lengths.push_back(polygon.face_measure(edge));
   }
   const int edge = std::discrete_distribution<int>(lengths.begin(), lengths.end())(random);

@@ -17,11 +17,11 @@ inline object::ObjectFile ReadModel(const std::string& name) {
   return object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
 }
 
-/// The contact at `p` on the face whose inward normal is `n`; face −1 where there is none.
+/// The contact at `p` on the face whose inward normal is `n`; without a face where there is none.
 inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vector3d& p,
                                 const Eigen::Vector3d& n) {
-  grasp::Contact contact{p, n.normalized(), -1};
-  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
+  grasp::Contact contact{p, n.normalized(), {}};
+  for (const FaceIndex face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - contact.n).norm() < 1e-6) contact.face = face;
   }
   return contact;
@@ -51,7 +51,7 @@ inline grasp::Contact DrawContact(const object::Polyhedron& body, std::mt19937& 
   const std::size_t t = triangle(random);
   const auto [a, b, c] = corners(t);
   const double s = std::sqrt(unit(random)), v = unit(random);
-  const int face = body.face_of_triangle(static_cast<int>(t));
+  const FaceIndex face = body.face_of_triangle(object::TriangleIndex(t));
   return {(1 - s) * a + s * (1 - v) * b + s * v * c, body.inward_normal(face), face};
 }
 
@@ -64,7 +64,7 @@ struct CubeCase {
     const Eigen::Vector3d p(x, y, z);
     Eigen::Index axis = 0;
     p.cwiseAbs().maxCoeff(&axis);
-    return {finger,
+    return {FingerIndex(finger),
             ContactAt(object, p, -std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis))};
   }
   [[nodiscard]] plan::FingerGrasp Start() const {

@@ -15,7 +15,7 @@ Boundary::Boundary(const object::Polygon& polygon) : polygon_(polygon) {
       next_.push_back(edge + (k + 1) % count);
       previous_.push_back(edge + (k + count - 1) % count);
       begins_.push_back(place);
-      place += polygon.face_measure(edge + k);
+      place += polygon.face_measure(FaceIndex(edge + k));
       ends_.push_back(place);
     }
     perimeters_.push_back(place);
@@ -31,10 +31,11 @@ double Boundary::PlaceOf(const grasp::Contact& contact) const {
 }
 
 grasp::Contact Boundary::ContactAt(int edge, double place) const {
-  const auto [from, to] = polygon_.edge(edge);
+  const FaceIndex face(edge);
+  const auto [from, to] = polygon_.edge(face);
   // Divided by this difference, the end of an edge is its vertex to the last bit.
   const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);
-  return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
+  return {(1 - share) * from + share * to, polygon_.inward_normal(face), face};
 }
 
 }  // namespace regrasp::contour

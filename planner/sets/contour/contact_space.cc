@@ -34,9 +34,9 @@ std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece
   std::array<Vector2d, 2> starts, along;
   std::array<Vector2d, 4> borders;  // turning left from the right ones
   for (int k = 0; k < 2; ++k) {
-    const auto [from, to] = polygon.edge(piece.edges[k]);
+    const auto [from, to] = polygon.edge(FaceIndex(piece.edges[k]));
     starts[k] = from.head<2>();
-    along[k] = (to - from).head<2>() / polygon.face_measure(piece.edges[k]);
+    along[k] = (to - from).head<2>() / polygon.face_measure(FaceIndex(piece.edges[k]));
     const Vector2d normal(-along[k].y(), along[k].x());
     const double side = k == 0 ? sign : -sign;
     borders[2 * k] = side * (std::cos(angle) * normal + std::sin(angle) * along[k]);
@@ -96,8 +96,8 @@ void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
 /// In places counted from where the edges begin.
 std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPiece& piece) {
   const object::Polygon& polygon = graph.boundary().polygon();
-  const double width = polygon.face_measure(piece.edges[0]);
-  const double height = polygon.face_measure(piece.edges[1]);
+  const double width = polygon.face_measure(FaceIndex(piece.edges[0]));
+  const double height = polygon.face_measure(FaceIndex(piece.edges[1]));
   std::vector<TaggedCorner> outline = {{{0, 0}}, {{width, 0}}, {{width, height}}, {{0, height}}};
   if (piece.full) return outline;
   const double rounding = Rounding(graph, piece);
@@ -115,12 +115,12 @@ Vector2d Origin(const ContourGraph& graph, const GraspPiece& piece) {
 std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece& piece, int k,
                                     bool at_end) {
   const object::Polygon& polygon = graph.boundary().polygon();
-  const int other = piece.edges[1 - k];
+  const FaceIndex other(piece.edges[1 - k]);
   const double length = polygon.face_measure(other);
   PlaceRange range = {0, length};
   if (!piece.full) {
     Vector2d from = Vector2d::Zero();
-    if (at_end) from[k] = polygon.face_measure(piece.edges[k]);
+    if (at_end) from[k] = polygon.face_measure(FaceIndex(piece.edges[k]));
     Vector2d to = from;
     to[1 - k] = length;
     for (const LinearForm& form : PieceForms(graph, piece)) {

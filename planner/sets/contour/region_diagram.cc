@@ -310,7 +310,7 @@ double LargestSize(const ContourGraph& graph, int set) {
   const object::Polygon& polygon = graph.boundary().polygon();
   for (const int piece : graph.pieces_of(set)) {
     const auto& edges = graph.pieces()[piece].edges;
-    for (int k = 0; k < 2; ++k) widths[edges[k]] += polygon.face_measure(edges[1 - k]);
+    for (int k = 0; k < 2; ++k) widths[edges[k]] += polygon.face_measure(FaceIndex(edges[1 - k]));
   }
   return *std::ranges::max_element(widths) / 2;
 }

@@ -168,7 +168,8 @@ grasp::Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
   if (cells.empty()) return grasp;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);
   for (const int edge : graph_.sets()[vertex].edges) {
-    grasp.push_back(grasp::ContactAt(polygon_, edge, z[static_cast<Eigen::Index>(grasp.size())]));
+    grasp.push_back(
+        grasp::ContactAt(polygon_, FaceIndex(edge), z[static_cast<Eigen::Index>(grasp.size())]));
   }
   return grasp;
 }

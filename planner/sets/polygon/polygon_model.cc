@@ -36,7 +36,7 @@ grasp::Grasp PolygonModel::GraspOf(const Place& place) const {
   grasp::Grasp grasp;
   for (const int edge : graph_.sets()[place.set].edges) {
     const auto k = static_cast<Eigen::Index>(grasp.size());
-    grasp.push_back(grasp::ContactAt(polygon_, edge, place.parameters[k]));
+    grasp.push_back(grasp::ContactAt(polygon_, FaceIndex(edge), place.parameters[k]));
   }
   return grasp;
 }

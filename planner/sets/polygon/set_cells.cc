@@ -37,7 +37,7 @@ class CellMaker {
     const Vector2d centre = polygon.mass_properties().centroid.head<2>();
     const double d = polygon.diameter();
     for (const int e : set.edges) {
-      const auto [a, b] = polygon.edge(e);
+      const auto [a, b] = polygon.edge(FaceIndex(e));
       Edge edge;
       edge.a = (a.head<2>() - centre) / d;
       edge.along = (b - a).head<2>() / d;

@@ -42,7 +42,7 @@ class SetCells {
 
   /// The length of the set's k-th edge over D.
   [[nodiscard]] double edge_length(int k) const {
-    return polygon_.face_measure(set_.edges[k]) / polygon_.diameter();
+    return polygon_.face_measure(FaceIndex(set_.edges[k])) / polygon_.diameter();
   }
 
  private:

@@ -30,7 +30,7 @@ class FaceSplitter {
     frame_.normal = f.inward_normal;
     frame_.u = f.inward_normal.unitOrthogonal();
     frame_.v = frame_.u.cross(f.inward_normal);
-    for (const int triangle : f.triangles) {
+    for (const object::TriangleIndex triangle : f.triangles) {
       const auto& t = solid.triangles()[triangle];
       rings_.push_back({t[0], t[1], t[2]});
     }

@@ -101,7 +101,8 @@ grasp::Grasp FocusGeometry::GraspOf(const FocusGrasp& grasp) const {
   const FocusCell& cell = graph_.cells()[grasp.cell];
   grasp::Grasp contacts;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
-    contacts.push_back({grasp.points[k], solid_.inward_normal(cell.faces[k]), cell.faces[k]});
+    const FaceIndex face(cell.faces[k]);
+    contacts.push_back({grasp.points[k], solid_.inward_normal(face), face});
   }
   return contacts;
 }

@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3d> DrawNormals(const object::Polyhedron& solid) {
   RandomStream random(0, RandomUse::kCountedFaces);
   std::vector<Eigen::Vector3d> normals;
   for (const int face : random.Choose(count, std::min(count, kCountedFaces))) {
-    normals.push_back(solid.inward_normal(face));
+    normals.push_back(solid.inward_normal(FaceIndex(face)));
   }
   return normals;
 }

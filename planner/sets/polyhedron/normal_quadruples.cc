@@ -143,7 +143,7 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const object::Polyhedron
                                                         const Deadline& deadline) {
   std::vector<int> faces;
   std::vector<Vector3d> normals;
-  for (int face = 0; face < solid.face_count(); ++face) {
+  for (FaceIndex face{0}; face < solid.face_count(); ++face) {
     if (solid.IsEnclosed(face)) continue;
     faces.push_back(face);
     normals.push_back(solid.inward_normal(face));

@@ -17,12 +17,6 @@ using Eigen::Vector3d;
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-plan::FingerGrasp Held(const grasp::Grasp& grasp) {
-  plan::FingerGrasp held;
-  for (std::size_t i = 0; i < grasp.size(); ++i) held.push_back({static_cast<int>(i), grasp[i]});
-  return held;
-}
-
 /// Two ways over the sides of a cube; the waypoints name the fingers in different orders.
 plan::Align MakeAlign() {
   grasp::Grasp middle = motion::CrossedGrasp();
@@ -30,7 +24,8 @@ plan::Align MakeAlign() {
   middle[3].p.z() -= 0.1;
   grasp::Grasp end = middle;
   end[2].p.x() -= 0.1;
-  plan::Align align{{Held(motion::CrossedGrasp()), Held(middle), Held(end)}};
+  plan::Align align{{plan::FingersInOrder(motion::CrossedGrasp()), plan::FingersInOrder(middle),
+                     plan::FingersInOrder(end)}};
   std::ranges::reverse(align.waypoints[1]);
   std::ranges::rotate(align.waypoints[2], align.waypoints[2].begin() + 1);
   return align;
@@ -92,7 +87,7 @@ TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
   plan::Align claimed = align;
   claimed.certificate.emplace();
   plan.initial = align.waypoints[0];
-  plan.steps = {align, too_far, claimed, plan::Switch{{}, {0}}};
+  plan.steps = {align, too_far, claimed, plan::Switch{{}, {FingerIndex(0)}}};
   AddCertificates(*cube.object, plan);
   const auto certificate = [&](int step) {
     return std::get<plan::Align>(plan.steps[step]).certificate;

@@ -19,18 +19,19 @@ using Kind = motion::ProofVerdict::Kind;
 constexpr double kHalfAngle = Radians(20);
 const double kMu = std::tan(kHalfAngle);
 
-grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, -1}; }
+grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, {}}; }
 
 /// A hold of a cube of side 2 by two crossed pairs, a switch of one finger, and an align.
 plan::Plan MakeCubePlan() {
   plan::Plan plan;
   plan.half_angle = kHalfAngle;
   plan.fingers = 5;
-  plan.initial = {{0, At({1, 0.1, 0}, -Vector3d::UnitX())},
-                  {1, At({-1, 0, 0.1}, Vector3d::UnitX())},
-                  {2, At({0, 1, -0.1}, -Vector3d::UnitY())},
-                  {3, At({0.1, -1, 0}, Vector3d::UnitY())}};
-  plan.steps.push_back(plan::Switch{{{4, At({1, -0.1, 0.1}, -Vector3d::UnitX())}}, {0}});
+  plan.initial = {{FingerIndex(0), At({1, 0.1, 0}, -Vector3d::UnitX())},
+                  {FingerIndex(1), At({-1, 0, 0.1}, Vector3d::UnitX())},
+                  {FingerIndex(2), At({0, 1, -0.1}, -Vector3d::UnitY())},
+                  {FingerIndex(3), At({0.1, -1, 0}, Vector3d::UnitY())}};
+  plan.steps.push_back(
+      plan::Switch{{{FingerIndex(4), At({1, -0.1, 0.1}, -Vector3d::UnitX())}}, {FingerIndex(0)}});
   const plan::FingerGrasp before = plan::GraspAfter(plan.initial, plan.steps[0]);
   plan::FingerGrasp after = before;
   after[0].contact.p.y() += 0.1;
@@ -64,7 +65,7 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
 plan::Plan AlignInOnePlane(double half, double lean, double apart) {
   const auto grasp = [&](double off) {
     plan::FingerGrasp held;
-    for (int f = 0; f < 4; ++f) {
+    for (FingerIndex f{0}; f < 4; ++f) {
       Vector3d p = Vector3d::Zero();
       p[f % 2] = f < 2 ? half : -half;
       p[1 - f % 2] = (f < 2 ? 1 : -1) * off * half;
@@ -146,14 +147,14 @@ TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
 
 TEST(PlanProofTest, AGraspThatLosesTheObjectIsRefuted) {
   plan::Plan plan = MakeCubePlan();
-  plan.steps[0] = plan::Switch{{}, {0, 1}};
+  plan.steps[0] = plan::Switch{{}, {FingerIndex(0), FingerIndex(1)}};
   plan.steps.pop_back();
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 2);
   for (const auto& proof : {proofs[1], WrittenAndRead(proofs[1])}) {
     const std::vector<EntryProof> both = {proofs[0], proof};
     EXPECT_EQ(CheckPlanProofs(plan, kMu, both)[1].rest.kind, Kind::kNotForceClosure);
   }
-  plan.steps[0] = plan::Switch{{}, {2}};
+  plan.steps[0] = plan::Switch{{}, {FingerIndex(2)}};
   plan.initial[1].contact.p.y() = 0.9;
   const auto three = FindPlanProofs(plan, kHalfAngle, 2);
   EXPECT_EQ(CheckPlanProofs(plan, kMu, three)[1].rest.kind, Kind::kNotForceClosure);

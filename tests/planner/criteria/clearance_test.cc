@@ -16,7 +16,7 @@ object::Polygon MakeL() {
 
 /// On the edge from (2, 1) to (1, 1), a distance from its end in the inner corner.
 grasp::Contact NearInnerCorner(const object::Polygon& polygon, double distance) {
-  return {{1 + distance, 1, 0}, polygon.inward_normal(2), 2};
+  return {{1 + distance, 1, 0}, polygon.inward_normal(FaceIndex(2)), FaceIndex(2)};
 }
 
 TEST(FingertipClearance, EndsWhereTheBallTouchesTheOtherSideOfAConcaveCorner) {
@@ -30,12 +30,14 @@ TEST(FingertipClearance, EndsWhereTheBallTouchesTheOtherSideOfAConcaveCorner) {
 
 TEST(FingertipClearance, IsThereAtConvexCornersAndBetweenCollinearEdges) {
   const object::Polygon polygon = MakeL();
-  EXPECT_TRUE(HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(2), 2}));
-  EXPECT_TRUE(HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(1), 1}));
+  EXPECT_TRUE(
+      HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(FaceIndex(2)), FaceIndex(2)}));
+  EXPECT_TRUE(
+      HasClearance(polygon, {{2, 1, 0}, polygon.inward_normal(FaceIndex(1)), FaceIndex(1)}));
   const object::Polygon cut =
       object::Polygon::FromRings({{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}}, "cut");
   for (const double x : {1.0, 1.0 - 1e-9, 1.0 - 1e-4}) {
-    EXPECT_TRUE(HasClearance(cut, {{x, 0, 0}, cut.inward_normal(0), 0})) << x;
+    EXPECT_TRUE(HasClearance(cut, {{x, 0, 0}, cut.inward_normal(FaceIndex(0)), FaceIndex(0)})) << x;
   }
 }
 
@@ -47,7 +49,7 @@ TEST(FingertipClearance, DoesNotDependOnTheUnitOfLength) {
     const double radius = kFingertipClearance * polygon.diameter();
     for (const double share : {0.9, 1.1}) {
       const grasp::Contact contact = {
-          {scale + share * radius, scale, 0}, polygon.inward_normal(2), 2};
+          {scale + share * radius, scale, 0}, polygon.inward_normal(FaceIndex(2)), FaceIndex(2)};
       EXPECT_EQ(HasClearance(polygon, contact), share > 1) << scale;
     }
   }

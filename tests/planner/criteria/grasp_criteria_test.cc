@@ -14,8 +14,8 @@ class GraspCriteriaTest : public testing::Test {
  protected:
   /// Fingers of the unit square's bottom and top, so far apart along them.
   [[nodiscard]] grasp::Grasp Leaning(double lean) const {
-    return {{{0.5 - lean / 2, 0, 0}, square_.inward_normal(0), 0},
-            {{0.5 + lean / 2, 1, 0}, square_.inward_normal(2), 2}};
+    return {{{0.5 - lean / 2, 0, 0}, square_.inward_normal(FaceIndex(0)), FaceIndex(0)},
+            {{0.5 + lean / 2, 1, 0}, square_.inward_normal(FaceIndex(2)), FaceIndex(2)}};
   }
   [[nodiscard]] double QualityOf(const grasp::Grasp& grasp) const {
     return grasp::ComputeQuality(grasp, frame_, Radians(30)).lower;

@@ -12,7 +12,8 @@ namespace {
 
 /// Contacts at shares of the unit square's width.
 grasp::Grasp Across(const object::Polygon& square, double bottom, double top) {
-  return {{{bottom, 0, 0}, square.inward_normal(0), 0}, {{top, 1, 0}, square.inward_normal(2), 2}};
+  return {{{bottom, 0, 0}, square.inward_normal(FaceIndex(0)), FaceIndex(0)},
+          {{top, 1, 0}, square.inward_normal(FaceIndex(2)), FaceIndex(2)}};
 }
 
 TEST(GraspEvaluator, ScoresGoodGraspsByTheirMargin) {
@@ -54,9 +55,9 @@ TEST(GraspEvaluator, TwoContactsAtOnePointAreNoGrasp) {
 
 TEST(GraspEvaluator, FingersOfARadiusNeedClearance) {
   const object::Polygon square = Square(2);
-  const grasp::Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(0), 0},
-                              {{1.4, 0, 0}, square.inward_normal(0), 0},
-                              {{1, 2, 0}, square.inward_normal(2), 2}};
+  const grasp::Grasp grasp = {{{0.6, 0, 0}, square.inward_normal(FaceIndex(0)), FaceIndex(0)},
+                              {{1.4, 0, 0}, square.inward_normal(FaceIndex(0)), FaceIndex(0)},
+                              {{1, 2, 0}, square.inward_normal(FaceIndex(2)), FaceIndex(2)}};
   EXPECT_TRUE(GraspEvaluator(square, {Radians(30), 0.01}).IsReachable(grasp));
   EXPECT_TRUE(
       GraspEvaluator(square, {Radians(30), 0.01}, {.fingertip_radius = 0.39}).IsReachable(grasp));

@@ -23,7 +23,7 @@ object::Polygon UnitSquare() {
 /// Contacts at kSteps places of the bottom of the unit square, then as many of its top.
 std::vector<grasp::Contact> BottomAndTop(const object::Polygon& square) {
   std::vector<grasp::Contact> contacts;
-  for (const int face : {0, 2}) {
+  for (const FaceIndex face : {FaceIndex(0), FaceIndex(2)}) {
     for (int i = 1; i <= kSteps; ++i) {
       const Eigen::Vector3d p(i / (kSteps + 1.0), face == 0 ? 0 : 1, 0);
       contacts.push_back({p, square.inward_normal(face), face});

@@ -17,11 +17,11 @@ using Eigen::Vector3d;
 
 /// The contact at `p` on the face whose inward normal is `n`.
 grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
-  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
+  for (const FaceIndex face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
     if ((object.inward_normal(face) - n).norm() < 1e-9) return {p, n, face};
   }
   ADD_FAILURE() << "no face with normal " << n.transpose() << " at " << p.transpose();
-  return {p, n, 0};
+  return {p, n, {}};
 }
 
 TEST(Reach, EndsAtAnInnerCornerWhereTheBallTouchesTheOtherWall) {
@@ -120,7 +120,7 @@ double SampledClearance(const object::Polyhedron& body, const grasp::Contact& co
   std::uniform_real_distribution<double> uniform(0, 1);
   const Vector3d rest = BallCentre(contact, radius);
   double least = std::numeric_limits<double>::infinity();
-  for (int t = 0; t < std::ssize(body.triangles()); ++t) {
+  for (object::TriangleIndex t{0}; t < std::ssize(body.triangles()); ++t) {
     if (body.face_of_triangle(t) == contact.face) continue;
     const auto& [i, j, k] = body.triangles()[t];
     for (int s = 0; s < kSamples; ++s) {
@@ -141,11 +141,12 @@ TEST(Reach, AgreesWithSampledPointsOfTheSurface) {
   int free = 0, blocked = 0;
   for (const object::Polyhedron& body : {MakeLBlock(), MakeRing()}) {
     for (int draw = 0; draw < 150; ++draw) {
-      const int t = static_cast<int>(uniform(random) * std::ssize(body.triangles()));
+      const object::TriangleIndex t(
+          static_cast<int>(uniform(random) * std::ssize(body.triangles())));
       const auto& [i, j, k] = body.triangles()[t];
       double u = uniform(random), v = uniform(random);
       if (u + v > 1) u = 1 - u, v = 1 - v;
-      const int face = body.face_of_triangle(t);
+      const FaceIndex face = body.face_of_triangle(t);
       const grasp::Contact contact = {body.vertices()[i] +
                                           u * (body.vertices()[j] - body.vertices()[i]) +
                                           v * (body.vertices()[k] - body.vertices()[i]),

@@ -92,7 +92,7 @@ TEST(LargestLoadTest, ForcesForTheLargestLoadExistAndForMoreDoNot) {
     Grasp grasp;
     for (int f = 0; f < 4; ++f) {
       const Vector3d p = draw();
-      grasp.push_back({p, (-p + 0.3 * draw()).normalized(), -1});
+      grasp.push_back({p, (-p + 0.3 * draw()).normalized(), {}});
     }
     const double quality = ComputeQuality(grasp, kSpace, kHalfAngle, 0.2).lower;
     if (quality == 0) continue;

@@ -193,7 +193,7 @@ TEST(MeshChecks, NegativeZeroIsZero) {
   soup.facets[0][0] = 8;
   const Polyhedron body = Polyhedron::FromSoup(soup, "box");
   EXPECT_EQ(body.vertices().size(), 8u);
-  for (int f = 0; f < 6; ++f) {
+  for (FaceIndex f{0}; f < 6; ++f) {
     for (const double x : body.inward_normal(f)) EXPECT_FALSE(x == 0 && std::signbit(x));
   }
 }
@@ -277,10 +277,10 @@ TEST(MeshChecks, FacesDoNotDependOnHowFacetsAreCut) {
     const Polyhedron triangles = Polyhedron::FromSoup(cut, "cut");
     ASSERT_EQ(triangles.face_count(), whole.face_count());
     EXPECT_NEAR(triangles.mass_properties().volume, whole.mass_properties().volume, 1e-12);
-    for (int f = 0; f < whole.face_count(); ++f) {
+    for (FaceIndex f{0}; f < whole.face_count(); ++f) {
       const auto near = triangles.FacesNear(
           whole.vertices()[whole.triangles()[whole.faces()[f].triangles[0]][0]], 1e-9);
-      const bool same = std::ranges::any_of(near, [&](int g) {
+      const bool same = std::ranges::any_of(near, [&](FaceIndex g) {
         return (triangles.inward_normal(g) - whole.inward_normal(f)).norm() < 1e-12 &&
                std::abs(triangles.face_measure(g) - whole.face_measure(f)) < 1e-12;
       });

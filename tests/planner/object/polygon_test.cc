@@ -25,7 +25,7 @@ constexpr std::string_view kFrame =
 TEST(Polygon, MaterialIsOnTheLeftOfOutlineAndHoles) {
   const Polygon frame = Polygon::FromWkt(kFrame, "frame");
   ASSERT_EQ(frame.face_count(), 8);
-  for (int f = 0; f < 8; ++f) {
+  for (FaceIndex f{0}; f < 8; ++f) {
     const auto [a, b] = frame.edge(f);
     const Vector3d n = frame.inward_normal(f);
     EXPECT_NEAR(n.norm(), 1, kTight);
@@ -40,7 +40,7 @@ TEST(Polygon, MaterialIsOnTheLeftOfOutlineAndHoles) {
 
 TEST(Polygon, EdgesMeetAtTheirVerticesAndOnlyThoseOfTheHoleAreConcave) {
   const Polygon frame = Polygon::FromWkt(kFrame, "frame");
-  for (int f = 0; f < 8; ++f) {
+  for (FaceIndex f{0}; f < 8; ++f) {
     const auto [a, b] = frame.edge(f);
     const auto borders = frame.BordersOf(f);
     ASSERT_EQ(borders.size(), 2u);
@@ -55,11 +55,11 @@ TEST(Polygon, EdgesMeetAtTheirVerticesAndOnlyThoseOfTheHoleAreConcave) {
     }
     EXPECT_NE(borders[0].beyond, borders[1].beyond);
     EXPECT_FALSE(frame.AreNeighbours(f, f));
-    EXPECT_FALSE(frame.AreNeighbours(f, (f + 4) % 8));
+    EXPECT_FALSE(frame.AreNeighbours(f, FaceIndex((f + 4) % 8)));
   }
   // Collinear edges are passed as well.
   const Polygon split = Polygon::FromWkt("POLYGON((0 0, 1 0, 2 0, 2 2, 0 2, 0 0))", "split");
-  EXPECT_TRUE(split.BordersOf(0).back().convex);
+  EXPECT_TRUE(split.BordersOf(FaceIndex(0)).back().convex);
 }
 
 TEST(Polygon, MassPropertiesAreThoseOfARectangleLessItsHole) {
@@ -95,23 +95,23 @@ TEST(Polygon, ClockwiseRingsAreTurnedAndKeepTheirFirstPoint) {
   const Polygon square = Polygon::FromRings({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}}, "square");
   EXPECT_THAT(square.rings()[0],
               ElementsAre(Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)));
-  EXPECT_NEAR((square.inward_normal(0) - Vector3d(0, 1, 0)).norm(), 0, kTight);
+  EXPECT_NEAR((square.inward_normal(FaceIndex(0)) - Vector3d(0, 1, 0)).norm(), 0, kTight);
 }
 
 TEST(Polygon, CollinearNeighbouringEdgesStaySeparate) {
   const Polygon square = Polygon::FromWkt("POLYGON((0 0,1 0,2 0,2 2,0 2,0 0))", "square");
   EXPECT_EQ(square.face_count(), 5);
   EXPECT_THAT(square.FacesNear({1, 0, 0}, 1e-9), ElementsAre(0, 1));
-  EXPECT_FALSE(square.ContainsSegment(0, {0.5, 0, 0}, {1.5, 0, 0}, 1e-6));
-  EXPECT_TRUE(square.ContainsSegment(0, {0.5, 0, 0}, {1, 0, 0}, 1e-6));
+  EXPECT_FALSE(square.ContainsSegment(FaceIndex(0), {0.5, 0, 0}, {1.5, 0, 0}, 1e-6));
+  EXPECT_TRUE(square.ContainsSegment(FaceIndex(0), {0.5, 0, 0}, {1, 0, 0}, 1e-6));
 }
 
 TEST(Polygon, QueriesMeasureToTheEdge) {
   const Polygon frame = Polygon::FromWkt(kFrame, "frame");
-  EXPECT_NEAR((frame.ClosestPoint(0, {1, -3, 0}) - Vector3d(1, 0, 0)).norm(), 0, kTight);
-  EXPECT_NEAR((frame.ClosestPoint(0, {9, 1, 0}) - Vector3d(4, 0, 0)).norm(), 0, kTight);
-  EXPECT_NEAR(frame.DistanceToBorder(0, {1, 0, 0}), 1, kTight);
-  EXPECT_NEAR(frame.face_measure(0), 4, kTight);
+  EXPECT_NEAR((frame.ClosestPoint(FaceIndex(0), {1, -3, 0}) - Vector3d(1, 0, 0)).norm(), 0, kTight);
+  EXPECT_NEAR((frame.ClosestPoint(FaceIndex(0), {9, 1, 0}) - Vector3d(4, 0, 0)).norm(), 0, kTight);
+  EXPECT_NEAR(frame.DistanceToBorder(FaceIndex(0), {1, 0, 0}), 1, kTight);
+  EXPECT_NEAR(frame.face_measure(FaceIndex(0)), 4, kTight);
   EXPECT_THAT(frame.FacesNear({2, 0.1, 0}, 0.3), ElementsAre(0));
   EXPECT_EQ(frame.FacesNear({2, 0.1, 0}, 0.45).size(), 2u);
   EXPECT_TRUE(frame.FacesNear({2, 0.1, 1}, 0.3).empty()) << "off the plane";
@@ -124,8 +124,8 @@ TEST(Polygon, AnEdgeWhoseSquaredLengthUnderflowsIsRefusedAndALongerOneIsNot) {
                  InputError);
   }
   const Polygon polygon = Polygon::FromRings({{{0, 0}, {1e-29, 0}, {1, 1}, {0, 1}}}, "short.wkt");
-  EXPECT_EQ(polygon.ClosestPoint(0, {-0.3, 0.4, 0}), Vector3d(0, 0, 0));
-  EXPECT_EQ(polygon.FacesNear({0, 0, 0}, 1e-9), (std::vector<int>{0, 3, 1}));
+  EXPECT_EQ(polygon.ClosestPoint(FaceIndex(0), {-0.3, 0.4, 0}), Vector3d(0, 0, 0));
+  EXPECT_THAT(polygon.FacesNear({0, 0, 0}, 1e-9), ElementsAre(0, 3, 1));
 }
 
 TEST(Polygon, WktIsReadInAnyCaseAndLayout) {

@@ -21,9 +21,9 @@ using namespace regrasp::testing;  // NOLINT: the meshes of this folder
 constexpr double kTight = 1e-12;
 
 /// The face whose outward normal is nearest to `outward`.
-int FaceTowards(const Polyhedron& body, const Vector3d& outward) {
-  int best = 0;
-  for (int f = 1; f < body.face_count(); ++f) {
+FaceIndex FaceTowards(const Polyhedron& body, const Vector3d& outward) {
+  FaceIndex best{0};
+  for (FaceIndex f{1}; f < body.face_count(); ++f) {
     if (body.inward_normal(f).dot(outward) < body.inward_normal(best).dot(outward)) best = f;
   }
   return best;
@@ -35,7 +35,7 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
   EXPECT_EQ(cube.triangles().size(), 12u);
   EXPECT_EQ(cube.vertices().size(), 8u);
   EXPECT_NEAR(cube.diameter(), std::sqrt(3), kTight);
-  for (int f = 0; f < 6; ++f) {
+  for (FaceIndex f{0}; f < 6; ++f) {
     EXPECT_NEAR(cube.face_measure(f), 1, kTight);
     EXPECT_NEAR(cube.inward_normal(f).dot(cube.faces()[f].point), -0.5, kTight);
     EXPECT_EQ(cube.faces()[f].border.size(), 4u);
@@ -46,7 +46,7 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
 /// Both faces of every border know it, and say the same of it. @returns how many are concave.
 int CheckBorders(const Polyhedron& body) {
   int concave = 0;
-  for (int face = 0; face < body.face_count(); ++face) {
+  for (FaceIndex face{0}; face < body.face_count(); ++face) {
     const auto borders = body.BordersOf(face);
     EXPECT_EQ(borders.size(), body.faces()[face].border.size());
     for (const FaceBorder& border : borders) {
@@ -67,7 +67,7 @@ int CheckBorders(const Polyhedron& body) {
 TEST(Polyhedron, FacesKnowTheirNeighboursAndWhichEdgesAreConcave) {
   const Polyhedron cube = Polyhedron::FromSoup(UnitCubeSoup(), "cube");
   EXPECT_EQ(CheckBorders(cube), 0);
-  const int top = FaceTowards(cube, Vector3d::UnitZ());
+  const FaceIndex top = FaceTowards(cube, Vector3d::UnitZ());
   EXPECT_EQ(cube.BordersOf(top).size(), 4u);
   EXPECT_FALSE(cube.AreNeighbours(top, FaceTowards(cube, -Vector3d::UnitZ())));
   EXPECT_FALSE(cube.AreNeighbours(top, top));
@@ -84,7 +84,7 @@ TEST(Polyhedron, AMeshThatIsWhollyInwardIsTurned) {
   const Polyhedron turned = Polyhedron::FromSoup(soup, "block");
   ASSERT_EQ(turned.face_count(), outward.face_count());
   EXPECT_NEAR(turned.mass_properties().volume, 8, kTight);
-  for (int f = 0; f < turned.face_count(); ++f) {
+  for (FaceIndex f{0}; f < turned.face_count(); ++f) {
     EXPECT_NEAR((turned.inward_normal(f) - outward.inward_normal(f)).norm(), 0, kTight);
     EXPECT_EQ(turned.faces()[f].border.size(), outward.faces()[f].border.size());
   }
@@ -97,13 +97,13 @@ TEST(Polyhedron, ACavityOrientedIntoTheMaterialIsPartOfTheSolid) {
   EXPECT_EQ(body.face_count(), 12);
   EXPECT_NEAR(body.mass_properties().volume, 1 - 0.027, kTight);
   EXPECT_THAT(body.FacesNear({0.2, 0, 0}, 1e-9), ElementsAre(9));
-  EXPECT_NEAR(body.inward_normal(9).x(), 1, kTight);
+  EXPECT_NEAR(body.inward_normal(FaceIndex(9)).x(), 1, kTight);
 }
 
 TEST(Polyhedron, FacesBorderOnTheirOutlineAndHoles) {
   const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
   ASSERT_EQ(block.face_count(), 10);
-  const int top = FaceTowards(block, {0, 0, 1});
+  const FaceIndex top = FaceTowards(block, {0, 0, 1});
   EXPECT_NEAR(block.face_measure(top), 8, kTight);
   EXPECT_EQ(block.faces()[top].border.size(), 8u);
   // Material on the left, seen from outside.
@@ -117,12 +117,12 @@ TEST(Polyhedron, FacesBorderOnTheirOutlineAndHoles) {
 
 TEST(Polyhedron, ClosestPointsRespectHolesAndNonConvexOutlines) {
   const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
-  const int top = FaceTowards(block, {0, 0, 1});
+  const FaceIndex top = FaceTowards(block, {0, 0, 1});
   EXPECT_NEAR((block.ClosestPoint(top, {1.2, 1.5, 3}) - Vector3d(1, 1.5, 1)).norm(), 0, kTight);
   EXPECT_NEAR((block.ClosestPoint(top, {0.5, 1.5, 3}) - Vector3d(0.5, 1.5, 1)).norm(), 0, kTight);
   const Polyhedron bent = Polyhedron::FromSoup(LBlockSoup(), "l");
   ASSERT_EQ(bent.face_count(), 8);
-  const int end = FaceTowards(bent, {0, 0, 1});
+  const FaceIndex end = FaceTowards(bent, {0, 0, 1});
   EXPECT_NEAR((bent.ClosestPoint(end, {1.5, 1.2, 1}) - Vector3d(1.5, 1, 1)).norm(), 0, kTight);
 }
 
@@ -154,7 +154,7 @@ PolygonSoup PlateWithASliver(int arc) {
 TEST(Polyhedron, ClosestPointsOnFacesWithSliversAreFinite) {
   for (const int arc : {5, 40}) {  // searched one by one, and in a tree
     const Polyhedron plate = Polyhedron::FromSoup(PlateWithASliver(arc), "plate");
-    const int top = FaceTowards(plate, {0, 0, 1});
+    const FaceIndex top = FaceTowards(plate, {0, 0, 1});
     ASSERT_EQ(plate.faces()[top].triangles.size(), static_cast<std::size_t>(arc - 1));
     for (const Vector3d& over : {Vector3d(0, 0.3, 0), Vector3d(0, 0, 0), Vector3d(-0.5, 0, 0)}) {
       EXPECT_NEAR((plate.ClosestPoint(top, over + Vector3d(0, 0, 1)) - over).norm(), 0, kTight);
@@ -168,7 +168,7 @@ TEST(Polyhedron, ClosestPointsOnFacesWithSliversAreFinite) {
 
 TEST(Polyhedron, FacesNearAreSortedByDistance) {
   const Polyhedron cube = Polyhedron::FromSoup(UnitCubeSoup(), "cube");
-  const int right = FaceTowards(cube, {1, 0, 0}), top = FaceTowards(cube, {0, 0, 1});
+  const FaceIndex right = FaceTowards(cube, {1, 0, 0}), top = FaceTowards(cube, {0, 0, 1});
   EXPECT_THAT(cube.FacesNear({0.45, 0, 0.48}, 0.1), ElementsAre(top, right));
   EXPECT_THAT(cube.FacesNear({0.48, 0, 0.45}, 0.1), ElementsAre(right, top));
   EXPECT_THAT(cube.FacesNear({0.48, 0, 0.45}, 0.03), ElementsAre(right));
@@ -179,7 +179,7 @@ TEST(Polyhedron, FacesNearAreSortedByDistance) {
 
 TEST(Polyhedron, SegmentsMustStayOnTheFaceAllTheWay) {
   const Polyhedron block = Polyhedron::FromSoup(HoleBlockSoup(), "block");
-  const int top = FaceTowards(block, {0, 0, 1});
+  const FaceIndex top = FaceTowards(block, {0, 0, 1});
   const double within = 1e-6;
   EXPECT_TRUE(block.ContainsSegment(top, {0.1, 0.5, 1}, {2.9, 0.5, 1}, within));
   EXPECT_FALSE(block.ContainsSegment(top, {0.5, 1.5, 1}, {2.5, 1.5, 1}, within)) << "over the hole";
@@ -189,7 +189,7 @@ TEST(Polyhedron, SegmentsMustStayOnTheFaceAllTheWay) {
   EXPECT_FALSE(block.ContainsSegment(top, {0.5, 0.5, 1}, {0.5, 0.6, 1.1}, within)) << "off it";
   EXPECT_TRUE(block.ContainsSegment(top, {0.5, 0.5, 1}, {0.5, 0.5, 1}, within)) << "a point";
   const Polyhedron bent = Polyhedron::FromSoup(LBlockSoup(), "l");
-  const int end = FaceTowards(bent, {0, 0, 1});
+  const FaceIndex end = FaceTowards(bent, {0, 0, 1});
   EXPECT_FALSE(bent.ContainsSegment(end, {1.8, 0.5, 1}, {0.5, 1.8, 1}, within)) << "over the notch";
   EXPECT_TRUE(bent.ContainsSegment(end, {1.5, 0.5, 1}, {0.5, 1.5, 1}, within)) << "by the corner";
 }
@@ -231,7 +231,7 @@ TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
   const Polyhedron block = Polyhedron::FromSoup(soup, "fine block");
   ASSERT_EQ(block.face_count(), 10);
   EXPECT_NEAR(block.mass_properties().volume, 8, 1e-9);
-  const int top = FaceTowards(block, {0, 0, 1});
+  const FaceIndex top = FaceTowards(block, {0, 0, 1});
   ASSERT_EQ(block.faces()[top].triangles.size(), 256u);
 
   std::mt19937 random(1);

@@ -30,9 +30,9 @@ Reason ReasonOf(const object::Object& object, const Plan& plan) {
 Plan SlideOnTop(const Eigen::Vector2d& hold, const Eigen::Vector3d& from,
                 const Eigen::Vector3d& to) {
   const auto grasp = [&](const Eigen::Vector3d& at) {
-    return FingerGrasp{{0, {{hold.x(), hold.y(), 0}, {0, 0, 1}}},
-                       {1, {at, {0, 0, -1}}},
-                       {2, {{hold.x(), hold.y(), 1}, {0, 0, -1}}}};
+    return FingerGrasp{{FingerIndex(0), {{hold.x(), hold.y(), 0}, {0, 0, 1}}},
+                       {FingerIndex(1), {at, {0, 0, -1}}},
+                       {FingerIndex(2), {{hold.x(), hold.y(), 1}, {0, 0, -1}}}};
   };
   return AlignPlan(EmptyPlan(3, 5, 30), {grasp(from), grasp(to)});
 }
@@ -74,7 +74,9 @@ TEST(CheckAlign, KeepsFingersFromCrossingAHoleOfAFace) {
 
 TEST(CheckAlign, LetsAFingerTurnWhereTwoFacesMeet) {
   const auto grasp = [](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-    return FingerGrasp{{0, {{1, 0, 0}, {-1, 0, 0}}}, {1, {{-1, 0, 0}, {1, 0, 0}}}, {2, {p, n}}};
+    return FingerGrasp{{FingerIndex(0), {{1, 0, 0}, {-1, 0, 0}}},
+                       {FingerIndex(1), {{-1, 0, 0}, {1, 0, 0}}},
+                       {FingerIndex(2), {p, n}}};
   };
   const object::Polyhedron cube = MakeCube();
   const FingerGrasp back = grasp({0, 1, 0.8}, {0, -1, 0});
@@ -95,7 +97,7 @@ TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
   // ends of the turn it must be 45°.
   const object::Polygon square = MakeSquare();
   const auto grasp = [](const Eigen::Vector3d& n0, const Eigen::Vector3d& n1) {
-    return FingerGrasp{{0, {{-1, -1, 0}, n0}}, {1, {{1, 1, 0}, n1}}};
+    return FingerGrasp{{FingerIndex(0), {{-1, -1, 0}, n0}}, {FingerIndex(1), {{1, 1, 0}, n1}}};
   };
   const FingerGrasp from = grasp({1, 0, 0}, {-1, 0, 0});
   const FingerGrasp to = grasp({0, 1, 0}, {0, -1, 0});
@@ -110,7 +112,8 @@ TEST(CheckAlign, JudgesForceClosureWhileANormalTurns) {
 
 TEST(CheckAlign, KeepsCollinearEdgesOfAPolygonApart) {
   const auto grasp = [](double x) {
-    return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
+    return FingerGrasp{{FingerIndex(0), {{x, -1, 0}, {0, 1, 0}}},
+                       {FingerIndex(1), {{0, 1, 0}, {0, -1, 0}}}};
   };
   const Plan plan = EmptyPlan(2, 4, 30);
   const auto slide = AlignPlan(plan, {grasp(-0.3), grasp(0.3)});
@@ -122,7 +125,8 @@ TEST(CheckAlign, KeepsCollinearEdgesOfAPolygonApart) {
 
 TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
   const auto grasp = [](double x) {
-    return FingerGrasp{{0, {{x, -1, 0}, {0, 1, 0}}}, {1, {{0, 1, 0}, {0, -1, 0}}}};
+    return FingerGrasp{{FingerIndex(0), {{x, -1, 0}, {0, 1, 0}}},
+                       {FingerIndex(1), {{0, 1, 0}, {0, -1, 0}}}};
   };
   const object::Polygon square = MakeSquare(1, true);
   const Plan plan = EmptyPlan(2, 4, 30);
@@ -142,7 +146,8 @@ TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
 
 /// Two fingers of the square, below and above.
 FingerGrasp Pair(double below, double above) {
-  return {{0, {{below, -1, 0}, {0, 1, 0}}}, {1, {{above, 1, 0}, {0, -1, 0}}}};
+  return {{FingerIndex(0), {{below, -1, 0}, {0, 1, 0}}},
+          {FingerIndex(1), {{above, 1, 0}, {0, -1, 0}}}};
 }
 
 TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
@@ -174,8 +179,9 @@ TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
 /// no friction serves, between its waypoints.
 Plan CollinearForAnInstant(double from, double to) {
   const auto grasp = [](double y) {
-    return FingerGrasp{
-        {0, {{1, 0, 0}, {-1, 0, 0}}}, {1, {{-1, 0, 0}, {1, 0, 0}}}, {2, {{1, y, 0}, {-1, 0, 0}}}};
+    return FingerGrasp{{FingerIndex(0), {{1, 0, 0}, {-1, 0, 0}}},
+                       {FingerIndex(1), {{-1, 0, 0}, {1, 0, 0}}},
+                       {FingerIndex(2), {{1, y, 0}, {-1, 0, 0}}}};
   };
   return AlignPlan(EmptyPlan(3, 5, 30), {grasp(from), grasp(to)});
 }
@@ -230,8 +236,8 @@ struct TurnAndSlide {
 
   TurnAndSlide(int fingers, double above) {
     const auto grasp = [&](const Eigen::Vector3d& n, double y) {
-      FingerGrasp held = {{0, {{0, 0, 0}, n}}};
-      for (int f = 1; f < fingers; ++f) {
+      FingerGrasp held = {{FingerIndex(0), {{0, 0, 0}, n}}};
+      for (FingerIndex f{1}; f < fingers; ++f) {
         held.push_back({f, {{1, y + 1e-3 * (f - 1), 0}, {-1, 0, 0}}});
       }
       return held;

@@ -20,7 +20,8 @@ TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
   Plan plan = EmptyPlan(2, 4, 20);
   const double limit = 2 * std::tan(plan.half_angle);
   for (const double share : {1 - 1e-6, 1 + 1e-6}) {
-    plan.initial = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{0.3 - share * limit, 1, 0}, {0, -1, 0}}}};
+    plan.initial = {{FingerIndex(0), {{0.3, -1, 0}, {0, 1, 0}}},
+                    {FingerIndex(1), {{0.3 - share * limit, 1, 0}, {0, -1, 0}}}};
     plan.goal = ContactsOf(plan.initial);
     const PlanCheck check = CheckPlan(square, plan);
     if (share < 1) {
@@ -57,11 +58,14 @@ TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
 
 TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
   const object::Polygon square = MakeSquare();
-  const FingerGrasp apart = {{0, {{0.3, -1, 0}, {0, 1, 0}}}, {1, {{-0.3, 1, 0}, {0, -1, 0}}}};
-  const FingerGrasp opposite = {{2, {{1, 0, 0}, {-1, 0, 0}}}, {3, {{-1, 0, 0}, {1, 0, 0}}}};
+  const FingerGrasp apart = {{FingerIndex(0), {{0.3, -1, 0}, {0, 1, 0}}},
+                             {FingerIndex(1), {{-0.3, 1, 0}, {0, -1, 0}}}};
+  const FingerGrasp opposite = {{FingerIndex(2), {{1, 0, 0}, {-1, 0, 0}}},
+                                {FingerIndex(3), {{-1, 0, 0}, {1, 0, 0}}}};
   Plan plan = EmptyPlan(2, 4, 20);
   plan.initial = apart;
-  plan.steps = {Switch{opposite, {0, 1}}, Switch{apart, {2, 3}}};
+  plan.steps = {Switch{opposite, {FingerIndex(0), FingerIndex(1)}},
+                Switch{apart, {FingerIndex(2), FingerIndex(3)}}};
   plan.goal = ContactsOf(apart);
   const PlanCheck check = CheckPlan(square, plan);
   ExpectPasses(check, "to and fro");
@@ -80,7 +84,8 @@ TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
   for (int i = 1; i <= 40; ++i) {
     Plan plan = EmptyPlan(2, 4, 40);
     const double apart = 0.02 * i;
-    plan.initial = {{0, {{apart, -1, 0}, {0, 1, 0}}}, {1, {{-apart, 1, 0}, {0, -1, 0}}}};
+    plan.initial = {{FingerIndex(0), {{apart, -1, 0}, {0, 1, 0}}},
+                    {FingerIndex(1), {{-apart, 1, 0}, {0, -1, 0}}}};
     plan.goal = ContactsOf(plan.initial);
     // In the middle of the bounds, where the grasp may hold although that is not known of it yet.
     const auto bounds = CheckPlan(square, plan).steps[0].required;
@@ -105,8 +110,8 @@ struct Strip {
 
   /// A finger below and one above, this far apart along the strip.
   static FingerGrasp Held(double apart) {
-    return {{0, {{0.5 - apart / 2, 0, 0}, {0, 1, 0}}},
-            {1, {{0.5 + apart / 2, kHeight, 0}, {0, -1, 0}}}};
+    return {{FingerIndex(0), {{0.5 - apart / 2, 0, 0}, {0, 1, 0}}},
+            {FingerIndex(1), {{0.5 + apart / 2, kHeight, 0}, {0, -1, 0}}}};
   }
   static Plan HoldPlan(double apart) {
     Plan plan = EmptyPlan(2, 4, 20);

@@ -16,7 +16,7 @@ namespace {
 std::vector<Plan> Plans() {
   std::vector<Plan> plans(6, CubePlan());
   plans[1].initial[2].contact.p.z() *= 1.01;
-  std::get<Switch>(plans[2].steps[1]).release = {0};
+  std::get<Switch>(plans[2].steps[1]).release = {FingerIndex(0)};
   std::get<Align>(plans[3].steps[2]).waypoints[1][0].contact.p = {1, 0.95, 0.95};
   std::get<Align>(plans[3].steps[2]).waypoints[1][1].contact.p = {-1, -0.95, -0.95};
   plans[4].half_angle = Radians(1);
@@ -24,12 +24,12 @@ std::vector<Plan> Plans() {
   return plans;
 }
 
-void ForEachFinger(Plan& plan, const std::function<void(int&)>& change) {
+void ForEachFinger(Plan& plan, const std::function<void(FingerIndex&)>& change) {
   for (FingerContact& held : plan.initial) change(held.finger);
   for (Step& step : plan.steps) {
     if (auto* finger_switch = std::get_if<Switch>(&step)) {
       for (FingerContact& held : finger_switch->place) change(held.finger);
-      for (int& finger : finger_switch->release) change(finger);
+      for (FingerIndex& finger : finger_switch->release) change(finger);
     } else {
       for (FingerGrasp& waypoint : std::get<Align>(step).waypoints) {
         for (FingerContact& held : waypoint) change(held.finger);
@@ -71,7 +71,8 @@ TEST(CheckLaws, TheNumberingOfFingersDoesNotMatter) {
   for (const Plan& plan : Plans()) {
     const PlanCheck expected = CheckPlan(cube, plan);
     Plan renumbered = plan;
-    ForEachFinger(renumbered, [](int& finger) { finger = (2 * finger + 1) % 5; });
+    ForEachFinger(renumbered,
+                  [](FingerIndex& finger) { finger = FingerIndex((2 * finger + 1) % 5); });
     ExpectSameVerdict(CheckPlan(cube, renumbered), expected);
     ++(expected.passed() ? passed : failed);
   }

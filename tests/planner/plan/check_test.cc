@@ -70,7 +70,8 @@ std::vector<Control> SharedControls() {
        [](Plan& plan) { plan.initial[1].finger = plan.initial[0].finger; }, 0,
        Reason::kFingerNotFree},
       {"a placed finger that was already holding",
-       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = 1; }, 1, Reason::kFingerNotFree},
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = FingerIndex(1); }, 1,
+       Reason::kFingerNotFree},
       {"a switch that places a finger twice",
        [](Plan& plan) { SwitchOf(plan, 0).place.push_back(SwitchOf(plan, 0).place[0]); }, 1,
        Reason::kFingerNotFree},
@@ -81,13 +82,15 @@ std::vector<Control> SharedControls() {
        [](Plan& plan) { SwitchOf(plan, 0).release.push_back(SwitchOf(plan, 0).release[0]); }, 1,
        Reason::kFingerNotHolding},
       {"a released finger that no hand has",
-       [](Plan& plan) { SwitchOf(plan, 0).release.push_back(99); }, 1, Reason::kFingerNotHolding},
+       [](Plan& plan) { SwitchOf(plan, 0).release.push_back(FingerIndex(99)); }, 1,
+       Reason::kFingerNotHolding},
       {"a hand with a finger too few", [](Plan& plan) { --plan.fingers; }, 1,
        Reason::kTooManyFingers},
       {"an initial grasp with a finger outside the hand",
-       [](Plan& plan) { plan.initial[0].finger = plan.fingers; }, 0, Reason::kTooManyFingers},
+       [](Plan& plan) { plan.initial[0].finger = FingerIndex(plan.fingers); }, 0,
+       Reason::kTooManyFingers},
       {"a placed finger outside the hand",
-       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = plan.fingers; }, 1,
+       [](Plan& plan) { SwitchOf(plan, 0).place[0].finger = FingerIndex(plan.fingers); }, 1,
        Reason::kTooManyFingers},
       {"an initial grasp with two fingers at one point",
        [](Plan& plan) { plan.initial[1].contact = plan.initial[0].contact; }, 0,
@@ -136,7 +139,7 @@ TEST(CheckPlan, FailsControlsOfTheCubeForTheirReasons) {
       {
           {"a finger released that carries the grasp",
            [](Plan& plan) {
-             SwitchOf(plan, 0).release = {2, 0};
+             SwitchOf(plan, 0).release = {FingerIndex(2), FingerIndex(0)};
            },
            1, Reason::kNotForceClosure},
           {"a finger placed where another holds",
@@ -147,7 +150,7 @@ TEST(CheckPlan, FailsControlsOfTheCubeForTheirReasons) {
           {"the second switch left out",
            [](Plan& plan) { plan.steps.erase(plan.steps.begin() + 1); }, 2, Reason::kDiscontinuous},
           {"an align with a finger that did not hold",
-           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 3; }, 3,
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = FingerIndex(3); }, 3,
            Reason::kDiscontinuous},
           {"an align that a finger joins",
            [](Plan& plan) {
@@ -157,10 +160,10 @@ TEST(CheckPlan, FailsControlsOfTheCubeForTheirReasons) {
            },
            3, Reason::kDiscontinuous},
           {"an align that names a finger twice",
-           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 1; }, 3,
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = FingerIndex(1); }, 3,
            Reason::kFingerNotFree},
           {"an align with a finger outside the hand",
-           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = 8; }, 3,
+           [](Plan& plan) { AlignOf(plan, 2).waypoints[1][0].finger = FingerIndex(8); }, 3,
            Reason::kTooManyFingers},
           {"an align without waypoints", [](Plan& plan) { AlignOf(plan, 2).waypoints.clear(); }, 3,
            Reason::kDiscontinuous},
@@ -191,13 +194,13 @@ TEST(CheckPlan, FailsControlsOfTheSquareForTheirReasons) {
                          {"a finger released that carries the grasp",
                           [](Plan& plan) {
                             SwitchOf(plan, 0).place.pop_back();
-                            SwitchOf(plan, 0).release = {0};
+                            SwitchOf(plan, 0).release = {FingerIndex(0)};
                           },
                           1, Reason::kNotForceClosure},
                          {"a finger placed where another stays",
                           [](Plan& plan) {
                             SwitchOf(plan, 0).place[0].contact = plan.initial[0].contact;
-                            SwitchOf(plan, 0).release = {1};
+                            SwitchOf(plan, 0).release = {FingerIndex(1)};
                           },
                           1, Reason::kCoincidentFingers},
                          {"an align that goes to another edge without a turn",
@@ -300,7 +303,7 @@ TEST(CheckPlan, AcceptsAnEmptyPlanThatIsAtItsGoal) {
 TEST(CheckPlan, LetsFingersMeetOnlyWhileASwitchIsUnderWay) {
   // A spare finger takes over the very place of another: no grasp at rest has both.
   Plan plan = CubePlan();
-  plan.steps = {Switch{{{4, plan.initial[2].contact}}, {2}}};
+  plan.steps = {Switch{{{FingerIndex(4), plan.initial[2].contact}}, {FingerIndex(2)}}};
   plan.goal = ContactsOf(plan.initial);
   ExpectPasses(CheckPlan(MakeCube(), plan), "taken over");
   SwitchOf(plan, 0).release.clear();
@@ -311,24 +314,25 @@ TEST(CheckPlan, LetsNoFingerIntoASealedCavity) {
   const auto inside = [](const grasp::Contact& contact) {
     return grasp::Contact{contact.p / 2, -contact.n};
   };
-  ExpectControlsFail(
-      MakeHollowCube(), CubePlan(),
-      {{"holds from inside",
-        [&](Plan& plan) {
-          for (FingerContact& held : plan.initial) held.contact = inside(held.contact);
-        },
-        0, Reason::kUnreachable},
-       {"goes in from outside",
-        [&](Plan& plan) {
-          plan.steps[0] = Switch{{{4, inside(SwitchOf(plan, 0).place[0].contact)}}, {}};
-        },
-        1, Reason::kUnreachable}});
+  ExpectControlsFail(MakeHollowCube(), CubePlan(),
+                     {{"holds from inside",
+                       [&](Plan& plan) {
+                         for (FingerContact& held : plan.initial)
+                           held.contact = inside(held.contact);
+                       },
+                       0, Reason::kUnreachable},
+                      {"goes in from outside",
+                       [&](Plan& plan) {
+                         plan.steps[0] = Switch{
+                             {{FingerIndex(4), inside(SwitchOf(plan, 0).place[0].contact)}}, {}};
+                       },
+                       1, Reason::kUnreachable}});
 }
 
 TEST(CheckPlan, ReportsTheFirstOfSeveralFaults) {
   Plan plan = CubePlan();
   plan.initial[1].contact.n *= -1;
-  plan.initial[2].finger = 0;
+  plan.initial[2].finger = FingerIndex(0);
   ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kWrongNormal, "normal before finger");
   plan.initial[3].contact.p *= 1.1;
   ExpectFails(CheckPlan(MakeCube(), plan), 0, Reason::kOffSurface, "surface before normal");

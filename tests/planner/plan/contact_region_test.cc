@@ -39,14 +39,14 @@ grasp::Contact Along(const object::Polygon& polygon, grasp::Contact contact, dou
   const int count = polygon.face_count();
   const auto [from, to] = polygon.edge(contact.face);
   double at = (contact.p - from).norm() + way;
-  int edge = contact.face;
+  FaceIndex edge = contact.face;
   while (at < 0) {
-    edge = (edge + count - 1) % count;
+    edge = FaceIndex((edge + count - 1) % count);
     at += polygon.face_measure(edge);
   }
   while (at > polygon.face_measure(edge)) {
     at -= polygon.face_measure(edge);
-    edge = (edge + 1) % count;
+    edge = FaceIndex((edge + 1) % count);
   }
   return OnEdge(polygon, edge, at / polygon.face_measure(edge));
 }
@@ -102,7 +102,7 @@ TEST(ContactRegion, OfAFingerInAHoleStretchesBetweenItsSides) {
   const object::Polygon frame = object::Polygon::FromRings(
       {{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}}, "frame");
   int left = -1, right = -1, outside = -1;
-  for (int edge = 0; edge < frame.face_count(); ++edge) {
+  for (FaceIndex edge{0}; edge < frame.face_count(); ++edge) {
     const Eigen::Vector3d middle = OnEdge(frame, edge, 0.5).p;
     if ((middle - Eigen::Vector3d(-1, 0, 0)).norm() < 1e-9) left = edge;
     if ((middle - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9) right = edge;
@@ -136,8 +136,8 @@ TEST(ContactRegion, GivesNoMoreThanTheLimitAndRefusesWhatIsNoGrasp) {
   };
   refuses({grasp[0]}, 1);
   refuses({grasp[0], grasp[1], grasp[0]}, 1);
-  refuses({grasp[0], {grasp[1].p, grasp[1].n, -1}}, 1);
-  refuses({grasp[0], {grasp[1].p, grasp[1].n, 4}}, 1);
+  refuses({grasp[0], {grasp[1].p, grasp[1].n, {}}}, 1);
+  refuses({grasp[0], {grasp[1].p, grasp[1].n, FaceIndex(4)}}, 1);
   refuses(grasp, -1);
   refuses(grasp, std::numeric_limits<double>::infinity());
 }
@@ -235,8 +235,9 @@ TEST(ContactRegion, IsTheSameUnderRigidMotionScaleAndOrderAndGrowsWithFriction) 
 
 TEST(SwitchRegion, IsTheSmallerOneOfBothGraspsAndHoldsTheClaimAgainstIt) {
   const object::Polygon square = MakeSquare();
-  const FingerGrasp before = {{0, OnEdge(square, 1, 0.5)}, {1, OnEdge(square, 3, 0.5)}};
-  Switch step{{{2, OnEdge(square, 3, 0.55)}}, {1}};
+  const FingerGrasp before = {{FingerIndex(0), OnEdge(square, 1, 0.5)},
+                              {FingerIndex(1), OnEdge(square, 3, 0.5)}};
+  Switch step{{{FingerIndex(2), OnEdge(square, 3, 0.55)}}, {FingerIndex(1)}};
   const double expected = std::tan(Radians(20)) - 0.05;
   const auto measure = [&] { return MeasureSwitchRegion(square, before, step, Radians(20)); };
   ASSERT_TRUE(measure().has_value());
@@ -252,8 +253,9 @@ TEST(SwitchRegion, IsTheSmallerOneOfBothGraspsAndHoldsTheClaimAgainstIt) {
 
 TEST(SwitchRegion, IsOnlyOfSwitchesBetweenGraspsOfTwoContacts) {
   const object::Polygon square = MakeSquare();
-  const FingerGrasp before = {{0, OnEdge(square, 1, 0.5)}, {1, OnEdge(square, 3, 0.5)}};
-  const Switch step{{{2, OnEdge(square, 0, 0.5)}}, {}};
+  const FingerGrasp before = {{FingerIndex(0), OnEdge(square, 1, 0.5)},
+                              {FingerIndex(1), OnEdge(square, 3, 0.5)}};
+  const Switch step{{{FingerIndex(2), OnEdge(square, 0, 0.5)}}, {}};
   EXPECT_FALSE(MeasureSwitchRegion(square, before, step, Radians(20)).has_value());
 }
 

@@ -231,7 +231,7 @@ TEST(HostileFiles, GraspsOfFarTooManyFingersAreJudged) {
   const object::Polyhedron cube = MakeCube();
   FingerGrasp crowd;
   for (int finger = 0; finger < kContacts; ++finger) {
-    crowd.push_back({finger, {{1, -1 + 2.0 * finger / kContacts, 0}, {-1, 0, 0}}});
+    crowd.push_back({FingerIndex(finger), {{1, -1 + 2.0 * finger / kContacts, 0}, {-1, 0, 0}}});
   }
   Plan plan = CubePlan();
   plan.initial = crowd;

@@ -12,10 +12,10 @@ namespace {
 using Eigen::Vector3d;
 
 /// One finger that turns over an edge, at two points that should be one.
-Align TurnOver(const object::Object& object, int face, const object::FaceBorder& edge,
+Align TurnOver(const object::Object& object, FaceIndex face, const object::FaceBorder& edge,
                const Vector3d& p, const Vector3d& q) {
-  return {{{{0, {p, object.inward_normal(face), -1}}},
-           {{0, {q, object.inward_normal(edge.beyond), -1}}}}};
+  return {{{{FingerIndex(0), {p, object.inward_normal(face), {}}}},
+           {{FingerIndex(0), {q, object.inward_normal(edge.beyond), {}}}}}};
 }
 
 TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
@@ -23,7 +23,7 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
   const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/stone.obj");
   const object::Object& stone = *file.object;
   int rounded = 0;
-  for (int face = 0; face < stone.face_count(); ++face) {
+  for (FaceIndex face{0}; face < stone.face_count(); ++face) {
     for (const object::FaceBorder& edge : stone.BordersOf(face)) {
       for (int i = 1; i < kPoints; ++i) {
         const Vector3d p = edge.a + static_cast<double>(i) / kPoints * (edge.b - edge.a);
@@ -44,10 +44,10 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
 TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
   const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/cube.obj");
   const object::Object& cube = *file.object;
-  const object::FaceBorder edge = cube.BordersOf(0).front();
+  const object::FaceBorder edge = cube.BordersOf(FaceIndex(0)).front();
   const Vector3d p = (edge.a + edge.b) / 2;
   const double off = 1e-8 * cube.diameter();
-  Align align = TurnOver(cube, 0, edge, p, p + off * (edge.b - edge.a).normalized());
+  Align align = TurnOver(cube, FaceIndex(0), edge, p, p + off * (edge.b - edge.a).normalized());
   LocateAlign(cube, align);
   const double apart = (align.waypoints[0][0].contact.p - align.waypoints[1][0].contact.p).norm();
   EXPECT_NEAR(apart, off, off / 1000);

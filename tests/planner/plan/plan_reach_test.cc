@@ -12,11 +12,11 @@ namespace {
 using Eigen::Vector3d;
 
 FingerContact At(const object::Object& object, int finger, const Vector3d& p, const Vector3d& n) {
-  for (const int face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
-    if ((object.inward_normal(face) - n).norm() < 1e-9) return {finger, {p, n, face}};
+  for (const FaceIndex face : object.FacesNear(p, object::kPointTolerance * object.diameter())) {
+    if ((object.inward_normal(face) - n).norm() < 1e-9) return {FingerIndex(finger), {p, n, face}};
   }
   ADD_FAILURE() << "no face with normal " << n.transpose() << " at " << p.transpose();
-  return {finger, {p, n, 0}};
+  return {FingerIndex(finger), {p, n, {}}};
 }
 
 /// [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
@@ -60,7 +60,7 @@ TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
 TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
   const object::Polyhedron cube = MakeCube();
   const FingerGrasp before = {At(cube, 0, {0, 0, 1}, kDown), At(cube, 1, {0, 0, -1}, -kDown)};
-  const Step step = Switch{{At(cube, 2, {0.3, 0, 1}, kDown)}, {0}};
+  const Step step = Switch{{At(cube, 2, {0.3, 0, 1}, kDown)}, {FingerIndex(0)}};
   EXPECT_FALSE(FindStepObstacle(cube, before, step, 0.1).has_value());
   const auto found = FindStepObstacle(cube, before, step, 0.2);
   ASSERT_TRUE(found.has_value());
@@ -123,10 +123,10 @@ TEST(PlanReach, NamesTheFirstEntryOfASequence) {
   plan = CheckPlan(cube, plan).located;
   EXPECT_FALSE(FindPlanObstacle(cube, plan.initial, plan.steps, 0.05).has_value());
   plan.steps.insert(plan.steps.begin(),
-                    Switch{{{4,
+                    Switch{{{FingerIndex(4),
                              {plan.initial[0].contact.p + Vector3d(0, 0, 0.05),
                               plan.initial[0].contact.n, plan.initial[0].contact.face}}},
-                           {0}});
+                           {FingerIndex(0)}});
   const auto found = FindPlanObstacle(cube, plan.initial, plan.steps, 0.05);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->index, 1);

@@ -33,27 +33,36 @@ Plan EmptyPlan(int dimension, int fingers, double half_angle_deg) {
 
 Plan CubePlan() {
   Plan plan = EmptyPlan(3, 5, 30);
-  plan.initial = {{0, kRight}, {1, kLeft}, {2, kAbove}, {3, kBelow}};
-  plan.steps.push_back(Switch{{{4, kBack}}, {2}});
-  plan.steps.push_back(Switch{{{2, kFront}}, {3}});
-  const FingerGrasp end = {{0, Moved(kRight, 0, 0.1, 0.2)},
-                           {1, Moved(kLeft, 0, 0.2, 0.1)},
-                           {4, Moved(kBack, 0.3, 0, -0.2)},
-                           {2, Moved(kFront, 0.2, 0, -0.1)}};
+  plan.initial = {{FingerIndex(0), kRight},
+                  {FingerIndex(1), kLeft},
+                  {FingerIndex(2), kAbove},
+                  {FingerIndex(3), kBelow}};
+  plan.steps.push_back(Switch{{{FingerIndex(4), kBack}}, {FingerIndex(2)}});
+  plan.steps.push_back(Switch{{{FingerIndex(2), kFront}}, {FingerIndex(3)}});
+  const FingerGrasp end = {{FingerIndex(0), Moved(kRight, 0, 0.1, 0.2)},
+                           {FingerIndex(1), Moved(kLeft, 0, 0.2, 0.1)},
+                           {FingerIndex(4), Moved(kBack, 0.3, 0, -0.2)},
+                           {FingerIndex(2), Moved(kFront, 0.2, 0, -0.1)}};
   FingerGrasp middle = end;
   middle[2].contact = Moved(kBack, 0.1, 0, 0.1);
   middle[3].contact = Moved(kFront, 0.1, 0, 0.1);
-  plan.steps.push_back(Align{{{{0, kRight}, {1, kLeft}, {2, kFront}, {4, kBack}}, middle, end}});
+  plan.steps.push_back(Align{{{{FingerIndex(0), kRight},
+                               {FingerIndex(1), kLeft},
+                               {FingerIndex(2), kFront},
+                               {FingerIndex(4), kBack}},
+                              middle,
+                              end}});
   plan.goal = ContactsOf(end);
   return plan;
 }
 
 Plan SquarePlan() {
   Plan plan = EmptyPlan(2, 4, 20);
-  plan.initial = {{0, {{0.1, -1, 0}, {0, 1, 0}}}, {1, {{-0.1, 1, 0}, {0, -1, 0}}}};
-  const FingerContact right = {2, {{1, -0.2, 0}, {-1, 0, 0}}};
-  const FingerContact left = {3, {{-1, 0, 0}, {1, 0, 0}}};
-  plan.steps.push_back(Switch{{right, left}, {0, 1}});
+  plan.initial = {{FingerIndex(0), {{0.1, -1, 0}, {0, 1, 0}}},
+                  {FingerIndex(1), {{-0.1, 1, 0}, {0, -1, 0}}}};
+  const FingerContact right = {FingerIndex(2), {{1, -0.2, 0}, {-1, 0, 0}}};
+  const FingerContact left = {FingerIndex(3), {{-1, 0, 0}, {1, 0, 0}}};
+  plan.steps.push_back(Switch{{right, left}, {FingerIndex(0), FingerIndex(1)}});
   FingerGrasp end = {right, left};
   for (FingerContact& held : end) held.contact.p.y() += 0.3;
   plan.steps.push_back(Align{{{right, left}, end}});

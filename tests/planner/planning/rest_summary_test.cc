@@ -23,8 +23,8 @@ class RestSummary : public testing::Test {
  protected:
   /// Fingers of the unit square's bottom and top.
   [[nodiscard]] Rest At(double bottom, double top) const {
-    return {{{{bottom, 0, 0}, square_.inward_normal(0), 0},
-             {{top, 1, 0}, square_.inward_normal(2), 2}},
+    return {{{{bottom, 0, 0}, square_.inward_normal(FaceIndex(0)), FaceIndex(0)},
+             {{top, 1, 0}, square_.inward_normal(FaceIndex(2)), FaceIndex(2)}},
             std::nullopt};
   }
 
@@ -51,11 +51,12 @@ TEST_F(RestSummary, OfTheGraspsBelowACriterionTheWeakestIsNamed) {
 }
 
 TEST_F(RestSummary, AFingertipInACornerIsNamed) {
-  const object::Polygon notch = object::Polygon::FromRings(
-      {{{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 1}, {0, 1}}}, "notch");
+  const object::Polygon notch =
+      object::Polygon::FromRings({{{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 1}, {0, 1}}}, "notch");
   const criteria::GraspEvaluator evaluator(notch, {Radians(30), 0});
-  const Rest corner = {{{{1.9999, 0, 0}, {0, 1, 0}, 0}, {{1.9999, 1, 0}, {0, -1, 0}, 4}},
-                       std::nullopt};
+  const Rest corner = {
+      {{{1.9999, 0, 0}, {0, 1, 0}, FaceIndex(0)}, {{1.9999, 1, 0}, {0, -1, 0}, FaceIndex(4)}},
+      std::nullopt};
   EXPECT_THAT(RestWarnings({corner}, evaluator),
               ElementsAre(HasSubstr("a fingertip has no clearance in the start grasp")));
 }

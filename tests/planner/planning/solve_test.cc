@@ -24,10 +24,10 @@ constexpr double kHalf = 0.03;
 /// Two fingers on each of two opposite faces of the cube, `lean` apart along z at the second pair,
 /// so that the grasp needs some friction.
 GraspChoice OppositePairs(double lean) {
-  const grasp::Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, 0},
-                              {{-kHalf, -0.01, 0}, {1, 0, 0}, 0},
-                              {{kHalf, 0.01, lean}, {-1, 0, 0}, 1},
-                              {{kHalf, -0.01, lean}, {-1, 0, 0}, 1}};
+  const grasp::Grasp grasp = {{{-kHalf, 0.01, 0}, {1, 0, 0}, FaceIndex(0)},
+                              {{-kHalf, -0.01, 0}, {1, 0, 0}, FaceIndex(0)},
+                              {{kHalf, 0.01, lean}, {-1, 0, 0}, FaceIndex(1)},
+                              {{kHalf, -0.01, lean}, {-1, 0, 0}, FaceIndex(1)}};
   return {GraspChoice::Kind::kGiven, grasp, "given.json"};
 }
 
@@ -35,7 +35,7 @@ GraspChoice OppositePairs(double lean) {
 class StubPlanner final : public Planner {
  public:
   using Task = std::function<PlanResult(const PlanRequest&)>;
-  explicit StubPlanner(sampling::ContactLimits contacts = {4, 4}, Task task = {})
+  explicit StubPlanner(grasp::ContactLimits contacts = {4, 4}, Task task = {})
       : Planner({.name = "stub", .in_space = PlannerScope{5, contacts, contacts}}),
         task_(std::move(task)) {}
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(const PlanRequest&) const override {
@@ -54,7 +54,7 @@ PlanResult SolveOnCube(const Planner& planner, const GraspChoice& choice, PlanRe
   return PlanWith(planner, cube, choice, choice, std::move(request));
 }
 
-void Check(const GraspChoice& choice, double degrees, sampling::ContactLimits contacts = {4, 4}) {
+void Check(const GraspChoice& choice, double degrees, grasp::ContactLimits contacts = {4, 4}) {
   (void)SolveOnCube(StubPlanner(contacts), choice, RequestAt(degrees));
 }
 

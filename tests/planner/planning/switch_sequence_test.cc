@@ -11,10 +11,10 @@ namespace {
 using testing::ElementsAre;
 
 /// A contact that is told from others by one number.
-grasp::Contact At(double x) { return {{x, 0, 0}, {1, 0, 0}, 0}; }
+grasp::Contact At(double x) { return {{x, 0, 0}, {1, 0, 0}, FaceIndex(0)}; }
 
-std::vector<int> Fingers(const plan::FingerGrasp& grasp) {
-  std::vector<int> fingers;
+std::vector<FingerIndex> Fingers(const plan::FingerGrasp& grasp) {
+  std::vector<FingerIndex> fingers;
   for (const plan::FingerContact& contact : grasp) fingers.push_back(contact.finger);
   return fingers;
 }

@@ -7,10 +7,12 @@ namespace {
 
 TEST(FindContact, TakesTheFirstOnTheSameFaceWithinTheTolerance) {
   const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
-  const std::vector<grasp::Contact> points = {
-      {{0, 0, 0}, n, 4}, {{0, 0, 0}, n, 5}, {{1e-3, 0, 0}, n, 5}, {{1e-3, 1e-4, 0}, n, 5}};
+  const std::vector<grasp::Contact> points = {{{0, 0, 0}, n, FaceIndex(4)},
+                                              {{0, 0, 0}, n, FaceIndex(5)},
+                                              {{1e-3, 0, 0}, n, FaceIndex(5)},
+                                              {{1e-3, 1e-4, 0}, n, FaceIndex(5)}};
   const auto find = [&](const Eigen::Vector3d& p, int face, double tolerance) {
-    return FindContact(points, {p, n, face}, tolerance);
+    return FindContact(points, {p, n, FaceIndex(face)}, tolerance);
   };
   EXPECT_EQ(find({0, 0, 0}, 4, 0), 0);
   EXPECT_EQ(find({0, 0, 0}, 5, 0), 1);

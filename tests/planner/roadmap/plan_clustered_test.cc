@@ -232,8 +232,9 @@ TEST(PlanOnClusters, MovesNoFingerToItsOwnPointOnABorder) {
   grasp::Grasp goal = start;
   const auto face_of = [&](int axis) {
     const auto faces = isolated.cube.FacesNear(start[0].p, object::kPointTolerance * 0.1);
-    return *std::find_if(faces.begin(), faces.end(),
-                         [&](int face) { return isolated.cube.inward_normal(face)[axis] < -0.9; });
+    return *std::find_if(faces.begin(), faces.end(), [&](FaceIndex face) {
+      return isolated.cube.inward_normal(face)[axis] < -0.9;
+    });
   };
   start[0].face = face_of(0);
   start[0].n = isolated.cube.inward_normal(start[0].face);

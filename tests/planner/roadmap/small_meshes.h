@@ -46,10 +46,10 @@ inline object::Polyhedron MakeConvexBody(int corners, std::uint64_t seed,
 
 inline std::vector<grasp::Contact> Centroids(const object::Polyhedron& solid) {
   std::vector<grasp::Contact> contacts;
-  for (int i = 0; i < static_cast<int>(solid.triangles().size()); ++i) {
+  for (object::TriangleIndex i{0}; i < std::ssize(solid.triangles()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
     const auto& v = solid.vertices();
-    const int face = solid.face_of_triangle(i);
+    const FaceIndex face = solid.face_of_triangle(i);
     contacts.push_back({(v[a] + v[b] + v[c]) / 3, solid.inward_normal(face), face});
   }
   return contacts;

@@ -44,7 +44,7 @@ std::vector<WrenchPyramid> PyramidsOf(const object::Polyhedron& solid) {
 
 TEST(PyramidOf, HasUnitWrenchesOfForcesOnTheCone) {
   const object::WrenchFrame frame{{0.01, 0, 0}, 0.05, 3};
-  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
+  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), {}};
   const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, Eigen::Vector3d::UnitY());
   const Eigen::Vector3d arm = (contact.p - frame.origin) / frame.radius;
   for (int side = 0; side < kPyramidSides; ++side) {
@@ -63,8 +63,8 @@ TEST(PyramidOf, HasUnitWrenchesOfForcesOnTheCone) {
 
 TEST(PyramidOf, TakesTheOthersWhereTheContactIsStraightAboveTheOrigin) {
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
-  const grasp::Contact above{{0, 0, 0.05}, -Eigen::Vector3d::UnitZ(), 0};
-  const grasp::Contact aside{{0.02, 0, 0.03}, -Eigen::Vector3d::UnitZ(), 0};
+  const grasp::Contact above{{0, 0, 0.05}, -Eigen::Vector3d::UnitZ(), {}};
+  const grasp::Contact aside{{0.02, 0, 0.03}, -Eigen::Vector3d::UnitZ(), {}};
   const std::vector<grasp::Contact> others = {above, aside};
   const WrenchPyramid pyramid = PyramidOf(above, frame, kHalfAngle, others);
   EXPECT_TRUE(pyramid.isApprox(PyramidOf(above, frame, kHalfAngle, Eigen::Vector3d::UnitX())));
@@ -92,8 +92,8 @@ TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 1, 3};
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   for (const double turn : {0.0, 0.05, 0.3, 1.0}) {
-    const grasp::Contact a{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0};
-    const grasp::Contact b{Eigen::Vector3d::Zero(), Eigen::AngleAxisd(turn, axis) * a.n, 0};
+    const grasp::Contact a{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), {}};
+    const grasp::Contact b{Eigen::Vector3d::Zero(), Eigen::AngleAxisd(turn, axis) * a.n, {}};
     double expected = 0;
     for (int k = 0; k < kPyramidSides; ++k) {
       const double along_axis =
@@ -109,7 +109,7 @@ TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
 
 TEST(WrenchDistance, OfAPyramidTurnedByWholeSidesIsZero) {
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
-  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), 0};
+  const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), {}};
   const Eigen::Vector3d towards = contact.n.unitOrthogonal();
   const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, towards);
   const auto turned = [&](double sides) {

@@ -30,8 +30,8 @@ TEST(SpreadContactPoints, GiveEachFaceItsShareOfTheArea) {
   const object::Polyhedron box = MakeBox({0.1, 0.06, 0.03});
   const std::vector<grasp::Contact> points = SpreadContactPoints(box, 100, 2);
   double area = 0;
-  for (int face = 0; face < box.face_count(); ++face) area += box.face_measure(face);
-  for (int face = 0; face < box.face_count(); ++face) {
+  for (FaceIndex face{0}; face < box.face_count(); ++face) area += box.face_measure(face);
+  for (FaceIndex face{0}; face < box.face_count(); ++face) {
     const auto count = std::count_if(points.begin(), points.end(),
                                      [&](const grasp::Contact& c) { return c.face == face; });
     // Purely random points would be off by more than four in one face out of three.
@@ -105,7 +105,7 @@ TEST(MeshContacts, AreTheCentroidsOfAllTrianglesInTheirOrder) {
     const auto& [a, b, c] = potato.triangles()[i];
     const auto& v = potato.vertices();
     EXPECT_LE((points[i].p - (v[a] + v[b] + v[c]) / 3).norm(), kOnFace * potato.diameter());
-    EXPECT_EQ(points[i].face, potato.face_of_triangle(i));
+    EXPECT_EQ(points[i].face, potato.face_of_triangle(object::TriangleIndex(i)));
     EXPECT_EQ(points[i].n, potato.inward_normal(points[i].face));
   }
 }

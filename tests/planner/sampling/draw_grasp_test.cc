@@ -15,7 +15,7 @@
 namespace regrasp::sampling {
 namespace {
 
-constexpr ContactLimits kFour = {4, 4};
+constexpr grasp::ContactLimits kFour = {4, 4};
 
 /// What NoGrasp says; empty where nothing is thrown.
 std::string Refusal(const std::function<void()>& draw) {
@@ -70,7 +70,7 @@ TEST(DrawOnSurface, SaysInTheSameWordsThatNoGraspIsThatGood) {
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   const object::ObjectFile square = object::ReadObject(REGRASP_SOURCE_DIR "/models/square.wkt");
   RandomStream random(1, RandomUse::kStart);
-  const auto refusal = [&](const object::Object& object, const ContactLimits& contacts) {
+  const auto refusal = [&](const object::Object& object, const grasp::ContactLimits& contacts) {
     const criteria::GraspEvaluator evaluator(object, {Radians(5), 1.1});
     return Refusal([&] { (void)DrawOnSurface(object, contacts, evaluator, random, "start"); });
   };

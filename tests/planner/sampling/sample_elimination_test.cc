@@ -19,7 +19,7 @@ std::vector<grasp::Contact> DrawInSquare(int count) {
   std::vector<grasp::Contact> contacts;
   for (int i = 0; i < count; ++i) {
     const double x = random.Uniform();
-    contacts.push_back({{x, random.Uniform(), 0}, {0, 0, 1}, 0});
+    contacts.push_back({{x, random.Uniform(), 0}, {0, 0, 1}, FaceIndex(0)});
   }
   return contacts;
 }
@@ -95,8 +95,8 @@ TEST(EliminateSamples, DoesNotLetTheTwoSidesOfAPlateCrowdEachOther) {
   // Five points, each on both sides of a plate of no thickness; the fifth is beside the fourth.
   std::vector<grasp::Contact> plate;
   for (const double x : {0.0, 1.0, 2.0, 3.0, 3.1}) {
-    plate.push_back({{x, 0, 0}, {0, 0, 1}, 0});
-    plate.push_back({{x, 0, 0}, {0, 0, -1}, 1});
+    plate.push_back({{x, 0, 0}, {0, 0, 1}, FaceIndex(0)});
+    plate.push_back({{x, 0, 0}, {0, 0, -1}, FaceIndex(1)});
   }
   const std::vector<grasp::Contact> kept = EliminateSamples(plate, 8, 8);
   ASSERT_EQ(kept.size(), 8u);

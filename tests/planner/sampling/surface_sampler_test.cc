@@ -29,7 +29,7 @@ void ExpectSharesOfTheMeasure(const object::Object& object) {
   const std::vector<double> shares = DrawnShares(object, 4000);
   const double whole = SurfaceSampler(object).measure();
   double sum = 0;
-  for (int face = 0; face < object.face_count(); ++face) {
+  for (FaceIndex face{0}; face < object.face_count(); ++face) {
     sum += object.face_measure(face);
     // Four standard deviations at most.
     EXPECT_NEAR(shares[face], object.face_measure(face) / whole, 0.032) << "face " << face;
@@ -52,7 +52,7 @@ TEST(SurfaceSampler, DrawsFacetsByTheirMeasure) {
   const SurfaceSampler sampler(polygon);
   RandomStream random(4, RandomUse::kStart);
   int first = 0;
-  for (int i = 0; i < 1000; ++i) first += sampler.DrawFacet(random) == 0 ? 1 : 0;
+  for (int i = 0; i < 1000; ++i) first += sampler.DrawTriangle(random) == 0 ? 1 : 0;
   EXPECT_NEAR(first / 1000.0, 4 / sampler.measure(), 0.06);
 }
 
@@ -67,7 +67,7 @@ TEST(SurfaceSampler, DrawsValidContactsAwayFromBordersAndCorners) {
     EXPECT_TRUE(criteria::HasClearance(polygon, contact));
     EXPECT_GE(polygon.DistanceToBorder(contact.face, contact.p),
               SurfaceSampler::kFromBorder * polygon.diameter());
-    EXPECT_EQ(sampler.DrawOn(2, random).face, 2);
+    EXPECT_EQ(sampler.DrawOn(FaceIndex(2), random).face, 2);
     if (!sampler.IsValid(sampler.DrawAnywhere(random))) ++invalid;
   }
   EXPECT_GT(invalid, 5);

@@ -39,7 +39,7 @@ struct Edge {
 
 template <class Number>
 Edge<Number> MakeEdge(const object::Polygon& polygon, int edge, double tangent) {
-  const auto [from, to] = polygon.edge(edge);
+  const auto [from, to] = polygon.edge(FaceIndex(edge));
   const Vec<Number> a = {Number(from.x()), Number(from.y())};
   const Vec<Number> along = Vec<Number>{Number(to.x()), Number(to.y())} - a;
   const Vec<Number> normal = {-along.y, along.x};

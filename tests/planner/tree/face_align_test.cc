@@ -168,16 +168,17 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
   SearchSpace space(cube, {Radians(25), 0});
   const sampling::SurfaceSampler source(cube);
   RandomStream random(1, RandomUse::kStart);
-  const auto draw = [&](int face) { return space.Add(source.DrawOn(face, random)); };
-  int opposite = 1;
-  while (cube.AreNeighbours(0, opposite)) ++opposite;
-  const int side = opposite == 1 ? 2 : 1;
-  const int third = [&] {
-    int face = 0;
+  const auto draw = [&](FaceIndex face) { return space.Add(source.DrawOn(face, random)); };
+  const FaceIndex first(0);
+  FaceIndex opposite{1};
+  while (cube.AreNeighbours(first, opposite)) ++opposite;
+  const FaceIndex side(opposite == 1 ? 2 : 1);
+  const FaceIndex third = [&] {
+    FaceIndex face{0};
     while (face == 0 || face == opposite || face == side || !cube.AreNeighbours(face, side)) ++face;
     return face;
   }();
-  const int a = draw(0), b = draw(side), c = draw(opposite);
+  const int a = draw(first), b = draw(side), c = draw(opposite);
   const criteria::ContactSet from = criteria::ContactSet().With(a).With(b).With(c);
   // The contact of face 0 is to change to `third`, the others stay on their faces.
   const int d = draw(side), e = draw(opposite), f = draw(third);
@@ -193,7 +194,8 @@ TEST(FaceAlignTest, PairsContactsAcrossAsFewEdgesAsCanBeAndNoneThatAreFarApart) 
   // Two of three on face 0 would have to go there from the other side of the cube.
   const criteria::ContactSet far =
       criteria::ContactSet().With(draw(opposite)).With(draw(opposite)).With(c);
-  const criteria::ContactSet near = criteria::ContactSet().With(draw(0)).With(draw(0)).With(a);
+  const criteria::ContactSet near =
+      criteria::ContactSet().With(draw(first)).With(draw(first)).With(a);
   EXPECT_FALSE(PairContacts(far, near, space));
   EXPECT_FALSE(AlignBetween(far, near, space));
   EXPECT_FALSE(PairContacts(from, criteria::ContactSet().With(a).With(b), space))

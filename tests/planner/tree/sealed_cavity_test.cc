@@ -116,7 +116,7 @@ TEST_P(SealedCavity, AGraspThereIsBadInputForPointsToo) {
   planning::GraspChoice choice;
   choice.name = "grasp.json";
   for (const double x : {-0.9, 0.9}) {
-    for (int face = 0; face < hollow_.face_count(); ++face) {
+    for (FaceIndex face{0}; face < hollow_.face_count(); ++face) {
       if (hollow_.IsEnclosed(face) && hollow_.inward_normal(face).x() * x > 0) {
         for (const double y : {-0.05, 0.05}) {
           choice.grasp.push_back({{x, y, 0}, hollow_.inward_normal(face), face});

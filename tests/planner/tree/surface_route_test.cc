@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 grasp::Contact On(const object::Object& object, const Vector3d& near) {
-  const int face = object.FacesNear(near, object.diameter()).front();
+  const FaceIndex face = object.FacesNear(near, object.diameter()).front();
   return {object.ClosestPoint(face, near), object.inward_normal(face), face};
 }
 
@@ -112,7 +112,7 @@ TEST(SurfaceRoute, GoesRoundTheConcaveEdgeOfABlockOverItsCaps) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& block = *file.object;
   int concave = 0;
-  for (int face = 0; face < block.face_count(); ++face) {
+  for (FaceIndex face{0}; face < block.face_count(); ++face) {
     for (const object::FaceBorder& edge : block.BordersOf(face)) {
       if (edge.convex) continue;
       ++concave;

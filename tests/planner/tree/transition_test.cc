@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int64_t kEffort = 20'000;
 
-std::vector<int> FacesOf(const grasp::Grasp& grasp) {
-  std::vector<int> faces;
+std::vector<FaceIndex> FacesOf(const grasp::Grasp& grasp) {
+  std::vector<FaceIndex> faces;
   for (const grasp::Contact& contact : grasp) faces.push_back(contact.face);
   return faces;
 }
@@ -33,7 +33,7 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
   for (int i = 0; i < 40; ++i) {
     const grasp::Grasp before = DrawGrasp(object, 4, criteria, draws);
     const int leaving = static_cast<int>(random.Index(4));
-    const int face = static_cast<int>(random.Index(object.face_count()));
+    const FaceIndex face(random.Index(object.face_count()));
     const grasp::Contact placed = source.DrawOn(face, random);
     SearchSpace space = SpaceFor(object, criteria);
     const auto transition = FindTransition(before, leaving, placed, source, random, space);

@@ -29,8 +29,8 @@ plan::Plan MakeForkPlan() {
   const plan::FingerContact left = FingerAt(fork, 1, 7, 0.2);
   const plan::FingerContact inner_right = FingerAt(fork, 2, 3, 2.0 / 7);
   const plan::FingerContact inner_left = FingerAt(fork, 1, 5, 5.0 / 7);
-  return MakePlanarPlan({right, left},
-                        {plan::Switch{{inner_right}, {1}}, plan::Switch{{inner_left}, {0}}});
+  return MakePlanarPlan({right, left}, {plan::Switch{{inner_right}, {FingerIndex(1)}},
+                                        plan::Switch{{inner_left}, {FingerIndex(0)}}});
 }
 
 plan::Plan MakeDiscPlan(const object::Polygon& disc) {
@@ -47,7 +47,8 @@ plan::Plan MakeDiscPlan(const object::Polygon& disc) {
 plan::Plan MakeExchangePlan() {
   const object::Polygon square = MakeSquare();
   const auto at = [&](int finger, int edge) { return FingerAt(square, finger, edge, 0.5); };
-  return MakePlanarPlan({at(0, 0), at(1, 2)}, {plan::Switch{{at(2, 1), at(3, 3)}, {0, 1}}});
+  return MakePlanarPlan({at(0, 0), at(1, 2)},
+                        {plan::Switch{{at(2, 1), at(3, 3)}, {FingerIndex(0), FingerIndex(1)}}});
 }
 
 bool Contains(const Outline& outline, const Vector2d& p, double margin) {

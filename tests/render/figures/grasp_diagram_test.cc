@@ -260,7 +260,7 @@ TEST(GraspDiagramTest, RefusesContactsWithoutAFaceAndAnglesThatAreNone) {
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, 0), std::invalid_argument);
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, Radians(90)), std::invalid_argument);
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, std::nan("")), std::invalid_argument);
-  grasp[1].face = -1;
+  grasp[1].face = {};
   EXPECT_THROW((void)DescribeGrasp(MakeTriangle(), grasp, Radians(20)), std::invalid_argument);
 }
 

@@ -40,7 +40,7 @@ int Count(const std::string& text, const std::regex& pattern) {
 /// Paths of an SVG that are filled with a finger's colour and cover what is behind them, as markers
 /// and heads of arrows do.
 int OpaqueFills(const std::string& svg, int finger) {
-  const Color color = FingerColor(finger);
+  const Color color = FingerColor(FingerIndex(finger));
   const auto percent = [](int channel) { return std::to_string(channel * 100 / 255); };
   const std::string channel = "(\\.\\d+)?%,\\s*";
   const std::string rgb = "rgb\\(" + percent(color.r) + channel + percent(color.g) + channel +

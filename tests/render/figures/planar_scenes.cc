@@ -18,7 +18,7 @@ plan::Plan MakePlanarPlan(const plan::FingerGrasp& initial, std::vector<plan::St
 }
 
 plan::FingerContact FingerAt(const object::Polygon& polygon, int finger, int edge, double u) {
-  return {finger, OnEdge(polygon, edge, u)};
+  return {FingerIndex(finger), OnEdge(polygon, edge, u)};
 }
 
 plan::Plan MakeSquarePlan() {
@@ -26,8 +26,9 @@ plan::Plan MakeSquarePlan() {
   const auto at = [&](int finger, int edge, double u) { return FingerAt(square, finger, edge, u); };
   const plan::FingerGrasp start = {at(0, 0, 0.5), at(1, 2, 0.25), at(2, 2, 0.75)};
   const plan::FingerGrasp moved = {at(0, 0, 0.4), at(1, 2, 0.25), at(2, 2, 0.75)};
-  return MakePlanarPlan(start, {plan::Align{{start, moved}}, plan::Switch{{at(3, 0, 0.6)}, {0}},
-                                plan::Switch{{at(0, 2, 0.4)}, {1, 2}}});
+  return MakePlanarPlan(
+      start, {plan::Align{{start, moved}}, plan::Switch{{at(3, 0, 0.6)}, {FingerIndex(0)}},
+              plan::Switch{{at(0, 2, 0.4)}, {FingerIndex(1), FingerIndex(2)}}});
 }
 
 plan::Plan MakeTrianglePlan() {
@@ -36,7 +37,7 @@ plan::Plan MakeTrianglePlan() {
     return FingerAt(triangle, finger, edge, u);
   };
   return MakePlanarPlan({at(0, 0, 0.5), at(1, 1, 0.5), at(2, 2, 0.5)},
-                        {plan::Switch{{at(3, 0, 0.4)}, {0}}});
+                        {plan::Switch{{at(3, 0, 0.4)}, {FingerIndex(0)}}});
 }
 
 }  // namespace regrasp::render

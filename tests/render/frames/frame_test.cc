@@ -176,7 +176,7 @@ TEST(FrameTest, DrawsFingersThatFarAwayObjectsLeftBehind) {
   std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   snapshots.back().X_WO.translation() = Eigen::Vector3d(0, 0, -50);
   const Image image = Draw(cube, snapshots, 2, Small());
-  EXPECT_GT(CountHue(image, FingerColor(3)), 20);
+  EXPECT_GT(CountHue(image, FingerColor(FingerIndex(3))), 20);
 }
 
 object::Polygon MakePolygon() {
@@ -203,7 +203,7 @@ TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
   thick.thickness = 0.25;
   const Image a = Draw(polygon, {MakePlanarSnapshot()}, 0, thin);
   const Image b = Draw(polygon, {MakePlanarSnapshot()}, 0, thick);
-  for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(finger)), 40);
+  for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(FingerIndex(finger))), 40);
   EXPECT_GT(CountDifferent(a, b), 1000);
   EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, Small())), 0);
 }

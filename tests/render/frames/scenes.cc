@@ -54,7 +54,7 @@ plan::FingerState MakeFinger(int finger, plan::FingerRole role, const Vector3d& 
   constexpr double kForce = 2;
   const Vector3d tangent = inward_normal.unitOrthogonal();
   plan::FingerState state;
-  state.finger = finger;
+  state.finger = FingerIndex(finger);
   state.role = role;
   state.contact_W = contact;
   state.normal_W = inward_normal;

@@ -20,11 +20,11 @@ Report MakeReport() {
   for (int index : {0, 1}) {
     ReportStep& step = report.steps.emplace_back();
     step.check.index = index;
-    step.needs = {{3, {Radians(12), true, std::nullopt}}};
+    step.needs = {{FingerIndex(3), {Radians(12), true, std::nullopt}}};
     step.replay.emplace();
     step.replay->adapted = sim::StepMotion();
-    step.replay->rest_margins = {{2, Radians(4.5)}};
-    step.replay->shake_margins = {{0, Radians(1.25)}};
+    step.replay->rest_margins = {{FingerIndex(2), Radians(4.5)}};
+    step.replay->shake_margins = {{FingerIndex(0), Radians(1.25)}};
   }
   return report;
 }

@@ -17,7 +17,9 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Optional;
 
-plan::FingerContact MakeContact(int finger) { return {finger, {{0.01 * finger, 0, 0}, {0, 0, 1}}}; }
+plan::FingerContact MakeContact(int finger) {
+  return {FingerIndex(finger), {{0.01 * finger, 0, 0}, {0, 0, 1}}};
+}
 
 /// A hold and two steps, the last of which fails in the replay when asked.
 struct Scene {
@@ -27,7 +29,8 @@ struct Scene {
   explicit Scene(bool fails) {
     plan.half_angle = Radians(20);
     for (int finger = 0; finger < 4; ++finger) plan.initial.push_back(MakeContact(finger));
-    plan.steps = {plan::Switch{{MakeContact(4)}, {0}}, plan::Switch{{MakeContact(0)}, {1}}};
+    plan.steps = {plan::Switch{{MakeContact(4)}, {FingerIndex(0)}},
+                  plan::Switch{{MakeContact(0)}, {FingerIndex(1)}}};
     report.object_file = "cube.obj";
     report.plan_file = "plan.json";
     report.planner = "roadmap";
@@ -174,7 +177,8 @@ TEST(StepMeasuresTest, MotionIsWhatTheToleranceIsAbout) {
 TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
   Scene scene(/*fails=*/false);
   EXPECT_FALSE(MeasureSteps(scene.report)[1].rest_margin_deg);
-  scene.report.steps[1].replay->rest_margins = {{0, Radians(11)}, {3, Radians(8)}};
+  scene.report.steps[1].replay->rest_margins = {{FingerIndex(0), Radians(11)},
+                                                {FingerIndex(3), Radians(8)}};
   EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
 }
 

@@ -102,8 +102,8 @@ TEST(ReplayAlign, TurnsAFingerOverAnEdgeWithAndWithoutASpareFinger) {
 TEST(InterpolateContacts, TurnsNormalsOnTheGreatCircle) {
   const CubeCase cube;
   const Eigen::Vector3d corner(0.03, 0.03, 0);
-  const plan::FingerGrasp from = {{0, ContactAt(cube.object, corner, {-1, 0, 0})}};
-  const plan::FingerGrasp to = {{0, ContactAt(cube.object, corner, {0, -1, 0})}};
+  const plan::FingerGrasp from = {{FingerIndex(0), ContactAt(cube.object, corner, {-1, 0, 0})}};
+  const plan::FingerGrasp to = {{FingerIndex(0), ContactAt(cube.object, corner, {0, -1, 0})}};
   const grasp::Contact middle = Interpolate(from, to, 0.5)[0].contact;
   EXPECT_LT((middle.n - Eigen::Vector3d(-1, -1, 0).normalized()).norm(), 1e-12);
   EXPECT_EQ(middle.p, corner);
@@ -112,7 +112,7 @@ TEST(InterpolateContacts, TurnsNormalsOnTheGreatCircle) {
 
 template <class Move>
 int CountMoves(const CubeCase& cube, const plan::FingerGrasp& from, const plan::FingerGrasp& to,
-               double degrees, std::vector<int> spare) {
+               double degrees, std::vector<FingerIndex> spare) {
   const AlignLimits limits{Radians(degrees), std::move(spare), 1e-3, 1e-3};
   const AlignScript script = WriteAlignScript(cube.object, plan::Align{{from, to}}, limits);
   int moves = 0;
@@ -131,16 +131,16 @@ TEST(AlignScriptTest, CutsUntilTheMixturesAreForceClosureAndSlidesOrRollsWhereNo
                                   cube.At(3, -0.02, -0.03, -0.018)};
   plan::FingerGrasp to = {cube.At(0, 0.03, 0.02, 0.02), cube.At(1, -0.03, 0.02, 0.02),
                           cube.At(2, 0.02, 0.03, 0.018), cube.At(3, 0.02, -0.03, 0.018)};
-  const int rough = CountMoves<FingerHandover>(cube, from, to, 20, {4});
+  const int rough = CountMoves<FingerHandover>(cube, from, to, 20, {FingerIndex(4)});
   EXPECT_GT(rough, 0);
-  EXPECT_LT(rough, CountMoves<FingerHandover>(cube, from, to, 5, {4}));
-  EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {4}), 0);
+  EXPECT_LT(rough, CountMoves<FingerHandover>(cube, from, to, 5, {FingerIndex(4)}));
+  EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {FingerIndex(4)}), 0);
   EXPECT_EQ(CountMoves<FingerHandover>(cube, from, to, 5, {}), 0);
   EXPECT_EQ(CountMoves<FingersRoll>(cube, from, to, 5, {}), 1);
   // Both pairs end askew: from somewhere on the path on nothing holds.
   to = {cube.At(0, 0.03, 0.029, 0.029), cube.At(1, -0.03, -0.029, -0.029),
         cube.At(2, 0.029, 0.03, -0.029), cube.At(3, -0.029, -0.03, 0.029)};
-  EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {4}), 1);
+  EXPECT_EQ(CountMoves<FingersSlide>(cube, from, to, 5, {FingerIndex(4)}), 1);
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 /// A finger's place on the path.
 struct Walker {
   const object::Polygon& polygon;
-  int finger, edge;
+  FingerIndex finger;
+  FaceIndex edge;
   double at;                 ///< length from the edge's beginning
   double rate;               ///< length in all
   int first = 0, count = 0;  ///< edges of its ring
@@ -19,7 +20,7 @@ struct Walker {
       : polygon(body),
         finger(walk.finger),
         edge(walk.edge),
-        at(walk.share * body.face_measure(walk.edge)),
+        at(walk.share * body.face_measure(edge)),
         rate(walk.length) {
     for (const auto& ring : body.rings()) {
       first += count;
@@ -38,7 +39,7 @@ struct Walker {
     if (to_vertex) at = rate > 0 ? polygon.face_measure(edge) : 0;
   }
   void Turn() {
-    edge = first + (edge - first + (rate > 0 ? 1 : count - 1)) % count;
+    edge = FaceIndex(first + (edge - first + (rate > 0 ? 1 : count - 1)) % count);
     at = rate > 0 ? 0 : polygon.face_measure(edge);
   }
   [[nodiscard]] plan::FingerContact Contact() const {

@@ -61,10 +61,10 @@ class Dice {
   [[nodiscard]] std::optional<plan::Plan> DrawSwitches(int switches) {
     const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
-    plan::Plan plan = MakePlanarPlan({{0, (*start)[0]}, {1, (*start)[1]}}, half_angle_deg_, 3);
+    plan::Plan plan = MakePlanarPlan(plan::FingersInOrder(*start), half_angle_deg_, 3);
     plan::FingerGrasp held = plan.initial;
     for (int i = 0; i < switches; ++i) {
-      const int free = 3 - held[0].finger - held[1].finger;
+      const FingerIndex free(3 - held[0].finger - held[1].finger);
       const std::optional<plan::Switch> found = DrawSwitch(held, free);
       if (!found) return std::nullopt;
       plan.steps.emplace_back(*found);
@@ -83,7 +83,8 @@ class Dice {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& held, int free) {
+  [[nodiscard]] std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& held,
+                                                       FingerIndex free) {
     for (int i = 0; i < kMostDraws; ++i) {
       const plan::Switch change{{{free, DrawContact()}}, {held[i % 2].finger}};
       if (IsGood(plan::ContactsOf(plan::GraspAfter(held, change)))) return change;

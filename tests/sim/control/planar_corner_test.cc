@@ -15,7 +15,7 @@ constexpr double kGood = 1e-4;
 /// Moves of a script, each of two switches of fingers.
 int CountMoves(const object::Polygon& polygon, const plan::Plan& plan) {
   const AlignLimits limits{
-      plan.half_angle, {2}, 1e-3 * polygon.diameter(), 1e-4 * polygon.diameter()};
+      plan.half_angle, {FingerIndex(2)}, 1e-3 * polygon.diameter(), 1e-4 * polygon.diameter()};
   return static_cast<int>(
       WriteAlignScript(polygon, std::get<plan::Align>(plan.steps.front()), limits).moves.size());
 }
@@ -49,21 +49,21 @@ void ExpectPasses(const object::Polygon& polygon, const plan::Plan& plan, int le
 
 TEST(PlanarCorner, FingersWalkAroundADiscOfTwelveEdges) {
   const object::Polygon disc = MakeDisc(12, kDiscRadius);
-  const double side = disc.face_measure(0);
+  const double side = disc.face_measure(FaceIndex(0));
   const plan::Plan plan = MakeWalkPlan(disc, {{0, 0, 0.5, 4 * side}, {1, 6, 0.5, 4 * side}}, 25);
   ExpectPasses(disc, plan, 8, 16);
 }
 
 TEST(PlanarCorner, FingersWalkAroundADiscOfSixtyEdgesPastThirtyCorners) {
   const object::Polygon disc = MakeDisc(60, kDiscRadius);
-  const double side = disc.face_measure(0);
+  const double side = disc.face_measure(FaceIndex(0));
   const plan::Plan plan = MakeWalkPlan(disc, {{0, 0, 0.3, 15 * side}, {1, 30, 0.3, 15 * side}}, 20);
   ExpectPasses(disc, plan, 30, 12);
 }
 
 TEST(PlanarCorner, OneFingerGoesPastManyCornersInOneMoveWhereForceClosureAllows) {
   const object::Polygon disc = MakeDisc(180, kDiscRadius);
-  const double side = disc.face_measure(0);
+  const double side = disc.face_measure(FaceIndex(0));
   // 15 corners are 30 degrees of the circle: the line tilts by 15.
   const plan::Plan plan = MakeWalkPlan(disc, {{0, 0, 0.5, 15 * side}, {1, 90, 0.5, 0}}, 20);
   ExpectPasses(disc, plan, 15, 1);
@@ -71,7 +71,7 @@ TEST(PlanarCorner, OneFingerGoesPastManyCornersInOneMoveWhereForceClosureAllows)
 
 TEST(PlanarCorner, FingersWalkBackwardsAndOppositeWays) {
   const object::Polygon disc = MakeDisc(60, kDiscRadius);
-  const double side = disc.face_measure(0);
+  const double side = disc.face_measure(FaceIndex(0));
   ExpectPasses(disc, MakeWalkPlan(disc, {{0, 0, 0.3, -9 * side}, {1, 30, 0.3, -9 * side}}, 20), 18,
                8);
   ExpectPasses(disc, MakeWalkPlan(disc, {{0, 0, 0.5, 2.2 * side}, {1, 30, 0.5, -2.2 * side}}, 20),
@@ -80,7 +80,7 @@ TEST(PlanarCorner, FingersWalkBackwardsAndOppositeWays) {
 
 TEST(PlanarCorner, FingersPassConcaveCornersWithoutRestingThere) {
   const object::Polygon gear = MakeGear(24, 0.03);
-  const double side = gear.face_measure(0);
+  const double side = gear.face_measure(FaceIndex(0));
   const plan::Plan plan = MakeWalkPlan(gear, {{0, 0, 0.5, 10 * side}, {1, 24, 0.5, 10 * side}}, 22);
   ExpectPasses(gear, plan, 20, 16);
   // The negative control: a finger that has to stay in a concave corner cannot stand there.
@@ -96,12 +96,12 @@ TEST(PlanarCorner, AFingerInTheHoleAndOneOutsideWalkAroundARing) {
   const object::Polygon ring = MakeRing(kEdges);
   // The hole runs clockwise: find its edge beside the outer edge 0.
   const Eigen::Vector3d outside = OnEdge(ring, 0, 0.5).p;
-  int inside = -1;
-  for (int edge = kEdges; edge < ring.face_count(); ++edge) {
+  FaceIndex inside;
+  for (FaceIndex edge{kEdges}; edge < ring.face_count(); ++edge) {
     if ((OnEdge(ring, edge, 0.5).p - 0.6 * outside).norm() < 1e-9) inside = edge;
   }
   ASSERT_GE(inside, kEdges);
-  const double outer = ring.face_measure(0), inner = ring.face_measure(inside);
+  const double outer = ring.face_measure(FaceIndex(0)), inner = ring.face_measure(inside);
   const plan::Plan plan =
       MakeWalkPlan(ring, {{0, 0, 0.3, 15 * outer}, {1, inside, 0.7, -15 * inner}}, 15);
   ExpectPasses(ring, plan, 30, 40);
@@ -117,7 +117,7 @@ TEST(PlanarCorner, ShortEdgesAndAlmostStraightCornersAreNoObstacle) {
   }
   ring.emplace_back(0.1, 0);
   const object::Polygon bar = object::Polygon::FromRings({ring}, "bar");
-  ASSERT_LT(bar.face_measure(10), 0.0031 * bar.diameter());
+  ASSERT_LT(bar.face_measure(FaceIndex(10)), 0.0031 * bar.diameter());
   const plan::Plan plan = MakeWalkPlan(bar, {{0, 4, 0.4, 55 * kStep}, {1, 0, 0.6, -0.01}}, 20);
   ExpectPasses(bar, plan, 50, 4);
 }
@@ -161,7 +161,7 @@ TEST(PlanarCorner, AContactVeryNearToACornerIsHeldAndShaken) {
 
 TEST(PlanarCorner, AnAlignThatLeavesForceClosureOnTheWayFailsInCheckAndReplay) {
   const object::Polygon disc = MakeDisc(60, kDiscRadius);
-  const double side = disc.face_measure(0);
+  const double side = disc.face_measure(FaceIndex(0));
   // One finger goes 8 edges ahead, the other follows: at both ends they are opposite, in between
   // the line is 24 degrees off.
   plan::Align ahead = WalkBoundary(disc, {{0, 0, 0.5, 8 * side}, {1, 30, 0.5, 0}});
@@ -184,7 +184,7 @@ TEST(PlanarCorner, AnAlignThatLeavesForceClosureOnTheWayFailsInCheckAndReplay) {
 
 TEST(PlanarCorner, AWalkBelowTheFrictionThatItNeedsFailsInTheReplay) {
   const object::Polygon gear = MakeGear(24, 0.03);
-  const double side = gear.face_measure(0);
+  const double side = gear.face_measure(FaceIndex(0));
   const plan::Plan plan = MakeWalkPlan(gear, {{0, 0, 0.5, 10 * side}, {1, 24, 0.5, 10 * side}}, 22);
   const plan::PlanCheck check = plan::CheckPlan(gear, plan);
   ASSERT_TRUE(check.passed());

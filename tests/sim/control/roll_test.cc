@@ -51,7 +51,7 @@ plan::Align AroundTheCorner(const object::Polygon& square) {
     return plan::FingerGrasp{OnEdge(square, 0, 1, right),
                              OnEdge(square, 1, 2, above),
                              OnEdge(square, 2, 3, left),
-                             {3, moving}};
+                             {FingerIndex(3), moving}};
   };
   return {{grasp(0.963, 0.307, 0.433, OnEdge(square, 0, 0.303)),
            grasp(0.441, 0.798, 0.554, OnEdge(square, 0, 0)),

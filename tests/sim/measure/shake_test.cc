@@ -97,7 +97,7 @@ TEST(ProtocolTest, TheMarginsAreSmallerUnderTheShakeThanAtRestAndZeroWhereAFinge
 TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}}};
   ReplayOptions options;
   options.shake = 0.1;
   options.protocol = Protocol::kBoth;

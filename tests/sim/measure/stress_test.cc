@@ -75,7 +75,7 @@ std::pair<int, int> CountAgreeing(const std::string& model, int grasps) {
   int agreeing = 0, all = 0;
   for (int found = 0; found < grasps;) {
     plan::FingerGrasp grasp;
-    for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+    for (FingerIndex f{0}; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
     if (!grasp::QualityAtLeast(plan::ContactsOf(grasp), body.wrench_frame(), Radians(kHalfAngleDeg),
                                0.02)) {
       continue;
@@ -139,7 +139,7 @@ TEST(StressTest, LessFrictionBearsLess) {
 TEST(StressTest, TheSearchLeavesNoTraceInTheReplay) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}}};
   ReplayOptions options;
   const ReplayResult plain = ReplayPlan(cube.object, plan, options);
   options.stress = true;

@@ -12,7 +12,7 @@ namespace {
 TEST(WeakestFingerTest, ASwitchCountsTheGraspsBeforeAndAfterItByTheFingersOfTheHand) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}},
                 plan::Align{{cube.Start(), cube.Start()}}};
   const object::WrenchFrame frame = cube.object.wrench_frame();
   const auto fingers = [&](int index) {
@@ -30,7 +30,9 @@ TEST(WeakestFingerTest, ASwitchCountsTheGraspsBeforeAndAfterItByTheFingersOfTheH
 TEST(WeakestFingerTest, TheWeakestHasTheLeastOfItsOwnFrictionToSpare) {
   std::vector<NeedOfFinger> needs;
   EXPECT_EQ(WeakestOf(needs), -1);
-  needs = {{4, {0.1, true, std::nullopt}}, {7, {0.3, true, std::nullopt}}, {1, {0, false, 0.2}}};
+  needs = {{FingerIndex(4), {0.1, true, std::nullopt}},
+           {FingerIndex(7), {0.3, true, std::nullopt}},
+           {FingerIndex(1), {0, false, 0.2}}};
   EXPECT_EQ(WeakestOf(needs), 1);
 }
 

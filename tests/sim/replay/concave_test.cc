@@ -24,13 +24,14 @@ TEST(ReplayConcave, TouchesTheInnerCornerFacesOfTheLBlock) {
   const grasp::Contact inner_x = ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0});
   ASSERT_GE(inner_y.face, 0);
   ASSERT_GE(inner_x.face, 0);
-  plan::Plan plan = MakePlan({{0, inner_y},
-                              {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
-                              {2, inner_x},
-                              {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+  plan::Plan plan = MakePlan({{FingerIndex(0), inner_y},
+                              {FingerIndex(1), ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {FingerIndex(2), inner_x},
+                              {FingerIndex(3), ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
                              30);
   // Closer to the concave edge than a fingertip is usually thick.
-  plan.steps = {plan::Switch{{{4, ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}}, {0}}};
+  plan.steps = {plan::Switch{{{FingerIndex(4), ContactAt(l, {0.0415, 0.04, 0}, {0, -1, 0})}},
+                             {FingerIndex(0)}}};
   ExpectPassesAsPlanned(l, plan);
   EXPECT_LT(ReplayPlan(l, plan, {}).settings.fingertip_radius_m, 0.0015);
 }
@@ -40,7 +41,7 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   const auto& block = dynamic_cast<const object::Polyhedron&>(*file.object);
   // The faces of the hole: those whose outward normal points at the middle of the block.
   std::vector<grasp::Contact> walls;
-  for (int f = 0; f < block.face_count(); ++f) {
+  for (FaceIndex f{0}; f < block.face_count(); ++f) {
     const Eigen::Vector3d inward = block.inward_normal(f);
     const Eigen::Vector3d point = block.faces()[f].point;
     const Eigen::Vector3d away = point - block.mass_properties().centroid;
@@ -50,14 +51,14 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   // Pressed outwards from inside the hole by every third wall or so, and along it from outside.
   plan::FingerGrasp grasp;
   const std::size_t stride = walls.size() / 3;
-  for (std::size_t i = 0; i < 3; ++i) {
-    grasp.push_back({static_cast<int>(i), walls[i * stride]});
+  for (FingerIndex i{0}; i < 3; ++i) {
+    grasp.push_back({i, walls[i * stride]});
   }
   const Eigen::Vector3d centroid = block.mass_properties().centroid;
-  for (int f = 0; f < block.face_count() && grasp.size() < 4; ++f) {
+  for (FaceIndex f{0}; f < block.face_count() && grasp.size() < 4; ++f) {
     const Eigen::Vector3d n = block.inward_normal(f);
     const bool wall = n.dot(block.faces()[f].point - centroid) > 0;
-    if (!wall) grasp.push_back({3, {block.ClosestPoint(f, centroid), n, f}});
+    if (!wall) grasp.push_back({FingerIndex(3), {block.ClosestPoint(f, centroid), n, f}});
   }
   plan::Plan plan = MakePlan(grasp, 50);
   int touching = 0;
@@ -96,7 +97,7 @@ TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
   const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   const double size = 0.002;
   int checked = 0;
-  for (int face = 0; face < body.face_count(); ++face) {
+  for (FaceIndex face{0}; face < body.face_count(); ++face) {
     // No rectangle fits into an angle of 60° down to its corner.
     const Eigen::Vector3d& apex = body.vertices()[body.faces()[face].border.front()[0]];
     const auto patches = MakeContactPatches(body, {face, apex, apex}, size);
@@ -141,7 +142,8 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
   const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
   const auto at = [&](int finger, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
     const grasp::Contact near = ContactAt(body, p, n);
-    return plan::FingerContact{finger, {body.ClosestPoint(near.face, p), near.n, near.face}};
+    return plan::FingerContact{FingerIndex(finger),
+                               {body.ClosestPoint(near.face, p), near.n, near.face}};
   };
   const plan::Plan plan =
       MakePlan({at(0, {-0.01888989081479386, -0.045945695692193006, 0.00316316295538566},

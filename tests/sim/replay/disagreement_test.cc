@@ -138,8 +138,8 @@ TEST(DisagreementTest, AContactThatMaySlipOverAnEdgeIsNamed) {
 TEST(DisagreementTest, AForceThatReachedItsConeIsNamedWithItsFingerAndItsTime) {
   const CubeCase cube;
   Hold hold(cube.object, MakePlan(cube.Start(), 25));
-  hold.replay.motion_margins = {{0, 0.1}, {2, 0.2}};
-  hold.replay.rest_margins = {{0, 0.1}, {2, 1e-5}};
+  hold.replay.motion_margins = {{FingerIndex(0), 0.1}, {FingerIndex(2), 0.2}};
+  hold.replay.rest_margins = {{FingerIndex(0), 0.1}, {FingerIndex(2), 1e-5}};
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kConeReached);
   EXPECT_EQ(ValueOf(found, "finger"), 2);

@@ -19,7 +19,7 @@ TEST(Discrimination, GraspsBelowTheirCriticalFrictionFailAndGoodOnesAbovePass) {
     const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
     count += Discriminate(body, name, kGraspsPerObject, kSeed, [&](int, std::mt19937& random) {
       plan::FingerGrasp grasp;
-      for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+      for (FingerIndex f{0}; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
       return grasp;
     });
   }

@@ -52,10 +52,11 @@ TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
 plan::Plan SquareSwitches(const object::Polygon& square) {
   plan::Plan plan = MakePlanarPlan({OnEdge(square, 0, 1, 0.45), OnEdge(square, 1, 3, 0.5)}, 20);
   plan.steps = {
-      plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 1}},
+      plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)},
+                   {FingerIndex(0), FingerIndex(1)}},
       plan::Switch{{OnEdge(square, 0, 0, 0.7)}, {}},
-      plan::Switch{{OnEdge(square, 1, 2, 0.2)}, {3}},
-      plan::Switch{{OnEdge(square, 3, 2, 0.8)}, {1}},
+      plan::Switch{{OnEdge(square, 1, 2, 0.2)}, {FingerIndex(3)}},
+      plan::Switch{{OnEdge(square, 3, 2, 0.8)}, {FingerIndex(1)}},
   };
   return plan;
 }
@@ -69,7 +70,8 @@ TEST(PlanarSwitch, FailsWhereACarryingFingerLeaves) {
   const object::Polygon square = MakeSquare(0.03);
   plan::Plan plan = SquareSwitches(square);
   // Below and above hold; beside each other they do not.
-  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)}, {0, 2}}};
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.4), OnEdge(square, 3, 2, 0.55)},
+                             {FingerIndex(0), FingerIndex(2)}}};
   const ReplayResult result = ReplayPlan(square, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
   EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone);
@@ -80,9 +82,11 @@ TEST(PlanarSwitch, FailsWhereTheNewGraspNeedsMoreFriction) {
   const object::Polygon square = MakeSquare(0.03);
   plan::Plan plan = SquareSwitches(square);
   // 24 mm off the normal of 60: 21.8 degrees.
-  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)}, {0, 1}}};
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.7)},
+                             {FingerIndex(0), FingerIndex(1)}}};
   EXPECT_EQ(ReplayPlan(square, plan, {}).steps.at(1).reason, plan::Reason::kNone);
-  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.3)}, {0, 1}}};
+  plan.steps = {plan::Switch{{OnEdge(square, 2, 0, 0.3), OnEdge(square, 3, 2, 0.3)},
+                             {FingerIndex(0), FingerIndex(1)}}};
   EXPECT_TRUE(LosesObject(ReplayPlan(square, plan, {}).steps.at(1).reason));
 }
 
@@ -90,8 +94,10 @@ TEST(PlanarConcave, TouchesBothEdgesOfAnInnerCorner) {
   const object::Polygon l = MakeL();
   plan::Plan plan = MakePlanarPlan({OnEdge(l, 0, 2, 0.9), OnEdge(l, 1, 0, 0.6)}, 20);
   // 0.4 and 0.04 mm from the corner, closer than a fingertip is usually thick.
-  plan.steps = {plan::Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {0, 1}},
-                plan::Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)}, {2, 3}}};
+  plan.steps = {
+      plan::Switch{{OnEdge(l, 2, 3, 0.01), OnEdge(l, 3, 5, 0.6)}, {FingerIndex(0), FingerIndex(1)}},
+      plan::Switch{{OnEdge(l, 0, 2, 0.999), OnEdge(l, 1, 0, 0.5)},
+                   {FingerIndex(2), FingerIndex(3)}}};
   const ReplayResult result = ReplayPlan(l, plan, {});
   ExpectGood(result, 3);
   EXPECT_LT(result.settings.fingertip_radius_m, 0.00003);
@@ -107,7 +113,7 @@ TEST(PlanarConcave, CannotBeHeldInTheInnerCornerItself) {
     EXPECT_EQ(hold.steps.at(0).reason, plan::Reason::kUnreachable);
     EXPECT_NE(hold.steps.at(0).detail.find("finger 2 cannot stand"), std::string::npos);
     plan::Plan plan = MakePlanarPlan(good, 20);
-    plan.steps = {plan::Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {0, 1}}};
+    plan.steps = {plan::Switch{{corner, OnEdge(l, 3, 0, 0.5)}, {FingerIndex(0), FingerIndex(1)}}};
     const ReplayResult result = ReplayPlan(l, plan, {});
     ASSERT_EQ(result.steps.size(), 2u);
     EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
@@ -120,7 +126,8 @@ TEST(PlanarHole, IsHeldFromInsideAndThroughItsWall) {
   // Pressed apart from inside: edges 4 and 6 are the hole's left and right.
   plan::Plan plan = MakePlanarPlan({OnEdge(frame, 0, 4, 0.45), OnEdge(frame, 1, 6, 0.5)}, 15);
   // Then the wall below is pinched between hole and outside.
-  plan.steps = {plan::Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)}, {0, 1}}};
+  plan.steps = {plan::Switch{{OnEdge(frame, 2, 7, 0.6), OnEdge(frame, 3, 0, 0.45)},
+                             {FingerIndex(0), FingerIndex(1)}}};
   const ReplayResult result = ReplayPlan(frame, plan, {});
   ExpectGood(result, 2);
   ExpectTouchesAsPlanned(frame, plan, result);

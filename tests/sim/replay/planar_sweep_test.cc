@@ -51,7 +51,7 @@ class Dice {
   [[nodiscard]] plan::FingerGrasp DrawGrasp(int fingers) {
     for (int i = 0; i < kMostDraws; ++i) {
       plan::FingerGrasp grasp;
-      for (int f = 0; f < fingers; ++f) grasp.push_back({f, DrawContact()});
+      for (FingerIndex f{0}; f < fingers; ++f) grasp.push_back({f, DrawContact()});
       if (IsGood(grasp)) return grasp;
     }
     return {};
@@ -125,9 +125,9 @@ TEST(PlanarSweep, RandomAlignsThatAreForceClosureAllTheWayPass) {
 
 /// A switch between the grasp and a random one that is good, or is not force closure.
 std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& before, bool good, Dice& dice) {
-  std::vector<int> holding, free;
-  for (int f = 0; f < 4; ++f) {
-    const bool holds = std::ranges::find(before, f, &plan::FingerContact::finger) != before.end();
+  std::vector<FingerIndex> holding, free;
+  for (FingerIndex f{0}; f < 4; ++f) {
+    const bool holds = plan::FindFinger(before, f) != nullptr;
     (holds ? holding : free).push_back(f);
   }
   for (int i = 0; i < kMostDraws; ++i) {

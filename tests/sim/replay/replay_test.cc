@@ -16,10 +16,10 @@ namespace {
 
 plan::Plan FourSwitches(const CubeCase& cube) {
   plan::Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
-                plan::Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {3}},
-                plan::Switch{{cube.At(3, 0.03, -0.006, 0.008)}, {0}},
-                plan::Switch{{cube.At(0, -0.03, -0.008, 0.006)}, {1}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}},
+                plan::Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {FingerIndex(3)}},
+                plan::Switch{{cube.At(3, 0.03, -0.006, 0.008)}, {FingerIndex(0)}},
+                plan::Switch{{cube.At(0, -0.03, -0.008, 0.006)}, {FingerIndex(1)}}};
   return plan;
 }
 
@@ -80,9 +80,10 @@ TEST(ReplaySwitch, ReplaysFourSwitchesOnTheCube) {
 TEST(ReplaySwitch, PlacesAndReleasesSeveralFingersInOneStep) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25, 6);
-  plan.steps = {
-      plan::Switch{{cube.At(4, 0.001, 0.002, 0.03), cube.At(5, -0.002, 0.001, -0.03)}, {2, 3}},
-      plan::Switch{{cube.At(2, 0.003, 0.03, 0.004)}, {}}, plan::Switch{{}, {2}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0.001, 0.002, 0.03), cube.At(5, -0.002, 0.001, -0.03)},
+                             {FingerIndex(2), FingerIndex(3)}},
+                plan::Switch{{cube.At(2, 0.003, 0.03, 0.004)}, {}},
+                plan::Switch{{}, {FingerIndex(2)}}};
   ExpectGood(ReplayPlan(cube.object, plan, {}), 4);
 }
 
@@ -109,7 +110,8 @@ TEST(ReplaySwitch, FailsWhereACarryingFingerLeaves) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);
   // Fingers 0 and 2 remain, on two neighbouring faces.
-  plan.steps = {plan::Switch{{}, {1, 3}}, plan::Switch{{cube.At(1, -0.03, 0.002, -0.004)}, {}}};
+  plan.steps = {plan::Switch{{}, {FingerIndex(1), FingerIndex(3)}},
+                plan::Switch{{cube.At(1, -0.03, 0.002, -0.004)}, {}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   ASSERT_EQ(result.steps.size(), 2u);
   EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone);
@@ -132,8 +134,8 @@ TEST(ReplayPlanTest, ReplaysAsManyEntriesAsAsked) {
 TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25, 6);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}},
-                plan::Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {3}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}},
+                plan::Switch{{cube.At(5, 0.002, 0.003, -0.03)}, {FingerIndex(3)}}};
   const ReplayResult result = ReplayPlan(cube.object, plan, {});
   ASSERT_EQ(result.steps.size(), 3u);
   plan::FingerGrasp before = plan.initial;
@@ -163,7 +165,7 @@ TEST(ReplayPlanTest, SnapshotsShowTheContactsInTheObjectsFrame) {
 TEST(ReplayPlanTest, RefusesAContactOnNoFace) {
   const CubeCase cube;
   plan::FingerGrasp grasp = cube.Start();
-  grasp[0].contact.face = -1;
+  grasp[0].contact.face = {};
   EXPECT_THROW((void)ReplayPlan(cube.object, MakePlan(grasp, 25), {}), InputError);
 }
 

@@ -13,7 +13,7 @@ TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
   plan::Snapshot sample;
   sample.time_s = 0.125;
   plan::FingerState state;
-  state.finger = 3;
+  state.finger = FingerIndex(3);
   state.role = plan::FingerRole::kPlaced;
   state.tip_W = {0.1, -2, 3};
   state.force_W = {0, 0, 1e-7};
@@ -27,7 +27,7 @@ TEST(Trajectory, HasAHeaderWithUnitsAndARowPerSampleAndFinger) {
 TEST(Trajectory, OfAReplayRunsForwardInTimeAndItsForcesCarryTheWeightAtTheEnd) {
   const CubeCase cube;
   plan::Plan plan = MakePlan(cube.Start(), 25);
-  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {2}}};
+  plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}}};
   std::vector<plan::Snapshot> samples;
   ReplayObserver observer;
   observer.sample_interval_s = 1e-3;

@@ -37,7 +37,7 @@ plan::Plan SwitchAndAlign(const CubeCase& cube) {
                               cube.At(4, 0, 0.001, 0.03)};
   plan::FingerGrasp after = before;
   after[1] = cube.At(1, -0.03, 0.004, -0.001);
-  plan.steps = {plan::Switch{{before[3]}, {2}}, plan::Align{{before, after}}};
+  plan.steps = {plan::Switch{{before[3]}, {FingerIndex(2)}}, plan::Align{{before, after}}};
   return plan;
 }
 
@@ -82,8 +82,10 @@ TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
 
 TEST(ContactNoise, KeepsToBordersAndCornersAndWithoutDeviationChangesNothing) {
   const CubeCase cube;
-  const plan::FingerContact border{0, ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
-  const plan::FingerContact corner{1, ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
+  const plan::FingerContact border{FingerIndex(0),
+                                   ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
+  const plan::FingerContact corner{FingerIndex(1),
+                                   ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
   const plan::Plan plan = MakePlan({border, corner}, 25);
   RandomStream random(1, RandomUse::kTrialContacts, 0);
   const plan::Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);

@@ -55,17 +55,16 @@ object::Polyhedron MakeBall(double finest, int sectors) {
 }
 
 /// The face whose centre is nearest to a point.
-int NearestFace(const object::Polyhedron& body, const Vector3d& near) {
+FaceIndex NearestFace(const object::Polyhedron& body, const Vector3d& near) {
   const auto distance = [&](const object::Polyhedron::Face& face) {
     return (face.point - near).norm();
   };
-  return static_cast<int>(std::ranges::min_element(body.faces(), {}, distance) -
-                          body.faces().begin());
+  return FaceIndex(std::ranges::min_element(body.faces(), {}, distance) - body.faces().begin());
 }
 
 /// A point drawn evenly over a triangle of the face, or over that part of it next to its first
 /// corner which is `share` as wide.
-grasp::Contact DrawOnFace(const object::Polyhedron& body, int face, double share,
+grasp::Contact DrawOnFace(const object::Polyhedron& body, FaceIndex face, double share,
                           std::mt19937& random) {
   const auto& [a, b, c] = body.triangles()[body.faces()[face].triangles.front()];
   const auto& vertices = body.vertices();
@@ -83,8 +82,8 @@ plan::FingerGrasp DrawGrasp(const object::Polyhedron& ball, double share, std::m
                                      {Vector3d(-1, 0, 0), share},
                                      {Vector3d(0.1, 1, 0.1), 1.0},
                                      {Vector3d(0, -1, 0), 1.0}}) {
-      const int face = NearestFace(ball, kRadius * near);
-      grasp.push_back({static_cast<int>(grasp.size()), DrawOnFace(ball, face, part, random)});
+      const FaceIndex face = NearestFace(ball, kRadius * near);
+      grasp.push_back({FingerIndex(grasp.size()), DrawOnFace(ball, face, part, random)});
     }
     if (grasp::QualityAtLeast(plan::ContactsOf(grasp), ball.wrench_frame(), kHalfAngle, kQuality))
       return grasp;

@@ -75,13 +75,6 @@ void ExpectTouchesItsOwn(const TouchCount& count, int contacts) {
   EXPECT_LT(count.largest_error, kTouch);
 }
 
-plan::FingerGrasp WithFingers(const grasp::Grasp& grasp) {
-  plan::FingerGrasp held;
-  for (const grasp::Contact& contact : grasp)
-    held.push_back({static_cast<int>(held.size()), contact});
-  return held;
-}
-
 /// Squares about the z axis, each joined to the next: solids of steps, posts and holes.
 object::Polyhedron MakeTower(const std::vector<std::pair<double, double>>& half_and_height) {
   object::PolygonSoup soup;
@@ -114,18 +107,18 @@ object::Polyhedron MakeThinBox() {
 TEST(NonconvexContacts, FingersPressInABlindHole) {
   const object::Polyhedron body = MakeBlindHole();
   TouchCount count = Hold(body,
-                          WithFingers({ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
-                                       ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
-                                       ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
-                                       ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
+                          plan::FingersInOrder({ContactAt(body, {0.001, 0.002, 0.02}, {0, 0, -1}),
+                                                ContactAt(body, {0.002, 0.001, 0}, {0, 0, 1}),
+                                                ContactAt(body, {0.01, 0.001, 0.04}, {1, 0, 0}),
+                                                ContactAt(body, {0.05, 0.002, 0.039}, {-1, 0, 0})}),
                           30);
   ExpectTouchesItsOwn(count, 4);
   // Two on opposite walls of the hole, pressing outwards, one on its ground.
   count = Hold(body,
-               WithFingers({ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
-                            ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
-                            ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
-                            ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
+               plan::FingersInOrder({ContactAt(body, {-0.01, 0, 0.04}, {-1, 0, 0}),
+                                     ContactAt(body, {0.01, 0.001, 0.041}, {1, 0, 0}),
+                                     ContactAt(body, {0.003, 0.003, 0.02}, {0, 0, -1}),
+                                     ContactAt(body, {0.002, 0.004, 0}, {0, 0, 1})}),
                30);
   ExpectTouchesItsOwn(count, 4);
 }
@@ -134,26 +127,28 @@ TEST(NonconvexContacts, FingersPinchThinWallsFromBothSides) {
   // The walls are thinner than the pieces of surface under a contact are thick. Two pinches alone
   // let the body turn about the line between them.
   const object::Polyhedron body = MakeThinBox();
-  const TouchCount count = Hold(body,
-                                WithFingers({ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
-                                             ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
-                                             ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
-                                             ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
-                                             ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
-                                             ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
-                                30);
+  const TouchCount count =
+      Hold(body,
+           plan::FingersInOrder({ContactAt(body, {0.05, 0.02, 0.04}, {-1, 0, 0}),
+                                 ContactAt(body, {0.0498, 0.02, 0.04}, {1, 0, 0}),
+                                 ContactAt(body, {-0.02, 0.05, 0.04}, {0, -1, 0}),
+                                 ContactAt(body, {-0.02, 0.0498, 0.04}, {0, 1, 0}),
+                                 ContactAt(body, {-0.02, -0.03, 0}, {0, 0, 1}),
+                                 ContactAt(body, {-0.02, -0.03, 0.01}, {0, 0, -1})}),
+           30);
   ExpectTouchesItsOwn(count, 6);
 }
 
 TEST(NonconvexContacts, FingersPressOutwardsInAChannel) {
   const object::ObjectFile file = ReadModel("u_channel.obj");
   const object::Object& body = *file.object;
-  const TouchCount count = Hold(body,
-                                WithFingers({ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
-                                             ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
-                                             ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
-                                             ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
-                                30);
+  const TouchCount count =
+      Hold(body,
+           plan::FingersInOrder({ContactAt(body, {0.02, 0.05, 0.01}, {-1, 0, 0}),
+                                 ContactAt(body, {0.08, 0.051, 0.009}, {1, 0, 0}),
+                                 ContactAt(body, {0.05, 0.02, -0.01}, {0, -1, 0}),
+                                 ContactAt(body, {0.049, 0, -0.011}, {0, 1, 0})}),
+           30);
   ExpectTouchesItsOwn(count, 4);
 }
 
@@ -164,12 +159,13 @@ TEST(NonconvexContacts, FingersTouchBothFacesOfAnInnerCornerDownToATenThousandth
   for (const double share : {1e-1, 1e-2, 1e-3, 1e-4}) {
     SCOPED_TRACE(share);
     const double d = share * l.diameter();
-    const TouchCount count = Hold(l,
-                                  WithFingers({ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
-                                               ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
-                                               ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
-                                               ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
-                                  30);
+    const TouchCount count =
+        Hold(l,
+             plan::FingersInOrder({ContactAt(l, {0.04 + d, 0.04, 0.012}, {0, -1, 0}),
+                                   ContactAt(l, {0.04 + d, 0, 0.012}, {0, 1, 0}),
+                                   ContactAt(l, {0.04, 0.04 + d, -0.012}, {-1, 0, 0}),
+                                   ContactAt(l, {0, 0.04 + d, -0.012}, {1, 0, 0})}),
+             30);
     ExpectTouchesItsOwn(count, 4);
     ++holds;
   }
@@ -188,7 +184,7 @@ TEST(NonconvexContacts, EveryFaceHasAPatchHoweverSmallItIs) {
       SCOPED_TRACE(sign * width);
       const double D = MakePitted(0.01, 0.01).diameter();
       const object::Polyhedron body = MakePitted(width * D, sign * std::min(width, 0.1) * D);
-      for (int face = 0; face < body.face_count(); ++face) {
+      for (FaceIndex face{0}; face < body.face_count(); ++face) {
         const Vector3d p = body.ClosestPoint(face, body.faces()[face].point);
         const auto patches = MakeContactPatches(body, {face, p, p}, kPatchSize * D);
         ASSERT_FALSE(patches.empty());
@@ -210,11 +206,12 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
     SCOPED_TRACE(deeper);
     const double D = MakePitted(0.01, 0.01).diameter();
     const object::Polyhedron body = MakePitted(std::abs(deeper) * D, deeper * D);
-    plan::Plan plan = MakePlan(WithFingers({ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
-                                            ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
-                                            ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
-                                            ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
-                               30);
+    plan::Plan plan =
+        MakePlan(plan::FingersInOrder({ContactAt(body, {0, 0, 0.06 - deeper * D}, {0, 0, -1}),
+                                       ContactAt(body, {0, 0.002, 0}, {0, 0, 1}),
+                                       ContactAt(body, {-0.05, 0, 0.03}, {1, 0, 0}),
+                                       ContactAt(body, {0.05, 0.002, 0.029}, {-1, 0, 0})}),
+                 30);
     for (const plan::FingerContact& held : plan.initial) ASSERT_GE(held.contact.face, 0);
     const ReplayResult result = ReplayPlan(body, plan, {});
     ASSERT_EQ(result.steps.size(), 1u);
@@ -241,7 +238,7 @@ plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
     }
     if (grasp::IsForceClosure(grasp, body.wrench_frame(), half_angle) &&
         grasp::QualityAtLeast(grasp, body.wrench_frame(), half_angle, kQuality)) {
-      return WithFingers(grasp);
+      return plan::FingersInOrder(grasp);
     }
   }
   ADD_FAILURE() << "no grasp was drawn";
@@ -287,7 +284,7 @@ TEST(NonconvexContacts, RandomGraspsTouchTheirOwnFacesAndNothingElse) {
 TEST(NonconvexContacts, WrongContactsAreSeen) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;
-  const plan::FingerGrasp grasp = WithFingers(
+  const plan::FingerGrasp grasp = plan::FingersInOrder(
       {ContactAt(l, {0.05, 0.04, 0.012}, {0, -1, 0}), ContactAt(l, {0.05, 0, 0.012}, {0, 1, 0}),
        ContactAt(l, {0.04, 0.05, -0.012}, {-1, 0, 0}), ContactAt(l, {0, 0.05, -0.012}, {1, 0, 0})});
   const ReplayResult result = ReplayPlan(l, MakePlan(grasp, 30), {});

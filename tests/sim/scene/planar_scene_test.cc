@@ -88,7 +88,7 @@ TEST(PlanarSceneMjcf, FingersDoNotCollideWithEachOther) {
 }
 
 /// Lower and upper end of a patch along its edge, as shares of the edge.
-std::pair<double, double> Ends(const object::Polygon& polygon, int edge,
+std::pair<double, double> Ends(const object::Polygon& polygon, FaceIndex edge,
                                const ContactPatch& patch) {
   const auto [from, to] = polygon.edge(edge);
   const Eigen::Vector3d along = (to - from) / (to - from).squaredNorm();
@@ -103,18 +103,18 @@ std::pair<double, double> Ends(const object::Polygon& polygon, int edge,
 TEST(EdgePatch, CoversThePathAndItsSurroundingsAndEndsWithTheEdge) {
   const object::Polygon square = MakeSquare(0.03);
   const auto ends = [&](double from, double to) {
-    const ContactSite site{1, OnEdge(square, 1, from).p, OnEdge(square, 1, to).p};
+    const ContactSite site{FaceIndex(1), OnEdge(square, 1, from).p, OnEdge(square, 1, to).p};
     const ContactPatch patch = MakeEdgePatch(square, site, 0.003, 0.02);
     EXPECT_TRUE(patch.rectangle);
     EXPECT_EQ(patch.outline.size(), 4u);
     const Eigen::Vector3d outward =
         (patch.outline[1] - patch.outline[0]).cross(patch.outline[2] - patch.outline[1]);
-    EXPECT_LT((outward.normalized() + square.inward_normal(1)).norm(), 1e-12);
+    EXPECT_LT((outward.normalized() + square.inward_normal(FaceIndex(1))).norm(), 1e-12);
     for (const Eigen::Vector3d& corner : patch.outline) {
       EXPECT_NEAR(std::abs(corner.z()), 0.01, 1e-15);
       EXPECT_NEAR(corner.x(), 0.03, 1e-15);
     }
-    return Ends(square, 1, patch);
+    return Ends(square, FaceIndex(1), patch);
   };
   const auto expect = [](std::pair<double, double> found, double low, double high) {
     EXPECT_NEAR(found.first, low, 1e-12);

@@ -28,10 +28,10 @@ object::Polyhedron MakeRod(double width) {
 plan::Plan HoldRod(const object::Polyhedron& rod, double width, double apart,
                    double half_angle_deg) {
   const double b = width / 2, x = apart / 2, off = 0.3 * b;
-  return MakePlan({{0, ContactAt(rod, {x, off, b}, {0, 0, -1})},
-                   {1, ContactAt(rod, {x, off, -b}, {0, 0, 1})},
-                   {2, ContactAt(rod, {-x, b, off}, {0, -1, 0})},
-                   {3, ContactAt(rod, {-x, -b, off}, {0, 1, 0})}},
+  return MakePlan({{FingerIndex(0), ContactAt(rod, {x, off, b}, {0, 0, -1})},
+                   {FingerIndex(1), ContactAt(rod, {x, off, -b}, {0, 0, 1})},
+                   {FingerIndex(2), ContactAt(rod, {-x, b, off}, {0, -1, 0})},
+                   {FingerIndex(3), ContactAt(rod, {-x, -b, off}, {0, 1, 0})}},
                   half_angle_deg);
 }
 

@@ -38,10 +38,10 @@ TEST(SceneMjcfTest, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
 TEST(SceneMjcfTest, CarriesTheMassOfTheSolidAndAllDigits) {
   const object::ObjectFile file = ReadModel("l_block.obj");
   const object::Object& l = *file.object;
-  plan::Plan plan = MakePlan({{0, ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
-                              {1, ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
-                              {2, ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
-                              {3, ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
+  plan::Plan plan = MakePlan({{FingerIndex(0), ContactAt(l, {0.07, 0.04, 0.002}, {0, -1, 0})},
+                              {FingerIndex(1), ContactAt(l, {0.068, 0, -0.001}, {0, 1, 0})},
+                              {FingerIndex(2), ContactAt(l, {0.04, 0.07, -0.002}, {-1, 0, 0})},
+                              {FingerIndex(3), ContactAt(l, {0, 0.069, 0.003}, {1, 0, 0})}},
                              30);
   const auto model = LoadFromFile(SceneMjcf(l, plan, {}));
   ASSERT_NE(model, nullptr);
@@ -72,14 +72,13 @@ TEST(SceneTest, OnlyFingersThatTouchAreCounted) {
   };
   EXPECT_EQ(fingers_that_touch(), plan.initial.size());
   // Finger after finger takes over the same place.
-  const int first = plan.initial.front().finger;
-  int last = first;
-  for (int finger = 33; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
+  FingerIndex last = plan.initial.front().finger;
+  for (FingerIndex finger{33}; finger < 33 + 31 - static_cast<int>(plan.initial.size()); ++finger) {
     plan.steps.push_back(plan::Switch{{{finger, plan.initial.front().contact}}, {last}});
     last = finger;
   }
   EXPECT_EQ(fingers_that_touch(), 31u);
-  plan.steps.push_back(plan::Switch{{{32, plan.initial.front().contact}}, {last}});
+  plan.steps.push_back(plan::Switch{{{FingerIndex(32), plan.initial.front().contact}}, {last}});
   EXPECT_THROW((void)fingers_that_touch(), InputError);
 }
 

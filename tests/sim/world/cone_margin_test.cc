@@ -21,10 +21,10 @@ TEST(ConeMarginTest, OfAFingerTheSmallestStaysAndOfAllTheSmallestIsNamed) {
   FingerMargins margins;
   EXPECT_FALSE(SmallestMargin(margins));
   EXPECT_EQ(FingerOfSmallestMargin(margins), -1);
-  AddMargin(4, 0.3, margins);
-  AddMargin(2, 0.2, margins);
-  AddMargin(4, 0.1, margins);
-  AddMargin(4, 0.4, margins);
+  AddMargin(FingerIndex(4), 0.3, margins);
+  AddMargin(FingerIndex(2), 0.2, margins);
+  AddMargin(FingerIndex(4), 0.1, margins);
+  AddMargin(FingerIndex(4), 0.4, margins);
   EXPECT_EQ(margins.size(), 2u);
   EXPECT_EQ(SmallestMargin(margins), 0.1);
   EXPECT_EQ(FingerOfSmallestMargin(margins), 4);

@@ -41,13 +41,13 @@ TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
   MotionMonitor monitor(UnitSettings());
   monitor.AddPose(Pose(1, 0));
   EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
-  monitor.AddSlip(2, 0.0019);
+  monitor.AddSlip(FingerIndex(2), 0.0019);
   EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
-  monitor.AddSlip(2, 0.0021);
+  monitor.AddSlip(FingerIndex(2), 0.0021);
   EXPECT_EQ(monitor.reason(), plan::Reason::kSlipped);
-  monitor.AddGap(3, 1e-6);
+  monitor.AddGap(FingerIndex(3), 1e-6);
   EXPECT_FALSE(monitor.contact_lost());
-  monitor.AddGap(3, 1e-4);
+  monitor.AddGap(FingerIndex(3), 1e-4);
   EXPECT_EQ(monitor.reason(), plan::Reason::kContactLost);
   EXPECT_NE(monitor.detail().find("finger 3"), std::string::npos);
   monitor.Start(Pose(0, 0));
@@ -86,13 +86,13 @@ TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
   settings.squeeze_N = 10;
   MotionMonitor monitor(settings);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  monitor.AddForce(0, {0, 0, 5}, up);
-  monitor.AddForce(1, {0, 2, 2}, up);
-  monitor.AddForce(1, {0, 0, 2}, up);
-  monitor.AddForce(2, {0, 0.004, 0.004}, up);  // hardly presses
+  monitor.AddForce(FingerIndex(0), {0, 0, 5}, up);
+  monitor.AddForce(FingerIndex(1), {0, 2, 2}, up);
+  monitor.AddForce(FingerIndex(1), {0, 0, 2}, up);
+  monitor.AddForce(FingerIndex(2), {0, 0.004, 0.004}, up);  // hardly presses
   ASSERT_EQ(monitor.margins().size(), 2u);
-  EXPECT_NEAR(monitor.margins().at(0), std::atan(1.0), 1e-12);
-  EXPECT_NEAR(monitor.margins().at(1), 0, 1e-12);
+  EXPECT_NEAR(monitor.margins().at(FingerIndex(0)), std::atan(1.0), 1e-12);
+  EXPECT_NEAR(monitor.margins().at(FingerIndex(1)), 0, 1e-12);
   monitor.ForgetForces();
   EXPECT_TRUE(monitor.margins().empty());
 }

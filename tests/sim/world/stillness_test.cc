@@ -153,7 +153,7 @@ TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
     const auto& body = dynamic_cast<const object::Polyhedron&>(*file.object);
     for (int examined = 0; examined < 8;) {
       plan::FingerGrasp grasp;
-      for (int f = 0; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
+      for (FingerIndex f{0}; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
       const auto required =
           grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
       if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;

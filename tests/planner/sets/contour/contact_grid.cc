@@ -26,8 +26,8 @@ constexpr int kLeastLines = 4;
 constexpr double kOutlineRounding = 1e-9;
 
 grasp::Contact ContactOn(const object::Polygon& polygon, int edge, double share) {
-  const auto [from, to] = polygon.edge(edge);
-  return {(1 - share) * from + share * to, polygon.inward_normal(edge), edge};
+  const auto [from, to] = polygon.edge(FaceIndex(edge));
+  return {(1 - share) * from + share * to, polygon.inward_normal(FaceIndex(edge)), FaceIndex(edge)};
 }
 
 /// How far inside a convex outline a point lies; negative outside. Sides that are rounding have no
@@ -68,13 +68,14 @@ ContactGrid::ContactGrid(const object::Polygon& polygon, double half_angle, int 
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> within(0.02, 0.98);
   double length = 0;
-  for (int e = 0; e < polygon.face_count(); ++e) length += polygon.face_measure(e);
+  for (FaceIndex e{0}; e < polygon.face_count(); ++e) length += polygon.face_measure(e);
   int edge = 0;
   for (const auto& ring : polygon.rings()) {
     const int first = line_count();
     for (std::size_t k = 0; k < ring.size(); ++k, ++edge) {
       const int count = std::max(
-          kLeastLines, static_cast<int>(std::ceil(lines * polygon.face_measure(edge) / length)));
+          kLeastLines,
+          static_cast<int>(std::ceil(lines * polygon.face_measure(FaceIndex(edge)) / length)));
       for (int i = 0; i < count; ++i) {
         lines_.push_back(ContactOn(polygon, edge, (i + within(engine)) / count));
       }

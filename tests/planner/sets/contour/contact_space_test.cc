@@ -22,22 +22,22 @@ TEST(Boundary, PlacesRunAlongEveryRingAndComeBack) {
     const Boundary boundary(polygon);
     ASSERT_EQ(boundary.edge_count(), polygon.face_count());
     ASSERT_EQ(boundary.ring_count(), std::ssize(polygon.rings()));
-    for (int e = 0; e < polygon.face_count(); ++e, ++edges) {
+    for (FaceIndex e{0}; e < polygon.face_count(); ++e, ++edges) {
       const int ring = boundary.ring_of(e);
       EXPECT_LE(boundary.first_edge(ring), e);
       EXPECT_LT(e, boundary.first_edge(ring + 1));
       EXPECT_EQ(boundary.previous(boundary.next(e)), e);
-      EXPECT_EQ(polygon.edge(e).second, polygon.edge(boundary.next(e)).first);
+      EXPECT_EQ(polygon.edge(FaceIndex(e)).second, polygon.edge(FaceIndex(boundary.next(e))).first);
       const bool last = boundary.next(e) < e;
       EXPECT_EQ(boundary.end(e), last ? boundary.perimeter(ring) : boundary.begin(e + 1));
       for (const double share : {0.0, 0.3, 1.0}) {
         const double place = (1 - share) * boundary.begin(e) + share * boundary.end(e);
         const grasp::Contact contact = boundary.ContactAt(e, place);
         EXPECT_EQ(contact.face, e);
-        EXPECT_EQ(contact.n, polygon.inward_normal(e));
+        EXPECT_EQ(contact.n, polygon.inward_normal(FaceIndex(e)));
         EXPECT_NEAR(boundary.PlaceOf(contact), place, SizeToleranceOf(polygon));
-        EXPECT_LE(polygon.DistanceToBorder(e, contact.p),
-                  polygon.face_measure(e) / 2 + SizeToleranceOf(polygon));
+        EXPECT_LE(polygon.DistanceToBorder(FaceIndex(e), contact.p),
+                  polygon.face_measure(FaceIndex(e)) / 2 + SizeToleranceOf(polygon));
       }
     }
   }
@@ -82,8 +82,8 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
       EXPECT_LE(corners, kMostCorners);
       if (!piece.full) continue;
       ++full;
-      const double whole =
-          polygon.face_measure(piece.edges[0]) * polygon.face_measure(piece.edges[1]);
+      const double whole = polygon.face_measure(FaceIndex(piece.edges[0])) *
+                           polygon.face_measure(FaceIndex(piece.edges[1]));
       EXPECT_NEAR(TwiceArea(outline), 2 * whole, tolerance * polygon.diameter());
     }
   });

@@ -74,8 +74,8 @@ TEST(ContourSwitch, TheLargestOneIsThatOfAGridSearch) {
     const ContourGraph graph(polygon, Radians(20));
     SetGeometry geometry(graph);
     double resolution = 0;
-    for (int e = 0; e < polygon.face_count(); ++e) {
-      resolution = std::max(resolution, polygon.face_measure(e) / 60);
+    for (FaceIndex e{0}; e < polygon.face_count(); ++e) {
+      resolution = std::max(resolution, polygon.face_measure(FaceIndex(e)) / 60);
     }
     for (const auto& [a, b] : graph.switches()) {
       if (++pairs % 5 != 0) continue;

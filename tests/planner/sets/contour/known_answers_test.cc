@@ -145,7 +145,7 @@ TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
     // A band that closes with a half turn has one border; an ordinary one would have two.
     EXPECT_EQ(CurvesOf(graph, 0), 1);
     // On a circle of radius R: |y − x − πR| < 2 R θ.
-    EXPECT_NEAR(LargestSize(graph, 0), Radians(degrees), disc.face_measure(0));
+    EXPECT_NEAR(LargestSize(graph, 0), Radians(degrees), disc.face_measure(FaceIndex(0)));
   }
 }
 
@@ -172,7 +172,7 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
       const double size = a != b   ? turn / (1 / kOuter + 1 / kInner)
                           : a == 0 ? kOuter * angle
                                    : kInner * angle;
-      EXPECT_NEAR(LargestSize(graph, set), size, annulus.face_measure(0)) << a << b;
+      EXPECT_NEAR(LargestSize(graph, set), size, annulus.face_measure(FaceIndex(0))) << a << b;
     }
     const std::set<std::tuple<int, int, bool>> expected = {
         {0, 0, false}, {0, 1, false}, {1, 1, true}};

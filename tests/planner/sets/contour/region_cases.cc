@@ -15,7 +15,7 @@ constexpr double kShake = 1e-13;
 double SizeToleranceOf(const object::Polygon& polygon) {
   constexpr double kTolerance = 1e-9;
   double length = 0;
-  for (int e = 0; e < polygon.face_count(); ++e) length += polygon.face_measure(e);
+  for (FaceIndex e{0}; e < polygon.face_count(); ++e) length += polygon.face_measure(e);
   return kTolerance * length;
 }
 

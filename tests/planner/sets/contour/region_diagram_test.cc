@@ -176,7 +176,7 @@ TEST(RegionDiagram, OfLessFrictionDoesNotHoldTheBestGrasp) {
   const ContourGraph more(disc, Radians(12));
   SetGeometry geometry_of_less(less);
   SetGeometry geometry_of_more(more);
-  const double at = disc.face_measure(0) / 3;
+  const double at = disc.face_measure(FaceIndex(0)) / 3;
   EXPECT_LT(HeldContact(geometry_of_less, 0, 0, at).ByDiagram(),
             HeldContact(geometry_of_more, 0, 0, at).Sample(kSamples).best);
 }

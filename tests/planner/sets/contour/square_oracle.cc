@@ -17,7 +17,8 @@ SquareOracle::SquareOracle(const object::Polygon& polygon, double half_angle)
   for (const auto& ring : polygon.rings()) {
     first_edge_.push_back(edge);
     double perimeter = 0;
-    for (std::size_t k = 0; k < ring.size(); ++k) perimeter += polygon.face_measure(edge++);
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      perimeter += polygon.face_measure(FaceIndex(edge++));
     perimeter_.push_back(perimeter);
   }
   first_edge_.push_back(edge);
@@ -30,14 +31,15 @@ std::vector<grasp::Contact> SquareOracle::EndsWithin(int ring, double place,
   for (const int turn : {-1, 0, 1}) {
     double begin = turn * perimeter_[ring];
     for (int e = first_edge_[ring]; e < first_edge_[ring + 1]; ++e) {
-      const double length = polygon_.face_measure(e);
+      const double length = polygon_.face_measure(FaceIndex(e));
       const double low = std::max(begin, place - half_width);
       const double high = std::min(begin + length, place + half_width);
       if (low < high) {
-        const auto [a, b] = polygon_.edge(e);
+        const auto [a, b] = polygon_.edge(FaceIndex(e));
         for (const double at : {low, high}) {
           const double share = (at - begin) / length;
-          ends.push_back({(1 - share) * a + share * b, polygon_.inward_normal(e), e});
+          ends.push_back(
+              {(1 - share) * a + share * b, polygon_.inward_normal(FaceIndex(e)), FaceIndex(e)});
         }
       }
       begin += length;

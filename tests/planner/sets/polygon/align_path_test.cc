@@ -15,7 +15,8 @@ grasp::Grasp GraspAt(const object::Polygon& polygon, const GraspSet& set,
                      const Eigen::VectorXd& parameters) {
   grasp::Grasp grasp;
   for (const int edge : set.edges) {
-    grasp.push_back(grasp::ContactAt(polygon, edge, parameters[static_cast<int>(grasp.size())]));
+    grasp.push_back(
+        grasp::ContactAt(polygon, FaceIndex(edge), parameters[static_cast<int>(grasp.size())]));
   }
   return grasp;
 }

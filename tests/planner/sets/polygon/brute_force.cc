@@ -61,8 +61,8 @@ std::string BruteForce::Text(int vertex) const {
 }
 
 grasp::Contact BruteForce::At(int edge, double u) const {
-  const auto [a, b] = polygon_.edge(edge);
-  return {a + u * (b - a), polygon_.inward_normal(edge), edge};
+  const auto [a, b] = polygon_.edge(FaceIndex(edge));
+  return {a + u * (b - a), polygon_.inward_normal(FaceIndex(edge)), FaceIndex(edge)};
 }
 
 BruteForce::Drawn BruteForce::Draw(int edge) {
@@ -207,7 +207,7 @@ void BruteForce::DrawThirds(const Drawn& first, const Drawn& second, int thirds)
 
 bool BruteForce::Sees(const Eigen::Vector2d& x, int edge, double phi, bool& outer, double& low,
                       double& high) const {
-  const auto [a, b] = polygon_.edge(edge);
+  const auto [a, b] = polygon_.edge(FaceIndex(edge));
   const Eigen::Vector2d along = (b - a).head<2>();
   const double length = along.norm();
   const Eigen::Vector2d t = along / length;

@@ -30,7 +30,7 @@ object::Polygon Irregular(int n, unsigned seed) {
 }
 
 double NormalAngle(const object::Polygon& polygon, int edge) {
-  const Eigen::Vector3d n = polygon.inward_normal(edge);
+  const Eigen::Vector3d n = polygon.inward_normal(FaceIndex(edge));
   return std::atan2(n.y(), n.x());
 }
 

@@ -24,7 +24,7 @@ constexpr double kTangentSlack = 1e-12;
 
 /// The points within reach on the inner (left) or outer side of an edge's line.
 CellSet HalfPlaneSet(const object::Polygon& polygon, int edge, bool outer) {
-  const auto [a, b] = polygon.edge(edge);
+  const auto [a, b] = polygon.edge(FaceIndex(edge));
   const CellKernel::Point_2 pa(a.x(), a.y());
   const CellKernel::Vector_2 along = CellKernel::Point_2(b.x(), b.y()) - pa;
   const CellKernel::Vector_2 right = CellKernel::FT(8 * kFarthestReach) * along;
@@ -63,7 +63,7 @@ bool ReachesEnd(const object::Polygon& polygon, const SetCell& cell) {
   const CellKernel::FT far(kFarthestReach / 2);
   const auto& outline = cell.component.outer_boundary();
   return std::any_of(cell.edges.begin(), cell.edges.end(), [&](int edge) {
-    const auto [a, b] = polygon.edge(edge);
+    const auto [a, b] = polygon.edge(FaceIndex(edge));
     const CellKernel::Point_2 pa(a.x(), a.y());
     const CellKernel::Vector_2 along = CellKernel::Point_2(b.x(), b.y()) - pa;
     const CellKernel::Vector_2 normal = along.perpendicular(CGAL::COUNTERCLOCKWISE);

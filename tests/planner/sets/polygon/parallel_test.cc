@@ -45,10 +45,10 @@ class ParallelOracle {
     return a.x() * b.y() - a.y() * b.x();
   }
   [[nodiscard]] Eigen::Vector2d Normal(int edge) const {
-    return polygon_.inward_normal(edge).head<2>();
+    return polygon_.inward_normal(FaceIndex(edge)).head<2>();
   }
   [[nodiscard]] Eigen::Vector2d Point(int edge, double u) const {
-    const auto [a, b] = polygon_.edge(edge);
+    const auto [a, b] = polygon_.edge(FaceIndex(edge));
     return (a + u * (b - a)).head<2>();
   }
   [[nodiscard]] bool InCone(int edge, const Eigen::Vector2d& w) const {

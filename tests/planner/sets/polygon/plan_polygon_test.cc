@@ -44,7 +44,8 @@ object::Polygon Model(const std::string& name) {
 grasp::Grasp MakeGrasp(const object::Polygon& polygon,
                        const std::vector<std::pair<int, double>>& places) {
   grasp::Grasp grasp;
-  for (const auto& [edge, u] : places) grasp.push_back(grasp::ContactAt(polygon, edge, u));
+  for (const auto& [edge, u] : places)
+    grasp.push_back(grasp::ContactAt(polygon, FaceIndex(edge), u));
   return grasp;
 }
 

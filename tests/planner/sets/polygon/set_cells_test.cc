@@ -20,14 +20,14 @@ struct Draw {
 
 Draw DrawContacts(const object::Polygon& polygon, int count, std::mt19937_64& engine) {
   std::vector<int> all(polygon.face_count());
-  for (int e = 0; e < polygon.face_count(); ++e) all[e] = e;
+  for (FaceIndex e{0}; e < polygon.face_count(); ++e) all[e] = e;
   Draw draw;
   std::sample(all.begin(), all.end(), std::back_inserter(draw.edges), count, engine);
   draw.parameters.resize(count);
   std::uniform_real_distribution<double> uniform;
   for (int k = 0; k < count; ++k) {
     draw.parameters[k] = uniform(engine);
-    draw.grasp.push_back(grasp::ContactAt(polygon, draw.edges[k], draw.parameters[k]));
+    draw.grasp.push_back(grasp::ContactAt(polygon, FaceIndex(draw.edges[k]), draw.parameters[k]));
   }
   return draw;
 }
@@ -143,12 +143,13 @@ TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
 
 TEST(SetCells, ContactAndParameterAreInverse) {
   const object::Polygon& ring = SmallPolygons().back().polygon;
-  for (int edge = 0; edge < ring.face_count(); ++edge) {
-    const grasp::Contact contact = grasp::ContactAt(ring, edge, 0.3);
+  for (FaceIndex edge{0}; edge < ring.face_count(); ++edge) {
+    const grasp::Contact contact = grasp::ContactAt(ring, FaceIndex(edge), 0.3);
     EXPECT_EQ(contact.face, edge);
-    EXPECT_EQ(contact.n, ring.inward_normal(edge));
+    EXPECT_EQ(contact.n, ring.inward_normal(FaceIndex(edge)));
     EXPECT_NEAR(grasp::ParameterOf(ring, contact), 0.3, 1e-15);
-    EXPECT_NEAR(ring.DistanceToBorder(edge, contact.p), 0.3 * ring.face_measure(edge), 1e-12);
+    EXPECT_NEAR(ring.DistanceToBorder(FaceIndex(edge), contact.p),
+                0.3 * ring.face_measure(FaceIndex(edge)), 1e-12);
   }
 }
 

@@ -77,7 +77,7 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(split.first.size(), body.faces().size() + 1);
   EXPECT_EQ(split.first.back(), static_cast<int>(split.parts.size()));
   const double small = kRounding * body.diameter() * body.diameter();
-  for (int face = 0; face < body.face_count(); ++face) {
+  for (FaceIndex face{0}; face < body.face_count(); ++face) {
     double area = 0;
     for (int p = split.first[face]; p < split.first[face + 1]; ++p) {
       const FacePart& part = split.parts[p];
@@ -94,7 +94,7 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
         EXPECT_TRUE(AreDisjoint(part, split.parts[q]));
       }
     }
-    EXPECT_NEAR(area, body.face_measure(face), small);
+    EXPECT_NEAR(area, body.face_measure(FaceIndex(face)), small);
   }
   return static_cast<int>(split.parts.size());
 }
@@ -105,7 +105,7 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
   EXPECT_EQ(split.hulls.size(), body.faces().size());
   const double small = kRounding * body.diameter();
   int several = 0;
-  for (int face = 0; face < body.face_count(); ++face) {
+  for (FaceIndex face{0}; face < body.face_count(); ++face) {
     const FacePart& hull = split.hulls[face];
     const int first = split.first[face];
     const int end = split.first[face + 1];
@@ -127,7 +127,7 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
     if (end - first == 1) {
       EXPECT_EQ(hull.outline, split.parts[first].outline);
     } else {
-      EXPECT_GT(AreaOf(hull.outline), body.face_measure(face) + small);
+      EXPECT_GT(AreaOf(hull.outline), body.face_measure(FaceIndex(face)) + small);
       ++several;
     }
   }
@@ -223,7 +223,7 @@ TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
   const FacePart& part = split.parts[several->parts[0]];
   EXPECT_FALSE(AreDisjoint(part, part));
   EXPECT_FALSE(IsInside(part, part.outline[0], 0.01));
-  EXPECT_GT(body.face_measure(part.face), AreaOf(part.outline) + 0.1);
+  EXPECT_GT(body.face_measure(FaceIndex(part.face)), AreaOf(part.outline) + 0.1);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class GraphOracle {
         parts_(graph_.finder().parts()),
         scale_(body.diameter()) {
     std::vector<Vector3d> normals;
-    for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
+    for (FaceIndex f{0}; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
     candidates_ = FindQuadrupleCandidates(normals, std::tan(Radians(degrees)), spanning);
     std::shuffle(candidates_.begin(), candidates_.end(), random_);
     if (candidates_.size() > kMostCandidates) candidates_.resize(kMostCandidates);

@@ -77,7 +77,8 @@ TEST(PolyhedronGraph, OfARegularOctahedronIsTwoTetrahedraOfFaces) {
     for (const int a : cell.faces) {
       for (const int b : cell.faces) {
         if (a == b) continue;
-        EXPECT_NEAR(body.inward_normal(a).dot(body.inward_normal(b)), -1.0 / 3, 1e-12);
+        EXPECT_NEAR(body.inward_normal(FaceIndex(a)).dot(body.inward_normal(FaceIndex(b))),
+                    -1.0 / 3, 1e-12);
       }
     }
   }
@@ -97,7 +98,7 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
   EXPECT_EQ(graph.candidate_count(), 1);
   ASSERT_EQ(graph.vertex_count(), 1);
   for (const int face : graph.cells().front().faces) {
-    EXPECT_GT(body.inward_normal(face).z(), -0.5);
+    EXPECT_GT(body.inward_normal(FaceIndex(face)).z(), -0.5);
   }
 }
 
@@ -132,7 +133,8 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
   for (const FocusCell& cell : graph.cells()) {
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
     for (const int f : cell.faces) {
-      EXPECT_NEAR(body.face_measure(f), body.face_measure(cell.faces.front()), 1e-12);
+      EXPECT_NEAR(body.face_measure(FaceIndex(f)), body.face_measure(FaceIndex(cell.faces.front())),
+                  1e-12);
     }
   }
 }

@@ -163,7 +163,7 @@ TEST(NormalQuadruples, AnyDirectionsInsideTheConesSpanAndSomeJustBeyondDoNot) {
 
 std::size_t CountOf(const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
   std::vector<Vector3d> normals;
-  for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
+  for (FaceIndex f{0}; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
   return FindQuadrupleCandidates(normals, std::tan(Radians(degrees)), spanning).size();
 }
 

@@ -165,7 +165,7 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
   // Two pairs on opposite faces of a box: force closure, but no four normals span.
   const object::Polyhedron box = Box({2, 2, 2});
   const auto contact = [&](const Eigen::Vector3d& p) {
-    const int face = box.FacesNear(p, 1e-9).front();
+    const FaceIndex face = box.FacesNear(p, 1e-9).front();
     return grasp::Contact{p, box.inward_normal(face), face};
   };
   const grasp::Grasp grasp = {contact({-1, 0.1, 0}), contact({1, -0.1, 0}), contact({0, -1, 0.1}),

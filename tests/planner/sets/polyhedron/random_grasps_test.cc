@@ -49,7 +49,7 @@ class GraspDraw {
 
   /// The contact of a face in a random direction inside the double cone about a focus point.
   std::optional<Seen> See(int face, double tangent, const Vector3d& focus) {
-    const Vector3d n = body_.inward_normal(face);
+    const Vector3d n = body_.inward_normal(FaceIndex(face));
     const double height = n.dot(focus - body_.faces()[face].point);
     const Vector3d u = n.unitOrthogonal();
     const double slope = tangent * std::sqrt(unit_(engine_)) * (1 - kAtBorder);
@@ -67,8 +67,9 @@ class GraspDraw {
  private:
   /// By crossings of the face's border with a ray in its plane.
   [[nodiscard]] bool IsOnFace(int face, const Vector3d& contact) const {
-    if (body_.DistanceToBorder(face, contact) < kAtBorder * body_.diameter()) return false;
-    const Vector3d n = body_.inward_normal(face);
+    if (body_.DistanceToBorder(FaceIndex(face), contact) < kAtBorder * body_.diameter())
+      return false;
+    const Vector3d n = body_.inward_normal(FaceIndex(face));
     const Vector3d u = n.unitOrthogonal();
     const Vector3d v = n.cross(u);
     bool inside = false;
@@ -110,7 +111,8 @@ bool IsHeld(const object::Polyhedron& body, const std::array<Seen, 4>& grasp,
             const std::array<int, 4>& faces, double half_angle) {
   std::vector<grasp::Contact> contacts;
   for (std::size_t k = 0; k < grasp.size(); ++k) {
-    contacts.push_back({grasp[k].contact, body.inward_normal(faces[k]), faces[k]});
+    contacts.push_back(
+        {grasp[k].contact, body.inward_normal(FaceIndex(faces[k])), FaceIndex(faces[k])});
   }
   return grasp::IsForceClosure(contacts, body.wrench_frame(), half_angle);
 }
@@ -133,7 +135,7 @@ class GraspOracle {
       for (const FocusPiece& piece : graph_.cells()[cell].pieces) cell_of_[piece.halves] = cell;
     }
     std::vector<Vector3d> normals;
-    for (int f = 0; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
+    for (FaceIndex f{0}; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
     candidates_ = FindQuadrupleCandidates(normals, std::tan(half_angle_), spanning);
   }
 
@@ -142,7 +144,7 @@ class GraspOracle {
     for (int i = 0; i < kFocusPoints; ++i) {
       const Vector3d focus = draw_.FocusPoint();
       std::vector<std::vector<Seen>> seen(body_.face_count());
-      for (int face = 0; face < body_.face_count(); ++face) {
+      for (FaceIndex face{0}; face < body_.face_count(); ++face) {
         for (int k = 0; k < kDirections; ++k) {
           if (const auto contact = draw_.See(face, std::tan(half_angle_), focus)) {
             seen[face].push_back(*contact);
@@ -223,9 +225,9 @@ class GraspOracle {
     // matter where there is one.
     const auto& first = graph_.finder().parts().first;
     if (first[face + 1] - first[face] > 1) return false;
-    contact.contact = body_.ClosestPoint(face, focus);
+    contact.contact = body_.ClosestPoint(FaceIndex(face), focus);
     const Vector3d line = focus - contact.contact;
-    const double height = body_.inward_normal(face).dot(line) * (half % 2 == 0 ? 1 : -1);
+    const double height = body_.inward_normal(FaceIndex(face)).dot(line) * (half % 2 == 0 ? 1 : -1);
     return height > 0 && line.squaredNorm() < height * height * (1 + tangent * tangent);
   }
 
