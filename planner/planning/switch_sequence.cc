@@ -40,18 +40,18 @@ plan::Switch MakeSwitch(const plan::FingerGrasp& before, const grasp::Grasp& aft
   return step;
 }
 
-Sequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers) {
+CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers) {
   if (grasps.empty()) throw std::invalid_argument("a sequence needs a grasp");
-  Sequence sequence;
-  for (const grasp::Contact& contact : grasps.front()) {
-    sequence.initial.push_back({LowestFreeFinger(sequence.initial, fingers), contact});
-  }
+  CandidateSequence sequence;
+  sequence.initial = MakeSwitch({}, grasps.front(), fingers).place;
+  sequence.rests = {{grasps.front(), std::nullopt}};
   plan::FingerGrasp holding = sequence.initial;
   for (const grasp::Grasp& grasp : grasps.subspan(1)) {
     plan::Switch step = MakeSwitch(holding, grasp, fingers);
     if (step.place.empty() && step.release.empty()) continue;
     holding = plan::GraspAfter(holding, step);
     sequence.steps.emplace_back(std::move(step));
+    sequence.rests.push_back({grasp, std::nullopt});
   }
   return sequence;
 }

@@ -2,15 +2,9 @@
 
 #include <span>
 
-#include "planner/plan/plan.h"
+#include "planner/planning/candidate_sequence.h"
 
 namespace regrasp::planning {
-
-/// What a hand does: its first grasp and its steps.
-struct Sequence {
-  plan::FingerGrasp initial;
-  std::vector<plan::Step> steps;
-};
 
 /// The finger switch from the fingers that hold to the contacts that are to hold after it: places
 /// the contacts that are new with the lowest free fingers and releases those that are gone. A
@@ -25,6 +19,7 @@ struct Sequence {
 /// that are new with the lowest free fingers and releases those that are gone; a contact is the
 /// same where its point and normal are, bit for bit. Grasps equal to the one before give no step.
 /// @throws std::invalid_argument  no grasp, or a step for which the hand has too few fingers.
-[[nodiscard]] Sequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers);
+[[nodiscard]] CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps,
+                                                   int fingers);
 
 }  // namespace regrasp::planning

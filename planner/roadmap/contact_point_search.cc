@@ -165,11 +165,8 @@ class ContactPointSearch {
     for (const int vertex : path) grasps.push_back(roadmap_.grasp(vertex));
     // The fingers of the first grasp follow the order in which it was given.
     grasps.front() = start_.grasp;
-    planning::Sequence sequence = planning::MakeSwitchSequence(grasps, request_.hand.fingers);
-    planning::CandidateSequence candidate = {
-        std::move(sequence.initial), std::move(sequence.steps), {}};
-    for (grasp::Grasp& grasp : grasps) candidate.rests.push_back({std::move(grasp), std::nullopt});
-    return planning::ResultOf(candidate, evaluator_, "roadmap", request_, goal_.grasp);
+    return planning::ResultOf(planning::MakeSwitchSequence(grasps, request_.hand.fingers),
+                              evaluator_, "roadmap", request_, goal_.grasp);
   }
 
   const planning::PlanRequest& request_;

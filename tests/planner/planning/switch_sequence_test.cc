@@ -28,10 +28,11 @@ std::vector<double> Places(const plan::FingerGrasp& grasp) {
 TEST(MakeSwitchSequence, GivesTheFreeFingerTheNewContactAndReleasesTheOldOne) {
   const std::vector<grasp::Grasp> grasps = {
       {At(1), At(2), At(3), At(4)}, {At(3), At(5), At(1), At(4)}, {At(5), At(6), At(3), At(4)}};
-  const Sequence sequence = MakeSwitchSequence(grasps, 5);
+  const CandidateSequence sequence = MakeSwitchSequence(grasps, 5);
   EXPECT_THAT(Fingers(sequence.initial), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(Places(sequence.initial), ElementsAre(1, 2, 3, 4));
   ASSERT_EQ(sequence.steps.size(), 2u);
+  EXPECT_THAT(sequence.rests, testing::SizeIs(3));
   const auto& first = std::get<plan::Switch>(sequence.steps[0]);
   EXPECT_THAT(Fingers(first.place), ElementsAre(4));
   EXPECT_THAT(Places(first.place), ElementsAre(5));
@@ -44,7 +45,7 @@ TEST(MakeSwitchSequence, GivesTheFreeFingerTheNewContactAndReleasesTheOldOne) {
 
 TEST(MakeSwitchSequence, SwitchesSeveralFingersWhereTheHandHasThem) {
   const std::vector<grasp::Grasp> grasps = {{At(1), At(2)}, {At(3), At(4)}};
-  const Sequence sequence = MakeSwitchSequence(grasps, 4);
+  const CandidateSequence sequence = MakeSwitchSequence(grasps, 4);
   ASSERT_EQ(sequence.steps.size(), 1u);
   const auto& step = std::get<plan::Switch>(sequence.steps[0]);
   EXPECT_THAT(Fingers(step.place), ElementsAre(2, 3));
@@ -62,6 +63,7 @@ TEST(MakeSwitchSequence, TellsContactsAtOnePointByTheirNormals) {
 TEST(MakeSwitchSequence, HasNoStepForTheSameGraspInAnotherOrder) {
   const std::vector<grasp::Grasp> grasps = {{At(1), At(2), At(3)}, {At(3), At(1), At(2)}};
   EXPECT_TRUE(MakeSwitchSequence(grasps, 3).steps.empty());
+  EXPECT_THAT(MakeSwitchSequence(grasps, 3).rests, testing::SizeIs(1));
 }
 
 TEST(MakeSwitchSequence, RefusesNothingAndHandsThatAreTooSmall) {
