@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/hand/hand.h"
 #include "planner/planning/plan_request.h"
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
@@ -10,7 +11,7 @@ namespace regrasp::roadmap {
 
 /// Contacts of a grasp of a roadmap, and fingers of the hand: the fifth switches.
 inline constexpr int kRoadmapContacts = 4;
-inline constexpr int kRoadmapFingers = 5;
+inline constexpr int kRoadmapFingers = hand::kFingersInSpace;
 /// Contact points of a plain roadmap: more need more memory than a small machine has, 65 million
 /// subsets.
 inline constexpr int kMaxRoadmapContacts = 200;
