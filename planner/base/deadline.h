@@ -35,10 +35,6 @@ class Deadline {
   [[nodiscard]] std::optional<Clock::duration> left() const {
     return at_ ? std::optional(*at_ - now_()) : std::nullopt;
   }
-  /// The middle between now and then.
-  [[nodiscard]] Deadline Halfway() const {
-    return at_ ? Deadline(*at_ - *left() / 2, now_) : Deadline();
-  }
 
  private:
   std::optional<Clock::time_point> at_;

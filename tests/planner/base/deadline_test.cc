@@ -22,18 +22,6 @@ TEST(Deadline, IsOverWhenItsTimeHasComeAndNeverWithoutOne) {
   EXPECT_THROW(deadline.Check(), TimeUp);
 }
 
-TEST(Deadline, HalfwayHasHalfOfWhatIsLeft) {
-  Clock::time_point now{};
-  const Deadline deadline(now + seconds(10), [&] { return now; });
-  now += seconds(2);
-  const Deadline half = deadline.Halfway();
-  EXPECT_EQ(half.left(), seconds(4));
-  now += seconds(4);
-  EXPECT_TRUE(half.IsOver());
-  EXPECT_FALSE(deadline.IsOver());
-  EXPECT_FALSE(Deadline().Halfway().left().has_value());
-}
-
 TEST(Deadline, BeyondTheClocksRangeThereIsNone) {
   const Clock::time_point begin = Clock::now();
   EXPECT_EQ(DeadlineAfter(begin, 1e300).left(), std::nullopt);
