@@ -19,7 +19,7 @@ struct GraspPair {
 /// What planners are compared at.
 struct ContestSetting {
   double half_angle = 0;   ///< friction, radians
-  double min_quality = 0;  ///< of the grasps drawn, and of the sequences where there is a way
+  double min_quality = 0;  ///< of the grasps drawn, and of the sequences where there are any
   /// Contacts of the grasps drawn: in space 4; in the plane 2, or 2 or 3.
   int fewest_contacts = 0;
   int most_contacts = 0;

@@ -10,26 +10,26 @@ namespace {
 
 double TravelOf(const plan::Switch& step, const plan::FingerGrasp& before) {
   if (step.release.empty()) return 0;
-  double way = 0;
+  double travel = 0;
   for (const plan::FingerContact& placed : step.place) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const FingerIndex finger : step.release) {
       const grasp::Contact& left = plan::FindFinger(before, finger)->contact;
       nearest = std::min(nearest, (left.p - placed.contact.p).norm());
     }
-    way += nearest;
+    travel += nearest;
   }
-  return way;
+  return travel;
 }
 
 double TravelOf(const plan::Align& step) {
-  double way = 0;
+  double travel = 0;
   for (std::size_t i = 1; i < step.waypoints.size(); ++i) {
     for (const plan::FingerContact& to : step.waypoints[i]) {
-      way += (plan::FindFinger(step.waypoints[i - 1], to.finger)->contact.p - to.contact.p).norm();
+      travel += (plan::FindFinger(step.waypoints[i - 1], to.finger)->contact.p - to.contact.p).norm();
     }
   }
-  return way;
+  return travel;
 }
 
 }  // namespace
@@ -41,14 +41,15 @@ int CountAligns(const plan::Plan& plan) {
 }
 
 double TravelOf(const plan::Plan& plan) {
-  double way = 0;
+  double travel = 0;
   plan::FingerGrasp holding = plan.initial;
   for (const plan::Step& step : plan.steps) {
     const auto* change = std::get_if<plan::Switch>(&step);
-    way += change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<plan::Align>(step));
+    travel +=
+        change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<plan::Align>(step));
     holding = plan::GraspAfter(holding, step);
   }
-  return way;
+  return travel;
 }
 
 }  // namespace regrasp

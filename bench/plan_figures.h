@@ -7,8 +7,8 @@ namespace regrasp {
 /// Aligns among the steps.
 [[nodiscard]] int CountAligns(const plan::Plan& plan);
 
-/// The way of all fingers together, in the object's unit of length: from waypoint to waypoint in an
-/// align; in a switch for each contact that is placed straight from the nearest one that is
+/// The travel of all fingers together, in the object's unit of length: from waypoint to waypoint in
+/// an align; in a switch for each contact that is placed straight from the nearest one that is
 /// released, and none where nothing is released.
 ///
 /// Laws: independent of the fingers' numbers and of rigid motion; grows with the unit of length.

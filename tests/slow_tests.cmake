@@ -37,6 +37,7 @@ set(regrasp_slow_tests
   Degenerate.*
   Discrimination.*
   DrawOnSurface.GivesGood*
+  */EveryPlanner.Obeys/*Quality
   FileTest.AFileThatIsTooLarge*
   FindContactChain.*
   FrameTest.DrawsTheLargest*

@@ -5,21 +5,17 @@
 #include <algorithm>
 
 #include "planner/base/angle.h"
-#include "planner/object/object.h"
+#include "tests/fixtures/models.h"
 
 namespace regrasp {
 namespace {
 
 constexpr ContestLimits kFewPairs = {5, 1e3};
 
-object::ObjectFile ReadModel(const std::string& name) {
-  return object::ReadObject(REGRASP_SOURCE_DIR "/models/" + name);
-}
-
 struct Case {
   const char* model;
   ContestSetting setting;
-  std::size_t asked;  ///< contenders that serve
+  std::size_t asked;  ///< contenders that work on it
 };
 
 class Contests : public testing::TestWithParam<Case> {};

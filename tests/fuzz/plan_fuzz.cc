@@ -1,5 +1,5 @@
 // Any bytes as a plan file: a plan that is written as it was read and that the analytic check can
-// judge on a small object, or one line that says what is wrong.
+// check on a small object, or one line that says what is wrong.
 
 #include <cmath>
 #include <cstddef>
@@ -40,7 +40,7 @@ void ReadAndCheck(std::string_view text) {
   const object::Object& object =
       plan.dimension == 2 ? static_cast<const object::Object&>(SmallPolygon()) : SmallSolid();
   const plan::PlanCheck check = plan::CheckPlan(object, plan);
-  if (check.steps.size() != plan.steps.size() + 1) ReportFinding("a step was not judged");
+  if (check.steps.size() != plan.steps.size() + 1) ReportFinding("a step was not checked");
   for (const plan::StepCheck& step : check.steps) {
     if (step.force_closure && !step.required) ReportFinding("force closure at no angle");
   }

@@ -10,12 +10,9 @@
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "sim/replay/replay.h"
+#include "tests/fixtures/models.h"
 
 namespace regrasp::sim {
-
-inline object::ObjectFile ReadModel(const std::string& name) {
-  return object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
-}
 
 /// The contact at `p` on the face whose inward normal is `n`; without a face where there is none.
 inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vector3d& p,

@@ -1,4 +1,4 @@
-// Uses the public headers as a program of others would: reads an object, judges a grasp, writes and
+// Uses the public headers as a program of others would: reads an object, checks a grasp, writes and
 // reads a plan that holds it, and validates the plan.
 #include <cstdio>
 

@@ -102,7 +102,7 @@ TEST(RequiredHalfAngleTest, MoreContactsNeverNeedMore) {
   EXPECT_GT(compared, 50);
 }
 
-TEST(RequiredHalfAngleTest, NoneWhereNoFrictionServes) {
+TEST(RequiredHalfAngleTest, NoneWhereNoFrictionIsEnough) {
   EXPECT_FALSE(ComputeRequiredHalfAngle(Grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}},
                                         UnitFrame(3)));
   EXPECT_FALSE(ComputeRequiredHalfAngle(Grasp{{{1, 0, 0}, {-1, 0, 0}}}, UnitFrame(2)));

@@ -176,7 +176,7 @@ TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
 }
 
 /// Three fingers hold a cube; the third passes the first one's place, where all are on one line and
-/// no friction serves, between its waypoints.
+/// no friction is enough, between its waypoints.
 Plan CollinearForAnInstant(double from, double to) {
   const auto grasp = [](double y) {
     return FingerGrasp{{FingerIndex(0), {{1, 0, 0}, {-1, 0, 0}}},

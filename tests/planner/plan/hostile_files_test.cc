@@ -1,5 +1,5 @@
 // Plan and grasp files that are broken on purpose: reading them ends in an InputError of one line
-// that names the file, or in a plan that the checker can judge. Nothing else.
+// that names the file, or in a plan that the checker takes. Nothing else.
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "planner/base/angle.h"
@@ -106,6 +108,21 @@ TEST(Solve, RefusesAnOptionThatThePlannerDoesNotHave) {
               ThrowsMessage<InputError>("--explain: the planner stub has no such option"));
 }
 
+TEST(Solve, RefusesFrictionAndQualityOutOfRange) {
+  for (const double degrees : {0.0, -1.0, 90.0, std::numeric_limits<double>::quiet_NaN()}) {
+    for (const GraspChoice& choice : {OppositePairs(0), Random(), RandomAny()}) {
+      EXPECT_THROW((void)SolveOnCube(StubPlanner(), choice, RequestAt(degrees)),
+                   std::invalid_argument)
+          << degrees;
+    }
+  }
+  for (const double quality : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    PlanRequest request = RequestAt(20);
+    request.criteria.min_quality = quality;
+    EXPECT_THROW((void)SolveOnCube(StubPlanner(), Random(), request), std::invalid_argument);
+  }
+}
+
 TEST(Solve, AcceptsAForceClosureGraspOfFour) { EXPECT_NO_THROW(Check(OppositePairs(0), 10)); }
 
 TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
@@ -117,7 +134,7 @@ TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
   EXPECT_NO_THROW(Check(OppositePairs(0.02), 18.45));
 }
 
-TEST(Solve, SaysWhereNoFrictionServes) {
+TEST(Solve, SaysWhereNoFrictionIsEnough) {
   GraspChoice choice = OppositePairs(0);
   for (std::size_t i = 0; i < 4; ++i) choice.grasp[i].p = {-kHalf, 0.005 * double(i), 0};
   EXPECT_THAT([&] { Check(choice, 30); },

@@ -12,6 +12,7 @@
 #include "planner/plan/plan_io.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/roadmap_planner.h"
+#include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 #include "tests/planner/roadmap/small_meshes.h"
@@ -23,15 +24,12 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
 
 planning::PlanRequest Options(std::uint64_t seed = 0, double degrees = 10, int clusters = 30) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
+  planning::PlanRequest options = RequestAt(degrees, seed);
   options.contact_points = 1000;
   options.clusters = clusters;
-  options.seed = seed;
   return options;
 }
 
@@ -75,18 +73,11 @@ TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
     const planning::PlanResult result =
         PlanWith(RoadmapPlanner(), solid, Random(), Random(), options);
     ASSERT_EQ(result.status, Status::kFound) << result.message;
-    plan::FingerGrasp holding = result.plan->initial;
-    bool all_good = true;
-    const auto look = [&] {
-      all_good = all_good &&
-                 grasp::QualityAtLeast(plan::ContactsOf(holding), solid.wrench_frame(),
-                                       options.criteria.half_angle, options.criteria.min_quality);
-    };
-    look();
-    for (const plan::Step& step : result.plan->steps) {
-      holding = plan::GraspAfter(holding, step);
-      look();
-    }
+    const bool all_good =
+        std::ranges::all_of(RestsOf(*result.plan), [&](const grasp::Grasp& grasp) {
+          return grasp::QualityAtLeast(grasp, solid.wrench_frame(), options.criteria.half_angle,
+                                       options.criteria.min_quality);
+        });
     EXPECT_EQ(result.warnings.empty(), all_good) << "seed " << seed;
     if (all_good) ++good;
   }
@@ -103,16 +94,6 @@ TEST(PlanOnClusters, GivesTheSameBytesForTheSameSeed) {
   EXPECT_NE(plan(3), plan(4));
 }
 
-/// The grasp on a mesh that was moved.
-grasp::Grasp Moved(const grasp::Grasp& grasp, const Eigen::Affine3d& motion) {
-  grasp::Grasp moved = grasp;
-  for (grasp::Contact& contact : moved) {
-    contact.p = motion * contact.p;
-    contact.n = (motion.linear() * contact.n).normalized();
-  }
-  return moved;
-}
-
 TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
   int checked = 0;
   for (const char* name : {"duck500", "star500"}) {
@@ -122,7 +103,7 @@ TEST(PlanOnClusters, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
     ASSERT_EQ(here.status, Status::kFound) << here.message;
     for (const double unit : {1.0, 1000.0}) {
       const Eigen::Affine3d motion = MotionAndUnit(unit);
-      const object::Polyhedron moved = roadmap::Moved(solid, motion);
+      const object::Polyhedron moved = regrasp::Moved(solid, motion);
       const planning::PlanResult there = PlanWith(
           RoadmapPlanner(), moved, Given(Moved(plan::ContactsOf(here.plan->initial), motion)),
           Given(Moved(here.plan->goal, motion)), Options(2));

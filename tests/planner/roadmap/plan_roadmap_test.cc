@@ -6,15 +6,14 @@
 #include <stdexcept>
 
 #include "planner/base/angle.h"
-#include "planner/base/error.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/required_half_angle.h"
 #include "planner/plan/check.h"
-#include "planner/plan/plan_io.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/contact_point_search.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "planner/search/fewest_switches.h"
+#include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 
@@ -24,7 +23,6 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
 
 constexpr double kHalf = 0.03;
@@ -47,22 +45,10 @@ grasp::Grasp AcrossAxis(const object::Polyhedron& cube, int axis, double offset 
 }
 
 planning::PlanRequest Options(int contacts, std::uint64_t seed = 0, double degrees = 20) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
+  planning::PlanRequest options = RequestAt(degrees, seed);
   options.contact_points = contacts;
   options.clusters = 0;
-  options.seed = seed;
   return options;
-}
-
-std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan) {
-  std::vector<grasp::Grasp> grasps = {plan::ContactsOf(plan.initial)};
-  plan::FingerGrasp holding = plan.initial;
-  for (const plan::Step& step : plan.steps) {
-    holding = plan::GraspAfter(holding, step);
-    grasps.push_back(plan::ContactsOf(holding));
-  }
-  return grasps;
 }
 
 double Margin(const object::Polyhedron& solid, const grasp::Grasp& grasp, double half_angle) {
@@ -156,7 +142,7 @@ TEST(PlanOnRoadmap, MarginIsTheSmallestOfThePlansGrasps) {
                                                Given(AcrossAxis(cube, 2)), Options(24));
   ASSERT_EQ(result.status, Status::kFound);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const grasp::Grasp& grasp : GraspsOf(*result.plan)) {
+  for (const grasp::Grasp& grasp : RestsOf(*result.plan)) {
     smallest = std::min(smallest, Margin(cube, grasp, Radians(20)));
     EXPECT_TRUE(grasp::QualityAtLeast(grasp, cube.wrench_frame(), Radians(20), 0.01));
   }
@@ -180,44 +166,6 @@ TEST(PlanOnRoadmap, PlansPassTheCheckerFromRandomGraspToRandomGrasp) {
     }
   }
   EXPECT_EQ(passed, 12);
-}
-
-TEST(PlanOnRoadmap, GivesTheSameBytesForTheSameSeed) {
-  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const auto plan = [&](std::uint64_t seed) {
-    return plan::FormatPlan(
-        *PlanWith(RoadmapPlanner(), cube, Random(), RandomAny(), Options(20, seed)).plan);
-  };
-  EXPECT_EQ(plan(3), plan(3));
-  EXPECT_NE(plan(3), plan(4));
-}
-
-TEST(PlanOnRoadmap, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  const grasp::Grasp start = AcrossAxis(cube, 0);
-  grasp::Grasp goal = start;
-  std::reverse(goal.begin(), goal.end());
-  const planning::PlanResult result =
-      PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), Options(10));
-  ASSERT_EQ(result.status, Status::kFound);
-  EXPECT_THAT(result.plan->steps, IsEmpty());
-  EXPECT_THAT(result.plan->initial, SizeIs(4));
-  EXPECT_EQ(result.plan->goal.front().p, start.back().p);
-  EXPECT_TRUE(plan::CheckPlan(cube, *result.plan).passed());
-}
-
-TEST(PlanOnRoadmap, NumbersTheStartsFingersInTheOrderGiven) {
-  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  grasp::Grasp start = AcrossAxis(cube, 0);
-  std::reverse(start.begin(), start.end());
-  const planning::PlanResult result =
-      PlanWith(RoadmapPlanner(), cube, Given(start), Given(AcrossAxis(cube, 1)), Options(20));
-  ASSERT_EQ(result.status, Status::kFound);
-  EXPECT_EQ(result.plan->fingers, 5);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(result.plan->initial[i].finger, i);
-    EXPECT_EQ(result.plan->initial[i].contact.p, start[i].p);
-  }
 }
 
 TEST(PlanOnRoadmap, SaysWhatWasSearchedWhereThereIsNoSequence) {
@@ -255,15 +203,6 @@ TEST(PlanOnRoadmap, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   EXPECT_THAT(result.warnings[0], HasSubstr("step"));
 }
 
-TEST(PlanOnRoadmap, CannotDrawAGraspBetterThanAll) {
-  planning::PlanRequest options = Options(10);
-  options.criteria.min_quality = 0.9;
-  const planning::PlanResult result =
-      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
-  EXPECT_EQ(result.status, Status::kNoGrasp);
-  EXPECT_THAT(result.message, HasSubstr("random: no grasp with a quality of at least 0.9"));
-}
-
 TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
   const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
   int found = 0;
@@ -284,20 +223,6 @@ TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
   EXPECT_THROW(
       (void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(kMaxRoadmapContacts + 1)),
       std::invalid_argument);
-  EXPECT_THROW((void)PlanWith(RoadmapPlanner(), cube, Random(), Random(), Options(10, 0, 90)),
-               std::invalid_argument);
-}
-
-TEST(PlanOnRoadmap, RefusesAStartThatIsNotForceClosure) {
-  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
-  grasp::Grasp start = AcrossAxis(cube, 0);
-  start[2] = start[0];
-  start[2].p.y() += 0.01;
-  start[3] = start[0];
-  start[3].p.z() += 0.01;
-  EXPECT_THROW(
-      (void)PlanWith(RoadmapPlanner(), cube, Given(start), Given(AcrossAxis(cube, 1)), Options(10)),
-      InputError);
 }
 
 }  // namespace

@@ -16,11 +16,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const planning::GraspChoice kRandom = {planning::GraspChoice::Kind::kRandom, {}, "random"};
-
 planning::PlanRequest Options(int contacts, int clusters, double degrees) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
+  planning::PlanRequest options = RequestAt(degrees);
   options.contact_points = contacts;
   options.clusters = clusters;
   return options;
@@ -44,7 +41,7 @@ TEST(RoadmapMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
         Case{mesh, Options(80, 0, 35)}, Case{box, Options(400, 80, 40)},
         Case{box, Options(1200, 10, 30)}}) {
     const double used = PeakBytesOf([&, &body = body, &options = options] {
-      static_cast<void>(PlanWith(RoadmapPlanner(), body, kRandom, kRandom, options));
+      static_cast<void>(PlanWith(RoadmapPlanner(), body, Random(), Random(), options));
     });
     const double estimate = NeedOf(body, options).bytes();
     ASSERT_GT(used, 1e7) << *options.contact_points << " contacts, " << *options.clusters
@@ -73,13 +70,13 @@ TEST(RoadmapMemory, APlanOnARoadmapThatDoesNotFitIsNone) {
   planning::PlanRequest options = Options(kMaxRoadmapContacts, 0, 40);
   options.memory = 1e8;
   const planning::PlanResult result =
-      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
+      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 200 contact points"));
   options = Options(kMaxClusteredContacts, 20, 40);
   options.memory = 1e8;
   EXPECT_THAT(
-      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).message,
+      PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options).message,
       HasSubstr("for 4000 contact points"));
 }
 
@@ -89,13 +86,13 @@ TEST(RoadmapDeadline, EndsAPlanWhereverItComes) {
     const CountedDeadline never;
     options.deadline = never.deadline();
     ASSERT_TRUE(
-        PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options).plan)
+        PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options).plan)
         << clusters;
     EXPECT_GT(never.looks(), 80) << clusters;  // at every pair of contact points
     for (int look = 1; look <= never.looks(); look += 1 + look / 5) {
       options.deadline = CountedDeadline(look).deadline();
       const planning::PlanResult result =
-          PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), kRandom, kRandom, options);
+          PlanWith(RoadmapPlanner(), MakeBox({0.06, 0.06, 0.06}), Random(), Random(), options);
       EXPECT_FALSE(result.plan.has_value()) << look;
       EXPECT_THAT(result.message, HasSubstr("the planner roadmap when the time was up"));
     }

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "planner/base/random.h"
 #include "planner/object/polyhedron.h"
+#include "tests/fixtures/models.h"
+#include "tests/fixtures/moved.h"
 
 namespace regrasp::roadmap {
 
@@ -57,23 +59,7 @@ inline std::vector<grasp::Contact> Centroids(const object::Polyhedron& solid) {
 
 /// A mesh of models/ by its name.
 inline object::Polyhedron ReadMesh(const std::string& name) {
-  const object::ObjectFile file = object::ReadObject(REGRASP_SOURCE_DIR "/models/" + name + ".obj");
-  return dynamic_cast<const object::Polyhedron&>(*file.object);
-}
-
-/// The same mesh, every vertex moved.
-inline object::Polyhedron Moved(const object::Polyhedron& solid, const Eigen::Affine3d& motion) {
-  object::PolygonSoup soup;
-  for (const Eigen::Vector3d& vertex : solid.vertices()) soup.vertices.push_back(motion * vertex);
-  for (const auto& [a, b, c] : solid.triangles()) soup.facets.push_back({a, b, c});
-  return object::Polyhedron::FromSoup(soup, "moved");
-}
-
-/// A rigid motion and another unit of length, of no round numbers.
-inline Eigen::Affine3d MotionAndUnit(double unit) {
-  return Eigen::Translation3d(0.7 * unit, -0.31 * unit, 0.19 * unit) *
-         Eigen::AngleAxisd(1.234, Eigen::Vector3d(0.3, -0.5, 0.7).normalized()) *
-         Eigen::Scaling(unit);
+  return ReadSolidModel(name + ".obj");
 }
 
 }  // namespace regrasp::roadmap

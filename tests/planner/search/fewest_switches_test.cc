@@ -34,8 +34,8 @@ std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start,
 
 TEST(FewestSwitches, AgreesWithBruteForceOnSparseSubsetGraphs) {
   std::mt19937 random(1);
-  int ways = 0;
-  int no_ways = 0;
+  int paths = 0;
+  int no_paths = 0;
   int detours = 0;
   for (int round = 0; round < 60; ++round) {
     const SubsetGraph graph = SubsetGraph::Random(9, 0.12, random);
@@ -47,12 +47,12 @@ TEST(FewestSwitches, AgreesWithBruteForceOnSparseSubsetGraphs) {
     for (int goal = 0; goal < graph.vertex_count(); ++goal) {
       const int found = FewestSwitches(graph, start, goal, admits).value_or(-1);
       ASSERT_EQ(found, expected[goal]) << "round " << round << ", " << start << " to " << goal;
-      ++(found < 0 ? no_ways : ways);
+      ++(found < 0 ? no_paths : paths);
       if (found > graph.MinSwitches(start, goal)) ++detours;
     }
   }
-  EXPECT_GT(ways, 100);
-  EXPECT_GT(no_ways, 100);
+  EXPECT_GT(paths, 100);
+  EXPECT_GT(no_paths, 100);
   EXPECT_GT(detours, 100);
 }
 

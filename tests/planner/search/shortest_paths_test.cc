@@ -7,7 +7,7 @@
 namespace regrasp::search {
 namespace {
 
-/// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no way.
+/// Distances from `start` by relaxing every edge until nothing changes; −1 where there is no path.
 std::vector<int> BruteForceDistances(const SwitchingGraph& graph, int start) {
   std::vector<int> distance(graph.vertex_count(), -1);
   distance[start] = 0;
@@ -37,17 +37,17 @@ TEST(ShortestPaths, AreTheVerticesWhoseDistancesToBothEndsSumToTheFewestSwitches
     const int start = static_cast<int>(random() % graph.vertex_count());
     const std::vector<int> from_start = BruteForceDistances(graph, start);
     for (int goal = 0; goal < graph.vertex_count(); ++goal) {
-      const auto ways = FindShortestPaths(graph, start, goal);
-      ASSERT_EQ(ways.has_value(), from_start[goal] >= 0) << "round " << round;
-      if (!ways) {
+      const auto paths = FindShortestPaths(graph, start, goal);
+      ASSERT_EQ(paths.has_value(), from_start[goal] >= 0) << "round " << round;
+      if (!paths) {
         ++no_ways;
         continue;
       }
-      ASSERT_EQ(ways->switches, from_start[goal]);
+      ASSERT_EQ(paths->switches, from_start[goal]);
       const std::vector<int> from_goal = BruteForceDistances(graph, goal);
       for (int v = 0; v < graph.vertex_count(); ++v) {
-        const bool on = from_start[v] >= 0 && from_start[v] + from_goal[v] == ways->switches;
-        ASSERT_EQ(ways->depth[v], on ? from_start[v] : -1)
+        const bool on = from_start[v] >= 0 && from_start[v] + from_goal[v] == paths->switches;
+        ASSERT_EQ(paths->depth[v], on ? from_start[v] : -1)
             << "round " << round << ", " << start << " to " << goal << " at " << v;
         ++(on ? on_paths : beside);
       }
@@ -60,10 +60,10 @@ TEST(ShortestPaths, AreTheVerticesWhoseDistancesToBothEndsSumToTheFewestSwitches
 
 TEST(ShortestPaths, OfAVertexToItselfAreItself) {
   const SubsetGraph chain({0b00001111, 0b00011110, 0b00111100});
-  const auto ways = FindShortestPaths(chain, 1, 1);
-  ASSERT_TRUE(ways.has_value());
-  EXPECT_EQ(ways->switches, 0);
-  EXPECT_EQ(ways->depth, (std::vector<int>{-1, 0, -1}));
+  const auto paths = FindShortestPaths(chain, 1, 1);
+  ASSERT_TRUE(paths.has_value());
+  EXPECT_EQ(paths->switches, 0);
+  EXPECT_EQ(paths->depth, (std::vector<int>{-1, 0, -1}));
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ constexpr std::int64_t kEffort = 300'000;
 
 plan::Plan PlanOf(const GraspPath& path, const grasp::Grasp& from, const grasp::Grasp& to,
                   const SearchSpace& space) {
-  const planning::CandidateSequence draft = MakeCandidate(path, from, space);
+  const planning::CandidateSequence candidate = MakeCandidate(path, from, space);
   plan::Plan plan;
   plan.dimension = space.dimension();
   plan.half_angle = space.criteria().half_angle;
   plan.fingers = space.fingers();
-  plan.initial = draft.initial;
-  plan.steps = draft.steps;
+  plan.initial = candidate.initial;
+  plan.steps = candidate.steps;
   plan.goal = to;
   return plan;
 }

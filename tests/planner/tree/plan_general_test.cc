@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/plan/check.h"
-#include "planner/plan/plan_io.h"
 #include "planner/tree/tree_planner.h"
+#include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/tree/search_cases.h"
 
@@ -15,15 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
-
-planning::PlanRequest Options(double degrees, std::uint64_t seed = 0) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
-  options.seed = seed;
-  return options;
-}
 
 class PlanGeneralOnModel : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Models, PlanGeneralOnModel,
@@ -35,14 +26,12 @@ TEST_P(PlanGeneralOnModel, RandomGraspsAreJoinedByGoodGraspsAndTheCheckerPasses)
   const object::ObjectFile file = ReadModel(GetParam());
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const planning::PlanResult result =
-        PlanWith(TreePlanner(), *file.object, Random(), Random(), Options(15, seed));
+        PlanWith(TreePlanner(), *file.object, Random(), Random(), RequestAt(15, seed));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.warnings, testing::IsEmpty());
-    EXPECT_EQ(result.plan->planner, "general");
-    EXPECT_EQ(result.plan->fingers, file.object->dimension() == 3 ? 5 : 4);
     EXPECT_GT(result.margin, 0);
     EXPECT_THAT(result.notes, SizeIs(2));
-    EXPECT_TRUE(plan::CheckPlan(*file.object, *result.plan).passed()) << seed;
+    ExpectGoodPlan(TreePlanner(), *file.object, result);
   }
 }
 
@@ -52,7 +41,7 @@ TEST(PlanGeneralTest, AlignsAreProvedAtTheFrictionThatIsAskedForAlsoWithoutAQual
     const object::ObjectFile file = ReadModel(model);
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       SCOPED_TRACE(model + std::to_string(seed));
-      planning::PlanRequest options = Options(seed % 2 == 0 ? 5 : 15, seed);
+      planning::PlanRequest options = RequestAt(seed % 2 == 0 ? 5 : 15, seed);
       options.criteria.min_quality = 0;
       const planning::PlanResult result =
           PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
@@ -65,17 +54,6 @@ TEST(PlanGeneralTest, AlignsAreProvedAtTheFrictionThatIsAskedForAlsoWithoutAQual
     }
   }
   EXPECT_GE(aligns, 10);
-}
-
-TEST(PlanGeneralTest, TheSameArgumentsGiveTheSameBytesAndAnotherSeedAnotherPlan) {
-  const object::ObjectFile file = ReadModel("l_block.obj");
-  const auto plan = [&](std::uint64_t seed) {
-    const planning::PlanResult result =
-        PlanWith(TreePlanner(), *file.object, Random(), Random(), Options(10, seed));
-    return plan::FormatPlan(result.plan.value());
-  };
-  EXPECT_EQ(plan(4), plan(4));
-  EXPECT_NE(plan(4), plan(5));
 }
 
 TEST(SearchSpaceTest, HasTheFingersOfTheHandButNoMoreThanHoldAtOnce) {
@@ -95,7 +73,7 @@ TEST(SearchSpaceTest, HasTheFingersOfTheHandButNoMoreThanHoldAtOnce) {
 TEST(PlanGeneralTest, AHandWithMoreFingersLeavesSomeFree) {
   for (const char* model : {"cube.obj", "polygon15.wkt"}) {
     const object::ObjectFile file = ReadModel(model);
-    planning::PlanRequest options = Options(15, 1);
+    planning::PlanRequest options = RequestAt(15, 1);
     options.hand.fingers = 7;
     const planning::PlanResult result =
         PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
@@ -105,7 +83,7 @@ TEST(PlanGeneralTest, AHandWithMoreFingersLeavesSomeFree) {
   }
 }
 
-TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneServe) {
+TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneAreTaken) {
   const auto joins = [](const char* model, int from, int to) {
     const object::ObjectFile file = ReadModel(model);
     RandomStream draws(1, RandomUse::kStart);
@@ -113,7 +91,7 @@ TEST(PlanGeneralTest, ThreeAndFiveContactsInSpaceAndFourInThePlaneServe) {
     const grasp::Grasp start = DrawGrasp(*file.object, from, criteria, draws);
     const grasp::Grasp goal = DrawGrasp(*file.object, to, criteria, draws);
     const planning::PlanResult result =
-        PlanWith(TreePlanner(), *file.object, Given(start), Given(goal), Options(25));
+        PlanWith(TreePlanner(), *file.object, Given(start), Given(goal), RequestAt(25));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.plan->initial, SizeIs(from));
     EXPECT_THAT(result.plan->goal, SizeIs(to));
@@ -139,7 +117,7 @@ TEST(PlanGeneralTest, FiveContactsOfWhichNoFourHoldAreAlignedFirst) {
   }
   ASSERT_THAT(five, SizeIs(5)) << "no such grasp was drawn";
   const grasp::Grasp goal = DrawGrasp(*file.object, 4, criteria, draws);
-  planning::PlanRequest options = Options(10);
+  planning::PlanRequest options = RequestAt(10);
   options.criteria.min_quality = 0;
   const planning::PlanResult result =
       PlanWith(TreePlanner(), *file.object, Given(five), Given(goal), options);
@@ -148,21 +126,9 @@ TEST(PlanGeneralTest, FiveContactsOfWhichNoFourHoldAreAlignedFirst) {
   EXPECT_TRUE(plan::CheckPlan(*file.object, *result.plan).passed());
 }
 
-TEST(PlanGeneralTest, AGoalEqualToTheStartGivesNoSteps) {
-  const object::ObjectFile file = ReadModel("cube.obj");
-  RandomStream draws(3, RandomUse::kStart);
-  grasp::Grasp grasp = DrawGrasp(*file.object, 4, {Radians(25), 0.01}, draws);
-  const grasp::Grasp start = grasp;
-  std::swap(grasp[0], grasp[2]);
-  const planning::PlanResult result =
-      PlanWith(TreePlanner(), *file.object, Given(start), Given(grasp), Options(25));
-  ASSERT_TRUE(result.plan);
-  EXPECT_THAT(result.plan->steps, testing::IsEmpty());
-}
-
 TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFriction) {
   const object::ObjectFile file = ReadModel("pyramid.obj");
-  planning::PlanRequest options = Options(5);
+  planning::PlanRequest options = RequestAt(5);
   options.criteria.min_quality = 0;
   int none = 0;
   for (options.seed = 0; options.seed < 40 && none == 0; ++options.seed) {
@@ -186,38 +152,11 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
   EXPECT_EQ(none, 1);
 }
 
-TEST(PlanGeneralTest, ATimeLimitEndsTheSearchAndSaysSo) {
-  const object::ObjectFile file = ReadModel("cube.obj");
-  RandomStream draws(2, RandomUse::kStart);
-  const grasp::Grasp from = DrawGrasp(*file.object, 5, {Radians(4), 0}, draws);
-  const grasp::Grasp to = DrawGrasp(*file.object, 5, {Radians(4), 0}, draws);
-  planning::PlanRequest options = Options(4);
-  options.deadline = std::chrono::steady_clock::now();
-  const planning::PlanResult result =
-      PlanWith(TreePlanner(), *file.object, Given(from), Given(to), options);
-  if (result.status == Status::kNoSequence) {
-    EXPECT_THAT(result.message, HasSubstr("the time was up"));
-  }
-}
-
-TEST(PlanGeneralTest, RandomGraspsAreNotDrawnWhenTheTimeIsUp) {
-  for (const char* model : {"cube.obj", "triangle.wkt"}) {
-    const object::ObjectFile file = ReadModel(model);
-    planning::PlanRequest options = Options(20);
-    EXPECT_TRUE(PlanWith(TreePlanner(), *file.object, Random(), Random(), options).plan);
-    options.deadline = std::chrono::steady_clock::now();
-    const planning::PlanResult result =
-        PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
-    EXPECT_EQ(result.status, Status::kNoSequence);
-    EXPECT_THAT(result.message, HasSubstr("the time was up"));
-  }
-}
-
 TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
   const object::ObjectFile file = ReadModel("prism.obj");
   double wider = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    planning::PlanRequest options = Options(15, seed);
+    planning::PlanRequest options = RequestAt(15, seed);
     const planning::PlanResult steps =
         PlanWith(TreePlanner(), *file.object, Random(), Random(), options);
     options.objective = planning::Objective::kMargin;
@@ -237,21 +176,6 @@ TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
     EXPECT_TRUE(plan::CheckPlan(*file.object, *margin.plan).passed());
   }
   EXPECT_GE(wider, 0);
-}
-
-TEST(PlanGeneralTest, RefusesGraspsThatAHandCannotHold) {
-  const object::ObjectFile file = ReadModel("cube.obj");
-  RandomStream draws(2, RandomUse::kStart);
-  const grasp::Grasp good = DrawGrasp(*file.object, 4, {Radians(25), 0}, draws);
-  grasp::Grasp six = good;
-  six.insert(six.end(), good.begin(), good.begin() + 2);
-  EXPECT_THROW((void)PlanWith(TreePlanner(), *file.object, Given(six), Given(good), Options(25)),
-               InputError);
-  const grasp::Grasp two(good.begin(), good.begin() + 2);
-  EXPECT_THROW((void)PlanWith(TreePlanner(), *file.object, Given(good), Given(two), Options(25)),
-               InputError);
-  EXPECT_THROW((void)PlanWith(TreePlanner(), *file.object, Given(good), Given(good), Options(0.01)),
-               InputError);
 }
 
 }  // namespace

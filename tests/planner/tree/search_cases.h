@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "planner/base/angle.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/search_space.h"
+#include "tests/fixtures/models.h"
 
 namespace regrasp::tree {
-
-[[nodiscard]] inline object::ObjectFile ReadModel(const std::string& file) {
-  return object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
-}
 
 /// A random grasp of so many contacts that meets the criteria.
 [[nodiscard]] inline grasp::Grasp DrawGrasp(const object::Object& object, int contacts,

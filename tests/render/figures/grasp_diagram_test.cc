@@ -39,8 +39,8 @@ grasp::Grasp OnSquare(const std::vector<std::pair<int, double>>& places) {
 bool IsInside(const Outline& outline, const Vector2d& p) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vector2d along = outline[(i + 1) % outline.size()] - outline[i];
-    const Vector2d way = p - outline[i];
-    if (along.x() * way.y() - along.y() * way.x() < 0) return false;
+    const Vector2d reach = p - outline[i];
+    if (along.x() * reach.y() - along.y() * reach.x() < 0) return false;
   }
   return true;
 }
@@ -173,8 +173,8 @@ TEST(GraspDiagramTest, TheLinesOfForceOfAParallelGraspSeparateTheOuterContacts) 
   const Vector2d d = *diagram.force_direction;
   EXPECT_LT(AngleBetween2d(d, Vector2d(0, d.y())), Radians(20));
   const auto side = [&](int k) {
-    const Vector2d way = (grasp[k].p - grasp[0].p).head<2>();
-    return d.x() * way.y() - d.y() * way.x();
+    const Vector2d reach = (grasp[k].p - grasp[0].p).head<2>();
+    return d.x() * reach.y() - d.y() * reach.x();
   };
   EXPECT_LT(side(1) * side(2), 0);
 }

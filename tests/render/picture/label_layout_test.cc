@@ -40,9 +40,9 @@ TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
     const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
     for (std::size_t i = 0; i < centres.size(); ++i) {
       for (const Obstacle& o : obstacles) {
-        const Vector2d way = o.b - o.a;
-        const double t = std::clamp((centres[i] - o.a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-        EXPECT_GE((centres[i] - o.a - t * way).norm(), 8 + 0.8 * kRadius);
+        const Vector2d along = o.b - o.a;
+        const double t = std::clamp((centres[i] - o.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        EXPECT_GE((centres[i] - o.a - t * along).norm(), 8 + 0.8 * kRadius);
         ++checked;
       }
       for (std::size_t j = i + 1; j < centres.size(); ++j) {

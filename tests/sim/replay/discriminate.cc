@@ -31,7 +31,8 @@ StepReplay ReplayHold(const object::Object& body, const plan::FingerGrasp& grasp
   return ReplayPlan(body, plan, {}).steps.at(0);
 }
 
-DiscriminationCount Judge(const object::Object& body, const plan::FingerGrasp& grasp, double mu) {
+DiscriminationCount DiscriminateGrasp(const object::Object& body, const plan::FingerGrasp& grasp,
+                                      double mu) {
   DiscriminationCount count;
   count.below = 1;
   count.failed_below = ReplayHold(body, grasp, kBelow * mu).reason != plan::Reason::kNone;
@@ -71,7 +72,7 @@ DiscriminationCount Discriminate(
       mu = CriticalMu(body, grasp);
     }
     SCOPED_TRACE(name + ", grasp " + std::to_string(i) + ", critical mu " + std::to_string(*mu));
-    count += Judge(body, grasp, *mu);
+    count += DiscriminateGrasp(body, grasp, *mu);
   }
   return count;
 }

@@ -2,11 +2,9 @@
 
 #include <cmath>
 
-#include "planner/sets/contour/contour_planner.h"
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/projection_sweep.h"
 #include "tests/fixtures/deadline_laws.h"
-#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {
@@ -43,17 +41,6 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
       FindOverlaps(edges, boundary, pieces, count, one_by_one, of_overlaps.deadline()));
   // Each projects on both of its edges, which begins and ends.
   EXPECT_EQ(of_overlaps.looks(), 5 * count);
-}
-
-TEST(ContourDeadline, EndsAPlanWhereverItComes) {
-  const object::Polygon polygon = IrregularOutline(60, 0.8, 3);
-  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(20);
-  ExpectPlanEndsWhereverItComes("contour", 11, [&](const Deadline& deadline) {
-    options.deadline = deadline;
-    return PlanWith(ContourPlanner(), polygon, random, random, options);
-  });
 }
 
 }  // namespace

@@ -68,13 +68,10 @@ TEST(ContourGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 
 TEST(ContourGraphMemory, TheEstimateOfAPlanIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const auto& [object, degrees] : Cases()) {
-    planning::PlanRequest options;
-    options.criteria.half_angle = Radians(degrees);
+    planning::PlanRequest options = RequestAt(degrees);
     options.criteria.min_quality = 0;
     const double used = PeakBytesOf([&] {
-      static_cast<void>(PlanWith(ContourPlanner(), object.polygon,
-                                 {planning::GraspChoice::Kind::kRandom, {}, "start"},
-                                 {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options));
+      static_cast<void>(PlanWith(ContourPlanner(), object.polygon, Random(), Random(), options));
     });
     const double estimate =
         EstimateContourPlan(object.polygon, options.criteria.half_angle).bytes();
@@ -98,12 +95,10 @@ TEST(ContourGraphMemory, TheEstimateGrowsWithTheEdges) {
 }
 
 TEST(ContourGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(20);
+  planning::PlanRequest options = RequestAt(20);
   options.memory = 1e8;
-  const planning::PlanResult result = PlanWith(
-      ContourPlanner(), RegularPolygon(10'001), {planning::GraspChoice::Kind::kRandom, {}, "start"},
-      {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
+  const planning::PlanResult result =
+      PlanWith(ContourPlanner(), RegularPolygon(10'001), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 10001 edges"));
 }

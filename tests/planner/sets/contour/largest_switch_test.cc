@@ -89,9 +89,9 @@ TEST(LargestSwitch, IsNeverSmallerThanARoomyOneAndOftenLarger) {
     const PlacedScore size = [&](const PlacedGrasp& grasp) { return geometry.SizeAt(grasp); };
     for (const auto& [v, w] : graph.switches()) {
       const auto largest = FindLargestSwitch(geometry, v, w);
-      const auto roomy = FindMaxMarginSwitch(geometry, v, w, size);
-      ASSERT_TRUE(largest && roomy);
-      const double gain = SmallerSize(geometry, *largest) - SmallerSize(geometry, *roomy);
+      const auto widest = FindMaxMarginSwitch(geometry, v, w, size);
+      ASSERT_TRUE(largest && widest);
+      const double gain = SmallerSize(geometry, *largest) - SmallerSize(geometry, *widest);
       EXPECT_GE(gain, -tolerance) << v << ' ' << w;
       ++switches;
       if (gain > tolerance) ++larger;

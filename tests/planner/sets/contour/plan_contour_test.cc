@@ -2,16 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "planner/base/error.h"
-#include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/check.h"
-#include "planner/plan/plan_io.h"
 #include "planner/sets/contour/contour_planner.h"
 #include "planner/sets/contour/set_geometry.h"
 #include "planner/sets/polygon/set_cells.h"
+#include "tests/fixtures/edge_grasp.h"
+#include "tests/fixtures/good_plan.h"
+#include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/contour/outlines.h"
 
@@ -19,32 +17,21 @@ namespace regrasp::contour {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
 
-planning::PlanRequest Options(double degrees, std::uint64_t seed = 0,
-                              planning::Objective aim = planning::Objective::kSteps) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
-  options.seed = seed;
-  options.objective = aim;
-  return options;
-}
-
-object::Polygon Model(const std::string& name) {
-  const object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
-  return dynamic_cast<const object::Polygon&>(*file.object);
+planning::PlanRequest RegionsAt(double degrees, std::uint64_t seed) {
+  planning::PlanRequest request = RequestAt(degrees, seed);
+  request.objective = planning::Objective::kRegions;
+  return request;
 }
 
 const std::vector<NamedPolygon>& Objects() {
   static const std::vector<NamedPolygon> objects = {
-      {"polygon20", Model("polygon20.wkt")},
-      {"polygon30", Model("polygon30.wkt")},
-      {"polygon40", Model("polygon40.wkt")},
-      {"polygon_hole", Model("polygon_hole.wkt")},
+      {"polygon20", ReadPlanarModel("polygon20.wkt")},
+      {"polygon30", ReadPlanarModel("polygon30.wkt")},
+      {"polygon40", ReadPlanarModel("polygon40.wkt")},
+      {"polygon_hole", ReadPlanarModel("polygon_hole.wkt")},
       {"irregular 128", IrregularOutline(128, 0.9, 4)},
       {"disc", RegularPolygon(24)},
       {"annulus", Annulus(16, 1, 0.6)},
@@ -53,34 +40,11 @@ const std::vector<NamedPolygon>& Objects() {
   return objects;
 }
 
-grasp::Grasp MakeGrasp(const object::Polygon& polygon,
-                       const std::vector<std::pair<int, double>>& places) {
-  grasp::Grasp grasp;
-  for (const auto& [edge, u] : places)
-    grasp.push_back(grasp::ContactAt(polygon, FaceIndex(edge), u));
-  return grasp;
-}
-
-/// What the checker, which knows nothing of the planner, says of a plan.
-void ExpectGoodPlan(const object::Polygon& polygon, const planning::PlanResult& result) {
-  ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const plan::Plan& plan = *result.plan;
-  const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
-  for (const plan::StepCheck& step : check.steps) {
-    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
-  }
-  EXPECT_TRUE(check.passed());
-  EXPECT_EQ(plan.planner, "contour");
-  EXPECT_EQ(plan.fingers, kContourFingers);
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    if (const auto* step = std::get_if<plan::Switch>(&plan.steps[i])) {
-      EXPECT_THAT(step->place, SizeIs(1));
-      EXPECT_THAT(step->release, SizeIs(1));
-    } else {
-      // Two aligns in a row would be one.
-      EXPECT_TRUE(i == 0 || std::holds_alternative<plan::Switch>(plan.steps[i - 1])) << i;
-    }
-  }
+/// A plan that the checker passes, of switches of one finger, in which no two aligns are one.
+void ExpectGood(const object::Polygon& polygon, const planning::PlanResult& result) {
+  ExpectGoodPlan(ContourPlanner(), polygon, result);
+  ExpectOneFingerInEverySwitch(result.plan.value());
+  ExpectNoAlignAfterAnAlign(*result.plan);
 }
 
 /// The regions that the plan's switches claim, in their order.
@@ -139,12 +103,12 @@ TEST_P(PlanOnContourAt, LeadsFromARandomGraspToAnother) {
   int corners = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      for (const planning::Objective aim :
-           {planning::Objective::kSteps, planning::Objective::kRegions}) {
+      for (const planning::PlanRequest& request :
+           {RequestAt(GetParam(), seed), RegionsAt(GetParam(), seed)}) {
         SCOPED_TRACE(name + ", seed " + std::to_string(seed));
         const planning::PlanResult result =
-            PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(GetParam(), seed, aim));
-        ExpectGoodPlan(polygon, result);
+            PlanWith(ContourPlanner(), polygon, Random(), Random(), request);
+        ExpectGood(polygon, result);
         for (const plan::Step& step : result.plan->steps) {
           if (const auto* align = std::get_if<plan::Align>(&step)) {
             corners += static_cast<int>(align->waypoints.size()) / 2 - 1;
@@ -164,23 +128,22 @@ TEST_P(PlanOnContourAt, OptimisedSwitchesHaveRegionsAtLeastAsLarge) {
   int larger = 0;
   for (const auto& [name, polygon] : Objects()) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      const planning::PlanResult room =
-          PlanWith(ContourPlanner(), polygon, Random(), Random(),
-                   Options(GetParam(), seed, planning::Objective::kSteps));
-      ASSERT_TRUE(room.plan);
-      const planning::PlanResult region = PlanWith(
-          ContourPlanner(), polygon, Given(plan::ContactsOf(room.plan->initial)),
-          Given(room.plan->goal), Options(GetParam(), seed, planning::Objective::kRegions));
+      const planning::PlanResult margin =
+          PlanWith(ContourPlanner(), polygon, Random(), Random(), RequestAt(GetParam(), seed));
+      ASSERT_TRUE(margin.plan);
+      const planning::PlanResult region =
+          PlanWith(ContourPlanner(), polygon, Given(plan::ContactsOf(margin.plan->initial)),
+                   Given(margin.plan->goal), RegionsAt(GetParam(), seed));
       ASSERT_TRUE(region.plan);
-      // Otherwise a switch was too weak for one of the two, and they went different ways.
-      if (SetsOf(polygon, *room.plan) != SetsOf(polygon, *region.plan)) continue;
-      const std::vector<double> of_room = RegionsOf(*room.plan);
+      // Otherwise a switch was too weak for one of the two, and they took different paths.
+      if (SetsOf(polygon, *margin.plan) != SetsOf(polygon, *region.plan)) continue;
+      const std::vector<double> of_margin = RegionsOf(*margin.plan);
       const std::vector<double> of_region = RegionsOf(*region.plan);
-      for (std::size_t i = 0; i < of_room.size(); ++i) {
-        EXPECT_GE(of_room[i], 0) << name;
-        EXPECT_GE(of_region[i], (1 - 1e-9) * of_room[i]) << name << ", seed " << seed;
+      for (std::size_t i = 0; i < of_margin.size(); ++i) {
+        EXPECT_GE(of_margin[i], 0) << name;
+        EXPECT_GE(of_region[i], (1 - 1e-9) * of_margin[i]) << name << ", seed " << seed;
         ++compared;
-        if (of_region[i] > 1.1 * of_room[i]) ++larger;
+        if (of_region[i] > 1.1 * of_margin[i]) ++larger;
       }
     }
   }
@@ -193,8 +156,7 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
   int outside_lost = 0;
   for (const auto& [name, polygon] : Objects()) {
     const planning::PlanResult result =
-        PlanWith(ContourPlanner(), polygon, Random(), Random(),
-                 Options(GetParam(), 5, planning::Objective::kRegions));
+        PlanWith(ContourPlanner(), polygon, Random(), Random(), RegionsAt(GetParam(), 5));
     ASSERT_TRUE(result.plan);
     const Boundary boundary(polygon);
     const std::vector<double> regions = RegionsOf(*result.plan);
@@ -244,8 +206,8 @@ TEST(PlanOnContour, GoesAroundADiscByOneAlign) {
   const grasp::Grasp start = MakeGrasp(disc, {{0, 0.5}, {12, 0.5}});
   const grasp::Grasp goal = MakeGrasp(disc, {{8, 0.5}, {20, 0.5}});
   const planning::PlanResult result =
-      PlanWith(ContourPlanner(), disc, Given(start), Given(goal), Options(15));
-  ExpectGoodPlan(disc, result);
+      PlanWith(ContourPlanner(), disc, Given(start), Given(goal), RequestAt(15));
+  ExpectGood(disc, result);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   const auto& align = std::get<plan::Align>(result.plan->steps[0]);
   // Each finger passes eight corners, or four if they meet the goal the other way round.
@@ -269,10 +231,10 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
           if (!start || !goal) continue;
           const planning::PlanResult result =
               PlanWith(ContourPlanner(), polygon, Given(geometry.GraspOf(*start)),
-                       Given(geometry.GraspOf(*goal)), Options(degrees));
+                       Given(geometry.GraspOf(*goal)), RequestAt(degrees));
           if (components.of_vertex[a] == components.of_vertex[b]) {
             ++joined;
-            ExpectGoodPlan(polygon, result);
+            ExpectGood(polygon, result);
           } else {
             ++apart;
             EXPECT_EQ(result.status, Status::kNoSequence) << name;
@@ -284,61 +246,6 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
   }
   EXPECT_GT(joined, 100);
   EXPECT_GT(apart, 50);
-}
-
-TEST(PlanOnContour, HasNothingToDoWhereTheGoalIsTheStart) {
-  const object::Polygon square = Square(1);
-  const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const grasp::Grasp same = {start[1], start[0]};
-  const planning::PlanResult result =
-      PlanWith(ContourPlanner(), square, Given(start), Given(same), Options(10));
-  ASSERT_EQ(result.status, Status::kFound);
-  EXPECT_THAT(result.plan->steps, IsEmpty());
-}
-
-TEST(PlanOnContour, IsTheSameBitForBit) {
-  const object::Polygon polygon = Model("polygon40.wkt");
-  const auto text = [&](std::uint64_t seed) {
-    return plan::FormatPlan(
-        *PlanWith(ContourPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
-  };
-  EXPECT_EQ(text(4), text(4));
-  EXPECT_NE(text(4), text(5));
-}
-
-TEST(PlanOnContour, RefusesGraspsThatDoNotServe) {
-  const object::Polygon square = Square(1);
-  const grasp::Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const grasp::Grasp three = MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}});
-  const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.1}, {2, 0.1}});
-  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(three), Given(good), Options(10)),
-               InputError);
-  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(leaning), Given(good), Options(10)),
-               InputError);
-  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), Options(0)),
-               std::invalid_argument);
-  planning::PlanRequest options = Options(10);
-  options.criteria.min_quality = -1;
-  EXPECT_THROW((void)PlanWith(ContourPlanner(), square, Given(good), Given(good), options),
-               std::invalid_argument);
-}
-
-TEST(PlanOnContour, RandomGraspsAreAsGoodAsAsked) {
-  const object::Polygon polygon = Model("polygon30.wkt");
-  for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
-    planning::PlanRequest options = Options(20, 9);
-    options.criteria.min_quality = 0.05;
-    const planning::PlanResult result =
-        PlanWith(ContourPlanner(), polygon, choice, choice, options);
-    ASSERT_TRUE(result.plan) << result.message;
-    const criteria::GraspEvaluator evaluator(
-        polygon, {options.criteria.half_angle, options.criteria.min_quality});
-    EXPECT_TRUE(evaluator.IsGood(plan::ContactsOf(result.plan->initial)));
-    EXPECT_TRUE(evaluator.IsGood(result.plan->goal));
-    options.criteria.min_quality = 10;
-    EXPECT_EQ(PlanWith(ContourPlanner(), polygon, choice, choice, options).status,
-              Status::kNoGrasp);
-  }
 }
 
 }  // namespace

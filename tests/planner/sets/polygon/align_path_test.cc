@@ -62,7 +62,7 @@ void CheckAligns(const object::Polygon& polygon, double degrees, std::uint64_t s
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       EXPECT_TRUE(IsForceClosureBetween(polygon, GraspAt(polygon, set, path[i]),
                                         GraspAt(polygon, set, path[i + 1]), Radians(degrees)))
-          << "vertex " << vertex << ", stretch " << i;
+          << "vertex " << vertex << ", segment " << i;
     }
     ++(path.size() == 2 ? count.direct : count.by_passages)[static_cast<int>(set.type)];
     if (!IsForceClosureBetween(polygon, from, to, Radians(degrees / 2))) {

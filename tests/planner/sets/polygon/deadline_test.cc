@@ -4,9 +4,7 @@
 
 #include "planner/sets/polygon/candidates.h"
 #include "planner/sets/polygon/polygon_graph.h"
-#include "planner/sets/polygon/polygon_planner.h"
 #include "tests/fixtures/deadline_laws.h"
-#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
@@ -43,18 +41,6 @@ TEST(PolygonDeadline, TheGraphLooksAtItForEveryCandidateAndVertexAndEndsWherever
             listing + candidates + graph.vertex_count() + joining + concurrent.vertices);
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
     static_cast<void>(PolygonGraph(polygon, Radians(20), planning::Spanning::kAdaptive, deadline));
-  });
-}
-
-TEST(PolygonDeadline, EndsAPlanWhereverItComes) {
-  const object::Polygon polygon = RegularPolygon(9);
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(20);
-  const planning::GraspChoice start = {planning::GraspChoice::Kind::kRandom, {}, "start"};
-  const planning::GraspChoice goal = {planning::GraspChoice::Kind::kRandomAny, {}, "goal"};
-  ExpectPlanEndsWhereverItComes("polygon", 11, [&](const Deadline& deadline) {
-    options.deadline = deadline;
-    return PlanWith(PolygonPlanner(), polygon, start, goal, options);
   });
 }
 

@@ -6,18 +6,11 @@
 #include <set>
 
 #include "planner/grasp/force_closure.h"
+#include "tests/fixtures/edge_grasp.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
 namespace regrasp::polygon {
 namespace {
-
-grasp::Grasp MakeGrasp(const object::Polygon& polygon,
-                       const std::vector<std::pair<int, double>>& places) {
-  grasp::Grasp grasp;
-  for (const auto& [edge, u] : places)
-    grasp.push_back(grasp::ContactAt(polygon, FaceIndex(edge), u));
-  return grasp;
-}
 
 TEST(GraphCells, DrawsGraspsAllOverASet) {
   const object::Polygon square = Square(1);

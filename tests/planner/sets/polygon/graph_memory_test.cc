@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planner/object/object.h"
 #include "planner/sets/polygon/polygon_planner.h"
+#include "tests/fixtures/models.h"
 #include "tests/fixtures/peak_memory.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
@@ -28,9 +28,7 @@ TEST(PolygonGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
         Case{"polygon40.wkt", 30, planning::Spanning::kAdaptive},
         Case{"polygon40.wkt", 30, planning::Spanning::kUniform},
         Case{"gear128.wkt", 5, planning::Spanning::kAdaptive}}) {
-    const object::ObjectFile read =
-        object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
-    const auto& polygon = dynamic_cast<const object::Polygon&>(*read.object);
+    const object::Polygon polygon = ReadPlanarModel(file);
     const double used = PeakBytesOf(
         [&] { static_cast<void>(MakeGraph(polygon, degrees, spanning).vertex_count()); });
     const double estimate = EstimatePolygonGraph(polygon, Radians(degrees), spanning).bytes();
@@ -55,12 +53,10 @@ TEST(PolygonGraphMemory, TheEstimateGrowsWithTheEdges) {
 
 TEST(PolygonGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   const object::Polygon polygon = RegularPolygon(1001);
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(20);
+  planning::PlanRequest options = RequestAt(20);
   options.memory = 1e9;
   const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), polygon, {planning::GraspChoice::Kind::kRandom, {}, "start"},
-               {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
+      PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 1001 edges"));
 }

@@ -2,18 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <stdexcept>
 
-#include "planner/base/error.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
-#include "planner/plan/check.h"
-#include "planner/plan/plan_io.h"
-#include "planner/plan/same_grasp.h"
 #include "planner/sets/polygon/graph_cells.h"
 #include "planner/sets/polygon/polygon_planner.h"
+#include "tests/fixtures/edge_grasp.h"
+#include "tests/fixtures/good_plan.h"
+#include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polygon/shapes.h"
 
@@ -24,40 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
-
-planning::PlanRequest Options(double degrees, std::uint64_t seed = 0) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
-  options.seed = seed;
-  return options;
-}
-
-object::Polygon Model(const std::string& name) {
-  const object::ObjectFile file =
-      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name);
-  return dynamic_cast<const object::Polygon&>(*file.object);
-}
-
-/// Contacts at parameters of edges.
-grasp::Grasp MakeGrasp(const object::Polygon& polygon,
-                       const std::vector<std::pair<int, double>>& places) {
-  grasp::Grasp grasp;
-  for (const auto& [edge, u] : places)
-    grasp.push_back(grasp::ContactAt(polygon, FaceIndex(edge), u));
-  return grasp;
-}
-
-std::vector<grasp::Grasp> RestsOf(const plan::Plan& plan) {
-  std::vector<grasp::Grasp> rests = {plan::ContactsOf(plan.initial)};
-  plan::FingerGrasp holding = plan.initial;
-  for (const plan::Step& step : plan.steps) {
-    holding = plan::GraspAfter(holding, step);
-    rests.push_back(plan::ContactsOf(holding));
-  }
-  return rests;
-}
 
 /// A random grasp of every type that the polygon has.
 std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, double degrees,
@@ -90,32 +53,11 @@ bool AreJoined(const object::Polygon& polygon, double degrees, const grasp::Gras
   return false;
 }
 
-/// What the checker, which knows nothing of the planner, says of a plan, and the plan's own words.
-void ExpectGoodPlan(const object::Polygon& polygon, const planning::PlanResult& result,
-                    const grasp::Grasp& start, const grasp::Grasp& goal) {
-  ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const plan::Plan& plan = *result.plan;
-  plan::CheckOptions options;
-  options.start = &start;
-  options.goal = &goal;
-  const plan::PlanCheck check = plan::CheckPlan(polygon, plan, options);
-  for (const plan::StepCheck& step : check.steps) {
-    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
-  }
-  EXPECT_TRUE(check.passed());
-  EXPECT_EQ(plan.planner, "polygon");
-  EXPECT_EQ(plan.fingers, kPolygonFingers);
-  EXPECT_EQ(plan.dimension, 2);
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    EXPECT_EQ(plan.initial[i].finger, static_cast<int>(i));
-    EXPECT_EQ(plan.initial[i].contact.p, start[i].p);
-  }
-  // Two aligns in a row would be one.
-  for (std::size_t i = 0; i + 1 < plan.steps.size(); ++i) {
-    EXPECT_FALSE(std::holds_alternative<plan::Align>(plan.steps[i]) &&
-                 std::holds_alternative<plan::Align>(plan.steps[i + 1]))
-        << "steps " << i + 1 << " and " << i + 2;
-  }
+/// A plan that the checker passes, in which no two aligns are one.
+void ExpectGood(const object::Polygon& polygon, const planning::PlanResult& result,
+                const grasp::Grasp& start, const grasp::Grasp& goal) {
+  ExpectGoodPlan(PolygonPlanner(), polygon, result, start, goal);
+  ExpectNoAlignAfterAnAlign(result.plan.value());
 }
 
 class PlanOnPolygonAt : public testing::TestWithParam<double> {};
@@ -127,17 +69,17 @@ TEST_P(PlanOnPolygonAt, LeadsFromEveryTypeToEveryType) {
   std::vector<NamedPolygon> polygons = SmallPolygons();
   polygons.push_back({"square", Square(1)});
   polygons.push_back({"hexagon", RegularPolygon(6)});
-  polygons.push_back({"polygon15", Model("polygon15.wkt")});
-  polygons.push_back({"polygon_hole", Model("polygon_hole.wkt")});
+  polygons.push_back({"polygon15", ReadPlanarModel("polygon15.wkt")});
+  polygons.push_back({"polygon_hole", ReadPlanarModel("polygon_hole.wkt")});
   for (const auto& [name, polygon] : polygons) {
     for (const auto& [start_type, start] : DrawEveryType(polygon, degrees, 1)) {
       for (const auto& [goal_type, goal] : DrawEveryType(polygon, degrees, 2)) {
         SCOPED_TRACE(name + ", type " + std::to_string(static_cast<int>(start_type)) + " to " +
                      std::to_string(static_cast<int>(goal_type)));
         const planning::PlanResult result =
-            PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(degrees));
+            PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), RequestAt(degrees));
         if (AreJoined(polygon, degrees, start, goal)) {
-          ExpectGoodPlan(polygon, result, start, goal);
+          ExpectGood(polygon, result, start, goal);
           ++plans;
         } else {
           EXPECT_EQ(result.status, Status::kNoSequence);
@@ -159,15 +101,15 @@ INSTANTIATE_TEST_SUITE_P(HalfAngles, PlanOnPolygonAt, testing::Values(10.0, 20.0
 TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
   int plans = 0;
   for (const char* name : {"square.wkt", "triangle.wkt", "polygon20.wkt", "polygon40.wkt"}) {
-    const object::Polygon polygon = Model(name);
+    const object::Polygon polygon = ReadPlanarModel(name);
     for (const double degrees : {15.0, 35.0}) {
       for (std::uint64_t seed = 0; seed < 3; ++seed) {
         SCOPED_TRACE(std::string(name) + ", seed " + std::to_string(seed));
         const planning::PlanResult result =
-            PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(degrees, seed));
+            PlanWith(PolygonPlanner(), polygon, Random(), Random(), RequestAt(degrees, seed));
         ASSERT_EQ(result.status, Status::kFound) << result.message;
         const grasp::Grasp start = plan::ContactsOf(result.plan->initial);
-        ExpectGoodPlan(polygon, result, start, result.plan->goal);
+        ExpectGood(polygon, result, start, result.plan->goal);
         for (const grasp::Grasp* grasp : {&start, &result.plan->goal}) {
           EXPECT_TRUE(
               grasp::QualityAtLeast(*grasp, polygon.wrench_frame(), Radians(degrees), 0.01));
@@ -180,14 +122,14 @@ TEST(PlanOnPolygon, LeadsBetweenRandomGraspsOfTheModels) {
 }
 
 TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
-  const object::Polygon polygon = Model("polygon15.wkt");
+  const object::Polygon polygon = ReadPlanarModel("polygon15.wkt");
   std::map<std::size_t, int> contacts;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const planning::PlanResult result =
-        PlanWith(PolygonPlanner(), polygon, RandomAny(), RandomAny(), Options(25, seed));
+        PlanWith(PolygonPlanner(), polygon, RandomAny(), RandomAny(), RequestAt(25, seed));
     if (result.status != Status::kFound) continue;
     const grasp::Grasp start = plan::ContactsOf(result.plan->initial);
-    ExpectGoodPlan(polygon, result, start, result.plan->goal);
+    ExpectGood(polygon, result, start, result.plan->goal);
     ++contacts[start.size()];
   }
   EXPECT_GT(contacts[2], 0);
@@ -197,34 +139,14 @@ TEST(PlanOnPolygon, RandomAnyDrawsTwoOrThreeContactsConnectedOrNot) {
 
 TEST(PlanOnPolygon, RandomAnyDrawsThreeContactsWhereNoTwoHold) {
   // At 20° the triangle has no grasp of two fingers.
-  const object::Polygon triangle = Model("triangle.wkt");
+  const object::Polygon triangle = ReadPlanarModel("triangle.wkt");
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const planning::PlanResult result =
-        PlanWith(PolygonPlanner(), triangle, RandomAny(), RandomAny(), Options(20, seed));
+        PlanWith(PolygonPlanner(), triangle, RandomAny(), RandomAny(), RequestAt(20, seed));
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.plan->initial, SizeIs(3));
     EXPECT_THAT(result.plan->goal, SizeIs(3));
   }
-}
-
-TEST(PlanOnPolygon, GivesTheSameBytesForTheSameSeed) {
-  const object::Polygon polygon = Model("polygon15.wkt");
-  const auto plan = [&](std::uint64_t seed) {
-    return plan::FormatPlan(
-        *PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed)).plan);
-  };
-  EXPECT_EQ(plan(3), plan(3));
-  EXPECT_NE(plan(3), plan(4));
-}
-
-TEST(PlanOnPolygon, HasNoStepsWhereTheGoalIsTheStartInAnyOrder) {
-  const object::Polygon square = Square(1);
-  const grasp::Grasp start = MakeGrasp(square, {{0, 0.4}, {2, 0.6}});
-  const grasp::Grasp goal = {start[1], start[0]};
-  const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
-  ExpectGoodPlan(square, result, start, goal);
-  EXPECT_THAT(result.plan->steps, IsEmpty());
 }
 
 TEST(PlanOnPolygon, OneAlignLeadsFromGraspToGraspOfASet) {
@@ -232,8 +154,8 @@ TEST(PlanOnPolygon, OneAlignLeadsFromGraspToGraspOfASet) {
   const grasp::Grasp start = MakeGrasp(square, {{0, 0.3}, {2, 0.7}});
   const grasp::Grasp goal = MakeGrasp(square, {{2, 0.35}, {0, 0.65}});
   const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
-  ExpectGoodPlan(square, result, start, goal);
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), RequestAt(20));
+  ExpectGood(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<plan::Align>(result.plan->steps.front()));
 }
@@ -243,8 +165,8 @@ TEST(PlanOnPolygon, TwoFingersAcrossTheSquareTurnByOneSwitch) {
   const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const grasp::Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}});
   const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
-  ExpectGoodPlan(square, result, start, goal);
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), RequestAt(20));
+  ExpectGood(square, result, start, goal);
   ASSERT_THAT(result.plan->steps, SizeIs(1));
   const auto& step = std::get<plan::Switch>(result.plan->steps.front());
   EXPECT_THAT(step.place, SizeIs(2));
@@ -257,8 +179,8 @@ TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
   const grasp::Grasp start = MakeGrasp(square, {{0, 0.5}, {0, 0.25}, {2, 0.5}, {1, 0.75}});
   const grasp::Grasp goal = MakeGrasp(square, {{1, 0.5}, {3, 0.5}, {3, 0.25}});
   const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(10));
-  ExpectGoodPlan(square, result, start, goal);
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), RequestAt(10));
+  ExpectGood(square, result, start, goal);
   const auto& first = std::get<plan::Switch>(result.plan->steps.front());
   EXPECT_THAT(first.place, IsEmpty());
   EXPECT_FALSE(first.release.empty());
@@ -267,26 +189,12 @@ TEST(PlanOnPolygon, StartAndGoalMayHoldWithMoreContactsThanASetHas) {
   EXPECT_THAT(last.release, IsEmpty());
 }
 
-TEST(PlanOnPolygon, MarginIsTheSmallestOfThePlansGrasps) {
-  const object::Polygon polygon = Model("polygon15.wkt");
-  const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, 5));
-  ASSERT_EQ(result.status, Status::kFound);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const grasp::Grasp& grasp : RestsOf(*result.plan)) {
-    const auto required = grasp::ComputeRequiredHalfAngle(grasp, polygon.wrench_frame());
-    smallest = std::min(smallest, Radians(20) - required.value().upper);
-  }
-  EXPECT_EQ(result.margin, smallest);
-  EXPECT_GT(result.margin, 0);
-}
-
 TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
-  const object::Polygon polygon = Model("polygon20.wkt");
+  const object::Polygon polygon = ReadPlanarModel("polygon20.wkt");
   int good = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const planning::PlanResult result =
-        PlanWith(PolygonPlanner(), polygon, Random(), Random(), Options(20, seed));
+        PlanWith(PolygonPlanner(), polygon, Random(), Random(), RequestAt(20, seed));
     ASSERT_EQ(result.status, Status::kFound);
     const std::vector<grasp::Grasp> rests = RestsOf(*result.plan);
     const bool all = std::all_of(rests.begin(), rests.end(), [&](const grasp::Grasp& grasp) {
@@ -300,7 +208,7 @@ TEST(PlanOnPolygon, RestsInGraspsOfTheQualityAskedForOrWarns) {
 
 TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   const object::Polygon square = Square(1);
-  planning::PlanRequest options = Options(20);
+  planning::PlanRequest options = RequestAt(20);
   options.criteria.min_quality = 0.9;  // more than any grasp has at this friction
   const planning::PlanResult result =
       PlanWith(PolygonPlanner(), square, Given(MakeGrasp(square, {{0, 0.5}, {2, 0.5}})),
@@ -310,21 +218,9 @@ TEST(PlanOnPolygon, WarnsOfTheWeakestStepWhereNoSequenceIsGoodEnough) {
   EXPECT_THAT(result.warnings[0], AllOf(HasSubstr("below the quality 0.9"), HasSubstr("step")));
 }
 
-TEST(PlanOnPolygon, CannotDrawAGraspBetterThanAll) {
-  for (const planning::GraspChoice& choice : {Random(), RandomAny()}) {
-    planning::PlanRequest options = Options(20);
-    options.criteria.min_quality = 0.9;
-    const planning::PlanResult result =
-        PlanWith(PolygonPlanner(), Square(1), choice, choice, options);
-    EXPECT_EQ(result.status, Status::kNoGrasp);
-    EXPECT_THAT(result.message, HasSubstr(choice.name + ": no"));
-    EXPECT_FALSE(result.plan.has_value());
-  }
-}
-
 TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   constexpr double kDegrees = 3;
-  const object::Polygon polygon = Model("polygon15.wkt");
+  const object::Polygon polygon = ReadPlanarModel("polygon15.wkt");
   const PolygonGraph graph = MakeGraph(polygon, kDegrees, planning::Spanning::kAdaptive);
   const search::Components components = graph.components();
   ASSERT_GT(components.count(), 1);
@@ -337,7 +233,7 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
     const grasp::Grasp goal = cells.DrawGrasp(0, random);
     if (AreJoined(polygon, kDegrees, start, goal)) continue;
     const planning::PlanResult result =
-        PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), Options(kDegrees));
+        PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), RequestAt(kDegrees));
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_FALSE(result.plan.has_value());
     EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns"));
@@ -362,7 +258,7 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   const grasp::Grasp pair = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
   const auto message = [&](const grasp::Grasp& from, const grasp::Grasp& to) {
     const planning::PlanResult result = PlanWith(PolygonPlanner(), square, Given(from, "from.json"),
-                                                 Given(to, "to.json"), Options(5));
+                                                 Given(to, "to.json"), RequestAt(5));
     EXPECT_EQ(result.status, Status::kNoGrasp);
     EXPECT_FALSE(result.plan.has_value());
     return result.message;
@@ -370,12 +266,12 @@ TEST(PlanOnPolygon, SaysOfAGraspInNoSetThatItIsInNone) {
   EXPECT_THAT(message(pinwheel, pair), AllOf(HasSubstr("from.json"), HasSubstr("in none of")));
   EXPECT_THAT(message(pair, pinwheel), AllOf(HasSubstr("to.json"), HasSubstr("in none of")));
   // With friction for a pair alone it can switch, and no finger has to where it is the goal itself.
-  ExpectGoodPlan(square,
-                 PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pair), Options(15)),
-                 pinwheel, pair);
+  ExpectGood(square,
+             PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pair), RequestAt(15)),
+             pinwheel, pair);
   const planning::PlanResult same =
-      PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pinwheel), Options(5));
-  ExpectGoodPlan(square, same, pinwheel, pinwheel);
+      PlanWith(PolygonPlanner(), square, Given(pinwheel), Given(pinwheel), RequestAt(5));
+  ExpectGood(square, same, pinwheel, pinwheel);
   EXPECT_THAT(same.plan->steps, IsEmpty());
 }
 
@@ -385,16 +281,16 @@ TEST(PlanOnPolygon, AGraspInNoSetComesToOneByASwitchOfItsOwn) {
   const object::Polygon triangle = RegularPolygon(3);
   const grasp::Grasp start = MakeGrasp(triangle, {{0, 0.4}, {1, 0.4}, {2, 0.4}});
   const grasp::Grasp goal = MakeGrasp(triangle, {{0, 0.6}, {1, 0.6}, {2, 0.6}});
-  planning::PlanRequest options = Options(35);
+  planning::PlanRequest options = RequestAt(35);
   const planning::PlanResult adaptive =
       PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
-  ExpectGoodPlan(triangle, adaptive, start, goal);
+  ExpectGood(triangle, adaptive, start, goal);
   ASSERT_THAT(adaptive.plan->steps, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<plan::Align>(adaptive.plan->steps.front()));
   options.spanning = planning::Spanning::kUniform;
   const planning::PlanResult uniform =
       PlanWith(PolygonPlanner(), triangle, Given(start), Given(goal), options);
-  ExpectGoodPlan(triangle, uniform, start, goal);
+  ExpectGood(triangle, uniform, start, goal);
   EXPECT_FALSE(std::get<plan::Switch>(uniform.plan->steps.front()).place.empty());
   EXPECT_FALSE(std::get<plan::Switch>(uniform.plan->steps.back()).place.empty());
 }
@@ -404,8 +300,8 @@ TEST(PlanOnPolygon, FingersAtCornersLeaveFirstAndComeLast) {
   const grasp::Grasp start = MakeGrasp(square, {{0, 0.0}, {2, 1.0}});
   const grasp::Grasp goal = MakeGrasp(square, {{0, 1.0}, {2, 0.0}});
   const planning::PlanResult result =
-      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), Options(20));
-  ExpectGoodPlan(square, result, start, goal);
+      PlanWith(PolygonPlanner(), square, Given(start), Given(goal), RequestAt(20));
+  ExpectGood(square, result, start, goal);
 }
 
 TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
@@ -418,50 +314,16 @@ TEST(PlanOnPolygon, UniformSpanningNeverJoinsConcurrentAndParallelSets) {
     };
     EXPECT_EQ(joined(planning::Spanning::kUniform), 0) << name;
     joined_under_adaptive += joined(planning::Spanning::kAdaptive) > 0 ? 1 : 0;
-    planning::PlanRequest options = Options(20, 1);
+    planning::PlanRequest options = RequestAt(20, 1);
     options.spanning = planning::Spanning::kUniform;
     const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Random(), Random(), options);
     if (result.status != Status::kFound) continue;
-    ExpectGoodPlan(polygon, result, plan::ContactsOf(result.plan->initial), result.plan->goal);
+    ExpectGood(polygon, result, plan::ContactsOf(result.plan->initial), result.plan->goal);
     ++plans;
   }
   EXPECT_GT(joined_under_adaptive, 0);
   EXPECT_GT(plans, 3);
-}
-
-TEST(PlanOnPolygon, RefusesGivenGraspsThatDoNotServe) {
-  const object::Polygon square = Square(1);
-  const grasp::Grasp good = MakeGrasp(square, {{0, 0.5}, {2, 0.5}});
-  const auto refusal = [&](const grasp::Grasp& start) -> std::string {
-    try {
-      (void)PlanWith(PolygonPlanner(), square, Given(start), Given(good), Options(20));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(refusal(good), "");
-  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}})), HasSubstr("needs 2 to 4 contacts, found 1"));
-  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}, {2, 0.5}, {1, 0.5}, {3, 0.5}, {3, 0.25}})),
-              HasSubstr("found 5"));
-  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.5}, {0, 0.5}, {2, 0.5}})),
-              HasSubstr("contacts 0 and 1 are at the same point"));
-  // Leans by atan 0.5.
-  EXPECT_THAT(refusal(MakeGrasp(square, {{0, 0.25}, {2, 0.25}})),
-              HasSubstr("needs a friction half-angle of 26.57°, given 20°"));
-}
-
-TEST(PlanOnPolygon, RefusesOptionsOutOfRange) {
-  const object::Polygon square = Square(1);
-  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(90)),
-               std::invalid_argument);
-  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), Options(0)),
-               std::invalid_argument);
-  planning::PlanRequest options = Options(20);
-  options.criteria.min_quality = -1;
-  EXPECT_THROW((void)PlanWith(PolygonPlanner(), square, Random(), Random(), options),
-               std::invalid_argument);
 }
 
 }  // namespace

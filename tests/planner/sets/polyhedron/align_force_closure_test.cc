@@ -10,6 +10,7 @@
 #include "planner/motion/contact_motion.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
@@ -33,9 +34,7 @@ struct PlanningCase {
 std::vector<NamedBody> Bodies() {
   std::vector<NamedBody> bodies;
   for (const std::string name : {"stone", "tetrahedron", "body14", "body24", "body36", "body38"}) {
-    const object::ObjectFile file =
-        object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/" + name + ".obj");
-    bodies.push_back({name, dynamic_cast<const object::Polyhedron&>(*file.object)});
+    bodies.push_back({name, ReadSolidModel(name + ".obj")});
   }
   for (const NamedBody& small : SmallBodies()) bodies.push_back(small);
   return bodies;

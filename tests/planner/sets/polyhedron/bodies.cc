@@ -4,6 +4,7 @@
 
 #include "bench/polyhedron_stone.h"
 #include "planner/object/polygon_triangulation.h"
+#include "tests/fixtures/moved.h"
 
 namespace regrasp::polyhedron {
 
@@ -104,7 +105,7 @@ Eigen::Affine3d Skewed() {
 }
 
 object::Polyhedron SkewedBody(const object::Polyhedron& body) {
-  return object::Polyhedron::FromSoup(Mapped(body, Skewed()), "skewed");
+  return object::Polyhedron::FromSoup(MappedSoup(body, Skewed()), "skewed");
 }
 
 }  // namespace
@@ -119,17 +120,6 @@ const std::vector<NamedBody>& SmallBodies() {
       {"frustum of a ring", SkewedBody(Frustum(RingOutline(), 2, 0.4))},
   };
   return bodies;
-}
-
-object::PolygonSoup Mapped(const object::Polyhedron& body, const Eigen::Affine3d& map) {
-  object::PolygonSoup soup;
-  for (const Vector3d& v : body.vertices()) soup.vertices.push_back(map * v);
-  for (const auto& t : body.triangles()) {
-    std::vector<int> facet(t.begin(), t.end());
-    if (map.linear().determinant() < 0) std::ranges::reverse(facet);
-    soup.facets.push_back(facet);
-  }
-  return soup;
 }
 
 }  // namespace regrasp::polyhedron

@@ -68,8 +68,4 @@ void ForEachSmallBody(std::span<const double> angles, const Check& check) {
   }
 }
 
-/// Its vertices and triangles, mapped; a mirror turns the triangles, to stay outward.
-[[nodiscard]] object::PolygonSoup Mapped(const object::Polyhedron& body,
-                                         const Eigen::Affine3d& map);
-
 }  // namespace regrasp::polyhedron

@@ -3,9 +3,7 @@
 #include <cmath>
 
 #include "planner/sets/polyhedron/normal_quadruples.h"
-#include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/deadline_laws.h"
-#include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
@@ -24,17 +22,6 @@ TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereve
   EXPECT_EQ(never.looks(), listing.looks() + graph.candidate_count() + 4 * graph.vertex_count());
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
     static_cast<void>(PolyhedronGraph(body, Radians(15), planning::Spanning::kAdaptive, deadline));
-  });
-}
-
-TEST(PolyhedronDeadline, EndsAPlanWhereverItComes) {
-  const object::Polyhedron body = RegularOctahedron();
-  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(15);
-  ExpectPlanEndsWhereverItComes("polyhedron", 11, [&](const Deadline& deadline) {
-    options.deadline = deadline;
-    return PlanWith(PolyhedronPlanner(), body, random, random, options);
   });
 }
 

@@ -5,8 +5,8 @@
 
 #include "bench/polyhedron_stone.h"
 #include "planner/base/angle.h"
-#include "planner/object/object.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "tests/fixtures/models.h"
 #include "tests/fixtures/peak_memory.h"
 #include "tests/fixtures/plan_with.h"
 
@@ -20,9 +20,7 @@ const double kHalfAngle = Radians(15);
 #if !defined(__SANITIZE_ADDRESS__)  // which keeps what is freed
 TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
   for (const char* file : {"body40.obj", "body47.obj", "body67.obj"}) {
-    const object::ObjectFile read =
-        object::ReadObject(std::string(REGRASP_SOURCE_DIR "/models/") + file);
-    const auto& solid = dynamic_cast<const object::Polyhedron&>(*read.object);
+    const object::Polyhedron solid = ReadSolidModel(file);
     const double used = PeakBytesOf([&] {
       static_cast<void>(
           PolyhedronGraph(solid, kHalfAngle, planning::Spanning::kAdaptive).vertex_count());
@@ -53,9 +51,7 @@ TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   options.criteria.half_angle = kHalfAngle;
   options.memory = 1e9;
   const planning::PlanResult result =
-      PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1),
-               {planning::GraspChoice::Kind::kRandom, {}, "start"},
-               {planning::GraspChoice::Kind::kRandom, {}, "goal"}, options);
+      PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1), Random(), Random(), options);
   EXPECT_FALSE(result.plan.has_value());
   EXPECT_THAT(result.message, HasSubstr("for 300 faces"));
 }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "bench/polyhedron_stone.h"
+#include "tests/fixtures/moved.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
 namespace regrasp::polyhedron {
@@ -76,7 +77,7 @@ auto MapBy(const Linear& linear, const Vector3d& shift = Vector3d::Zero()) {
   Affine3d map = Affine3d::Identity();
   map.linear() = linear;
   map.translation() = shift;
-  return [map](const object::Polyhedron& body) { return Mapped(body, map); };
+  return [map](const object::Polyhedron& body) { return MappedSoup(body, map); };
 }
 
 TEST(PolyhedronLaws, CountsDoNotDependOnMotions) {
@@ -100,7 +101,7 @@ TEST(PolyhedronLaws, CountsDoNotDependOnMirroring) {
 TEST(PolyhedronLaws, CountsDoNotDependOnTheOrderOfFacetsAndVertices) {
   const auto shuffled = [](const object::Polyhedron& body) {
     std::mt19937 engine(kSeed);
-    object::PolygonSoup soup = Mapped(body, Affine3d::Identity());
+    object::PolygonSoup soup = MappedSoup(body, Affine3d::Identity());
     std::shuffle(soup.facets.begin(), soup.facets.end(), engine);
     std::vector<int> order(soup.vertices.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
-#include "planner/base/error.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/plan/check.h"
-#include "planner/plan/plan_io.h"
 #include "planner/sets/polyhedron/focus_geometry.h"
 #include "planner/sets/polyhedron/focus_view.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
@@ -17,37 +15,18 @@ namespace regrasp::polyhedron {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
-using Kind = planning::GraspChoice::Kind;
 using Status = planning::PlanResult::Status;
 
-planning::PlanRequest Options(double degrees, std::uint64_t seed,
-                              planning::Spanning spanning = planning::Spanning::kAdaptive) {
-  planning::PlanRequest options;
-  options.criteria.half_angle = Radians(degrees);
-  options.seed = seed;
-  options.spanning = spanning;
-  return options;
+planning::PlanRequest Spanned(double degrees, std::uint64_t seed, planning::Spanning spanning) {
+  planning::PlanRequest request = RequestAt(degrees, seed);
+  request.spanning = spanning;
+  return request;
 }
 
-/// What the checker, which knows nothing of the planner, says of a plan.
-void ExpectGoodPlan(const object::Polyhedron& body, const planning::PlanResult& result) {
-  ASSERT_EQ(result.status, Status::kFound) << result.message;
-  const plan::Plan& plan = *result.plan;
-  const plan::PlanCheck check = plan::CheckPlan(body, plan);
-  for (const plan::StepCheck& step : check.steps) {
-    EXPECT_EQ(plan::ReasonName(step.reason), "") << "step " << step.index << ": " << step.detail;
-  }
-  EXPECT_TRUE(check.passed());
-  EXPECT_EQ(plan.planner, "polyhedron");
-  EXPECT_EQ(plan.fingers, kPolyhedronFingers);
-  for (const plan::Step& step : plan.steps) {
-    if (const auto* change = std::get_if<plan::Switch>(&step)) {
-      EXPECT_THAT(change->place, SizeIs(1));
-      EXPECT_THAT(change->release, SizeIs(1));
-    }
-  }
+/// A plan that the checker passes, of switches of one finger.
+void ExpectGood(const object::Polyhedron& body, const planning::PlanResult& result) {
+  ExpectGoodPlan(PolyhedronPlanner(), body, result);
+  ExpectOneFingerInEverySwitch(result.plan.value());
 }
 
 TEST(PlanOnPolyhedron, LeadsFromARandomGraspToAnother) {
@@ -60,12 +39,12 @@ TEST(PlanOnPolyhedron, LeadsFromARandomGraspToAnother) {
         for (const std::uint64_t seed : {1, 2, 3}) {
           SCOPED_TRACE(name + ", " + Name(spanning) + ", seed " + std::to_string(seed));
           const planning::PlanResult result = PlanWith(PolyhedronPlanner(), body, Random(),
-                                                       Random(), Options(degrees, seed, spanning));
+                                                       Random(), Spanned(degrees, seed, spanning));
           if (result.status == Status::kNoGrasp) {
             ++none;
             continue;
           }
-          ExpectGoodPlan(body, result);
+          ExpectGood(body, result);
           for (const plan::Step& step : result.plan->steps) {
             (std::holds_alternative<plan::Switch>(step) ? switches : aligns) += 1;
           }
@@ -96,11 +75,11 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
       ASSERT_TRUE(start && goal);
       const planning::PlanResult result =
           PlanWith(PolyhedronPlanner(), body, Given(geometry.GraspOf(*start)),
-                   Given(geometry.GraspOf(*goal)), Options(14, 0, planning::Spanning::kUniform));
+                   Given(geometry.GraspOf(*goal)), Spanned(14, 0, planning::Spanning::kUniform));
       SCOPED_TRACE(name + ", cells " + std::to_string(a) + " and " + std::to_string(b));
       if (components.of_vertex[a] == components.of_vertex[b]) {
         ++joined;
-        ExpectGoodPlan(body, result);
+        ExpectGood(body, result);
       } else {
         ++apart;
         EXPECT_EQ(result.status, Status::kNoSequence);
@@ -136,31 +115,6 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
   EXPECT_GT(drawn, 200);
 }
 
-TEST(PlanOnPolyhedron, HasNothingToDoWhereTheGoalIsTheStart) {
-  const object::Polyhedron& body = SmallBodies().front().body;
-  const planning::PlanResult some =
-      PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
-  ASSERT_TRUE(some.plan) << some.message;
-  grasp::Grasp start = plan::ContactsOf(some.plan->initial);
-  grasp::Grasp same = start;
-  std::ranges::reverse(same);
-  const planning::PlanResult result =
-      PlanWith(PolyhedronPlanner(), body, Given(start), Given(same), Options(15, 1));
-  ASSERT_EQ(result.status, Status::kFound);
-  EXPECT_THAT(result.plan->steps, IsEmpty());
-}
-
-TEST(PlanOnPolyhedron, IsTheSameBitForBit) {
-  const object::Polyhedron& body = SmallBodies().back().body;
-  const auto text = [&](std::uint64_t seed) {
-    const planning::PlanResult result =
-        PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(12, seed));
-    return result.plan ? plan::FormatPlan(*result.plan) : result.message;
-  };
-  EXPECT_EQ(text(4), text(4));
-  EXPECT_NE(text(4), text(5));
-}
-
 TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
   // Two pairs on opposite faces of a box: force closure, but no four normals span.
   const object::Polyhedron box = Box({2, 2, 2});
@@ -173,37 +127,15 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
   const grasp::Grasp other = {contact({-1, 0.2, 0}), contact({1, -0.2, 0}), contact({0, -1, 0.2}),
                               contact({0, 1, -0.2})};
   const planning::PlanResult result =
-      PlanWith(PolyhedronPlanner(), box, Given(grasp), Given(other), Options(25, 0));
+      PlanWith(PolyhedronPlanner(), box, Given(grasp), Given(other), RequestAt(25));
   EXPECT_EQ(result.status, Status::kNoGrasp);
   EXPECT_THAT(
       result.message,
       HasSubstr(
           "given.json: force closure, but four contacts on this body are nowhere concurrent"));
-  EXPECT_EQ(PlanWith(PolyhedronPlanner(), box, Random(), Random(), Options(25, 0)).status,
+  EXPECT_EQ(PlanWith(PolyhedronPlanner(), box, Random(), Random(), RequestAt(25)).status,
             Status::kNoGrasp);
   EXPECT_FALSE(DescribeFocus(box, grasp, Radians(25)));
-}
-
-TEST(PlanOnPolyhedron, RefusesGraspsThatDoNotServe) {
-  const object::Polyhedron& body = SmallBodies().front().body;
-  const planning::PlanResult some =
-      PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(15, 1));
-  ASSERT_TRUE(some.plan) << some.message;
-  const grasp::Grasp good = plan::ContactsOf(some.plan->initial);
-  const grasp::Grasp three(good.begin(), good.begin() + 3);
-  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(three), Given(good), Options(15, 1)),
-               InputError);
-  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Given(good), Given(three), Options(15, 1)),
-               InputError);
-  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), Options(0, 1)),
-               std::invalid_argument);
-  planning::PlanRequest options = Options(15, 1);
-  options.criteria.min_quality = -1;
-  EXPECT_THROW((void)PlanWith(PolyhedronPlanner(), body, Random(), Random(), options),
-               std::invalid_argument);
-  options.criteria.min_quality = 10;
-  EXPECT_EQ(PlanWith(PolyhedronPlanner(), body, RandomAny(), Random(), options).status,
-            Status::kNoGrasp);
 }
 
 TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {

@@ -1,0 +1,379 @@
+#include "tests/planner/registry/planner_laws.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/base/angle.h"
+#include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
+#include "tests/fixtures/counted_deadline.h"
+#include "tests/fixtures/good_plan.h"
+#include "tests/fixtures/moved.h"
+#include "tests/fixtures/plan_with.h"
+
+namespace regrasp::registry {
+namespace {
+
+using planning::GraspChoice;
+using planning::Planner;
+using planning::PlanOption;
+using planning::PlanRequest;
+using planning::PlanResult;
+using Status = PlanResult::Status;
+
+constexpr double kDegrees = 15;
+constexpr std::uint64_t kSeeds = 3;
+
+/// More than any grasp has at this friction.
+constexpr double kNoGraspsQuality = 0.9;
+
+/// A margin is known to this, radians.
+constexpr double kMarginTolerance = 1e-6;
+
+/// What is asked of a planner: a roadmap is a small one.
+PlanRequest Ask(const Planner& planner, std::uint64_t seed = 0, double degrees = kDegrees) {
+  PlanRequest request = RequestAt(degrees, seed);
+  if (std::ranges::count(planner.traits().options, PlanOption::kContactPoints) > 0) {
+    request.contact_points = 24;
+  }
+  return request;
+}
+
+/// Start and goal of a plan that the planner makes between grasps that it draws itself.
+struct Ends {
+  grasp::Grasp start;
+  grasp::Grasp goal;
+};
+
+std::optional<Ends> DrawEnds(const Planner& planner, const object::Object& object,
+                             std::uint64_t seed) {
+  const PlanResult result = PlanWith(planner, object, Random(), Random(), Ask(planner, seed));
+  if (!result.plan) return std::nullopt;
+  return Ends{plan::ContactsOf(result.plan->initial), result.plan->goal};
+}
+
+/// Why the checker does not pass a plan; empty where it does.
+std::string CheckersReason(const object::Object& object, const plan::Plan& plan,
+                           const Ends* ends = nullptr) {
+  plan::CheckOptions options;
+  if (ends != nullptr) {
+    options.start = &ends->start;
+    options.goal = &ends->goal;
+  }
+  const plan::PlanCheck check = plan::CheckPlan(object, plan, options);
+  for (const plan::StepCheck& step : check.steps) {
+    if (step.reason == plan::Reason::kNone) continue;
+    return "step " + std::to_string(step.index) + ": " +
+           std::string(plan::ReasonName(step.reason)) + ": " + step.detail;
+  }
+  return check.passed() ? "" : "not passed";
+}
+
+/// Why a result is no plan that the checker passes; empty where it is.
+std::string WhyNoGoodPlan(const object::Object& object, const PlanResult& result,
+                          const Ends* ends = nullptr) {
+  if (result.status != Status::kFound || !result.plan) return "no plan: " + result.message;
+  return CheckersReason(object, *result.plan, ends);
+}
+
+/// Whether a plan says who made it and for what.
+std::string SignatureBreach(const Planner& planner, const object::Object& object,
+                            const plan::Plan& plan) {
+  if (plan.planner != planner.name()) return "made by " + plan.planner;
+  if (plan.dimension != object.dimension()) return "of another dimension";
+  if (plan.fingers != planner.ScopeIn(object.dimension())->fingers) return "for another hand";
+  return plan.half_angle == Radians(kDegrees) ? "" : "for another friction";
+}
+
+/// The first breach that `breach(seed)` finds.
+template <class Breach>
+std::string ForSeeds(const Breach& breach) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    if (const std::string found = breach(seed); !found.empty()) {
+      return "seed " + std::to_string(seed) + ": " + found;
+    }
+  }
+  return "";
+}
+
+/// The first breach that `breach(ends)` finds of ends of some seeds.
+template <class Breach>
+std::string ForEnds(const Planner& planner, const object::Object& object, const Breach& breach) {
+  return ForSeeds([&](std::uint64_t seed) -> std::string {
+    const auto ends = DrawEnds(planner, object, seed);
+    return ends ? breach(*ends) : "no start and goal could be drawn";
+  });
+}
+
+std::string PlansPassTheChecker(const Planner& planner, const object::Object& object) {
+  return ForSeeds([&](std::uint64_t seed) {
+    const PlanRequest request = Ask(planner, seed);
+    const PlanResult result = PlanWith(planner, object, Random(), Random(), request);
+    if (const std::string why = WhyNoGoodPlan(object, result); !why.empty()) return why;
+    const PlanResult any = PlanWith(planner, object, RandomAny(), RandomAny(), request);
+    if (any.plan) {
+      if (const std::string why = CheckersReason(object, *any.plan); !why.empty()) return why;
+    }
+    return SignatureBreach(planner, object, *result.plan);
+  });
+}
+
+std::string GivenGraspsAreTheEnds(const Planner& planner, const object::Object& object) {
+  return ForEnds(planner, object, [&](const Ends& ends) -> std::string {
+    const PlanResult result =
+        PlanWith(planner, object, Given(ends.start), Given(ends.goal), Ask(planner));
+    if (const std::string why = WhyNoGoodPlan(object, result, &ends); !why.empty()) return why;
+    for (std::size_t i = 0; i < ends.start.size(); ++i) {
+      const plan::FingerContact& held = result.plan->initial.at(i);
+      if (held.finger != static_cast<int>(i)) return "fingers are not numbered in order";
+      if (held.contact.p != ends.start[i].p) return "another contact than the start's";
+    }
+    return "";
+  });
+}
+
+std::string TheSameRequestGivesTheSameBytes(const Planner& planner, const object::Object& object) {
+  const auto plan = [&](std::uint64_t seed) {
+    return plan::FormatPlan(
+        PlanWith(planner, object, Random(), Random(), Ask(planner, seed)).plan.value());
+  };
+  if (plan(3) != plan(3)) return "two plans of one seed";
+  return plan(3) == plan(4) ? "one plan of two seeds" : "";
+}
+
+std::string AGoalThatIsTheStartTakesNoSteps(const Planner& planner, const object::Object& object) {
+  return ForEnds(planner, object, [&](Ends ends) -> std::string {
+    ends.goal = {ends.start.rbegin(), ends.start.rend()};
+    const PlanResult result =
+        PlanWith(planner, object, Given(ends.start), Given(ends.goal), Ask(planner));
+    if (const std::string why = WhyNoGoodPlan(object, result, &ends); !why.empty()) return why;
+    return result.plan->steps.empty() ? "" : std::to_string(result.plan->steps.size()) + " steps";
+  });
+}
+
+std::string TheMarginIsTheSmallestAtRest(const Planner& planner, const object::Object& object) {
+  return ForSeeds([&](std::uint64_t seed) -> std::string {
+    const PlanResult result = PlanWith(planner, object, Random(), Random(), Ask(planner, seed));
+    if (!result.plan) return "no plan";
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const grasp::Grasp& grasp : RestsOf(*result.plan)) {
+      const auto required = grasp::ComputeRequiredHalfAngle(grasp, object.wrench_frame());
+      smallest = std::min(smallest, Radians(kDegrees) - required.value().upper);
+    }
+    if (std::abs(result.margin - smallest) <= kMarginTolerance) return "";
+    return "margin " + std::to_string(result.margin) + ", found " + std::to_string(smallest);
+  });
+}
+
+/// Whether a plan has warnings where a grasp is below the quality, and only there.
+std::string WarningsBreach(const object::Object& object, const PlanResult& result, double quality) {
+  if (!result.plan) return "no plan: " + result.message;
+  const bool good = std::ranges::all_of(RestsOf(*result.plan), [&](const grasp::Grasp& grasp) {
+    return grasp::QualityAtLeast(grasp, object.wrench_frame(), Radians(kDegrees), quality);
+  });
+  if (good == result.warnings.empty()) return "";
+  return good ? "a warning, and all grasps are good" : "no warning of a weak grasp";
+}
+
+std::string WarnsOfGraspsBelowTheQuality(const Planner& planner, const object::Object& object) {
+  PlanRequest request = Ask(planner);
+  const std::string breach = ForSeeds([&](std::uint64_t seed) {
+    request.seed = seed;
+    return WarningsBreach(object, PlanWith(planner, object, Random(), Random(), request),
+                          request.criteria.min_quality);
+  });
+  if (!breach.empty()) return breach;
+  const auto ends = DrawEnds(planner, object, 0);
+  request.criteria.min_quality = kNoGraspsQuality;
+  return WarningsBreach(object,
+                        PlanWith(planner, object, Given(ends->start), Given(ends->goal), request),
+                        kNoGraspsQuality);
+}
+
+/// Whether start and goal of a plan, drawn so, have a quality.
+std::string DrawnQualityBreach(const object::Object& object, const PlanResult& result,
+                               double quality) {
+  if (!result.plan) return "no plan: " + result.message;
+  for (const grasp::Grasp& grasp : {plan::ContactsOf(result.plan->initial), result.plan->goal}) {
+    if (!grasp::QualityAtLeast(grasp, object.wrench_frame(), Radians(kDegrees), quality)) {
+      return "drew a grasp below " + std::to_string(quality);
+    }
+  }
+  return "";
+}
+
+std::string DrawsNoGraspBelowTheQuality(const Planner& planner, const object::Object& object) {
+  constexpr double kSomeGraspsQuality = 0.05;
+  for (const GraspChoice& choice : {Random(), RandomAny()}) {
+    PlanRequest request = Ask(planner, 9);
+    request.criteria.min_quality = kSomeGraspsQuality;
+    const PlanResult some = PlanWith(planner, object, choice, choice, request);
+    // What is drawn over the surface need not be in a set of the planner's, nor joined.
+    if (some.plan || choice.kind == GraspChoice::Kind::kRandom) {
+      const std::string breach = DrawnQualityBreach(object, some, kSomeGraspsQuality);
+      if (!breach.empty()) return choice.name + ": " + breach;
+    }
+    request.criteria.min_quality = kNoGraspsQuality;
+    const PlanResult none = PlanWith(planner, object, choice, choice, request);
+    if (none.status != Status::kNoGrasp || none.plan) return "found a grasp";
+    if (!none.message.starts_with(choice.name)) return "the message is: " + none.message;
+  }
+  return "";
+}
+
+std::string MovesWithTheObjectAtEveryScale(const Planner& planner, const object::Object& object) {
+  return ForEnds(planner, object, [&](const Ends& ends) -> std::string {
+    for (const double unit : {1.0, 1000.0}) {
+      const Eigen::Affine3d motion = MotionAndUnit(unit, object.dimension());
+      const auto moved = Moved(object, motion);
+      const Ends there = {Moved(ends.start, motion), Moved(ends.goal, motion)};
+      const std::string why = WhyNoGoodPlan(
+          *moved, PlanWith(planner, *moved, Given(there.start), Given(there.goal), Ask(planner)),
+          &there);
+      if (!why.empty()) return "unit " + std::to_string(unit) + ": " + why;
+    }
+    return "";
+  });
+}
+
+std::string TheOrderOfContactsDoesNotMatter(const Planner& planner, const object::Object& object) {
+  return ForEnds(planner, object, [&](Ends ends) {
+    std::ranges::reverse(ends.start);
+    std::ranges::rotate(ends.goal, ends.goal.begin() + 1);
+    return WhyNoGoodPlan(
+        object, PlanWith(planner, object, Given(ends.start), Given(ends.goal), Ask(planner)),
+        &ends);
+  });
+}
+
+std::string MoreFrictionLosesNoPlan(const Planner& planner, const object::Object& object) {
+  return ForEnds(planner, object, [&](const Ends& ends) -> std::string {
+    for (const double more : {1.0, 5.0, 15.0, 30.0}) {
+      const std::string why =
+          WhyNoGoodPlan(object,
+                        PlanWith(planner, object, Given(ends.start), Given(ends.goal),
+                                 Ask(planner, 0, kDegrees + more)),
+                        &ends);
+      if (!why.empty()) return std::to_string(kDegrees + more) + " degrees: " + why;
+    }
+    return "";
+  });
+}
+
+/// Wherever a deadline comes, the planner says that its time was up; or it has a plan already and
+/// only looks for a better one.
+std::string EndsAtItsDeadline(const Planner& planner, const object::Object& object) {
+  PlanRequest request = Ask(planner, 1);
+  const CountedDeadline never;
+  request.deadline = never.deadline();
+  if (!PlanWith(planner, object, Random(), Random(), request).plan) return "no plan";
+  if (never.looks() < 2) return "never looks at it";
+  for (int look = 1; look <= never.looks(); look += 1 + look / 2) {
+    const CountedDeadline counted(look);
+    request.deadline = counted.deadline();
+    const PlanResult result = PlanWith(planner, object, Random(), Random(), request);
+    if (look == 1 && result.plan) return "a plan, and there was no time";
+    if (counted.looks() < look) return "came to another end";
+    const std::string up = "the planner " + planner.name() + " when the time was up";
+    if (!result.plan && result.message.find(up) == std::string::npos) {
+      return "at look " + std::to_string(look) + ": " + result.message;
+    }
+    if (result.plan) {
+      if (const std::string why = CheckersReason(object, *result.plan); !why.empty()) return why;
+    }
+  }
+  return "";
+}
+
+PlanRequest Asking(PlanOption option, PlanRequest request) {
+  switch (option) {
+    case PlanOption::kMargin:
+      request.objective = planning::Objective::kMargin;
+      break;
+    case PlanOption::kTravel:
+      request.objective = planning::Objective::kTravel;
+      break;
+    case PlanOption::kRegions:
+      request.objective = planning::Objective::kRegions;
+      break;
+    case PlanOption::kUniformSpanning:
+      request.spanning = planning::Spanning::kUniform;
+      break;
+    case PlanOption::kContactPoints:
+      request.contact_points = 30;
+      break;
+    case PlanOption::kClusters:
+      request.contact_points = 200;
+      request.clusters = 20;
+      break;
+    case PlanOption::kNoLastResort:
+      request.contact_points = 200;
+      request.clusters = 20;
+      request.last_resort = false;
+      break;
+    case PlanOption::kEffort:
+      request.effort = 100'000;
+      break;
+    case PlanOption::kExplain:
+      request.explain = true;
+      break;
+  }
+  return request;
+}
+
+std::string PlansOfEveryOptionPassTheChecker(const Planner& planner, const object::Object& object) {
+  for (const PlanOption option : planner.traits().options) {
+    int plans = 0;
+    const std::string breach = ForSeeds([&](std::uint64_t seed) -> std::string {
+      const PlanResult result =
+          PlanWith(planner, object, Random(), Random(), Asking(option, Ask(planner, seed)));
+      if (!result.plan) return "";
+      ++plans;
+      return CheckersReason(object, *result.plan);
+    });
+    if (!breach.empty()) return planning::OptionName(option) + ", " + breach;
+    if (plans == 0) return planning::OptionName(option) + ": no plan";
+  }
+  return "";
+}
+
+std::string PlansAreForTheHand(const Planner& planner, const object::Object& object) {
+  int plans = 0;
+  const std::string breach = ForSeeds([&](std::uint64_t seed) -> std::string {
+    PlanRequest request = Ask(planner, seed);
+    request.hand.fingers = planner.ScopeIn(object.dimension())->fingers + 1;
+    request.hand.fingertip_radius = 0.04 * object.diameter();
+    const PlanResult result = PlanWith(planner, object, Random(), Random(), request);
+    if (!result.plan) return "";  // thick fingers reach less
+    ++plans;
+    if (result.plan->fingers != request.hand.fingers) return "another number of fingers";
+    if (result.plan->finger_radius != request.hand.fingertip_radius) return "another radius";
+    return CheckersReason(object, *result.plan);
+  });
+  return breach.empty() && plans == 0 ? "no plan" : breach;
+}
+
+}  // namespace
+
+const std::vector<PlannerLaw>& PlannerLaws() {
+  static const std::vector<PlannerLaw> laws = {
+      {"PlansPassTheChecker", PlansPassTheChecker},
+      {"GivenGraspsAreTheEnds", GivenGraspsAreTheEnds},
+      {"TheSameRequestGivesTheSameBytes", TheSameRequestGivesTheSameBytes},
+      {"AGoalThatIsTheStartTakesNoSteps", AGoalThatIsTheStartTakesNoSteps},
+      {"TheMarginIsTheSmallestAtRest", TheMarginIsTheSmallestAtRest},
+      {"WarnsOfGraspsBelowTheQuality", WarnsOfGraspsBelowTheQuality},
+      {"DrawsNoGraspBelowTheQuality", DrawsNoGraspBelowTheQuality},
+      {"MovesWithTheObjectAtEveryScale", MovesWithTheObjectAtEveryScale},
+      {"TheOrderOfContactsDoesNotMatter", TheOrderOfContactsDoesNotMatter},
+      {"MoreFrictionLosesNoPlan", MoreFrictionLosesNoPlan},
+      {"EndsAtItsDeadline", EndsAtItsDeadline},
+      {"PlansOfEveryOptionPassTheChecker", PlansOfEveryOptionPassTheChecker},
+      {"PlansAreForTheHand", PlansAreForTheHand}};
+  return laws;
+}
+
+}  // namespace regrasp::registry
