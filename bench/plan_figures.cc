@@ -26,7 +26,8 @@ double TravelOf(const plan::Align& step) {
   double travel = 0;
   for (std::size_t i = 1; i < step.waypoints.size(); ++i) {
     for (const plan::FingerContact& to : step.waypoints[i]) {
-      travel += (plan::FindFinger(step.waypoints[i - 1], to.finger)->contact.p - to.contact.p).norm();
+      travel +=
+          (plan::FindFinger(step.waypoints[i - 1], to.finger)->contact.p - to.contact.p).norm();
     }
   }
   return travel;

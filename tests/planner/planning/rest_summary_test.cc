@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
+#include "planner/grasp/required_half_angle.h"
 #include "planner/object/polygon.h"
 #include "tests/fixtures/polygons.h"
 
@@ -64,6 +67,25 @@ TEST_F(RestSummary, AFingertipInACornerIsNamed) {
 TEST_F(RestSummary, TheSmallestMarginIsThatOfTheWeakestGrasp) {
   EXPECT_NEAR(SmallestMargin({good_, At(0.4, 0.6), good_}, evaluator_),
               Radians(30) - std::atan(0.2), 1e-6);
+}
+
+TEST_F(RestSummary, TheSmallestMarginIsThatOfAllWhateverTheirOrder) {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> lean(-0.57, 0.57);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Rest> rests;
+    double smallest = Radians(30);
+    for (int i = 0; i < 6; ++i) {
+      const double off = lean(engine) / 2;
+      rests.push_back(At(0.5 - off, 0.5 + off));
+      const auto required =
+          grasp::ComputeRequiredHalfAngle(rests.back().grasp, square_.wrench_frame());
+      smallest = std::min(smallest, Radians(30) - required.value().upper);
+    }
+    EXPECT_EQ(SmallestMargin(rests, evaluator_), smallest);
+    std::ranges::reverse(rests);
+    EXPECT_EQ(SmallestMargin(rests, evaluator_), smallest);
+  }
 }
 
 }  // namespace
