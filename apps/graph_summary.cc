@@ -110,7 +110,7 @@ GraphSummary SummarizeContour(const planning::PlanRequest& request) {
   summary.faces = polygon.face_count();
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
-  summary.edges = {{"two_finger-two_finger", graph.switch_count()}};
+  summary.edges = {{"two_finger-two_finger", std::ssize(graph.switches())}};
   summary.types = {{"two_finger", graph.candidate_count(), graph.combination_count(),
                     summary.vertices, summary.components}};
   summary.vertex_seconds = graph.vertex_seconds();
@@ -141,7 +141,7 @@ GraphSummary SummarizePolyhedron(const planning::PlanRequest& request, int sampl
   }
   summary.vertices = graph.vertex_count();
   summary.components = graph.components().count();
-  summary.edges = {{"concurrent-concurrent", std::ssize(graph.links())}};
+  summary.edges = {{"concurrent-concurrent", std::ssize(graph.switches())}};
   summary.types = {{"concurrent", graph.candidate_count(), graph.combination_count(),
                     summary.vertices, summary.components}};
   summary.vertex_seconds = graph.vertex_seconds();

@@ -78,7 +78,7 @@ Timed TimeGraph(const object::Polygon& polygon, double degrees, int runs) {
     timed.vertex_ms = std::min(timed.vertex_ms, kMilliseconds * graph.vertex_seconds());
     timed.edge_ms = std::min(timed.edge_ms, kMilliseconds * graph.edge_seconds());
     timed.vertices = graph.vertex_count();
-    timed.switches = graph.switch_count();
+    timed.switches = std::ssize(graph.switches());
     timed.components = graph.components().count();
     timed.candidates = graph.candidate_count();
     timed.combinations = graph.combination_count();

@@ -95,7 +95,7 @@ Timed TimeGraph(const object::Polyhedron& solid, double degrees, planning::Spann
     timed.link_ms = std::min(timed.link_ms, kMillisecondsPerSecond * graph.edge_seconds());
     timed.candidates = graph.candidate_count();
     timed.cells = graph.vertex_count();
-    timed.links = std::ssize(graph.links());
+    timed.links = std::ssize(graph.switches());
     timed.components = graph.components().count();
     timed.unclear = graph.unclear_count();
   }

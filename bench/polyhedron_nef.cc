@@ -28,7 +28,7 @@ Nef MakeHalf(const polyhedron::FacePart& part, const Vector3d& axis, double tang
              double height) {
   std::vector<Kernel::Point_3> points;
   const auto add = [&](const Vector3d& p) { points.emplace_back(p.x(), p.y(), p.z()); };
-  for (const Vector2d& y : part.outline) {
+  for (const Vector2d& y : part.outline()) {
     const Vector3d corner = part.origin + y.x() * part.u + y.y() * part.v;
     add(corner);
     for (int side = 0; side < kSides; ++side) {

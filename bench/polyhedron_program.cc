@@ -35,12 +35,13 @@ void SetContactTerm(Program& program, int contact, int row, const Vector2d& fact
 
 /// The contact is on its part.
 void AddPart(Program& program, int contact, const polyhedron::FacePart& part, int& row) {
-  const std::size_t n = part.outline.size();
+  const std::vector<Vector2d> outline = part.outline();
+  const std::size_t n = outline.size();
   for (std::size_t i = 0; i < n; ++i, ++row) {
-    const Vector2d along = part.outline[(i + 1) % n] - part.outline[i];
+    const Vector2d along = outline[(i + 1) % n] - outline[i];
     const Vector2d outward(along.y(), -along.x());
     SetContactTerm(program, contact, row, outward);
-    program.set_b(row, Rounded(outward.dot(part.outline[i])));
+    program.set_b(row, Rounded(outward.dot(outline[i])));
   }
 }
 

@@ -11,7 +11,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/planning/solve.h"
-#include "planner/sets/polyhedron/focus_geometry.h"
+#include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/sets/set_sampling.h"
 
@@ -26,19 +26,16 @@ constexpr double kMillisecondsPerSecond = 1e3;
 /// Draws starts from all cells of a graph and goals from a start's component.
 class QueryMaker {
  public:
-  QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::FocusGeometry& geometry,
+  QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::PolyhedronModel& model,
              const criteria::GraspEvaluator& evaluator)
-      : graph_(graph),
-        components_(graph.components()),
-        geometry_(geometry),
-        evaluator_(evaluator) {}
+      : graph_(graph), components_(graph.components()), model_(model), evaluator_(evaluator) {}
 
   std::pair<planning::GraspChoice, planning::GraspChoice> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
     const planning::GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
     std::set<int> cells;
-    for (const polyhedron::FocusGrasp& at : geometry_.Locate(start.grasp)) cells.insert(at.cell);
+    for (const auto& at : model_.Attach(start.grasp, evaluator_)) cells.insert(at.set);
     return {start, Draw("goal", GoalPools(components_, cells), of_goal)};
   }
 
@@ -46,8 +43,8 @@ class QueryMaker {
   planning::GraspChoice Draw(const std::string& name, const SamplingPools& pools,
                              RandomStream& random) {
     const auto draw = [&](int cell) {
-      const auto grasp = geometry_.Draw(cell, random);
-      return grasp ? geometry_.GraspOf(*grasp) : grasp::Grasp();
+      const auto grasp = model_.Draw(cell, random);
+      return grasp ? model_.GraspOf(*grasp) : grasp::Grasp();
     };
     planning::GraspChoice choice{Kind::kGiven, {}, name};
     choice.grasp = DrawFromSets(choice.name, pools, draw, evaluator_, random);
@@ -56,7 +53,7 @@ class QueryMaker {
 
   polyhedron::PolyhedronGraph& graph_;
   search::Components components_;
-  polyhedron::FocusGeometry& geometry_;
+  polyhedron::PolyhedronModel& model_;
   const criteria::GraspEvaluator& evaluator_;
 };
 
@@ -69,8 +66,8 @@ QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees, planning
   const criteria::GraspEvaluator evaluator(solid, request.criteria);
   polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
   const polyhedron::PolyhedronPlanner planner(&graph);
-  polyhedron::FocusGeometry geometry(solid, graph);
-  QueryMaker maker(graph, geometry, evaluator);
+  polyhedron::PolyhedronModel model(solid, graph);
+  QueryMaker maker(graph, model, evaluator);
   QueryTimes times;
   std::vector<double> milliseconds;
   int switches = 0;

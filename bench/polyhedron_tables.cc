@@ -77,7 +77,7 @@ void AddBody(const std::filesystem::path& file, std::vector<Table>& tables) {
       [&] { return polyhedron::PolyhedronGraph(solid, half_angle, planning::Spanning::kUniform); },
       row.seconds);
   row.cells = graph.vertex_count();
-  row.links = std::ssize(graph.links());
+  row.links = std::ssize(graph.switches());
   row.components = graph.components().count();
   tables.front().rows.push_back(row);
   const Eigen::AlignedBox3d region = polyhedron::FindSamplingRegion(solid, graph);

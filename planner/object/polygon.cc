@@ -19,6 +19,10 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Boxes of edges are this much larger, over the diameter, than what is looked for: far above
+/// roundings, so that distances decide alone.
+constexpr double kBoxSlack = 1e-9;
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Segment = Kernel::Segment_2;
 
@@ -98,8 +102,14 @@ Vector3d Polygon::ClosestPoint(FaceIndex face, const Vector3d& point) const {
 }
 
 std::vector<FaceIndex> Polygon::FacesNear(const Vector3d& point, double tolerance) const {
+  const Eigen::Array2d reach = Eigen::Array2d::Constant(tolerance + kBoxSlack * diameter());
+  const Eigen::Array2d low = point.head<2>().array() - reach;
+  const Eigen::Array2d high = point.head<2>().array() + reach;
   std::vector<std::pair<double, FaceIndex>> near;
   for (FaceIndex face{0}; face < face_count(); ++face) {
+    // Of most edges their box tells that they are too far.
+    const auto& [a, b] = edges_[face];
+    if ((a.cwiseMax(b).array() < low).any() || (a.cwiseMin(b).array() > high).any()) continue;
     const double distance = (ClosestPoint(face, point) - point).norm();
     if (distance <= tolerance) near.emplace_back(distance, face);
   }

@@ -53,6 +53,20 @@ std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& ca
   return std::nullopt;
 }
 
+/// The worst score of the grasps that were chosen; the switches to those that are not good enough
+/// are banned.
+double ScoreRests(const planning::CandidateSequence& candidate,
+                  const criteria::GraspEvaluator& evaluator, std::set<search::VertexPair>& banned) {
+  double worst = std::numeric_limits<double>::infinity();
+  for (const planning::Rest& rest : candidate.rests) {
+    if (!rest.chosen_for) continue;
+    const double score = evaluator.Score(rest.grasp);
+    if (score < 0) banned.insert(*rest.chosen_for);
+    worst = std::min(worst, score);
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<int> FindWidePath(const search::SwitchingGraph& graph, int start, int goal,
@@ -86,13 +100,7 @@ std::optional<planning::CandidateSequence> FindCandidate(
       break;
     }
     if (!candidate) continue;
-    double score = std::numeric_limits<double>::infinity();
-    for (const planning::Rest& rest : candidate->rests) {
-      if (!rest.chosen_for) continue;
-      const double of_rest = evaluator.Score(rest.grasp);
-      if (of_rest < 0) banned.insert(*rest.chosen_for);
-      score = std::min(score, of_rest);
-    }
+    double score = ScoreRests(*candidate, evaluator, banned);
     const auto obstacle = planning::FindObstacle(*candidate, evaluator);
     if (obstacle) {
       const auto edge = EdgeNear(*candidate, obstacle->index);

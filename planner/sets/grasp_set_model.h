@@ -8,14 +8,14 @@
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/planning/candidate_sequence.h"
-#include "planner/search/components.h"
-#include "planner/search/switching_graph.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp {
 
 /// A grasp that a model's planning begins or ends at, as a place in one of its sets.
 template <typename Place>
 struct Attachment {
+  int set = 0;
   Place place;
   bool whole = true;  ///< it is the grasp itself; otherwise a switch leads from one to the other
 };
@@ -48,16 +48,14 @@ concept GraspSetModel = requires(Model model, const typename Model::Place& place
                                  const grasp::Grasp& grasp,
                                  const criteria::GraspEvaluator& evaluator, RandomStream& random,
                                  const SwitchEnds<typename Model::Place>& ends) {
-  { model.graph() } -> std::convertible_to<const search::SwitchingGraph&>;
-  { model.components() } -> std::same_as<search::Components>;
+  { model.graph() } -> std::convertible_to<const SetGraph&>;
   /// For messages: "focus cells".
   { model.sets_name() } -> std::convertible_to<std::string>;
   /// How wide a set is to pass; the more the better.
   { model.WidthOf(0) } -> std::convertible_to<double>;
-  /// A grasp anywhere in a set; empty where none was found.
-  { model.Draw(0, random) } -> std::same_as<grasp::Grasp>;
+  /// A grasp anywhere in a set; nullopt where none was found.
+  { model.Draw(0, random) } -> std::same_as<std::optional<typename Model::Place>>;
 
-  { model.SetOf(place) } -> std::convertible_to<int>;
   { model.GraspOf(place) } -> std::same_as<grasp::Grasp>;
   /// The places of a grasp, the best first; empty where no set has it.
   {

@@ -34,7 +34,7 @@ class SequenceBuilder {
       : model_(model), evaluator_(evaluator), start_(start), goal_(goal), fingers_(fingers) {}
 
   /// @param path    of sets, from the one that `from` is in to that of `to`.
-  /// @param banned  gets a switch of the path where doubles find no way through it.
+  /// @param banned  gets a switch of the path where doubles find none, or no align to it.
   /// @returns nullopt then.
   /// @throws NoGrasp  from one grasp of a set to another there is none.
   [[nodiscard]] std::optional<planning::CandidateSequence> Make(
@@ -149,7 +149,7 @@ class SequenceBuilder {
     return grasp;
   }
 
-  /// @returns false where no way is found inside the set.
+  /// @returns false where no path is found inside the set.
   [[nodiscard]] bool AlignTo(const Place& from, const Place& to,
                              std::optional<search::VertexPair> chosen_for,
                              FingerSequence& sequence) {

@@ -48,7 +48,7 @@ class SetPlanner {
     }
     start_at_ = Attach(request_.start, start_);
     return planning::PlanToRandomGoal([&](bool last) {
-      SamplingPools pools = GoalPools(model_.components(), SetsOf(start_at_));
+      SamplingPools pools = GoalPools(model_.graph().components(), SetsOf(start_at_));
       if (last) pools.erase(pools.begin());
       goal_ = Draw(request_.goal, std::move(pools), of_goal_);
       return IsGoalTheStart() ? Finish(planning::StartOf(start_)) : PlanToGoal();
@@ -69,7 +69,8 @@ class SetPlanner {
         choice.name, std::move(pools),
         [&](int set) {
           request_.deadline.Check();
-          return model_.Draw(set, random);
+          const auto place = model_.Draw(set, random);
+          return place ? model_.GraspOf(*place) : grasp::Grasp();
         },
         evaluator_, random);
   }
@@ -86,25 +87,23 @@ class SetPlanner {
     return found;
   }
 
-  [[nodiscard]] std::set<int> SetsOf(const Attachments& attachments) const {
+  [[nodiscard]] static std::set<int> SetsOf(const Attachments& attachments) {
     std::set<int> sets;
-    for (const auto& a : attachments) sets.insert(model_.SetOf(a.place));
+    for (const auto& a : attachments) sets.insert(a.set);
     return sets;
   }
 
-  [[nodiscard]] GraspEnds EndsOf(const Attachments& attachments) const {
+  [[nodiscard]] static GraspEnds EndsOf(const Attachments& attachments) {
     GraspEnds ends;
     for (const auto& a : attachments) {
-      (a.whole ? ends.of_itself : ends.by_switch).insert(model_.SetOf(a.place));
+      (a.whole ? ends.of_itself : ends.by_switch).insert(a.set);
     }
     return ends;
   }
 
   /// Of the places of a grasp in a set the best.
-  [[nodiscard]] const Place& PlaceIn(const Attachments& attachments, int set) const {
-    return std::ranges::find_if(attachments,
-                                [&](const auto& a) { return model_.SetOf(a.place) == set; })
-        ->place;
+  [[nodiscard]] static const Place& PlaceIn(const Attachments& attachments, int set) {
+    return std::ranges::find(attachments, set, &Attachment<Place>::set)->place;
   }
 
   [[nodiscard]] planning::PlanResult PlanToGoal() {
@@ -143,7 +142,7 @@ class SetPlanner {
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
-    const search::Components components = model_.components();
+    const search::Components components = model_.graph().components();
     const auto size = [&](const Attachments& attachments) {
       std::set<int> reached;
       for (const int set : SetsOf(attachments)) reached.insert(components.of_vertex[set]);

@@ -1,6 +1,8 @@
 #include "planner/sets/set_sampling.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -16,6 +18,11 @@ constexpr int kDrawsPerSet = 30;
 constexpr std::size_t kMaxSetDraws = 2000;
 
 }  // namespace
+
+double DrawNormal(RandomStream& random) {
+  const double radius = std::sqrt(-2 * std::log(1 - random.Uniform()));
+  return radius * std::cos(2 * std::numbers::pi * random.Uniform());
+}
 
 SamplingPools StartPools(int set_count) {
   std::vector<int> all(set_count);

@@ -14,6 +14,10 @@ namespace regrasp {
 /// The sets that a random grasp is drawn from, those of the first list first.
 using SamplingPools = std::vector<std::vector<int>>;
 
+/// A normal deviate, of mean 0 and standard deviation 1, of two uniform ones (Box and Muller 1958):
+/// several of them make a direction that is drawn evenly.
+[[nodiscard]] double DrawNormal(RandomStream& random);
+
 /// All sets, for a start.
 [[nodiscard]] SamplingPools StartPools(int set_count);
 /// For a goal: those in the components of the start's sets; the start's own where the others have

@@ -14,12 +14,12 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// The way is pulled straight inside this share of each passage, about its middle, in so many
+/// The path is pulled straight inside this share of each passage, about its middle, in so many
 /// rounds; more move it by less than a hundredth of a passage.
 constexpr double kUsedShare = 0.5;
 constexpr int kPullRounds = 30;
 
-/// Passages at least this share as wide as the narrowest one of the widest way are admitted.
+/// Passages at least this share as wide as the narrowest one of the widest path are admitted.
 constexpr double kWideShare = 0.5;
 
 /// The least margin that lengths are divided by, radians.
@@ -31,6 +31,17 @@ struct Crossing {
   bool forward;  ///< from the first piece to the second
   PlaceRange range;
   double place;  ///< of the contact that stays
+};
+
+constexpr int kNone = -1;
+
+/// What the search for the cheapest path knows of a passage.
+struct Reached {
+  double cost = std::numeric_limits<double>::infinity();
+  int previous = kNone;  ///< passage
+  bool forward = true;
+  double hurry = 0;   ///< one over its width; 0: not known yet
+  bool done = false;  ///< the cheapest path to it is known, or it is too narrow
 };
 
 class Router {
@@ -85,8 +96,8 @@ class Router {
                     geometry_.AngleMarginOf(Side(crossing, false)));
   }
 
-  /// The width of the narrowest passage of the widest way: passages are opened from the widest on,
-  /// until the way is free.
+  /// The width of the narrowest passage of the widest path: passages are opened from the widest on,
+  /// until start and goal are joined.
   [[nodiscard]] double WidestWidth() const {
     std::vector<std::pair<double, int>> passages;
     for (const int piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
@@ -110,71 +121,74 @@ class Router {
     return 1 / std::max(geometry_.AngleMarginOf(grasp), kLeastMargin);
   }
 
-  /// The crossings of the shortest way, in their order.
+  /// The crossings of the cheapest path, in their order.
   std::vector<Crossing> FindCrossings() {
     if (from_.piece == to_.piece) return {};
     const double widest = WidestWidth();
-    const double least = widest > 0 ? kWideShare * widest : widest;
-    struct Reached {
-      double cost = std::numeric_limits<double>::infinity();
-      int previous = -1;  ///< passage
-      bool forward = true;
-      double hurry = 0;
-      bool done = false;
-    };
-    std::map<int, Reached> reached;
-    std::priority_queue<std::tuple<double, int>, std::vector<std::tuple<double, int>>,
-                        std::greater<>>
-        queue;
-    const auto relax = [&](const PlacedGrasp& at, double hurry, double cost, int previous) {
-      for (const int next : graph_.passages_at(at.piece)) {
-        if (next == previous) continue;
-        const bool forward = graph_.passages()[next].pieces[0] == at.piece;
-        const PlacedGrasp there = Side(MakeCrossing(next, forward), true);
-        Reached& entry = reached[next];
-        if (entry.done) continue;
-        if (entry.hurry == 0) {
-          const double width = WidthOf(next);
-          entry.done = width < least;
-          entry.hurry = 1 / std::max(width, kLeastMargin);
-          if (entry.done) continue;
-        }
-        const double length = (there.places - at.places).norm();
-        const double total = cost + length * (hurry + entry.hurry) / 2;
-        if (total >= entry.cost) continue;
-        entry = {total, previous, forward, entry.hurry, false};
-        queue.emplace(total, next);
-      }
-    };
-    relax(from_, Hurry(from_), 0, -1);
-    // The goal is behind the passage with the least cost to it.
+    least_width_ = widest > 0 ? kWideShare * widest : widest;
+    Relax(from_, Hurry(from_), 0, kNone);
+    std::vector<Crossing> crossings;
+    for (int passage = FindLastPassage(); passage != kNone; passage = reached_[passage].previous) {
+      crossings.push_back(MakeCrossing(passage, reached_[passage].forward));
+    }
+    std::ranges::reverse(crossings);
+    return crossings;
+  }
+
+  /// The last passage of the cheapest path: the goal is behind it.
+  int FindLastPassage() {
     const double goal_hurry = Hurry(to_);
     double best = std::numeric_limits<double>::infinity();
-    int last = -1;
-    while (!queue.empty()) {
-      const auto [cost, passage] = queue.top();
-      queue.pop();
+    int last = kNone;
+    while (!queue_.empty()) {
+      const auto [cost, passage] = queue_.top();
+      queue_.pop();
       if (cost >= best) break;
-      Reached& entry = reached[passage];
+      Reached& entry = reached_[passage];
       if (entry.done) continue;
       entry.done = true;
       const PlacedGrasp at = Side(MakeCrossing(passage, entry.forward), false);
       if (at.piece == to_.piece) {
-        const double total =
-            cost + (to_.places - at.places).norm() * (entry.hurry + goal_hurry) / 2;
+        const double total = cost + Cost(at, entry.hurry, to_, goal_hurry);
         if (total < best) {
           best = total;
           last = passage;
         }
       }
-      relax(at, entry.hurry, cost, passage);
+      Relax(at, entry.hurry, cost, passage);
     }
-    std::vector<Crossing> crossings;
-    for (int passage = last; passage >= 0; passage = reached[passage].previous) {
-      crossings.push_back(MakeCrossing(passage, reached[passage].forward));
+    return last;
+  }
+
+  /// Looks at all passages from a grasp's piece but the one that led there.
+  void Relax(const PlacedGrasp& at, double hurry, double cost, int previous) {
+    for (const int next : graph_.passages_at(at.piece)) {
+      if (next == previous) continue;
+      Reached& entry = reached_[next];
+      if (!IsOpen(next, entry)) continue;
+      const bool forward = graph_.passages()[next].pieces[0] == at.piece;
+      const PlacedGrasp there = Side(MakeCrossing(next, forward), true);
+      const double total = cost + Cost(at, hurry, there, entry.hurry);
+      if (total >= entry.cost) continue;
+      entry = {total, previous, forward, entry.hurry, false};
+      queue_.emplace(total, next);
     }
-    std::reverse(crossings.begin(), crossings.end());
-    return crossings;
+  }
+
+  /// Whether a passage is wide enough, and the cheapest path to it not yet known.
+  [[nodiscard]] bool IsOpen(int passage, Reached& entry) const {
+    if (!entry.done && entry.hurry == 0) {
+      const double width = WidthOf(passage);
+      entry.done = width < least_width_;
+      entry.hurry = 1 / std::max(width, kLeastMargin);
+    }
+    return !entry.done;
+  }
+
+  /// The length between two grasps over their margins.
+  [[nodiscard]] static double Cost(const PlacedGrasp& a, double hurry_a, const PlacedGrasp& b,
+                                   double hurry_b) {
+    return (b.places - a.places).norm() * (hurry_a + hurry_b) / 2;
   }
 
   /// Moves every crossing towards the straight line between its neighbours.
@@ -202,6 +216,10 @@ class Router {
   const ContourGraph& graph_;
   const PlacedGrasp& from_;
   const PlacedGrasp& to_;
+  double least_width_ = 0;  ///< of passages that are admitted
+  std::map<int, Reached> reached_;
+  std::priority_queue<std::tuple<double, int>, std::vector<std::tuple<double, int>>, std::greater<>>
+      queue_;  ///< costs and passages
 };
 
 }  // namespace

@@ -13,7 +13,6 @@ Boundary::Boundary(const object::Polygon& polygon) : polygon_(polygon) {
     for (int k = 0; k < count; ++k) {
       ring_of_.push_back(static_cast<int>(ring));
       next_.push_back(edge + (k + 1) % count);
-      previous_.push_back(edge + (k + count - 1) % count);
       begins_.push_back(place);
       place += polygon.face_measure(FaceIndex(edge + k));
       ends_.push_back(place);

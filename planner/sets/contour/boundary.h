@@ -24,9 +24,8 @@ class Boundary {
   [[nodiscard]] int first_edge(int ring) const { return first_edges_[ring]; }
   [[nodiscard]] double perimeter(int ring) const { return perimeters_[ring]; }
 
-  /// The edge that begins where this one ends, and the one that ends where it begins.
+  /// The edge that begins where this one ends.
   [[nodiscard]] int next(int edge) const { return next_[edge]; }
-  [[nodiscard]] int previous(int edge) const { return previous_[edge]; }
 
   /// Where an edge begins and ends on its ring; end > begin.
   [[nodiscard]] double begin(int edge) const { return begins_[edge]; }
@@ -44,7 +43,6 @@ class Boundary {
   std::vector<int> first_edges_;
   std::vector<double> perimeters_;
   std::vector<int> next_;
-  std::vector<int> previous_;
   std::vector<double> begins_;
   std::vector<double> ends_;
 };

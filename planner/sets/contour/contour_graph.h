@@ -7,9 +7,8 @@
 
 #include "planner/base/deadline.h"
 #include "planner/object/polygon.h"
-#include "planner/search/components.h"
-#include "planner/search/switching_graph.h"
 #include "planner/sets/contour/boundary.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp::contour {
 
@@ -37,6 +36,16 @@ struct PiecePassage {
   int other = 0;              ///< the edge of the contact that stays, of both
 };
 
+/// Lists of what belongs to each of some owners, one after the other.
+struct Grouping {
+  std::vector<int> members;
+  std::vector<int> first;  ///< of each owner's members; one more after the last
+
+  [[nodiscard]] std::span<const int> of(int owner) const {
+    return {members.begin() + first[owner], members.begin() + first[owner + 1]};
+  }
+};
+
 /// The switching graph of the 2-finger grasps of a whole boundary, holes included (Phoka 2010,
 /// chapter IV).
 ///
@@ -50,7 +59,7 @@ struct PiecePassage {
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90°, or when its edges are numbered from another vertex; no grasp is lost when θ grows. Cutting
 /// an edge in two changes no component and no switch.
-class ContourGraph final : public search::SwitchingGraph {
+class ContourGraph final : public SetGraph {
  public:
   /// @param polygon     must outlive this object.
   /// @param half_angle  θ, radians.
@@ -62,19 +71,15 @@ class ContourGraph final : public search::SwitchingGraph {
   /// tan θ.
   [[nodiscard]] double tangent() const { return tangent_; }
 
-  /// In the order of their edges, squeezing before stretching.
+  /// In the order of their edges, squeezing before stretching. switches() is ascending.
   [[nodiscard]] const std::vector<GraspPiece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<PiecePassage>& passages() const { return passages_; }
   /// The vertex that a piece belongs to.
   [[nodiscard]] int set_of(int piece) const { return set_of_[piece]; }
-  [[nodiscard]] std::span<const int> pieces_of(int set) const {
-    return {pieces_by_set_.data() + first_of_set_[set],
-            static_cast<std::size_t>(first_of_set_[set + 1] - first_of_set_[set])};
-  }
+  [[nodiscard]] std::span<const int> pieces_of(int set) const { return pieces_by_set_.of(set); }
   /// The passages from and to a piece, by their numbers.
   [[nodiscard]] std::span<const int> passages_at(int piece) const {
-    return {passages_by_piece_.data() + first_passage_[piece],
-            static_cast<std::size_t>(first_passage_[piece + 1] - first_passage_[piece])};
+    return passages_by_piece_.of(piece);
   }
   /// The pieces on two edges, given in any order, by their numbers: none, one or two.
   [[nodiscard]] std::vector<int> PiecesOn(int edge, int other) const;
@@ -82,37 +87,20 @@ class ContourGraph final : public search::SwitchingGraph {
   /// Pairs of edges whose normals are within 2θ of opposite, and those with a piece.
   [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }
   [[nodiscard]] std::int64_t combination_count() const { return combinations_; }
-  [[nodiscard]] std::int64_t switch_count() const { return std::ssize(switches_); }
-  [[nodiscard]] const std::vector<std::array<int, 2>>& switches() const { return switches_; }
-  [[nodiscard]] search::Components components() const;
-
-  /// Wall time that the vertices and the edges took.
-  [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }
-  [[nodiscard]] double edge_seconds() const { return edge_seconds_; }
-
-  [[nodiscard]] int vertex_count() const override {
-    return static_cast<int>(first_of_set_.size()) - 1;
-  }
-  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
 
  private:
-  void GroupPieces();
+  /// @returns how many sets the pieces are.
+  int GroupPieces();
 
   Boundary boundary_;
   double tangent_;
   std::vector<GraspPiece> pieces_;
   std::vector<PiecePassage> passages_;
   std::vector<int> set_of_;
-  std::vector<int> pieces_by_set_;
-  std::vector<int> first_of_set_;
-  std::vector<int> passages_by_piece_;
-  std::vector<int> first_passage_;
-  std::vector<std::array<int, 2>> switches_;  ///< ascending
-  std::vector<std::vector<int>> neighbours_;
+  Grouping pieces_by_set_;
+  Grouping passages_by_piece_;
   std::int64_t candidates_ = 0;
   std::int64_t combinations_ = 0;
-  double vertex_seconds_ = 0;
-  double edge_seconds_ = 0;
 };
 
 }  // namespace regrasp::contour

@@ -13,23 +13,13 @@ namespace {
 constexpr double kRegionRounding = 1e-9;
 constexpr double kBoundaryRounding = 1e-11;
 
-std::optional<SetSwitch<PlacedGrasp>> EndsOf(const std::optional<ContourSwitch>& found) {
-  if (!found) return std::nullopt;
-  return SetSwitch<PlacedGrasp>{found->before, found->after};
-}
-
 }  // namespace
-
-grasp::Grasp ContourModel::Draw(int set, RandomStream& random) {
-  const auto place = geometry_.Draw(set, random);
-  return place ? GraspOf(*place) : grasp::Grasp();
-}
 
 std::vector<Attachment<PlacedGrasp>> ContourModel::Attach(
     const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) const {
   const auto place = geometry_.Locate(grasp);
   if (!place) return {};
-  return {{*place}};
+  return {{graph().set_of(place->piece), *place}};
 }
 
 std::string ContourModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
@@ -37,33 +27,39 @@ std::string ContourModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
          sets_name();
 }
 
-std::optional<SetSwitch<PlacedGrasp>> ContourModel::FindSwitch(
-    int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator) {
+std::optional<ContourSwitch> ContourModel::FindSwitch(int from, int to,
+                                                      const SwitchEnds<Place>& ends,
+                                                      const criteria::GraspEvaluator& evaluator) {
   const PlacedScore margin = [this](const Place& place) { return geometry_.AngleMarginOf(place); };
   if (ends.before != nullptr && ends.after != nullptr) {
-    return EndsOf(FindSwitchBetween(graph(), *ends.before, *ends.after));
+    if (!HaveCommonContact(graph(), *ends.before, *ends.after)) return std::nullopt;
+    return ContourSwitch{*ends.before, *ends.after};
   }
-  if (ends.before != nullptr) return EndsOf(FindSwitchFrom(geometry_, *ends.before, to, margin));
-  if (ends.after != nullptr) return EndsOf(FindSwitchTo(geometry_, from, *ends.after, margin));
-  const auto deepest = EndsOf(FindMaxMarginSwitch(geometry_, from, to, margin));
-  if (!deepest || IsGood(*deepest, evaluator)) return deepest;
-  return EndsOf(FindMaxMarginSwitch(
-      geometry_, from, to, [&](const Place& place) { return evaluator.Score(GraspOf(place)); }));
+  if (ends.before != nullptr) {
+    const auto after = FindGraspKeeping(geometry_, *ends.before, to, margin);
+    return after ? std::optional<ContourSwitch>({*ends.before, *after}) : std::nullopt;
+  }
+  if (ends.after != nullptr) {
+    const auto before = FindGraspKeeping(geometry_, *ends.after, from, margin);
+    return before ? std::optional<ContourSwitch>({*before, *ends.after}) : std::nullopt;
+  }
+  auto best = FindMaxMarginSwitch(geometry_, from, to, margin);
+  if (!best || IsGood(*best, evaluator)) return best;
+  return FindMaxMarginSwitch(geometry_, from, to,
+                             [&](const Place& place) { return evaluator.Score(GraspOf(place)); });
 }
 
-std::optional<double> ContourModel::Refine(SetSwitch<Place>& change,
+std::optional<double> ContourModel::Refine(ContourSwitch& change,
                                            const criteria::GraspEvaluator& evaluator) {
   if (objective_ == planning::Objective::kRegions) {
-    const int from = SetOf(change.before);
-    const int to = SetOf(change.after);
+    const int from = graph().set_of(change.before.piece);
+    const int to = graph().set_of(change.after.piece);
     const auto [known, is_new] = largest_.try_emplace({from, to});
     if (is_new) {
-      known->second =
-          EndsOf(FindLargestSwitch(geometry_, from, to, [&](const ContourSwitch& candidate) {
-            return IsGood({candidate.before, candidate.after}, evaluator);
-          }));
+      known->second = FindLargestSwitch(
+          geometry_, from, to, [&](const ContourSwitch& s) { return IsGood(s, evaluator); });
     }
-    const auto rank = [&](const SetSwitch<Place>& s) {
+    const auto rank = [&](const ContourSwitch& s) {
       return std::pair(IsGood(s, evaluator), RegionOf(s));
     };
     if (known->second && rank(*known->second) > rank(change)) change = *known->second;
@@ -76,11 +72,11 @@ std::vector<PlacedGrasp> ContourModel::FindRoute(const Place& from, const Place&
   return FindAlignRoute(geometry_, from, to);
 }
 
-double ContourModel::RegionOf(const SetSwitch<Place>& change) {
+double ContourModel::RegionOf(const ContourSwitch& change) {
   return std::min(geometry_.SizeAt(change.before), geometry_.SizeAt(change.after));
 }
 
-bool ContourModel::IsGood(const SetSwitch<Place>& change,
+bool ContourModel::IsGood(const ContourSwitch& change,
                           const criteria::GraspEvaluator& evaluator) const {
   return evaluator.IsGood(GraspOf(change.before)) && evaluator.IsGood(GraspOf(change.after));
 }

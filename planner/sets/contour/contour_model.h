@@ -22,36 +22,36 @@ class ContourModel {
       : geometry_(graph, request.deadline), objective_(request.objective) {}
 
   [[nodiscard]] const ContourGraph& graph() const { return geometry_.graph(); }
-  [[nodiscard]] search::Components components() const { return graph().components(); }
   [[nodiscard]] static std::string sets_name() { return "sets of 2-finger grasps"; }
   [[nodiscard]] double WidthOf(int set) { return geometry_.WidthOf(set); }
-  [[nodiscard]] grasp::Grasp Draw(int set, RandomStream& random);
-
-  [[nodiscard]] int SetOf(const Place& place) const { return graph().set_of(place.piece); }
+  [[nodiscard]] std::optional<Place> Draw(int set, RandomStream& random) {
+    return geometry_.Draw(set, random);
+  }
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return geometry_.GraspOf(place); }
   [[nodiscard]] std::vector<Attachment<Place>> Attach(
       const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) const;
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Well inside both sets; where that is not good, the best by its score.
-  [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(
-      int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<ContourSwitch> FindSwitch(int from, int to,
+                                                        const SwitchEnds<Place>& ends,
+                                                        const criteria::GraspEvaluator& evaluator);
   /// Under Objective::kRegions the switch with the largest regions whose grasps are good, where
   /// there is one with larger regions than this one.
   /// @returns the half-width of the smaller contact region of its two grasps, rounded down.
-  [[nodiscard]] std::optional<double> Refine(SetSwitch<Place>& change,
+  [[nodiscard]] std::optional<double> Refine(ContourSwitch& change,
                                              const criteria::GraspEvaluator& evaluator);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:
-  [[nodiscard]] double RegionOf(const SetSwitch<Place>& change);
-  [[nodiscard]] bool IsGood(const SetSwitch<Place>& change,
+  [[nodiscard]] double RegionOf(const ContourSwitch& change);
+  [[nodiscard]] bool IsGood(const ContourSwitch& change,
                             const criteria::GraspEvaluator& evaluator) const;
 
   SetGeometry geometry_;
   planning::Objective objective_;
   /// Of the largest regions, found once for all paths, by the sets before and after.
-  std::map<std::pair<int, int>, std::optional<SetSwitch<Place>>> largest_;
+  std::map<std::pair<int, int>, std::optional<ContourSwitch>> largest_;
 };
 
 }  // namespace regrasp::contour

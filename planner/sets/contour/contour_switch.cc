@@ -70,25 +70,6 @@ std::optional<PlaceRange> CommonRange(SetGeometry& geometry, const OnEdge& a, co
   return common;
 }
 
-/// The best grasp of a set that keeps a contact of a given one.
-std::optional<std::pair<Scored, int>> BestKeeping(SetGeometry& geometry, const PlacedGrasp& given,
-                                                  int set, const PlacedScore& score) {
-  const ContourGraph& graph = geometry.graph();
-  std::optional<std::pair<Scored, int>> best;
-  for (int k = 0; k < 2; ++k) {
-    const int edge = graph.pieces()[given.piece].edges[k];
-    for (const int piece : graph.pieces_of(set)) {
-      const auto& edges = graph.pieces()[piece].edges;
-      const auto on = std::ranges::find(edges, edge);
-      if (on == edges.end()) continue;
-      const auto found = BestOfSlice(geometry, {piece, static_cast<int>(on - edges.begin())},
-                                     given.places[k], score);
-      if (found && (!best || found->score > best->first.score)) best = {*found, edge};
-    }
-  }
-  return best;
-}
-
 /// An edge of a diagram as a contact's place on one polygon edge sees it: sizes over places.
 struct Profile {
   const DiagramEdge* edge;
@@ -138,8 +119,6 @@ constexpr double kLeastShare = 1e-9;
 
 class LargestSwitch {
  public:
-  explicit LargestSwitch(const ContourGraph& graph) : graph_(graph) {}
-
   void Consider(const Profile& a, const Profile& b) {
     const double low = std::max(a.low_place, b.low_place);
     const double high = std::min(a.high_place, b.high_place);
@@ -179,13 +158,10 @@ class LargestSwitch {
     if (sizes.first > kLeastShare * sizes.second) found_.push_back({sizes, &a, &b, place});
   }
 
-  [[nodiscard]] ContourSwitch Make(const Found& found) const {
-    const Profile& a = *found.a;
-    return {a.GraspAt(found.place), found.b->GraspAt(found.place),
-            graph_.pieces()[a.edge->piece].edges[a.k]};
+  [[nodiscard]] static ContourSwitch Make(const Found& found) {
+    return {found.a->GraspAt(found.place), found.b->GraspAt(found.place)};
   }
 
-  const ContourGraph& graph_;
   std::vector<Found> found_;
 };
 
@@ -212,7 +188,7 @@ std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from
           const double worse = std::min(before->score, after->score);
           if (worse <= best_score) continue;
           best_score = worse;
-          best = {before->grasp, after->grasp, edge};
+          best = {before->grasp, after->grasp};
         }
       }
     }
@@ -220,30 +196,32 @@ std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from
   return best;
 }
 
-std::optional<ContourSwitch> FindSwitchFrom(SetGeometry& geometry, const PlacedGrasp& before,
-                                            int to, const PlacedScore& score) {
-  const auto best = BestKeeping(geometry, before, to, score);
-  if (!best) return std::nullopt;
-  return ContourSwitch{before, best->first.grasp, best->second};
-}
-
-std::optional<ContourSwitch> FindSwitchTo(SetGeometry& geometry, int from, const PlacedGrasp& after,
-                                          const PlacedScore& score) {
-  const auto best = BestKeeping(geometry, after, from, score);
-  if (!best) return std::nullopt;
-  return ContourSwitch{best->first.grasp, after, best->second};
-}
-
-std::optional<ContourSwitch> FindSwitchBetween(const ContourGraph& graph, const PlacedGrasp& before,
-                                               const PlacedGrasp& after) {
+std::optional<PlacedGrasp> FindGraspKeeping(SetGeometry& geometry, const PlacedGrasp& given,
+                                            int set, const PlacedScore& score) {
+  const ContourGraph& graph = geometry.graph();
+  std::optional<Scored> best;
   for (int k = 0; k < 2; ++k) {
-    for (int l = 0; l < 2; ++l) {
-      const int edge = graph.pieces()[before.piece].edges[k];
-      if (edge != graph.pieces()[after.piece].edges[l]) continue;
-      if (before.places[k] == after.places[l]) return ContourSwitch{before, after, edge};
+    for (const int piece : graph.pieces_of(set)) {
+      const auto& edges = graph.pieces()[piece].edges;
+      const auto on = std::ranges::find(edges, graph.pieces()[given.piece].edges[k]);
+      if (on == edges.end()) continue;
+      const auto found = BestOfSlice(geometry, {piece, static_cast<int>(on - edges.begin())},
+                                     given.places[k], score);
+      if (found && (!best || found->score > best->score)) best = found;
     }
   }
-  return std::nullopt;
+  if (!best) return std::nullopt;
+  return best->grasp;
+}
+
+bool HaveCommonContact(const ContourGraph& graph, const PlacedGrasp& a, const PlacedGrasp& b) {
+  for (int k = 0; k < 2; ++k) {
+    for (int l = 0; l < 2; ++l) {
+      const bool same_edge = graph.pieces()[a.piece].edges[k] == graph.pieces()[b.piece].edges[l];
+      if (same_edge && a.places[k] == b.places[l]) return true;
+    }
+  }
+  return false;
 }
 
 std::optional<ContourSwitch> FindLargestSwitch(
@@ -251,7 +229,7 @@ std::optional<ContourSwitch> FindLargestSwitch(
     const std::function<bool(const ContourSwitch&)>& accepts) {
   const auto of_from = Profiles(geometry, from);
   const auto of_to = Profiles(geometry, to);
-  LargestSwitch largest(geometry.graph());
+  LargestSwitch largest;
   for (const auto& [edge, profiles] : of_from) {
     const auto others = of_to.find(edge);
     if (others == of_to.end()) continue;

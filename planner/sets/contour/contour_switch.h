@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "planner/sets/contour/set_geometry.h"
+#include "planner/sets/grasp_set_model.h"
 
 namespace regrasp::contour {
 
-/// Two grasps of two sets that have a contact in common: the one on `edge`.
-struct ContourSwitch {
-  PlacedGrasp before;
-  PlacedGrasp after;
-  int edge = 0;
-};
+/// Two grasps of two sets that have a contact in common.
+using ContourSwitch = SetSwitch<PlacedGrasp>;
 
 /// How good it is to rest in a grasp, the more the better.
 using PlacedScore = std::function<double(const PlacedGrasp&)>;
@@ -24,18 +21,13 @@ using PlacedScore = std::function<double(const PlacedGrasp&)>;
 [[nodiscard]] std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from,
                                                                int to, const PlacedScore& score);
 
-/// The best switches that keep a contact of `before`, to a set; and the other way round.
-[[nodiscard]] std::optional<ContourSwitch> FindSwitchFrom(SetGeometry& geometry,
-                                                          const PlacedGrasp& before, int to,
+/// The best grasp of a set that keeps a contact of a given one: a switch from the one to the other.
+[[nodiscard]] std::optional<PlacedGrasp> FindGraspKeeping(SetGeometry& geometry,
+                                                          const PlacedGrasp& given, int set,
                                                           const PlacedScore& score);
-[[nodiscard]] std::optional<ContourSwitch> FindSwitchTo(SetGeometry& geometry, int from,
-                                                        const PlacedGrasp& after,
-                                                        const PlacedScore& score);
 
-/// The switch between two given grasps; nullopt where they have no contact in common.
-[[nodiscard]] std::optional<ContourSwitch> FindSwitchBetween(const ContourGraph& graph,
-                                                             const PlacedGrasp& before,
-                                                             const PlacedGrasp& after);
+[[nodiscard]] bool HaveCommonContact(const ContourGraph& graph, const PlacedGrasp& a,
+                                     const PlacedGrasp& b);
 
 /// The switch between two sets with the largest contact regions (Phoka 2010, section 4.6.2): it
 /// maximises the smaller of the half-widths of the largest squares about its two grasps. When the

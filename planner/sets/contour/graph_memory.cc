@@ -9,6 +9,7 @@
 #include "planner/search/components.h"
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/projection_sweep.h"
+#include "planner/sets/graph_size.h"
 
 namespace regrasp::contour {
 
@@ -22,17 +23,15 @@ constexpr int kTestedCandidates = 10'000;
 constexpr int kEdgesOfRun = 20;
 constexpr int kRuns = 20;
 
-// Measured on outlines of 300 to 10,000 edges at 2° to 40°, as the peak of resident memory: a
-// candidate and the room that vectors keep to grow into; a piece with its passages and its places
-// in the lists of sets; a join with its two entries in the lists of neighbours.
-constexpr double kBytesOfCandidate = 12;
-constexpr double kBytesOfPiece = 80;
-constexpr double kBytesOfJoin = 17;
-/// The edges as exact predicates see them.
-constexpr double kBytesOfEdge = 500;
+/// Measured on outlines of 300 to 10,000 edges at 2° to 40°, as the peak of resident memory: a
+/// piece of a set with its passages and its places in the lists of sets; a switch with its two
+/// entries in the lists of neighbours.
+constexpr GraphSize kBytes = {.candidates = 12, .sets = 80, .switches = 17};
 /// The outline of a piece in contact space. Of 20 to 210 bytes for each piece of the graph, from a
 /// given start and goal to ones that are drawn from one set of all pieces.
 constexpr double kBytesOfOutline = 120;
+/// The edges as exact predicates see them.
+constexpr double kBytesOfEdge = 500;
 
 std::vector<int> DrawEdges(int count, RandomStream& random) {
   std::vector<int> edges;
@@ -47,14 +46,9 @@ std::vector<int> DrawEdges(int count, RandomStream& random) {
   return edges;
 }
 
-/// What is joined among some of the edges.
-struct Joins {
-  double candidates = 0;
-  double joins = 0;
-};
-
-Joins CountJoins(const polygon::EdgeTable& edges, const Boundary& boundary,
-                 const std::vector<int>& drawn) {
+/// Candidates and switches among some of the edges.
+GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable& edges,
+                  const Boundary& boundary) {
   std::vector<polygon::TwoFingerCandidate> candidates =
       polygon::FindTwoFingerCandidates(edges.Of(drawn));
   for (auto& [a, b] : candidates) {
@@ -70,12 +64,13 @@ Joins CountJoins(const polygon::EdgeTable& edges, const Boundary& boundary,
   for (int piece = 0; piece < std::ssize(pieces); ++piece) {
     pieces_of[sets.of_vertex[piece]].push_back(piece);
   }
-  const auto joins = FindOverlaps(edges, boundary, pieces, sets.count(),
-                                  [&](int set) { return std::span<const int>(pieces_of[set]); });
-  return {static_cast<double>(candidates.size()), static_cast<double>(joins.size())};
+  const auto switches = FindOverlaps(edges, boundary, pieces, sets.count(),
+                                     [&](int set) { return std::span<const int>(pieces_of[set]); });
+  return {.candidates = static_cast<double>(candidates.size()),
+          .switches = static_cast<double>(switches.size())};
 }
 
-MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, double bytes_of_piece) {
+MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, const GraphSize& bytes) {
   const double tangent = std::tan(half_angle);  // before the processor rounds upward
   const polygon::IntervalScope scope;
   const polygon::EdgeTable edges(polygon, tangent);
@@ -86,16 +81,16 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, double by
   const double pieces =
       candidates * static_cast<double>(FindPieces(edges, sample.drawn).size()) / kTestedCandidates;
   const std::vector<int> drawn = DrawEdges(polygon.face_count(), random);
-  const Joins counted = CountJoins(edges, Boundary(polygon), drawn);
+  const GraphSize counted = CountOn(drawn, edges, Boundary(polygon));
   const double count = polygon.face_count();
   // At a place of the boundary there are so many more sets, and so many more places.
   const double more_sets = counted.candidates > 0 ? candidates / counted.candidates : 0;
   const double more_places = static_cast<double>(drawn.size()) / count;
-  const double joins = counted.joins * more_sets * more_sets * more_places;
+  const double switches = counted.switches * more_sets * more_sets * more_places;
   const auto bytes_for = [=](double n) {
     const double squares = n * n / (count * count);
-    return squares * (kBytesOfCandidate * candidates + bytes_of_piece * pieces) +
-           squares * n / count * kBytesOfJoin * joins + kBytesOfEdge * n;
+    const GraphSize size = {squares * candidates, squares * pieces, squares * n / count * switches};
+    return size.Times(bytes) + kBytesOfEdge * n;
   };
   return {"the graph of the planner contour", polygon.face_count(), "edges", bytes_for};
 }
@@ -103,11 +98,13 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, double by
 }  // namespace
 
 MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle) {
-  return Estimate(polygon, half_angle, kBytesOfPiece);
+  return Estimate(polygon, half_angle, kBytes);
 }
 
 MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle) {
-  return Estimate(polygon, half_angle, kBytesOfPiece + kBytesOfOutline);
+  GraphSize bytes = kBytes;
+  bytes.sets += kBytesOfOutline;
+  return Estimate(polygon, half_angle, bytes);
 }
 
 }  // namespace regrasp::contour

@@ -144,7 +144,8 @@ class DiagramMaker {
     Box box;
   };
 
-  /// The sites that can be nearest somewhere in a box: distances change by no more than the way.
+  /// The sites that can be nearest somewhere in a box: distances change by no more than the
+  /// point is moved.
   [[nodiscard]] std::vector<int> NearIn(const Box& box, const std::vector<int>& sites) {
     deadline_.Check();
     const Vector2d centre = box.centre();
@@ -322,19 +323,19 @@ RegionMetric::RegionMetric(const ContourGraph& graph, int set) : graph_(graph), 
   const GraspPiece& any = graph.pieces()[graph.pieces_of(set).front()];
   const std::array<int, 2> rings = {boundary.ring_of(any.edges[0]), boundary.ring_of(any.edges[1])};
   const Vector2d period(boundary.perimeter(rings[0]), boundary.perimeter(rings[1]));
-  Box room = {Vector2d::Constant(std::numeric_limits<double>::infinity()),
-              Vector2d::Constant(-std::numeric_limits<double>::infinity())};
+  Box extent = {Vector2d::Constant(std::numeric_limits<double>::infinity()),
+                Vector2d::Constant(-std::numeric_limits<double>::infinity())};
   for (const int piece : graph.pieces_of(set)) {
     const auto& [a, b] = graph.pieces()[piece].edges;
-    room.Include({{boundary.begin(a), boundary.begin(b)}, {boundary.end(a), boundary.end(b)}});
+    extent.Include({{boundary.begin(a), boundary.begin(b)}, {boundary.end(a), boundary.end(b)}});
   }
   const double reach = LargestSize(graph, set);
   const auto add = [&](const Site& site) {
     for (const int i : {-1, 0, 1}) {
       for (const int j : {-1, 0, 1}) {
         const Site copy = Shift(site, {i * period.x(), j * period.y()});
-        const bool near = ((copy.low - room.high).array() <= reach).all() &&
-                          ((room.low - copy.high).array() <= reach).all();
+        const bool near = ((copy.low - extent.high).array() <= reach).all() &&
+                          ((extent.low - copy.high).array() <= reach).all();
         if (near) sites_.push_back(copy);
       }
     }

@@ -36,8 +36,6 @@ class RegionMetric {
   /// @throws TimeUp  the deadline came.
   [[nodiscard]] std::vector<DiagramEdge> MakeDiagram(const Deadline& deadline = {}) const;
 
-  [[nodiscard]] int set() const { return set_; }
-
   /// A segment, rising nowhere: its box, and for a falling one its normal.
   struct Site {
     Eigen::Vector2d low;  ///< of its bounding box

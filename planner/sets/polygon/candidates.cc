@@ -231,11 +231,10 @@ CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, Rando
 
 std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
                                                       const Deadline& deadline) {
-  const int n = edges.size();
-  std::vector<ParallelCandidate> candidates;
-  for (int centre = 0; centre < n; ++centre) {
+  std::vector<std::pair<std::array<int, 3>, int>> centred;  // triples with one centre's position
+  for (int centre = 0; centre < edges.size(); ++centre) {
     std::vector<int> opposite;
-    for (int e = 0; e < n; ++e) {
+    for (int e = 0; e < edges.size(); ++e) {
       if (e != centre && ConesMeet(edges, centre, e, true)) opposite.push_back(e);
     }
     for (std::size_t i = 0; i < opposite.size(); ++i) {
@@ -248,16 +247,18 @@ std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
               .has_value();
         });
         if (!meet) continue;
-        ParallelCandidate candidate{{centre, opposite[i], opposite[j]}, 0};
-        std::sort(candidate.edges.begin(), candidate.edges.end());
-        while (candidate.edges[candidate.centre] != centre) ++candidate.centre;
-        candidates.push_back(candidate);
+        std::array<int, 3> triple = {centre, opposite[i], opposite[j]};
+        std::ranges::sort(triple);
+        centred.emplace_back(triple, std::ranges::find(triple, centre) - triple.begin());
       }
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return a.edges != b.edges ? a.edges < b.edges : a.centre < b.centre;
-  });
+  std::ranges::sort(centred);
+  std::vector<ParallelCandidate> candidates;
+  for (const auto& [triple, centre] : centred) {
+    if (candidates.empty() || candidates.back().edges != triple) candidates.push_back({triple, {}});
+    candidates.back().centres.push_back(centre);
+  }
   return candidates;
 }
 

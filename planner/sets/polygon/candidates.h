@@ -20,11 +20,10 @@ struct ConcurrentCandidate {
 /// Two edges, ascending.
 using TwoFingerCandidate = std::array<int, 2>;
 
-/// Three edges, ascending, and the position of the centre among them. A triple is listed once for
-/// each of its centres, one after the other.
+/// Three edges, ascending, and the positions among them that may be the centre's, ascending.
 struct ParallelCandidate {
   std::array<int, 3> edges;
-  int centre;
+  std::vector<int> centres;
 };
 
 /// The triples whose inward normals θ-positively span the plane (uniform: gaps between neighbouring

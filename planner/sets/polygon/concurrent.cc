@@ -7,10 +7,6 @@ namespace regrasp::polygon {
 
 namespace {
 
-constexpr int kSidePatterns = 8;
-
-bool IsOuter(int sides, int k) { return (sides >> k & 1) != 0; }
-
 /// The half-planes of what sees an edge from one side, counter-clockwise: the edge's line, then,
 /// the line at infinity between them, the two rays. Tags have the polygon's vertices that they
 /// pass; the edge's line has the id `id`.
@@ -171,6 +167,24 @@ ContactRange<NT> MakeContactRange(const EdgeFrame<NT>& e, const ConvexRegion<NT>
   return ContactRange<NT>::OnEdge(range->low, range->high);
 }
 
+/// Of each part the lowest one that it is joined to, over others.
+template <class Parts>
+std::array<int, kSidePatterns> JoinParts(const Parts& parts) {
+  std::array<int, kSidePatterns> component;
+  std::iota(component.begin(), component.end(), 0);
+  for (int sides = 0; sides < kSidePatterns; ++sides) {
+    if (!parts[sides]) continue;
+    for (int k = 0; k < 3; ++k) {
+      // Where a stretch of the edge borders the part on one side, the other side begins there.
+      if (!parts[sides]->region().HasSide(k)) continue;
+      const int from = component[sides];
+      const int to = component[sides ^ (1 << k)];
+      std::ranges::replace(component, std::max(from, to), std::min(from, to));
+    }
+  }
+  return component;
+}
+
 }  // namespace
 
 void ConcurrentCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
@@ -188,9 +202,24 @@ void ConcurrentCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
 }
 
 std::vector<FocusComponent> ConcurrentCellFinder::Find(const ConcurrentCandidate& candidate) {
+  Parts parts = MakeParts(candidate);
+  const std::array<int, kSidePatterns> component = JoinParts(parts);
+  std::vector<FocusComponent> components;
+  for (int first = 0; first < kSidePatterns; ++first) {
+    FocusComponent found;
+    for (int sides = first; sides < kSidePatterns; ++sides) {
+      if (component[sides] != first || !parts[sides]) continue;
+      found.parts.push_back({sides, std::move(*parts[sides])});
+    }
+    if (!found.parts.empty()) components.push_back(std::move(found));
+  }
+  return components;
+}
+
+ConcurrentCellFinder::Parts ConcurrentCellFinder::MakeParts(const ConcurrentCandidate& candidate) {
   SeeFirstTwo(candidate);
   std::array<std::optional<SightRegion<Interval>>, 2> seeing_third;
-  std::array<std::optional<FilteredRegion>, kSidePatterns> parts;
+  Parts parts;
   for (int sides = 0; sides < kSidePatterns; ++sides) {
     const auto& seeing_two = seeing_two_[sides % (kSidePatterns / 2)];
     if (seeing_two && seeing_two->empty()) continue;
@@ -209,28 +238,7 @@ std::vector<FocusComponent> ConcurrentCellFinder::Find(const ConcurrentCandidate
       return part;
     });
   }
-  std::array<int, kSidePatterns> component;
-  std::iota(component.begin(), component.end(), 0);
-  for (int sides = 0; sides < kSidePatterns; ++sides) {
-    if (!parts[sides]) continue;
-    for (int k = 0; k < 3; ++k) {
-      // Where a stretch of the edge borders the part on one side, the other side begins there.
-      if (!parts[sides]->region().HasSide(k)) continue;
-      const int from = component[sides];
-      const int to = component[sides ^ (1 << k)];
-      std::replace(component.begin(), component.end(), std::max(from, to), std::min(from, to));
-    }
-  }
-  std::vector<FocusComponent> components;
-  for (int first = 0; first < kSidePatterns; ++first) {
-    FocusComponent found;
-    for (int sides = first; sides < kSidePatterns; ++sides) {
-      if (component[sides] != first || !parts[sides]) continue;
-      found.parts.push_back({sides, std::move(*parts[sides])});
-    }
-    if (!found.parts.empty()) components.push_back(std::move(found));
-  }
-  return components;
+  return parts;
 }
 
 bool FocusCellsOverlap(const FocusComponent& a, const FocusComponent& b,
@@ -253,13 +261,7 @@ FilteredRange FocusContactRange(const EdgeTable& edges, const ConcurrentCandidat
     const EdgeFrame<NT> frame = edges.frame<NT>(candidate.edges[k], candidate.tangent);
     std::optional<ContactRange<NT>> range;
     for (const FocusPart& part : component.parts) {
-      const bool outer = IsOuter(part.sides, k);
-      ContactRange<NT> seen;
-      if constexpr (std::is_same_v<NT, Exact>) {
-        seen = MakeContactRange(frame, part.region.exact(), outer);
-      } else {
-        seen = MakeContactRange(frame, part.region.region(), outer);
-      }
+      const auto seen = MakeContactRange(frame, part.region.as<NT>(), IsOuter(part.sides, k));
       range = range ? range->Join(seen) : seen;
     }
     return *range;

@@ -24,6 +24,9 @@ struct FocusComponent {
   std::vector<FocusPart> parts;  ///< by `sides`
 };
 
+/// Of a focus point: it lies on either side of each of three edges' lines.
+inline constexpr int kSidePatterns = 8;
+
 /// Finds focus cells. Inside an IntervalScope; the edges must outlive the finder and its cells.
 class ConcurrentCellFinder {
  public:
@@ -39,13 +42,16 @@ class ConcurrentCellFinder {
   [[nodiscard]] std::vector<FocusComponent> Find(const ConcurrentCandidate& candidate);
 
  private:
+  using Parts = std::array<std::optional<FilteredRegion>, kSidePatterns>;
+
   void SeeFirstTwo(const ConcurrentCandidate& candidate);
+  Parts MakeParts(const ConcurrentCandidate& candidate);
 
   const EdgeTable& edges_;
   std::array<int, 2> first_two_ = {-1, -1};
   double tangent_ = 0;
   /// What sees the first two edges, by the sides; nullopt where intervals cannot tell.
-  std::array<std::optional<ConvexRegion<Interval>>, 4> seeing_two_;
+  std::array<std::optional<ConvexRegion<Interval>>, kSidePatterns / 2> seeing_two_;
 };
 
 /// True iff two components have focus points in common.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "planner/sets/polygon/convex_region.h"
@@ -22,7 +23,7 @@ class FilteredRegion {
     return Make(recipe, [&] { return recipe(Interval(0)); });
   }
 
-  /// The same, `by_intervals` being a faster way to what recipe(Interval(0)) gives.
+  /// The same, `by_intervals` giving what recipe(Interval(0)) does, but faster.
   template <class Recipe, class ByIntervals>
   static std::optional<FilteredRegion> Make(const Recipe& recipe, const ByIntervals& by_intervals) {
     try {
@@ -41,6 +42,14 @@ class FilteredRegion {
 
   [[nodiscard]] const ConvexRegion<Interval>& region() const { return region_; }
   [[nodiscard]] const ConvexRegion<Exact>& exact() const;
+  template <class NT>
+  [[nodiscard]] const ConvexRegion<NT>& as() const {
+    if constexpr (std::is_same_v<NT, Exact>) {
+      return exact();
+    } else {
+      return region();
+    }
+  }
 
   /// True iff two regions have a common interior.
   [[nodiscard]] static bool Overlap(const FilteredRegion& a, const FilteredRegion& b);

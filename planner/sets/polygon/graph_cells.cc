@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "planner/sets/polygon/substitution.h"
+#include "planner/sets/set_sampling.h"
 
 namespace regrasp::polygon {
 
@@ -20,11 +22,7 @@ VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
   VectorXd z = cell.centre.z;
   for (int step = 0; step < kWalkSteps; ++step) {
     VectorXd direction(z.size());
-    for (double& x : direction) {
-      // Box and Muller: one normal deviate of two uniform ones.
-      const double radius = std::sqrt(-2 * std::log(1 - random.Uniform()));
-      x = radius * std::cos(2 * std::numbers::pi * random.Uniform());
-    }
+    for (double& x : direction) x = DrawNormal(random);
     const VectorXd slack = set.rows * z + set.offsets;
     const VectorXd rate = set.rows * direction;
     double back = -std::numeric_limits<double>::infinity();
@@ -57,7 +55,8 @@ std::vector<std::vector<int>> SubsetsOf(int count) {
 /// The parameters of a set's contacts that are given, in the order of its edges.
 using FixedParameters = std::vector<std::optional<double>>;
 
-/// All ways to keep contacts of a grasp in a set on these edges, none among them.
+/// All choices of a grasp's contacts to keep in a set on these edges, none of them among the
+/// choices.
 std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                         const std::vector<int>& edges) {
   std::vector<FixedParameters> choices = {FixedParameters()};
@@ -79,25 +78,13 @@ std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const gr
 
 /// The point of a cell of largest slack whose first variables are those that are given.
 SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters& fixed) {
-  std::vector<Eigen::Index> free;
-  Inequalities rest = {Eigen::MatrixXd(), cell.offsets};
-  for (Eigen::Index v = 0; v < cell.rows.cols(); ++v) {
-    if (v < std::ssize(fixed) && fixed[v]) {
-      rest.offsets += *fixed[v] * cell.rows.col(v);
-    } else {
-      free.push_back(v);
-    }
-  }
-  rest.rows = cell.rows(Eigen::all, free);
-  const SlackSolution solution = MaximizeSlack(rest);
-  SlackSolution whole = {VectorXd(cell.rows.cols()), solution.slack};
+  Substitution given(cell.rows.cols());
   for (std::size_t v = 0; v < fixed.size(); ++v) {
-    if (fixed[v]) whole.z[static_cast<Eigen::Index>(v)] = *fixed[v];
+    if (fixed[v]) given.Fix(static_cast<Eigen::Index>(v), *fixed[v]);
   }
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    whole.z[free[i]] = solution.z[static_cast<Eigen::Index>(i)];
-  }
-  return whole;
+  static_cast<void>(given.Finish());
+  const SlackSolution solution = MaximizeSlack(given.Apply(cell));
+  return {given.Expand(solution.z), solution.slack};
 }
 
 }  // namespace
@@ -135,7 +122,7 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const grasp::G
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
     for (const int vertex : graph_.SetsOn(edges)) {
       if (!IsInSet(of(vertex), parameters)) continue;
-      attachments.push_back({{vertex, parameters}, contacts.size() == grasp.size()});
+      attachments.push_back({vertex, {vertex, parameters}, contacts.size() == grasp.size()});
     }
   }
   return attachments;
@@ -156,20 +143,26 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const grasp::Gras
         SlackSolution solution = MaximizeSlackWith(cell.inequalities, fixed);
         if (solution.slack > std::max(best.slack, kNoSlack)) best = std::move(solution);
       }
-      if (best.slack > 0) attachments.push_back({{vertex, best.z.head(std::ssize(edges))}, false});
+      if (best.slack > 0) {
+        attachments.push_back({vertex, {vertex, best.z.head(std::ssize(edges))}, false});
+      }
     }
   }
   return attachments;
 }
 
-grasp::Grasp GraphCells::DrawGrasp(int vertex, RandomStream& random) {
+std::optional<PolygonPlace> GraphCells::Draw(int vertex, RandomStream& random) {
   const std::vector<GraspCell>& cells = of(vertex).cells();
-  grasp::Grasp grasp;
-  if (cells.empty()) return grasp;
+  if (cells.empty()) return std::nullopt;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);
-  for (const int edge : graph_.sets()[vertex].edges) {
-    grasp.push_back(
-        grasp::ContactAt(polygon_, FaceIndex(edge), z[static_cast<Eigen::Index>(grasp.size())]));
+  return PolygonPlace{vertex, z.head(std::ssize(graph_.sets()[vertex].edges))};
+}
+
+grasp::Grasp GraphCells::GraspOf(const PolygonPlace& place) const {
+  grasp::Grasp grasp;
+  for (const int edge : graph_.sets()[place.set].edges) {
+    const auto k = static_cast<Eigen::Index>(grasp.size());
+    grasp.push_back(grasp::ContactAt(polygon_, FaceIndex(edge), place.parameters[k]));
   }
   return grasp;
 }

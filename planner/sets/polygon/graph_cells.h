@@ -42,8 +42,10 @@ class GraphCells {
   [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindSwitches(const grasp::Grasp& grasp,
                                                                    int fingers);
 
-  /// A grasp of the set, anywhere in it.
-  [[nodiscard]] grasp::Grasp DrawGrasp(int vertex, RandomStream& random);
+  /// A grasp of the set, anywhere in it; nullopt where it is too thin for doubles.
+  [[nodiscard]] std::optional<PolygonPlace> Draw(int vertex, RandomStream& random);
+
+  [[nodiscard]] grasp::Grasp GraspOf(const PolygonPlace& place) const;
 
  private:
   const object::Polygon& polygon_;

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/planning/spanning.h"  // IWYU pragma: export
@@ -31,5 +36,29 @@ struct GraspSet {
   double tangent = 0;      ///< tan φ of a concurrent set, tan θ of the others; exact as it stands
   std::vector<int> parts;  ///< ascending
 };
+
+/// Whether a part of a concurrent set has its focus points on the outer side of the k-th edge.
+[[nodiscard]] inline bool IsOuter(int part, int k) { return (part >> k & 1) != 0; }
+
+/// The positions of the contacts of a parallel grasp that are not its centre, ascending.
+[[nodiscard]] inline std::array<int, 2> OuterOf(int centre) {
+  return {centre == 0 ? 1 : 0, centre == 2 ? 1 : 2};
+}
+
+inline constexpr int kGraspTypes = 3;
+
+/// How many of a type, as tables 3.1 and 3.2 of Phoka 2010 count them.
+struct GraspTypeCounts {
+  std::int64_t candidates = 0;    ///< combinations of edges that pass the test on normals alone
+  std::int64_t combinations = 0;  ///< those with a set whose interior is not empty
+  std::int64_t vertices = 0;      ///< connected components of these interiors
+  std::int64_t components = 0;    ///< of the graph, were there only this type
+};
+
+/// Edges of a polygon that two sets have in common, by their positions in the first and in the
+/// second.
+using CommonEdges = boost::container::static_vector<std::pair<int, int>, 3>;
+/// @param a, b  ascending.
+[[nodiscard]] CommonEdges FindCommonEdges(std::span<const int> a, std::span<const int> b);
 
 }  // namespace regrasp::polygon

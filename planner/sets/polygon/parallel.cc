@@ -47,7 +47,7 @@ template <class NT>
 CentredSet<NT> MakeCentredSet(const EdgeTable& edges, const std::array<int, 3>& triple,
                               int centre) {
   CentredSet<NT> set;
-  set.outer = {centre == 0 ? 1 : 0, centre == 2 ? 1 : 2};
+  set.outer = OuterOf(centre);
   const EdgeFrame<NT> a = edges.frame<NT>(triple[centre]);
   const EdgeFrame<NT> b = edges.frame<NT>(triple[set.outer[0]]);
   const EdgeFrame<NT> c = edges.frame<NT>(triple[set.outer[1]]);
@@ -243,13 +243,7 @@ bool HasSignOn(const EdgeTable& edges, const std::array<int, 3>& triple, int cen
       using NT = decltype(zero);
       const CentredSet<NT> set = MakeCentredSet<NT>(edges, triple, centre);
       const HalfPlane<NT> f = AsHalfPlane(set.sides[x][i], centre < set.outer[x] ? 0 : 1);
-      const ConvexRegion<NT>* corners;
-      if constexpr (std::is_same_v<NT, Exact>) {
-        corners = &region.exact();
-      } else {
-        corners = &region.region();
-      }
-      return std::all_of(corners->sides().begin(), corners->sides().end(), [&](const auto& side) {
+      return std::ranges::all_of(region.as<NT>().sides(), [&](const auto& side) {
         return Sign(Evaluate(f, side.from)) * sign >= 0;
       });
     });
@@ -296,10 +290,10 @@ std::vector<ParallelComponent> JoinMeeting(const EdgeTable& edges, const std::ar
 }  // namespace
 
 std::vector<ParallelComponent> FindParallelSets(const EdgeTable& edges,
-                                                const std::array<int, 3>& triple,
-                                                const std::vector<int>& centres) {
+                                                const ParallelCandidate& candidate) {
+  const std::array<int, 3>& triple = candidate.edges;
   std::vector<ParallelComponent> components;
-  for (const int centre : centres) {
+  for (const int centre : candidate.centres) {
     const bool empty = DecideFiltered(
         [&](auto zero) { return IsEmpty(MakeCentredSet<decltype(zero)>(edges, triple, centre)); });
     if (!empty) components.push_back({{centre}});
@@ -333,7 +327,7 @@ bool SharesGrasps(const EdgeTable& edges, const std::array<int, 3>& triple, int 
   for (const int sign : {1, -1}) {
     bool inside_corner = true;
     for (int x = 0; x < 2 && inside_corner; ++x) {
-      const int outer = centre == 0 ? x + 1 : (centre == 2 ? x : 2 * x);
+      const int outer = OuterOf(centre)[x];
       const auto& pairs = other[std::min(centre, outer)][std::max(centre, outer)];
       for (int i = 0; i < 2 && inside_corner; ++i) {
         inside_corner = HasSignOn(edges, triple, centre, x, i, sign, pairs);

@@ -28,16 +28,14 @@ namespace regrasp::polygon {
 /// - a connected set G of grasps has none in common with it iff G lies in L or in R, as L and R do
 ///   not meet, and that is seen in the projections of G on (a, b) and (a, c).
 ///
-/// Several centres serve one triple only where θ ≥ 45°; their sets are one where they share grasps.
+/// One triple has several centres only where θ ≥ 45°; their sets are one where they share grasps.
 struct ParallelComponent {
   std::vector<int> centres;  ///< positions among the three edges, ascending
 };
 
 /// The components of the parallel grasps of three edges. Inside an IntervalScope, as all here.
-/// @param centres  the positions that are candidates, ascending.
 [[nodiscard]] std::vector<ParallelComponent> FindParallelSets(const EdgeTable& edges,
-                                                              const std::array<int, 3>& triple,
-                                                              const std::vector<int>& centres);
+                                                              const ParallelCandidate& candidate);
 
 /// The contacts on the k-th edge. `edges` must outlive the result, as in the next.
 [[nodiscard]] FilteredRange ParallelContactRange(const EdgeTable& edges,

@@ -6,24 +6,13 @@
 
 #include "planner/base/deadline.h"
 #include "planner/object/polygon.h"
-#include "planner/search/components.h"
-#include "planner/search/switching_graph.h"
 #include "planner/sets/polygon/grasp_set.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp::polygon {
 
 /// Fingers of the hand: at most three hold, and between 2-finger grasps two are placed at once.
 inline constexpr int kPolygonFingers = 4;
-
-inline constexpr int kGraspTypes = 3;
-
-/// How many of a type, as tables 3.1 and 3.2 of Phoka 2010 count them.
-struct GraspTypeCounts {
-  std::int64_t candidates = 0;    ///< combinations of edges that pass the test on normals alone
-  std::int64_t combinations = 0;  ///< those with a set whose interior is not empty
-  std::int64_t vertices = 0;      ///< connected components of these interiors
-  std::int64_t components = 0;    ///< of the graph, were there only this type
-};
 
 /// The switching graph of a polygon (Phoka 2010, chapter III).
 ///
@@ -41,7 +30,7 @@ struct GraspTypeCounts {
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90° or when its edges are numbered from another vertex; under Spanning::kAdaptive no grasp is
 /// lost when the friction grows.
-class PolygonGraph final : public search::SwitchingGraph {
+class PolygonGraph final : public SetGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
@@ -49,33 +38,22 @@ class PolygonGraph final : public search::SwitchingGraph {
   PolygonGraph(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
                const Deadline& deadline = {});
 
-  /// Concurrent sets first, then two-finger, then parallel ones; of each type by their edges.
+  /// Concurrent sets first, then two-finger, then parallel ones; of each type by their edges. The
+  /// two-finger ones are all joined to each other.
   [[nodiscard]] const std::vector<GraspSet>& sets() const { return sets_; }
   [[nodiscard]] const GraspTypeCounts& counts(GraspType type) const {
     return counts_[static_cast<int>(type)];
   }
   /// Unordered pairs of joined vertices of these two types.
   [[nodiscard]] std::int64_t edge_count(GraspType a, GraspType b) const;
-  [[nodiscard]] search::Components components() const;
   /// The vertices on exactly these edges (ascending), of any type.
   [[nodiscard]] std::vector<int> SetsOn(const std::vector<int>& edges) const;
-
-  /// Wall time that the vertices and the edges took.
-  [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }
-  [[nodiscard]] double edge_seconds() const { return edge_seconds_; }
-
-  [[nodiscard]] int vertex_count() const override { return static_cast<int>(sets_.size()); }
-  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
 
  private:
   [[nodiscard]] std::int64_t CountComponents(GraspType type) const;
 
   std::vector<GraspSet> sets_;
   std::array<GraspTypeCounts, kGraspTypes> counts_;
-  std::vector<std::array<int, 2>> edges_;     ///< without those between two-finger vertices
-  std::vector<std::vector<int>> neighbours_;  ///< over edges_
-  double vertex_seconds_ = 0;
-  double edge_seconds_ = 0;
 };
 
 }  // namespace regrasp::polygon

@@ -32,15 +32,6 @@ std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchS
 
 }  // namespace
 
-grasp::Grasp PolygonModel::GraspOf(const Place& place) const {
-  grasp::Grasp grasp;
-  for (const int edge : graph_.sets()[place.set].edges) {
-    const auto k = static_cast<Eigen::Index>(grasp.size());
-    grasp.push_back(grasp::ContactAt(polygon_, FaceIndex(edge), place.parameters[k]));
-  }
-  return grasp;
-}
-
 std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(
     const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) {
   using Scored = std::pair<double, Attachment<Place>>;

@@ -20,15 +20,12 @@ class PolygonModel {
       : polygon_(polygon), graph_(graph), cells_(polygon, graph, deadline) {}
 
   [[nodiscard]] const PolygonGraph& graph() const { return graph_; }
-  [[nodiscard]] search::Components components() const { return graph_.components(); }
   [[nodiscard]] static std::string sets_name() { return "sets of grasps"; }
   [[nodiscard]] double WidthOf(int set) { return cells_.WidthOf(set); }
-  [[nodiscard]] grasp::Grasp Draw(int set, RandomStream& random) {
-    return cells_.DrawGrasp(set, random);
+  [[nodiscard]] std::optional<Place> Draw(int set, RandomStream& random) {
+    return cells_.Draw(set, random);
   }
-
-  [[nodiscard]] static int SetOf(const Place& place) { return place.set; }
-  [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const;
+  [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return cells_.GraspOf(place); }
   /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
   /// which, the hand rests well.
   [[nodiscard]] std::vector<Attachment<Place>> Attach(const grasp::Grasp& grasp,

@@ -12,8 +12,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-bool IsOuter(int part, int k) { return (part >> k & 1) != 0; }
-
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// An affine function of the variables, made term by term.
@@ -68,8 +66,7 @@ class CellMaker {
   [[nodiscard]] double ClearWidth() const {
     double width = 0;
     for (const int a : set_.parts) {
-      const int b = a == 0 ? 1 : 0;
-      const int c = a == 2 ? 1 : 2;
+      const auto [b, c] = OuterOf(a);
       const auto [right, left] = CommonConeOf(a, b, c);
       for (const double sign : {1.0, -1.0}) {
         std::vector<Affine> list = InsideEdges();
@@ -194,8 +191,7 @@ class CellMaker {
   /// common cone each (the f are those of planner/sets/polygon/parallel.h). These eight cells
   /// overlap and leave out nothing but grasps with two contacts at one point.
   void MakeParallel(int a) {
-    const int b = a == 0 ? 1 : 0;
-    const int c = a == 2 ? 1 : 2;
+    const auto [b, c] = OuterOf(a);
     const auto [right, left] = CommonConeOf(a, b, c);
     const std::array<Vector2d, 2> borders = {right, left};
     for (const double sign : {1.0, -1.0}) {

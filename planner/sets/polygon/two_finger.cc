@@ -17,13 +17,8 @@ std::vector<TwoFingerPart> FindTwoFingerSets(const EdgeTable& edges,
 }
 
 FilteredRange TwoFingerContactRange(const TwoFingerPart& part, int k) {
-  return FilteredRange([&part, k](auto zero) {
-    if constexpr (std::is_same_v<decltype(zero), Exact>) {
-      return TwoFingerRange(part.region.exact(), k);
-    } else {
-      return TwoFingerRange(part.region.region(), k);
-    }
-  });
+  return FilteredRange(
+      [&part, k](auto zero) { return TwoFingerRange(part.region.as<decltype(zero)>(), k); });
 }
 
 }  // namespace regrasp::polygon

@@ -16,7 +16,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 namespace {
 
-/// A corner that turns the wrong way by less than this sine is straight: rounding of the face's
+/// A corner that turns to the wrong side by less than this sine is straight: rounding of the face's
 /// plane, far below kCoplanarAngle.
 constexpr double kStraight = 1e-9;
 
@@ -54,14 +54,13 @@ class FaceSplitter {
   using Ring = std::vector<int>;
   using Side = std::array<int, 2>;
 
-  [[nodiscard]] Vector2d Flat(int vertex) const {
-    const Vector3d from_origin = solid_.vertices()[vertex] - frame_.origin;
-    return {frame_.u.dot(from_origin), frame_.v.dot(from_origin)};
-  }
+  [[nodiscard]] Vector2d Flat(int vertex) const { return frame_.FootOf(solid_.vertices()[vertex]); }
 
   [[nodiscard]] FacePart MakePart(const Ring& ring) const {
     FacePart part = frame_;
-    for (const int vertex : ring) part.outline.push_back(Flat(vertex));
+    std::vector<Vector2d> outline;
+    for (const int vertex : ring) outline.push_back(Flat(vertex));
+    part.SetOutline(outline);
     part.corners = ring;
     return part;
   }
@@ -78,9 +77,11 @@ class FaceSplitter {
       const Vector2d flat = Flat(vertex);
       points.emplace_back(flat.x(), flat.y());
     }
-    std::vector<Kernel::Point_2> outline;
-    CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(outline));
-    for (const Kernel::Point_2& point : outline) hull.outline.emplace_back(point.x(), point.y());
+    std::vector<Kernel::Point_2> around;
+    CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(around));
+    std::vector<Vector2d> outline;
+    for (const Kernel::Point_2& point : around) outline.emplace_back(point.x(), point.y());
+    hull.SetOutline(outline);
     return hull;
   }
 
@@ -161,6 +162,25 @@ class FaceSplitter {
 };
 
 }  // namespace
+
+void FacePart::SetOutline(const std::vector<Vector2d>& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d to_next = outline[(i + 1) % outline.size()] - outline[i];
+    const double length = to_next.norm();
+    const Vector2d along = to_next / length;
+    sides.push_back({outline[i], along, {along.y(), -along.x()}, length});
+  }
+}
+
+std::vector<Vector2d> FacePart::outline() const {
+  std::vector<Vector2d> points;
+  for (const Side& side : sides) points.push_back(side.from);
+  return points;
+}
+
+FacePart PointPart(const FacePart& part, const Vector3d& contact) {
+  return {part.face, contact, part.normal, part.u, part.v, {}, {}};
+}
 
 FaceParts SplitFaces(const object::Polyhedron& solid) {
   FaceParts parts;

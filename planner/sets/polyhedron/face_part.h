@@ -10,14 +10,38 @@ namespace regrasp::polyhedron {
 
 /// A convex part of a face, in coordinates of the face's plane: x = origin + y_0 u + y_1 v.
 struct FacePart {
+  struct Side {
+    Eigen::Vector2d from;
+    Eigen::Vector2d along;    ///< unit
+    Eigen::Vector2d outward;  ///< unit
+    double length;
+  };
+
   int face = 0;
   Eigen::Vector3d origin;
   Eigen::Vector3d normal;  ///< unit, into the object
   Eigen::Vector3d u;       ///< unit, with v and −normal a right-handed frame
   Eigen::Vector3d v;
-  std::vector<Eigen::Vector2d> outline;  ///< counter-clockwise; two points for a segment
-  std::vector<int> corners;              ///< the solid's vertices of the outline
+  std::vector<Side> sides;   ///< counter-clockwise; two of a segment, none of a point at the origin
+  std::vector<int> corners;  ///< the solid's vertices of the outline
+
+  /// Of a part with no sides yet.
+  void SetOutline(const std::vector<Eigen::Vector2d>& outline);
+  [[nodiscard]] std::vector<Eigen::Vector2d> outline() const;
+
+  /// Where x is seen from above the plane, in the plane's coordinates; and back into space.
+  [[nodiscard]] Eigen::Vector2d FootOf(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d from_origin = x - origin;
+    return {u.dot(from_origin), v.dot(from_origin)};
+  }
+  [[nodiscard]] Eigen::Vector3d PointAt(const Eigen::Vector2d& y) const {
+    return origin + y.x() * u + y.y() * v;
+  }
+  [[nodiscard]] double HeightOf(const Eigen::Vector3d& x) const { return normal.dot(x - origin); }
 };
+
+/// A single contact on a part's plane as a part of its own.
+[[nodiscard]] FacePart PointPart(const FacePart& part, const Eigen::Vector3d& contact);
 
 /// Where two parts of one face meet: a segment that borders both.
 struct PartJoint {

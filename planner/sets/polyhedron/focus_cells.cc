@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "planner/object/closest_on_segment.h"
+
 namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
@@ -19,12 +21,6 @@ constexpr double kReach = 100;
 /// found to about the square root of roundings.
 constexpr double kAtBorder = 1e-6;
 
-std::vector<UnionVolume::Shape> ShapesOf(const FaceParts& parts) {
-  std::vector<UnionVolume::Shape> shapes(parts.parts.begin(), parts.parts.end());
-  for (const FacePart& hull : parts.hulls) shapes.emplace_back(hull);
-  return shapes;
-}
-
 /// The only position at which the halves of two pieces differ; nullopt where there are more.
 std::optional<std::size_t> ChangedHalf(const FocusPiece& a, const FocusPiece& b) {
   std::optional<std::size_t> changed;
@@ -38,10 +34,8 @@ std::optional<std::size_t> ChangedHalf(const FocusPiece& a, const FocusPiece& b)
 
 /// The largest cut of some volumes and of a flat part's sides, on the part's plane: none of them
 /// depends on the height over it.
-Cut LargestOnPart(std::span<const UnionVolume> volumes, const UnionVolume::Shape& part,
-                  const Vector3d& x) {
-  const double height = part.normal.dot(x - part.origin);
-  const Vector3d foot = x - height * part.normal;
+Cut LargestOnPart(std::span<const UnionVolume> volumes, const FacePart& part, const Vector3d& x) {
+  const Vector3d foot = x - part.HeightOf(x) * part.normal;
   Cut largest;
   largest.offset = -std::numeric_limits<double>::infinity();
   const auto consider = [&](Cut cut) {
@@ -61,41 +55,46 @@ Cut LargestOnPart(std::span<const UnionVolume> volumes, const UnionVolume::Shape
 
 }  // namespace
 
+std::size_t PositionOf(const FocusCell& cell, int face) {
+  return static_cast<std::size_t>(std::ranges::find(cell.faces, face) - cell.faces.begin());
+}
+
+std::size_t OwnPosition(const FocusCell& cell, const FocusCell& other) {
+  std::size_t own = 0;
+  while (own < 3 && PositionOf(other, cell.faces[own]) < 4) ++own;
+  return own;
+}
+
 FocusCellFinder::FocusCellFinder(const object::Polyhedron& solid, double tangent)
     : solid_(solid),
       parts_(SplitFaces(solid)),
-      shapes_(ShapesOf(parts_)),
       joined_(parts_.parts.size()),
       tangent_(tangent),
       min_max_(solid.mass_properties().centroid, kReach * solid.diameter()),
       meet_(4 * parts_.hulls.size() * parts_.hulls.size(), Known::kNotYet) {
-  for (const PartJoint& joint : parts_.joints) {
-    const int number = static_cast<int>(joint_shapes_.size());
-    const auto [p, q] = joint.parts;
-    joined_[p].push_back({q, number});
-    if (p != q) joined_[q].push_back({p, number});
-    joint_shapes_.emplace_back(joint.segment);
+  for (int joint = 0; joint < std::ssize(parts_.joints); ++joint) {
+    const auto [p, q] = parts_.joints[joint].parts;
+    joined_[p].push_back({q, joint});
+    if (p != q) joined_[q].push_back({p, joint});
   }
 }
 
-bool FocusCellFinder::Decide(const MinMaxResult& result, std::span<const int> halves) {
+bool FocusCellFinder::Decide(const MinMaxResult& result, std::span<const HalfIndex> halves) {
   const bool unclear = result.overlap == Overlap::kUnclear;
   if (unclear && !IsAtSharedBorder(result.point, halves)) ++unclear_;
   return result.overlap == Overlap::kSome;
 }
 
-bool FocusCellFinder::IsAtSharedBorder(const Vector3d& point, std::span<const int> halves) const {
+bool FocusCellFinder::IsAtSharedBorder(const Vector3d& point,
+                                       std::span<const HalfIndex> halves) const {
   for (std::size_t i = 0; i < halves.size(); ++i) {
     for (std::size_t j = i + 1; j < halves.size(); ++j) {
       const std::vector<int> shared = SharedCorners(halves[i], halves[j]);
       for (const int a : shared) {
         for (const int b : shared) {
-          const Vector3d& from = solid_.vertices()[a];
-          const Vector3d along = solid_.vertices()[b] - from;
-          const double share =
-              a == b ? 0 : std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-          const double distance = (point - from - share * along).norm();
-          if (distance <= kAtBorder * solid_.diameter()) return true;
+          const Vector3d nearest =
+              object::ClosestOnSegment(solid_.vertices()[a], solid_.vertices()[b], point);
+          if ((point - nearest).norm() <= kAtBorder * solid_.diameter()) return true;
         }
       }
     }
@@ -105,8 +104,8 @@ bool FocusCellFinder::IsAtSharedBorder(const Vector3d& point, std::span<const in
 
 /// False only where two halves of hulls, with cones of half-angle θ, certainly do not meet: a piece
 /// needs all six pairs. Two inner halves nearly always meet, and are not asked.
-bool FocusCellFinder::MayMeet(int half, int other) {
-  if (half % 2 == 0 && other % 2 == 0) return true;
+bool FocusCellFinder::MayMeet(HalfIndex half, HalfIndex other) {
+  if (IsInner(half) && IsInner(other)) return true;
   const std::size_t first = 2 * parts_.parts.size();
   const std::size_t count = 2 * parts_.hulls.size();
   Known& known = meet_[(half - first) * count + (other - first)];
@@ -121,14 +120,8 @@ bool FocusCellFinder::MayMeet(int half, int other) {
   return known == Known::kYes;
 }
 
-const FacePart& FocusCellFinder::PartOf(int half) const {
-  const std::size_t shape = half / 2;
-  const std::size_t parts = parts_.parts.size();
-  return shape < parts ? parts_.parts[shape] : parts_.hulls[shape - parts];
-}
-
 /// The vertices that two parts have in common: the ends of a common edge, or a corner.
-std::vector<int> FocusCellFinder::SharedCorners(int half, int other) const {
+std::vector<int> FocusCellFinder::SharedCorners(HalfIndex half, HalfIndex other) const {
   std::vector<int> shared;
   const std::vector<int>& corners = PartOf(half).corners;
   for (const int vertex : PartOf(other).corners) {
@@ -139,7 +132,7 @@ std::vector<int> FocusCellFinder::SharedCorners(int half, int other) const {
 
 std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate) {
   std::vector<FocusPiece> pieces;
-  std::array<int, 4> halves;
+  Halves halves;
   FindPieces(candidate, 0, halves, pieces);
   if (pieces.size() < 2) {
     if (pieces.empty()) return {};
@@ -153,7 +146,10 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       const auto [kept, gone] = std::minmax(component[i], component[j]);
-      if (kept == gone || !AreJoined(candidate.tangent, pieces[i], pieces[j])) continue;
+      if (kept == gone ||
+          !FindJunction(candidate.tangent, pieces[i], pieces[j], MinMax::Until::kSign)) {
+        continue;
+      }
       std::ranges::replace(component, int{gone}, int{kept});
     }
   }
@@ -170,12 +166,12 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
 
 /// The pieces of whole faces first: hulls in place of parts, sixteen patterns of sides.
 void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
-                                 std::array<int, 4>& halves, std::vector<FocusPiece>& pieces) {
+                                 Halves& halves, std::vector<FocusPiece>& pieces) {
   if (depth < halves.size()) {
     const int hull = static_cast<int>(parts_.parts.size()) + candidate.faces[depth];
-    for (const int half : {2 * hull, 2 * hull + 1}) {
+    for (const HalfIndex half : {HalfOf(hull, true), HalfOf(hull, false)}) {
       const bool may = std::all_of(halves.begin(), halves.begin() + depth,
-                                   [&](int other) { return MayMeet(other, half); });
+                                   [&](HalfIndex other) { return MayMeet(other, half); });
       if (!may) continue;
       halves[depth] = half;
       FindPieces(candidate, depth + 1, halves, pieces);
@@ -204,7 +200,7 @@ void FocusCellFinder::Refine(const QuadrupleCandidate& candidate, std::size_t po
   const int end = parts_.first[face + 1];
   for (int part = first; part < end; ++part) {
     FocusPiece finer = piece;
-    finer.halves[position] = 2 * part + piece.halves[position] % 2;
+    finer.halves[position] = HalfOf(part, IsInner(piece.halves[position]));
     const UnionVolume volume = VolumeOf(finer.halves[position], candidate.tangent);
     if (end - first > 1 && volume.At(piece.point) >= -min_max_.rounding()) {
       const std::array volumes = {volume,
@@ -221,34 +217,9 @@ void FocusCellFinder::Refine(const QuadrupleCandidate& candidate, std::size_t po
   }
 }
 
-/// Whether one goes from one piece to the other while three contacts stay on their parts: through
-/// the face, or over a joint of its parts.
-bool FocusCellFinder::AreJoined(double tangent, const FocusPiece& a, const FocusPiece& b) {
-  const auto changed = ChangedHalf(a, b);
-  if (!changed) return false;
-  const int half = a.halves[*changed];
-  const int other = b.halves[*changed];
-  if (half / 2 == other / 2) {
-    return Decide(MeetAcrossFace(tangent, a, *changed, MinMax::Until::kSign), a.halves);
-  }
-  if (half % 2 != other % 2) return false;
-  return std::ranges::any_of(joined_[half / 2], [&](const JoinedPart& joined) {
-    if (joined.other != other / 2) return false;
-    const UnionVolume segment(joint_shapes_[joined.joint], half % 2 == 0, tangent);
-    if (segment.At(a.point) < -min_max_.rounding() || segment.At(b.point) < -min_max_.rounding()) {
-      return true;
-    }
-    std::vector<UnionVolume> volumes = VolumesOf(a, tangent);
-    volumes[*changed] = segment;
-    // A segment of a part sees less than the part.
-    min_max_.Resume(a.basis);
-    return Decide(min_max_.Solve(volumes, MinMax::Until::kSign), a.halves);
-  });
-}
-
 std::vector<UnionVolume> FocusCellFinder::VolumesOf(const FocusPiece& piece, double tangent) const {
   std::vector<UnionVolume> volumes;
-  for (const int half : piece.halves) volumes.push_back(VolumeOf(half, tangent));
+  for (const HalfIndex half : piece.halves) volumes.push_back(VolumeOf(half, tangent));
   return volumes;
 }
 
@@ -256,42 +227,59 @@ MinMaxResult FocusCellFinder::MeetAcrossFace(double tangent, const FocusPiece& a
                                              std::size_t changed, MinMax::Until until) {
   std::vector<UnionVolume> common = VolumesOf(a, tangent);
   common.erase(common.begin() + static_cast<std::ptrdiff_t>(changed));
-  const UnionVolume::Shape& part = ShapeOf(a.halves[changed]);
+  const FacePart& part = PartOf(a.halves[changed]);
   min_max_.Restart();
   return min_max_.Solve([&](const Vector3d& x) { return LargestOnPart(common, part, x); }, until);
 }
 
 std::optional<FocusCellFinder::Junction> FocusCellFinder::FindJunction(double tangent,
                                                                        const FocusPiece& a,
-                                                                       const FocusPiece& b) {
+                                                                       const FocusPiece& b,
+                                                                       MinMax::Until until) {
   const auto changed = ChangedHalf(a, b);
   if (!changed) return std::nullopt;
-  const int half = a.halves[*changed];
-  const int other = b.halves[*changed];
-  if (half / 2 == other / 2) {
-    const MinMaxResult result = MeetAcrossFace(tangent, a, *changed, MinMax::Until::kMinimum);
+  const HalfIndex half = a.halves[*changed];
+  const HalfIndex other = b.halves[*changed];
+  if (PartNumber(half) == PartNumber(other)) {
+    const MinMaxResult result = MeetAcrossFace(tangent, a, *changed, until);
     if (!Decide(result, a.halves)) return std::nullopt;
-    const UnionVolume::Shape& part = ShapeOf(half);
-    const double height = part.normal.dot(result.point - part.origin);
-    const Vector3d on_face = result.point - height * part.normal;
+    const FacePart& part = PartOf(half);
+    const Vector3d on_face = result.point - part.HeightOf(result.point) * part.normal;
     return Junction{on_face, *changed, on_face};
   }
-  if (half % 2 != other % 2) return std::nullopt;
-  for (const JoinedPart& joined : joined_[half / 2]) {
-    if (joined.other != other / 2) continue;
-    const UnionVolume::Shape& segment = joint_shapes_[joined.joint];
-    std::vector<UnionVolume> volumes = VolumesOf(a, tangent);
-    volumes[*changed] = UnionVolume(segment, half % 2 == 0, tangent);
-    min_max_.Resume(a.basis);
-    const MinMaxResult result = min_max_.Solve(volumes, MinMax::Until::kMinimum);
-    if (!Decide(result, a.halves)) continue;
-    const UnionVolume::Shape::Side& side = segment.sides.front();
-    const Vector3d from = segment.origin + side.from.x() * segment.u + side.from.y() * segment.v;
+  if (IsInner(half) != IsInner(other)) return std::nullopt;
+  for (const JoinedPart& joined : joined_[PartNumber(half)]) {
+    if (joined.other != PartNumber(other)) continue;
+    const FacePart& segment = parts_.joints[joined.joint].segment;
+    const auto focus = MeetOverJoint(tangent, a, b, *changed, segment, until);
+    if (!focus) continue;
+    const FacePart::Side& side = segment.sides.front();
+    const Vector3d from = segment.PointAt(side.from);
     const Vector3d along = side.along.x() * segment.u + side.along.y() * segment.v;
-    const double at = std::clamp(along.dot(result.point - from), 0.0, side.length);
-    return Junction{result.point, *changed, from + at * along};
+    const double at = std::clamp(along.dot(*focus - from), 0.0, side.length);
+    return Junction{*focus, *changed, from + at * along};
   }
   return std::nullopt;
+}
+
+/// A focus point of a piece that sees, in place of its part, the segment where that meets another
+/// one.
+std::optional<Vector3d> FocusCellFinder::MeetOverJoint(double tangent, const FocusPiece& a,
+                                                       const FocusPiece& b, std::size_t changed,
+                                                       const FacePart& segment,
+                                                       MinMax::Until until) {
+  const UnionVolume seeing(segment, IsInner(a.halves[changed]), tangent);
+  for (const FocusPiece* piece : {&a, &b}) {
+    if (until == MinMax::Until::kMinimum) break;
+    if (seeing.At(piece->point) < -min_max_.rounding()) return piece->point;
+  }
+  std::vector<UnionVolume> volumes = VolumesOf(a, tangent);
+  volumes[changed] = seeing;
+  // A segment of a part sees less than the part.
+  min_max_.Resume(a.basis);
+  const MinMaxResult result = min_max_.Solve(volumes, until);
+  if (!Decide(result, a.halves)) return std::nullopt;
+  return result.point;
 }
 
 std::optional<MinMaxResult> FocusCellFinder::FindDeepest(std::span<const UnionVolume> volumes,
@@ -312,10 +300,8 @@ bool FocusCellFinder::HasPoint(const MinMax::LargestCut& largest_cut) {
 }
 
 bool FocusCellFinder::Overlap(const FocusCell& a, const FocusCell& b) {
-  // The faces that only one of the two has.
-  std::size_t own_a = 0, own_b = 0;
-  while (own_a < 3 && std::ranges::find(b.faces, a.faces[own_a]) != b.faces.end()) ++own_a;
-  while (own_b < 3 && std::ranges::find(a.faces, b.faces[own_b]) != a.faces.end()) ++own_b;
+  const std::size_t own_a = OwnPosition(a, b);
+  const std::size_t own_b = OwnPosition(b, a);
   const auto others = [](std::size_t own) {
     std::array<std::size_t, 3> rest;
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k < own ? k : k + 1;

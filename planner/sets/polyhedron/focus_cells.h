@@ -6,17 +6,28 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/index.h"
 #include "planner/sets/polyhedron/min_max.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
 
 namespace regrasp::polyhedron {
 
+/// Half of the union volume of a convex part of a face, or of a face's hull: 2 · part, or
+/// 2 · part + 1 for the outer side. Hulls are numbered after all parts.
+using HalfIndex = Index<struct HalfTag>;
+[[nodiscard]] constexpr HalfIndex HalfOf(int part, bool inner) {
+  return HalfIndex(2 * part + (inner ? 0 : 1));
+}
+[[nodiscard]] constexpr int PartNumber(HalfIndex half) { return half / 2; }
+[[nodiscard]] constexpr bool IsInner(HalfIndex half) { return half % 2 == 0; }
+
+/// One of each of four faces, in the faces' order.
+using Halves = std::array<HalfIndex, 4>;
+
 /// A convex piece of a focus cell: focus points on a fixed side of each face that see a contact of
 /// a fixed convex part of it.
 struct FocusPiece {
-  /// Half of a part's union volume, one of each face in the faces' order: 2 · part, or 2 · part + 1
-  /// for the outer side.
-  std::array<int, 4> halves;
+  Halves halves;          ///< of parts
   Eigen::Vector3d point;  ///< a focus point inside
   MinMax::Basis basis;    ///< to go on from
 };
@@ -28,6 +39,11 @@ struct FocusCell {
   double tangent = 0;        ///< tan φ
   std::vector<FocusPiece> pieces;
 };
+
+/// The position of a face among a cell's, 4 where it has another.
+[[nodiscard]] std::size_t PositionOf(const FocusCell& cell, int face);
+/// That of the only face of a cell that the other one does not have.
+[[nodiscard]] std::size_t OwnPosition(const FocusCell& cell, const FocusCell& other);
 
 /// Finds the focus cells of a solid, and which of them overlap.
 class FocusCellFinder {
@@ -54,8 +70,10 @@ class FocusCellFinder {
     std::size_t changed;      ///< the position of the face whose half differs
     Eigen::Vector3d contact;  ///< on it
   };
+  /// @param until  kSign: any such grasp; otherwise the one whose focus point is deepest inside.
   [[nodiscard]] std::optional<Junction> FindJunction(double tangent, const FocusPiece& a,
-                                                     const FocusPiece& b);
+                                                     const FocusPiece& b,
+                                                     MinMax::Until until = MinMax::Until::kMinimum);
 
   /// The focus point deepest inside some volumes; nullopt where they have none in common.
   /// @param from  a piece whose volumes are among them, to go on from what is known of it.
@@ -66,28 +84,36 @@ class FocusCellFinder {
   [[nodiscard]] bool HasPoint(const MinMax::LargestCut& largest_cut);
 
   [[nodiscard]] const FaceParts& parts() const { return parts_; }
-  [[nodiscard]] const UnionVolume::Shape& ShapeOf(int half) const { return shapes_[half / 2]; }
-  [[nodiscard]] UnionVolume VolumeOf(int half, double tangent) const {
-    return {shapes_[half / 2], half % 2 == 0, tangent};
+  /// The part of a face, or its hull, that a half belongs to.
+  [[nodiscard]] const FacePart& PartOf(HalfIndex half) const {
+    const std::size_t part = PartNumber(half);
+    const std::size_t parts = parts_.parts.size();
+    return part < parts ? parts_.parts[part] : parts_.hulls[part - parts];
   }
+  [[nodiscard]] UnionVolume VolumeOf(HalfIndex half, double tangent) const {
+    return {PartOf(half), IsInner(half), tangent};
+  }
+  [[nodiscard]] std::vector<UnionVolume> VolumesOf(const FocusPiece& piece, double tangent) const;
 
  private:
   enum class Known : std::uint8_t { kNo, kYes, kNotYet };
 
-  [[nodiscard]] bool MayMeet(int half, int other);
-  [[nodiscard]] const FacePart& PartOf(int half) const;
-  [[nodiscard]] std::vector<int> SharedCorners(int half, int other) const;
-  void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
-                  std::array<int, 4>& halves, std::vector<FocusPiece>& pieces);
+  [[nodiscard]] bool MayMeet(HalfIndex half, HalfIndex other);
+  [[nodiscard]] std::vector<int> SharedCorners(HalfIndex half, HalfIndex other) const;
+  void FindPieces(const QuadrupleCandidate& candidate, std::size_t depth, Halves& halves,
+                  std::vector<FocusPiece>& pieces);
   void Refine(const QuadrupleCandidate& candidate, std::size_t position, const FocusPiece& piece,
               std::vector<FocusPiece>& pieces);
-  [[nodiscard]] std::vector<UnionVolume> VolumesOf(const FocusPiece& piece, double tangent) const;
-  [[nodiscard]] bool AreJoined(double tangent, const FocusPiece& a, const FocusPiece& b);
   [[nodiscard]] MinMaxResult MeetAcrossFace(double tangent, const FocusPiece& a,
                                             std::size_t changed, MinMax::Until until);
-  [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const int> halves);
+  [[nodiscard]] std::optional<Eigen::Vector3d> MeetOverJoint(double tangent, const FocusPiece& a,
+                                                             const FocusPiece& b,
+                                                             std::size_t changed,
+                                                             const FacePart& segment,
+                                                             MinMax::Until until);
+  [[nodiscard]] bool Decide(const MinMaxResult& result, std::span<const HalfIndex> halves);
   [[nodiscard]] bool IsAtSharedBorder(const Eigen::Vector3d& point,
-                                      std::span<const int> halves) const;
+                                      std::span<const HalfIndex> halves) const;
 
   /// A joint as one of its parts sees it.
   struct JoinedPart {
@@ -97,9 +123,7 @@ class FocusCellFinder {
 
   const object::Polyhedron& solid_;
   FaceParts parts_;
-  std::vector<UnionVolume::Shape> shapes_;        ///< of the parts, then of the hulls
-  std::vector<UnionVolume::Shape> joint_shapes_;  ///< segments
-  std::vector<std::vector<JoinedPart>> joined_;   ///< by parts
+  std::vector<std::vector<JoinedPart>> joined_;  ///< by parts
   double tangent_;
   MinMax min_max_;
   std::vector<Known> meet_;  ///< by pairs of halves of faces' hulls

@@ -17,10 +17,8 @@ namespace {
 constexpr int kCircleCorners = 72;
 constexpr int kContacts = 4;
 
-using Shape = UnionVolume::Shape;
-
 /// The part of a convex outline on the inner side of a part's side.
-std::vector<Vector2d> Clip(const std::vector<Vector2d>& outline, const Shape::Side& side) {
+std::vector<Vector2d> Clip(const std::vector<Vector2d>& outline, const FacePart::Side& side) {
   std::vector<Vector2d> clipped;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vector2d& a = outline[i];
@@ -34,20 +32,17 @@ std::vector<Vector2d> Clip(const std::vector<Vector2d>& outline, const Shape::Si
 }
 
 /// The points of a part that a focus point sees inside its cone.
-std::vector<Vector3d> ContactRegion(const Shape& shape, const Vector3d& focus, double tangent) {
-  const Vector3d from_origin = focus - shape.origin;
-  const Vector2d foot(shape.u.dot(from_origin), shape.v.dot(from_origin));
-  const double radius = std::abs(shape.normal.dot(from_origin)) * tangent;
+std::vector<Vector3d> ContactRegion(const FacePart& part, const Vector3d& focus, double tangent) {
+  const Vector2d foot = part.FootOf(focus);
+  const double radius = std::abs(part.HeightOf(focus)) * tangent;
   std::vector<Vector2d> outline;
   for (int i = 0; i < kCircleCorners; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCircleCorners;
     outline.push_back(foot + radius * Vector2d(std::cos(angle), std::sin(angle)));
   }
-  for (const Shape::Side& side : shape.sides) outline = Clip(outline, side);
+  for (const FacePart::Side& side : part.sides) outline = Clip(outline, side);
   std::vector<Vector3d> region;
-  for (const Vector2d& y : outline) {
-    region.push_back(shape.origin + y.x() * shape.u + y.y() * shape.v);
-  }
+  for (const Vector2d& y : outline) region.push_back(part.PointAt(y));
   return region;
 }
 
@@ -63,9 +58,10 @@ std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid, const gr
   if (candidates.empty()) return std::nullopt;
   const double tangent = candidates.front().tangent;
   FocusCellFinder finder(solid, tangent);
-  std::vector<Shape> contacts;
+  std::vector<FacePart> contacts;
   for (const grasp::Contact& contact : grasp) {
-    contacts.emplace_back(finder.parts().parts[finder.parts().first[contact.face]], contact.p);
+    contacts.push_back(
+        PointPart(finder.parts().parts[finder.parts().first[contact.face]], contact.p));
   }
   std::optional<FocusView> view;
   double least = 0;
@@ -83,7 +79,7 @@ std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid, const gr
   for (const grasp::Contact& contact : grasp) {
     const auto& first = finder.parts().first;
     for (int part = first[contact.face]; part < first[contact.face + 1]; ++part) {
-      auto region = ContactRegion(finder.ShapeOf(2 * part), view->focus, tangent);
+      auto region = ContactRegion(finder.parts().parts[part], view->focus, tangent);
       if (!region.empty()) view->regions.push_back(std::move(region));
     }
   }

@@ -90,20 +90,7 @@ MinMaxResult MinMax::SolveWith(const Oracle& largest_cut, Until until) {
 }
 
 MinMaxResult MinMax::Solve(std::span<const UnionVolume> volumes, Until until) {
-  return SolveWith(
-      [&](const Vector3d& point) {
-        Cut largest = volumes.front().CutAt(point);
-        double value = largest.At(point);
-        for (const UnionVolume& volume : volumes.subspan(1)) {
-          const Cut cut = volume.CutAt(point);
-          const double at = cut.At(point);
-          if (at <= value) continue;
-          value = at;
-          largest = cut;
-        }
-        return largest;
-      },
-      until);
+  return SolveWith([&](const Vector3d& point) { return LargestCutAt(volumes, point); }, until);
 }
 
 MinMaxResult MinMax::Solve(const LargestCut& largest_cut, Until until) {

@@ -48,7 +48,7 @@ class MinMax {
   using LargestCut = std::function<Cut(const Eigen::Vector3d& point)>;
 
   /// Looks for the minimum from the current basis on: at first one that every set of functions has,
-  /// later that of the last call, which serves as long as no function is taken away.
+  /// later that of the last call, which is valid as long as no function is taken away.
   [[nodiscard]] MinMaxResult Solve(std::span<const UnionVolume> volumes, Until until);
   [[nodiscard]] MinMaxResult Solve(const LargestCut& largest_cut, Until until);
 

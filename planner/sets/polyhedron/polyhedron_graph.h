@@ -6,9 +6,8 @@
 
 #include "planner/base/deadline.h"
 #include "planner/planning/spanning.h"
-#include "planner/search/components.h"
-#include "planner/search/switching_graph.h"
 #include "planner/sets/polyhedron/focus_cells.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp::polyhedron {
 
@@ -25,7 +24,7 @@ inline constexpr int kPolyhedronFingers = 5;
 /// Laws: the counts don't change when the solid is moved, scaled or mirrored, nor with the order of
 /// its facets, as far as nothing is too close to call; under Spanning::kAdaptive no grasp is lost
 /// when the friction grows.
-class PolyhedronGraph final : public search::SwitchingGraph {
+class PolyhedronGraph final : public SetGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
@@ -33,9 +32,8 @@ class PolyhedronGraph final : public search::SwitchingGraph {
   PolyhedronGraph(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
                   const Deadline& deadline = {});
 
-  /// By their faces.
+  /// By their faces. switches() is ascending.
   [[nodiscard]] const std::vector<FocusCell>& cells() const { return cells_; }
-  [[nodiscard]] const std::vector<std::array<int, 2>>& links() const { return links_; }
   [[nodiscard]] const FocusCellFinder& finder() const { return finder_; }
   [[nodiscard]] FocusCellFinder& finder() { return finder_; }
 
@@ -43,26 +41,14 @@ class PolyhedronGraph final : public search::SwitchingGraph {
   [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }
   [[nodiscard]] std::int64_t combination_count() const { return combinations_; }
   [[nodiscard]] std::int64_t unclear_count() const { return finder_.unclear_count(); }
-  [[nodiscard]] search::Components components() const;
-
-  /// Wall time that the vertices and the edges took.
-  [[nodiscard]] double vertex_seconds() const { return vertex_seconds_; }
-  [[nodiscard]] double edge_seconds() const { return edge_seconds_; }
-
-  [[nodiscard]] int vertex_count() const override { return static_cast<int>(cells_.size()); }
-  void GetNeighbours(int vertex, std::vector<int>& neighbours) const override;
 
  private:
-  void FindLinks(const Deadline& deadline);
+  [[nodiscard]] std::vector<std::array<int, 2>> FindSwitches(const Deadline& deadline);
 
   FocusCellFinder finder_;
   std::vector<FocusCell> cells_;
-  std::vector<std::array<int, 2>> links_;  ///< ascending
-  std::vector<std::vector<int>> neighbours_;
   std::int64_t candidates_ = 0;
   std::int64_t combinations_ = 0;
-  double vertex_seconds_ = 0;
-  double edge_seconds_ = 0;
 };
 
 }  // namespace regrasp::polyhedron

@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "planner/base/random.h"
-#include "planner/sets/polyhedron/normal_quadruples.h"
+#include "planner/sets/polyhedron/common_triples.h"
 
 namespace regrasp::polyhedron {
 
@@ -26,8 +26,7 @@ class RegionGrower {
 
   void Include(const FocusCell& cell, const FocusPiece& piece, AlignedBox3d& box) {
     box.extend(piece.point);
-    volumes_.clear();
-    for (const int half : piece.halves) volumes_.push_back(finder_.VolumeOf(half, cell.tangent));
+    volumes_ = finder_.VolumesOf(piece, cell.tangent);
     for (int axis = 0; axis < 3; ++axis) {
       Grow(Vector3d::Unit(axis), box.max()[axis]);
       double low = -box.min()[axis];
@@ -47,18 +46,11 @@ class RegionGrower {
   }
 
   [[nodiscard]] bool ReachesBeyond(const Vector3d& direction, double limit) {
-    const auto largest = [&](const Vector3d& x) {
-      Cut cut = {-direction, limit};
-      double value = cut.At(x);
-      for (const UnionVolume& volume : volumes_) {
-        const Cut other = volume.CutAt(x);
-        if (other.At(x) <= value) continue;
-        value = other.At(x);
-        cut = other;
-      }
-      return cut;
-    };
-    return finder_.HasPoint(largest);
+    const Cut beyond = {-direction, limit};
+    return finder_.HasPoint([&](const Vector3d& x) {
+      const Cut of_volumes = LargestCutAt(volumes_, x);
+      return of_volumes.At(x) <= beyond.At(x) ? beyond : of_volumes;
+    });
   }
 
   FocusCellFinder& finder_;
@@ -74,7 +66,8 @@ class Sampler {
     candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning);
     found_.assign(candidates_.size(), 0);
     seen_.assign(solid.face_count(), 0);
-    for (int half = 0; half < 2 * static_cast<int>(finder_.parts().parts.size()); ++half) {
+    const HalfIndex end(2 * static_cast<int>(finder_.parts().parts.size()));
+    for (HalfIndex half(0); half < end; ++half) {
       volumes_.push_back(finder_.VolumeOf(half, tangent_));
     }
   }
@@ -84,15 +77,22 @@ class Sampler {
     for (std::size_t half = 0; half < volumes_.size(); ++half) {
       if (volumes_[half].At(x) < 0) seen_[finder_.parts().parts[half / 2].face] = 1;
     }
-    of_triples_.clear();
+    triples_.clear();
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const QuadrupleCandidate& candidate = candidates_[c];
       const bool sees = std::ranges::all_of(candidate.faces, [&](int f) { return seen_[f] != 0; });
       if (!sees || !SeesNarrowly(candidate, x)) continue;
       found_[c] = 1;
-      ListTriples(static_cast<int>(c));
+      AddTriples(candidate.faces, static_cast<int>(c), triples_);
     }
-    Link();
+    ForEachCommonTriple(triples_, [&](std::span<const TripleOf> common) {
+      for (auto a = common.begin(); a != common.end(); ++a) {
+        for (auto b = a + 1; b != common.end(); ++b) {
+          links_.insert(static_cast<std::uint64_t>(a->quadruple) << 32 |
+                        static_cast<std::uint64_t>(b->quadruple));
+        }
+      }
+    });
   }
 
   [[nodiscard]] SampledGraph Result() const {
@@ -121,31 +121,11 @@ class Sampler {
     if (candidate.tangent == tangent_) return true;
     return std::ranges::all_of(candidate.faces, [&](int face) {
       const auto& first = finder_.parts().first;
-      for (int half = 2 * first[face]; half < 2 * first[face + 1]; ++half) {
+      for (HalfIndex half(2 * first[face]); half < 2 * first[face + 1]; ++half) {
         if (finder_.VolumeOf(half, candidate.tangent).At(x) < 0) return true;
       }
       return false;
     });
-  }
-
-  void ListTriples(int candidate) {
-    const std::array<int, 4>& f = candidates_[candidate].faces;
-    for (std::size_t left_out = 0; left_out < f.size(); ++left_out) {
-      std::array<int, 3> triple;
-      for (std::size_t k = 0; k < 3; ++k) triple[k] = f[k < left_out ? k : k + 1];
-      of_triples_.push_back({triple, candidate});
-    }
-  }
-
-  void Link() {
-    std::ranges::sort(of_triples_);
-    for (std::size_t i = 0; i < of_triples_.size(); ++i) {
-      for (std::size_t j = i + 1;
-           j < of_triples_.size() && of_triples_[j].first == of_triples_[i].first; ++j) {
-        links_.insert(static_cast<std::uint64_t>(of_triples_[i].second) << 32 |
-                      static_cast<std::uint64_t>(of_triples_[j].second));
-      }
-    }
   }
 
   FocusCellFinder finder_;
@@ -153,8 +133,8 @@ class Sampler {
   std::vector<QuadrupleCandidate> candidates_;
   std::vector<char> found_;
   std::vector<UnionVolume> volumes_;
-  std::vector<char> seen_;  ///< faces that the point at hand sees
-  std::vector<std::pair<std::array<int, 3>, int>> of_triples_;
+  std::vector<char> seen_;                   ///< faces that the point at hand sees
+  std::vector<TripleOf> triples_;            ///< that the point at hand sees
   std::unordered_set<std::uint64_t> links_;  ///< two candidates, the lower one in the upper half
 };
 
@@ -187,7 +167,7 @@ SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph
   std::set<Quadruple> quadruples;
   for (const FocusCell& cell : graph.cells()) quadruples.insert(cell.faces);
   std::set<std::array<Quadruple, 2>> links;
-  for (const auto& [a, b] : graph.links()) {
+  for (const auto& [a, b] : graph.switches()) {
     links.insert({graph.cells()[a].faces, graph.cells()[b].faces});
   }
   SamplingShare share;

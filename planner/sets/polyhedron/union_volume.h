@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "planner/sets/polyhedron/face_part.h"
 
@@ -29,29 +29,10 @@ struct Cut {
 /// border of the cone about the foot that is nearest to it.
 class UnionVolume {
  public:
-  /// What does not depend on the cones: the sides of a part, ready to measure distances.
-  struct Shape {
-    explicit Shape(const FacePart& part);
-    /// A single contact on the part's plane: its double-sided cone.
-    Shape(const FacePart& part, const Eigen::Vector3d& contact);
-
-    struct Side {
-      Eigen::Vector2d from;
-      Eigen::Vector2d along;    ///< unit
-      Eigen::Vector2d outward;  ///< unit
-      double length;
-    };
-    Eigen::Vector3d origin;
-    Eigen::Vector3d u;
-    Eigen::Vector3d v;
-    Eigen::Vector3d normal;
-    std::vector<Side> sides;  ///< none of a contact, which is at the origin
-  };
-
-  /// @param shape    must outlive this object.
+  /// @param part     must outlive this object; a single point has its double-sided cone.
   /// @param tangent  tan φ of the cones.
-  UnionVolume(const Shape& shape, bool inner, double tangent)
-      : shape_(&shape),
+  UnionVolume(const FacePart& part, bool inner, double tangent)
+      : part_(&part),
         cos_(1 / std::sqrt(1 + tangent * tangent)),
         sin_((inner ? 1 : -1) * tangent * cos_) {}
 
@@ -62,9 +43,24 @@ class UnionVolume {
   [[nodiscard]] double At(const Eigen::Vector3d& x) const { return CutAt(x).At(x); }
 
  private:
-  const Shape* shape_;
+  const FacePart* part_;
   double cos_;
   double sin_;  ///< negative on the outer side
 };
+
+/// Of the cuts of some volumes at x the one that is largest there; the first of equal ones.
+[[nodiscard]] inline Cut LargestCutAt(std::span<const UnionVolume> volumes,
+                                      const Eigen::Vector3d& x) {
+  Cut largest = volumes.front().CutAt(x);
+  double value = largest.At(x);
+  for (const UnionVolume& volume : volumes.subspan(1)) {
+    const Cut cut = volume.CutAt(x);
+    const double at = cut.At(x);
+    if (at <= value) continue;
+    value = at;
+    largest = cut;
+  }
+  return largest;
+}
 
 }  // namespace regrasp::polyhedron

@@ -1,5 +1,5 @@
 // Sets and switches against grids of grasps, each classified by itself; and a witness, classified
-// in the same way, for everything that the graph says.
+// likewise, for everything that the graph says.
 
 #include <gtest/gtest.h>
 

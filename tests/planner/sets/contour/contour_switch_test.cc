@@ -61,8 +61,7 @@ void ExpectCommonContact(SetGeometry& geometry, const ContourSwitch& found, int 
   for (const grasp::Contact& a : geometry.GraspOf(found.before)) {
     for (const grasp::Contact& b : geometry.GraspOf(found.after)) {
       if (a.p != b.p || a.n != b.n) continue;
-      ++common;
-      EXPECT_EQ(a.face, found.edge);
+      if (a.face == b.face) ++common;
     }
   }
   EXPECT_EQ(common, 1);
@@ -96,7 +95,7 @@ TEST(ContourSwitch, TheLargestOneIsThatOfAGridSearch) {
   EXPECT_GT(pairs, 60);
 }
 
-TEST(ContourSwitch, ARoomyOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
+TEST(ContourSwitch, AWideOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
   int joined = 0;
   int apart = 0;
   for (const auto& [name, polygon] : TwelveEdgePolygons()) {
@@ -117,15 +116,13 @@ TEST(ContourSwitch, ARoomyOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
           EXPECT_TRUE(
               grasp::IsForceClosure(geometry.GraspOf(grasp), polygon.wrench_frame(), Radians(15)));
         }
-        const auto from = FindSwitchFrom(geometry, found->before, b, size);
-        ASSERT_TRUE(from);
-        ExpectCommonContact(geometry, *from, a, b);
-        const auto to = FindSwitchTo(geometry, a, found->after, size);
-        ASSERT_TRUE(to);
-        ExpectCommonContact(geometry, *to, a, b);
-        const auto between = FindSwitchBetween(graph, found->before, found->after);
-        ASSERT_TRUE(between);
-        EXPECT_EQ(between->edge, found->edge);
+        const auto after = FindGraspKeeping(geometry, found->before, b, size);
+        ASSERT_TRUE(after);
+        ExpectCommonContact(geometry, {found->before, *after}, a, b);
+        const auto before = FindGraspKeeping(geometry, found->after, a, size);
+        ASSERT_TRUE(before);
+        ExpectCommonContact(geometry, {*before, found->after}, a, b);
+        EXPECT_TRUE(HaveCommonContact(graph, found->before, found->after));
       }
     }
   }
@@ -196,7 +193,7 @@ TEST(AlignRoute, StaysInTheSetAndTurnsOneCornerAtATime) {
   EXPECT_GT(corners, 100);
 }
 
-TEST(AlignRoute, TakesTheShortWayAroundADisc) {
+TEST(AlignRoute, TakesTheShortPathAroundADisc) {
   const object::Polygon disc = RegularPolygon(24);
   const ContourGraph graph(disc, Radians(15));
   SetGeometry geometry(graph);

@@ -238,7 +238,7 @@ OracleCounts CompareWithRationals(const object::Polygon& polygon, const ContourG
   compare("candidates", graph.candidate_count(), counts.candidates);
   compare("combinations", graph.combination_count(), counts.combinations);
   compare("sets", graph.vertex_count(), counts.sets);
-  compare("switches", graph.switch_count(), counts.switches);
+  compare("switches", std::ssize(graph.switches()), counts.switches);
   if (ComparePieces(oracle, graph, out)) {
     std::set<std::array<int, 4>> passages;
     for (const PiecePassage& p : graph.passages()) {

@@ -28,7 +28,7 @@ inline void PrintTo(const Counts& c, std::ostream* out) {
 inline Counts CountsOf(const object::Polygon& polygon, double degrees) {
   const ContourGraph graph(polygon, Radians(degrees));
   return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
-          graph.switch_count(), graph.components().count()};
+          std::ssize(graph.switches()), graph.components().count()};
 }
 
 }  // namespace regrasp::contour

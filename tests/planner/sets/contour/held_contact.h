@@ -16,7 +16,7 @@ struct Section {
 [[nodiscard]] std::optional<Section> SectionOf(const std::vector<Eigen::Vector2d>& outline, int k,
                                                double at);
 
-/// The half-width on a diagram's edge, by the share of the way from its one end to the other.
+/// The half-width on a diagram's edge, by the share of its length from its one end.
 [[nodiscard]] double SizeOn(const DiagramEdge& edge, double share);
 
 /// The grasps of a set with one contact held at a place of an edge, whichever finger it belongs to.
@@ -27,7 +27,7 @@ class HeldContact {
       : geometry_(geometry), set_(set), edge_(edge), at_(at) {}
 
   /// The largest half-width of samples of every piece, and how far apart these are: sizes change by
-  /// no more than the way between two grasps.
+  /// no more than the distance between two grasps.
   struct Sampled {
     double best = 0;
     double spacing = 0;

@@ -140,7 +140,7 @@ TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
     const object::Polygon disc = RegularPolygon(n);
     const ContourGraph graph(disc, Radians(degrees));
     ASSERT_EQ(graph.vertex_count(), 1);
-    EXPECT_EQ(graph.switch_count(), 0);
+    EXPECT_EQ(std::ssize(graph.switches()), 0);
     EXPECT_EQ(graph.components().count(), 1);
     // A band that closes with a half turn has one border; an ordinary one would have two.
     EXPECT_EQ(CurvesOf(graph, 0), 1);
@@ -159,7 +159,7 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
     const double angle = Radians(degrees);
     const ContourGraph graph(annulus, angle);
     ASSERT_EQ(graph.vertex_count(), 3);
-    EXPECT_EQ(graph.switch_count(), 2);
+    EXPECT_EQ(std::ssize(graph.switches()), 2);
     EXPECT_EQ(graph.components().count(), 1);
     // From the sine rule in the triangle of the centre and the two contacts.
     const double turn = angle - std::asin(kInner * std::sin(angle) / kOuter);

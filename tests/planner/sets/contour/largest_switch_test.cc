@@ -59,17 +59,12 @@ TEST(LargestSwitch, IsAsLargeAsAnyThatASearchFindsAndAsItSays) {
 
 TEST(LargestSwitch, KeepsOneContact) {
   int switches = 0;
-  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
+  ForEachRegionGraph([&](const object::Polygon&, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     for (const auto& [v, w] : graph.switches()) {
       const auto found = FindLargestSwitch(geometry, v, w);
       ASSERT_TRUE(found);
-      const auto at = [&](const PlacedGrasp& grasp) {
-        const auto& edges = graph.pieces()[grasp.piece].edges;
-        EXPECT_TRUE(edges[0] == found->edge || edges[1] == found->edge);
-        return grasp.places[edges[0] == found->edge ? 0 : 1];
-      };
-      EXPECT_NEAR(at(found->before), at(found->after), SizeToleranceOf(polygon));
+      EXPECT_TRUE(HaveCommonContact(graph, found->before, found->after));
       ++switches;
     }
   });
@@ -80,7 +75,7 @@ double SmallerSize(SetGeometry& geometry, const ContourSwitch& found) {
   return std::min(geometry.SizeAt(found.before), geometry.SizeAt(found.after));
 }
 
-TEST(LargestSwitch, IsNeverSmallerThanARoomyOneAndOftenLarger) {
+TEST(LargestSwitch, IsNeverSmallerThanOneOfMaximumMarginAndOftenLarger) {
   int switches = 0;
   int larger = 0;
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {

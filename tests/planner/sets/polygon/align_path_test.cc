@@ -51,8 +51,8 @@ void CheckAligns(const object::Polygon& polygon, double degrees, std::uint64_t s
   RandomStream random(seed, RandomUse::kStart);
   for (int vertex = 0; vertex < graph.vertex_count(); ++vertex) {
     const GraspSet& set = graph.sets()[vertex];
-    const grasp::Grasp from = cells.DrawGrasp(vertex, random);
-    const grasp::Grasp to = cells.DrawGrasp(vertex, random);
+    const grasp::Grasp from = cells.GraspOf(*cells.Draw(vertex, random));
+    const grasp::Grasp to = cells.GraspOf(*cells.Draw(vertex, random));
     ASSERT_EQ(from.size(), set.edges.size());
     const std::vector<Eigen::VectorXd> path =
         FindAlignPath(cells.of(vertex), ParametersOf(polygon, from), ParametersOf(polygon, to));

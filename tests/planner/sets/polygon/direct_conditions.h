@@ -10,7 +10,7 @@
 namespace regrasp::polygon {
 
 // What makes a planar grasp concurrent, 2-finger or parallel, written down once more in doubles and
-// in the plainest way, contact by contact. Nothing of planner/sets/polygon but the names of the
+// as plainly as can be, contact by contact. Nothing of planner/sets/polygon but the names of the
 // types.
 
 /// A kind of grasp that contacts are, as far as doubles can tell.

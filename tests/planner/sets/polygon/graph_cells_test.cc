@@ -21,7 +21,7 @@ TEST(GraphCells, DrawsGraspsAllOverASet) {
   // Quarters of both edges that the contacts hit: all pairs but those that lean too far.
   std::set<std::pair<int, int>> hit;
   for (int i = 0; i < 500; ++i) {
-    const grasp::Grasp grasp = cells.DrawGrasp(vertex, random);
+    const grasp::Grasp grasp = cells.GraspOf(*cells.Draw(vertex, random));
     ASSERT_EQ(grasp.size(), 2U);
     EXPECT_TRUE(grasp::IsForceClosure(grasp, square.wrench_frame(), Radians(40)));
     hit.emplace(static_cast<int>(4 * grasp::ParameterOf(square, grasp[0])),
@@ -36,7 +36,7 @@ TEST(GraphCells, DrawsTheSameGraspsFromTheSameSeed) {
   const auto draw = [&](std::uint64_t seed) {
     GraphCells cells(blob, graph);
     RandomStream random(seed, RandomUse::kStart);
-    return cells.DrawGrasp(0, random).front().p;
+    return cells.GraspOf(*cells.Draw(0, random)).front().p;
   };
   EXPECT_EQ(draw(1), draw(1));
   EXPECT_NE(draw(1), draw(2));

@@ -19,7 +19,7 @@ using Region = CGAL::Polygon_2<CellKernel>;
 /// lines whose directions are exact products of doubles cross nearer than this.
 constexpr double kFarthestReach = 0x1p200;
 
-/// A tangent may be this much below the smaller of tan θ and tan φ*: room for rounding down.
+/// A tangent may be this much below the smaller of tan θ and tan φ*: it is rounded down.
 constexpr double kTangentSlack = 1e-12;
 
 /// The points within reach on the inner (left) or outer side of an edge's line.

@@ -78,7 +78,7 @@ TEST(KnownAnswers, ASquareBelow45DegreesHasTwoOpposedGrasps) {
 // two that face each other; either is a centre for the other two, whose normals are 90° apart
 // (the side between them is none: the others' normals are 180° apart). Both centres' sets hold
 // grasps with the contact between in the middle and the others at the far end, so they are one:
-// 4 triples, 4 vertices. Every contact serves in each set, and every two contacts of a parallel
+// 4 triples, 4 vertices. Every contact is valid in each set, and every two contacts of a parallel
 // grasp, so all that share an edge (2-finger with parallel: 6 · 4, as a pair always meets a triple)
 // or two edges (parallel: 4 · 3 / 2) are joined.
 TEST(KnownAnswers, ASquareAbove45DegreesIsHeldAcrossItsCornersToo) {
@@ -113,7 +113,7 @@ TEST(KnownAnswers, AnEquilateralTriangleBelow30DegreesHasOneConcurrentSet) {
 }
 
 // Above 30° two sides squeeze across their corner. Adaptively the concurrent set remains, at 30°;
-// every contact serves in all sets and every pair is two of the three sides.
+// every contact is valid in all sets and every pair is two of the three sides.
 TEST(KnownAnswers, AnEquilateralTriangleAbove30DegreesIsSqueezedAcrossItsCorners) {
   Answer answer;
   answer.two_finger = {3, 3, 3, 1};
@@ -151,9 +151,9 @@ TEST(KnownAnswers, AHexagonBelow30DegreesHasTwoTriplesAndThreePairs) {
 // 12 in all.
 // Just above 30° the forces of {i, i+1, i+3} go along one direction, 120° for i = 0; across it the
 // three sides reach over [−1, 0], [0, 1] and [0, 1], and the centre's contact is between the other
-// two: all contacts of i, of i+1 and of i+3 serve, all pairs of (i, i+1) and of (i, i+3), and of
-// (i+1, i+3) those with u + u' > 1 (and a little more, as the direction has some play). For
-// {i, i+1, i+4} it is the mirror image: u + u' < 1 (and a little more) for (i, i+4).
+// two: all contacts of i, of i+1 and of i+3 are valid, all pairs of (i, i+1) and of (i, i+3), and
+// of (i+1, i+3) those with u + u' > 1 (and a little more, as the direction has some play). For {i,
+// i+1, i+4} it is the mirror image: u + u' < 1 (and a little more) for (i, i+4).
 // - parallel–parallel: (i, i+1) is in 2 triples: 6 · 1; (i, i+3) in 4: 3 · 6; (i, i+2) in 2, which
 //   overlap by what is a little more: 6 · 1; 30 together.
 // - 2-finger–parallel: of the 9 pairs all but 2 share a side with a triple ({0, 1, 3} misses {2, 4}

@@ -100,7 +100,7 @@ class ParallelTest : public testing::TestWithParam<double> {
   static std::map<Triple, std::vector<int>> Candidates(const EdgeTable& edges) {
     std::map<Triple, std::vector<int>> centres;
     for (const ParallelCandidate& c : FindParallelCandidates(edges)) {
-      centres[c.edges].push_back(c.centre);
+      centres[c.edges] = c.centres;
     }
     return centres;
   }
@@ -121,7 +121,7 @@ TEST_P(ParallelTest, GraspsOfTheDefinitionLieInTheSetAndItsProjections) {
     const EdgeTable edges(polygon, tangent);
     for (const auto& [triple, centres] : Candidates(edges)) {
       for (const int centre : centres) {
-        const auto found = FindParallelSets(edges, triple, {centre});
+        const auto found = FindParallelSets(edges, {triple, {centre}});
         sets += static_cast<int>(found.size());
         empty += found.empty() ? 1 : 0;
         PairProjections pairs;
@@ -175,7 +175,7 @@ TEST_P(ParallelTest, WhatTheProjectionsHoldBelongsToAGrasp) {
     const EdgeTable edges(polygon, std::tan(half_angle()));
     for (const auto& [triple, centres] : Candidates(edges)) {
       const int centre = centres.front();
-      const auto found = FindParallelSets(edges, triple, {centre});
+      const auto found = FindParallelSets(edges, {triple, {centre}});
       if (found.empty()) continue;
       for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3;
@@ -217,7 +217,7 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
     for (const auto& [triple, centres] : Candidates(edges)) {
       if (centres.size() < 2) continue;
       ++several;
-      const auto found = FindParallelSets(edges, triple, centres);
+      const auto found = FindParallelSets(edges, {triple, centres});
       const auto set_of = [&](int centre) {
         for (std::size_t i = 0; i < found.size(); ++i) {
           const auto& list = found[i].centres;

@@ -33,8 +33,9 @@ std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, 
   std::map<GraspType, grasp::Grasp> grasps;
   for (const auto& [type, all] : vertices) {
     // A set that is too thin for doubles gives no grasp.
-    grasp::Grasp& grasp = grasps[type];
-    while (grasp.empty()) grasp = cells.DrawGrasp(all[random.Index(all.size())], random);
+    std::optional<PolygonPlace> place;
+    while (!place) place = cells.Draw(all[random.Index(all.size())], random);
+    grasps[type] = cells.GraspOf(*place);
   }
   return grasps;
 }
@@ -229,8 +230,8 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   int apart = 0;
   for (int v = 0; v < graph.vertex_count(); ++v) {
     if (components.of_vertex[v] == components.of_vertex[0]) continue;
-    const grasp::Grasp start = cells.DrawGrasp(v, random);
-    const grasp::Grasp goal = cells.DrawGrasp(0, random);
+    const grasp::Grasp start = cells.GraspOf(*cells.Draw(v, random));
+    const grasp::Grasp goal = cells.GraspOf(*cells.Draw(0, random));
     if (AreJoined(polygon, kDegrees, start, goal)) continue;
     const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), RequestAt(kDegrees));

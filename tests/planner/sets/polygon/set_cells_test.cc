@@ -125,8 +125,8 @@ TEST(SetCells, ClearWidthsOfParallelSetsAreNoneOrThoseOfGraspsInThem) {
 }
 
 TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
-  // Two fingers across the unit square, on the bottom and the top: with room to the ends of the
-  // edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
+  // Two fingers across the unit square, on the bottom and the top: with clearance to the ends of
+  // the edges, the border of a cone of 45° passes the middle of the other edge at 1 / sqrt 2.
   for (const double size : {1.0, 1000.0}) {
     const object::Polygon square = Square(size);
     const PolygonGraph graph = MakeGraph(square, 45, planning::Spanning::kAdaptive);

@@ -137,7 +137,7 @@ TEST_F(AcrossTheSquare, ImprovingRaisesTheScoreInsideTheSets) {
   // Opposite edges run against each other: the sum of both parameters is within 1 ± tan 30°.
   EXPECT_GT(ScoreOf(from, to, better, ScoreByPosition), 0.65);
   EXPECT_LT(ScoreOf(from, to, better, ScoreByPosition), 0.79);
-  // Room is left on either side.
+  // Slack is left on either side.
   for (const auto& [side, parameters] :
        {std::pair(&from, &better.before), std::pair(&to, &better.after)}) {
     EXPECT_TRUE(IsInSet(*side->cells, *parameters, point.slack / 5));

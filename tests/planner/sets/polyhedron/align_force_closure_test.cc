@@ -8,7 +8,7 @@
 
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/contact_motion.h"
-#include "planner/sets/polyhedron/focus_geometry.h"
+#include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -148,7 +148,7 @@ TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure
 
 /// Visits the aligns of plans with Spanning::kUniform: there the forces of any three contacts of a
 /// grasp don't balance, wherever in their cones they are, and those of all four are linearly
-/// dependent in one way only, with four positive factors (Phoka 2010, 5.2).
+/// dependent by one relation only, with four positive factors (Phoka 2010, 5.2).
 template <typename Visit>
 int ForEachUniformAlign(Visit visit) {
   int aligns = 0;
@@ -174,7 +174,7 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
     }
     const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.half_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
-    // One waypoint only: between good ones the way is bad all the same.
+    // One waypoint only: between good ones the path is bad all the same.
     plan::Align bent = align;
     bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
     EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.half_angle).not_closed, 0);

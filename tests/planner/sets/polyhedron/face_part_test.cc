@@ -34,7 +34,7 @@ Vector3d InSpace(const FacePart& part, const Vector2d& y) {
 }
 
 bool IsInside(const FacePart& part, const Vector2d& y, double by) {
-  const auto& o = part.outline;
+  const auto& o = part.outline();
   for (std::size_t i = 0; i < o.size(); ++i) {
     const Vector2d side = o[(i + 1) % o.size()] - o[i];
     if (Cross(side, y - o[i]) < by * side.norm()) return false;
@@ -43,7 +43,7 @@ bool IsInside(const FacePart& part, const Vector2d& y, double by) {
 }
 
 void ExpectConvexAndCounterClockwise(const FacePart& part) {
-  const auto& o = part.outline;
+  const auto& o = part.outline();
   ASSERT_GE(o.size(), 3U);
   ASSERT_EQ(o.size(), part.corners.size());
   for (std::size_t i = 0; i < o.size(); ++i) {
@@ -57,11 +57,11 @@ void ExpectConvexAndCounterClockwise(const FacePart& part) {
 
 /// Whether a side of the first has all of the second beyond it or on it.
 bool HasSideBetween(const FacePart& a, const FacePart& b) {
-  const auto& o = a.outline;
+  const auto& o = a.outline();
   for (std::size_t i = 0; i < o.size(); ++i) {
     const Vector2d side = (o[(i + 1) % o.size()] - o[i]).normalized();
     const bool beyond = std::ranges::all_of(
-        b.outline, [&](const Vector2d& y) { return Cross(side, y - o[i]) <= kRounding; });
+        b.outline(), [&](const Vector2d& y) { return Cross(side, y - o[i]) <= kRounding; });
     if (beyond) return true;
   }
   return false;
@@ -87,9 +87,9 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
       ExpectConvexAndCounterClockwise(part);
       for (std::size_t i = 0; i < part.corners.size(); ++i) {
         const Vector3d corner = body.vertices()[part.corners[i]];
-        EXPECT_LT((InSpace(part, part.outline[i]) - corner).norm(), kRounding * body.diameter());
+        EXPECT_LT((InSpace(part, part.outline()[i]) - corner).norm(), kRounding * body.diameter());
       }
-      area += AreaOf(part.outline);
+      area += AreaOf(part.outline());
       for (int q = split.first[face]; q < p; ++q) {
         EXPECT_TRUE(AreDisjoint(part, split.parts[q]));
       }
@@ -110,10 +110,10 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
     const int first = split.first[face];
     const int end = split.first[face + 1];
     EXPECT_EQ(hull.face, face);
-    EXPECT_GT(AreaOf(hull.outline), 0);
+    EXPECT_GT(AreaOf(hull.outline()), 0);
     std::vector<Vector2d> corners;
     for (int p = first; p < end; ++p) {
-      for (const Vector2d& corner : split.parts[p].outline) {
+      for (const Vector2d& corner : split.parts[p].outline()) {
         EXPECT_TRUE(IsInside(hull, corner, -small));
         corners.push_back(corner);
       }
@@ -121,13 +121,13 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
         EXPECT_EQ(std::ranges::count(hull.corners, corner), 1);
       }
     }
-    for (const Vector2d& corner : hull.outline) {
+    for (const Vector2d& corner : hull.outline()) {
       EXPECT_GT(std::ranges::count(corners, corner), 0);
     }
     if (end - first == 1) {
-      EXPECT_EQ(hull.outline, split.parts[first].outline);
+      EXPECT_EQ(hull.outline(), split.parts[first].outline());
     } else {
-      EXPECT_GT(AreaOf(hull.outline), body.face_measure(FaceIndex(face)) + small);
+      EXPECT_GT(AreaOf(hull.outline()), body.face_measure(FaceIndex(face)) + small);
       ++several;
     }
   }
@@ -137,10 +137,11 @@ int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
 /// Joints lie on the borders of both their parts, and parts of a face hang together by them.
 int CheckJoints(const FaceParts& split) {
   for (const PartJoint& joint : split.joints) {
-    EXPECT_EQ(joint.segment.outline.size(), 2U);
+    EXPECT_EQ(joint.segment.outline().size(), 2U);
     EXPECT_NE(joint.parts[0], joint.parts[1]);
-    const Vector2d middle = (joint.segment.outline[0] + joint.segment.outline[1]) / 2;
-    const Vector2d along = joint.segment.outline[1] - joint.segment.outline[0];
+    const std::vector<Vector2d> ends = joint.segment.outline();
+    const Vector2d middle = (ends[0] + ends[1]) / 2;
+    const Vector2d along = ends[1] - ends[0];
     const Vector2d across = Vector2d(-along.y(), along.x()) * 1e-3;
     int inside = 0;
     for (const int p : joint.parts) {
@@ -189,7 +190,7 @@ TEST(SplitFaces, AFrameIsPartsInACircle) {
   ASSERT_EQ(body.face_count(), 10);
   const FaceParts split = SplitFaces(body);
   const int parts = CheckParts(body, split) - 8;  // of the two frames
-  // Four serve; the joining of triangles may need twice four each.
+  // Four are enough; the joining of triangles may need twice four each.
   EXPECT_GE(parts, 8);
   EXPECT_LE(parts, 16);
   EXPECT_EQ(CheckJoints(split), parts);
@@ -222,8 +223,8 @@ TEST(SplitFaces, TheChecksSeeAPartThatIsNotConvexAndOnesThatOverlap) {
   ASSERT_NE(several, split.joints.end());
   const FacePart& part = split.parts[several->parts[0]];
   EXPECT_FALSE(AreDisjoint(part, part));
-  EXPECT_FALSE(IsInside(part, part.outline[0], 0.01));
-  EXPECT_GT(body.face_measure(FaceIndex(part.face)), AreaOf(part.outline) + 0.1);
+  EXPECT_FALSE(IsInside(part, part.outline()[0], 0.01));
+  EXPECT_GT(body.face_measure(FaceIndex(part.face)), AreaOf(part.outline()) + 0.1);
 }
 
 }  // namespace

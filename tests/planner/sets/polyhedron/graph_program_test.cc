@@ -37,10 +37,10 @@ struct Count {
 };
 
 /// The parts of a face as they are; what sees one of them from a side.
-SeenFrom SetOf(const FaceParts& parts, int half, double tangent) {
+SeenFrom SetOf(const FaceParts& parts, HalfIndex half, double tangent) {
   const FacePart& part = parts.parts[half / 2];
   SeenFrom set;
-  for (const auto& y : part.outline) {
+  for (const auto& y : part.outline()) {
     set.corners.push_back(part.origin + y.x() * part.u + y.y() * part.v);
   }
   set.axis = half % 2 == 0 ? part.normal : Vector3d(-part.normal);
@@ -64,8 +64,8 @@ class GraphOracle {
   /// Every piece of the sampled combinations, and the components that they fall into.
   void CheckPieces(Count& count) {
     for (const QuadrupleCandidate& candidate : candidates_) {
-      std::vector<std::array<int, 4>> certain, possible;
-      std::array<int, 4> halves;
+      std::vector<Halves> certain, possible;
+      Halves halves;
       VisitHalves(candidate, 0, halves, [&] {
         const Verdict verdict = Decide(halves, candidate.tangent);
         const bool has = FindCell(candidate.faces, halves) >= 0;
@@ -83,7 +83,7 @@ class GraphOracle {
 
   /// Sampled pairs of cells with three common faces.
   void CheckLinks(Count& count) {
-    const std::set<std::array<int, 2>> links(graph_.links().begin(), graph_.links().end());
+    const std::set<std::array<int, 2>> links(graph_.switches().begin(), graph_.switches().end());
     std::vector<std::array<int, 2>> pairs;
     const auto& cells = graph_.cells();
     for (int a = 0; a < graph_.vertex_count(); ++a) {
@@ -101,22 +101,22 @@ class GraphOracle {
 
  private:
   template <class Visit>
-  void VisitHalves(const QuadrupleCandidate& candidate, std::size_t depth,
-                   std::array<int, 4>& halves, const Visit& visit) {
+  void VisitHalves(const QuadrupleCandidate& candidate, std::size_t depth, Halves& halves,
+                   const Visit& visit) {
     if (depth == 4) {
       visit();
       return;
     }
     const int face = candidate.faces[depth];
-    for (int half = 2 * parts_.first[face]; half < 2 * parts_.first[face + 1]; ++half) {
+    for (HalfIndex half(2 * parts_.first[face]); half < 2 * parts_.first[face + 1]; ++half) {
       halves[depth] = half;
       VisitHalves(candidate, depth + 1, halves, visit);
     }
   }
 
-  [[nodiscard]] Verdict Decide(const std::array<int, 4>& halves, double tangent) const {
+  [[nodiscard]] Verdict Decide(const Halves& halves, double tangent) const {
     std::vector<SeenFrom> sets;
-    for (const int half : halves) sets.push_back(SetOf(parts_, half, tangent));
+    for (const HalfIndex half : halves) sets.push_back(SetOf(parts_, half, tangent));
     return DecideByPyramids(sets, scale_);
   }
 
@@ -137,8 +137,7 @@ class GraphOracle {
   }
 
   /// The cell that has a piece, or −1.
-  [[nodiscard]] int FindCell(const std::array<int, 4>& faces,
-                             const std::array<int, 4>& halves) const {
+  [[nodiscard]] int FindCell(const std::array<int, 4>& faces, const Halves& halves) const {
     const auto& cells = graph_.cells();
     auto cell = std::lower_bound(
         cells.begin(), cells.end(), faces,
@@ -153,8 +152,7 @@ class GraphOracle {
 
   /// Whether two pieces meet: through the face of which they lie on both sides, or over a joint of
   /// two of its parts.
-  [[nodiscard]] Verdict DecideJunction(const std::array<int, 4>& a, const std::array<int, 4>& b,
-                                       double tangent) const {
+  [[nodiscard]] Verdict DecideJunction(const Halves& a, const Halves& b, double tangent) const {
     std::vector<SeenFrom> sets;
     int changed = -1;
     for (int k = 0; k < 4; ++k) {
@@ -177,7 +175,7 @@ class GraphOracle {
   }
 
   /// Corners that two parts of one face share: two where they share a side.
-  [[nodiscard]] std::vector<Vector3d> CommonCorners(int half, int other) const {
+  [[nodiscard]] std::vector<Vector3d> CommonCorners(HalfIndex half, HalfIndex other) const {
     const SeenFrom one = SetOf(parts_, half, 1);
     const SeenFrom two = SetOf(parts_, other, 1);
     std::vector<Vector3d> common;
@@ -189,9 +187,8 @@ class GraphOracle {
 
   /// Pieces that certainly hang together are in one cell; those of one cell hang together at least
   /// through junctions that are not certainly shut.
-  void CheckComponents(const QuadrupleCandidate& candidate,
-                       const std::vector<std::array<int, 4>>& certain,
-                       const std::vector<std::array<int, 4>>& possible) const {
+  void CheckComponents(const QuadrupleCandidate& candidate, const std::vector<Halves>& certain,
+                       const std::vector<Halves>& possible) const {
     for (std::size_t i = 0; i < certain.size(); ++i) {
       for (std::size_t j = i + 1; j < certain.size(); ++j) {
         if (DecideJunction(certain[i], certain[j], candidate.tangent) != Verdict::kMeet) continue;
@@ -229,11 +226,11 @@ class GraphOracle {
     Verdict verdict = Verdict::kApart;
     for (const FocusPiece& of_a : a.pieces) {
       for (const FocusPiece& of_b : b.pieces) {
-        std::set<int> halves(of_a.halves.begin(), of_a.halves.end());
+        std::set<HalfIndex> halves(of_a.halves.begin(), of_a.halves.end());
         halves.insert(of_b.halves.begin(), of_b.halves.end());
         if (halves.size() != 5) continue;
         std::vector<SeenFrom> sets;
-        for (const int half : halves) {
+        for (const HalfIndex half : halves) {
           const bool in_a = std::ranges::count(of_a.halves, half) > 0;
           const bool in_b = std::ranges::count(of_b.halves, half) > 0;
           const double tangent = in_a && in_b ? std::min(a.tangent, b.tangent)

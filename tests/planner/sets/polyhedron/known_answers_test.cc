@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 bool Contains(PolyhedronGraph& graph, const FocusCell& cell, const Vector3d& x) {
   return std::ranges::any_of(cell.pieces, [&](const FocusPiece& piece) {
-    return std::ranges::all_of(piece.halves, [&](int half) {
+    return std::ranges::all_of(piece.halves, [&](HalfIndex half) {
       return graph.finder().VolumeOf(half, cell.tangent).At(x) < 0;
     });
   });
@@ -29,7 +29,7 @@ TEST(PolyhedronGraph, OfARegularTetrahedronIsOneCellAboutItsCentre) {
     EXPECT_EQ(graph.candidate_count(), 1);
     EXPECT_EQ(graph.combination_count(), 1);
     ASSERT_EQ(graph.vertex_count(), 1);
-    EXPECT_TRUE(graph.links().empty());
+    EXPECT_TRUE(graph.switches().empty());
     const FocusCell& cell = graph.cells().front();
     EXPECT_EQ(cell.faces, (std::array{0, 1, 2, 3}));
     EXPECT_EQ(cell.tangent, std::tan(Radians(degrees)));
@@ -70,7 +70,7 @@ TEST(PolyhedronGraph, OfARegularOctahedronIsTwoTetrahedraOfFaces) {
   PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
-  EXPECT_TRUE(graph.links().empty());
+  EXPECT_TRUE(graph.switches().empty());
   EXPECT_EQ(graph.components().count(), 2);
   for (const FocusCell& cell : graph.cells()) {
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
@@ -105,7 +105,7 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
 TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronToo) {
   object::PolygonSoup soup;
   const Vector3d corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  // Corner i is cut off a third of the way to each j, at vertex 3 i + (place of j among the
+  // Corner i is cut off at a third of the edge to each j, at vertex 3 i + (place of j among the
   // others).
   const auto vertex = [](int i, int j) { return 3 * i + (j < i ? j : j - 1); };
   for (int i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
   PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
-  EXPECT_TRUE(graph.links().empty());
+  EXPECT_TRUE(graph.switches().empty());
   for (const FocusCell& cell : graph.cells()) {
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
     for (const int f : cell.faces) {
@@ -158,7 +158,7 @@ TEST(PolyhedronGraph, TwoHalvesOfABottomAreLinkedWhereAFocusPointSeesBoth) {
   PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 2);
   ASSERT_EQ(graph.vertex_count(), 2);
-  ASSERT_EQ(graph.links().size(), 1U);
+  ASSERT_EQ(graph.switches().size(), 1U);
   EXPECT_EQ(graph.components().count(), 1);
   std::vector<int> neighbours;
   graph.GetNeighbours(0, neighbours);

@@ -41,7 +41,7 @@ void PrintTo(const Counts& c, std::ostream* out) {
 Counts CountsOf(const object::Polyhedron& body, double degrees, planning::Spanning spanning) {
   const PolyhedronGraph graph(body, Radians(degrees), spanning);
   return {graph.candidate_count(), graph.combination_count(), graph.vertex_count(),
-          graph.links().size(), graph.components().count()};
+          graph.switches().size(), graph.components().count()};
 }
 
 const std::vector<NamedBody>& Bodies() {
@@ -127,8 +127,8 @@ TEST(PolyhedronLaws, CountsDoDependOnStretching) {
 }
 
 /// The cell of each piece, by its halves.
-std::map<std::array<int, 4>, int> CellsByPiece(const PolyhedronGraph& graph) {
-  std::map<std::array<int, 4>, int> cell_of;
+std::map<Halves, int> CellsByPiece(const PolyhedronGraph& graph) {
+  std::map<Halves, int> cell_of;
   for (int cell = 0; cell < graph.vertex_count(); ++cell) {
     for (const FocusPiece& piece : graph.cells()[cell].pieces) cell_of[piece.halves] = cell;
   }
@@ -154,8 +154,8 @@ TEST(PolyhedronLaws, UnderAdaptiveSpanningMoreFrictionKeepsPiecesComponentsAndLi
         EXPECT_GE(larger.tangent, less.cells()[cell].tangent);
         ++pieces;
       }
-      const std::set<std::array<int, 2>> more_links(more.links().begin(), more.links().end());
-      for (const auto& [a, b] : less.links()) {
+      const std::set<std::array<int, 2>> more_links(more.switches().begin(), more.switches().end());
+      for (const auto& [a, b] : less.switches()) {
         EXPECT_TRUE(more_links.contains(
             std::array{std::min(image[a], image[b]), std::max(image[a], image[b])}));
         ++links;
@@ -174,7 +174,7 @@ TEST(PolyhedronLaws, UniformCellsAreThoseAdaptiveCellsThatHaveTheWholeFriction) 
     SCOPED_TRACE(name);
     const PolyhedronGraph uniform(body, Radians(10), planning::Spanning::kUniform);
     const PolyhedronGraph adaptive(body, Radians(10), planning::Spanning::kAdaptive);
-    std::set<std::array<int, 4>> of_uniform, of_adaptive;
+    std::set<Halves> of_uniform, of_adaptive;
     for (const auto& [halves, cell] : CellsByPiece(uniform)) of_uniform.insert(halves);
     for (const auto& [halves, cell] : CellsByPiece(adaptive)) {
       if (adaptive.cells()[cell].tangent == std::tan(Radians(10))) of_adaptive.insert(halves);
@@ -202,7 +202,7 @@ TEST(PolyhedronLaws, NeighboursAreMutualAndTheSameTwice) {
   for (const auto& [name, body] : Bodies()) {
     const PolyhedronGraph graph(body, Radians(12), planning::Spanning::kAdaptive);
     const PolyhedronGraph again(body, Radians(12), planning::Spanning::kAdaptive);
-    EXPECT_EQ(graph.links(), again.links());
+    EXPECT_EQ(graph.switches(), again.switches());
     std::size_t ends = 0;
     std::vector<int> neighbours, back;
     for (int v = 0; v < graph.vertex_count(); ++v) {
@@ -214,7 +214,7 @@ TEST(PolyhedronLaws, NeighboursAreMutualAndTheSameTwice) {
         EXPECT_EQ(std::ranges::count(back, v), 1);
       }
     }
-    EXPECT_EQ(ends, 2 * graph.links().size());
+    EXPECT_EQ(ends, 2 * graph.switches().size());
   }
 }
 

@@ -206,13 +206,13 @@ TEST(MinMax, OfUnionVolumesIsNotBeatenByWalksDown) {
   for (const NamedBody& named : SmallBodies()) {
     SCOPED_TRACE(named.name);
     const FaceParts split = SplitFaces(named.body);
-    const std::vector<UnionVolume::Shape> shapes(split.parts.begin(), split.parts.end());
     const double size = named.body.diameter();
     MinMax min_max(named.body.mass_properties().centroid, kReach * size);
     for (int i = 0; i < 40; ++i) {
       std::vector<UnionVolume> volumes;
       for (int k = 0; k < 4 + i % 2; ++k) {
-        volumes.emplace_back(shapes[engine() % shapes.size()], engine() % 4 != 0, 0.3);
+        const FacePart& part = split.parts[engine() % split.parts.size()];
+        volumes.emplace_back(part, engine() % 4 != 0, 0.3);
       }
       min_max.Restart();
       const MinMaxResult sign = min_max.Solve(volumes, MinMax::Until::kSign);

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/sets/polyhedron/focus_geometry.h"
 #include "planner/sets/polyhedron/focus_view.h"
+#include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"
@@ -64,18 +64,18 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
   int apart = 0;
   for (const auto& [name, body] : SmallBodies()) {
     PolyhedronGraph graph(body, Radians(14), planning::Spanning::kUniform);
-    FocusGeometry geometry(body, graph);
+    PolyhedronModel model(body, graph);
     const search::Components components = graph.components();
     RandomStream random(3, RandomUse::kGoal);
     for (int i = 0; i < 40 && graph.vertex_count() > 0; ++i) {
       const int a = static_cast<int>(random.Index(graph.vertex_count()));
       const int b = static_cast<int>(random.Index(graph.vertex_count()));
-      const auto start = geometry.Draw(a, random);
-      const auto goal = geometry.Draw(b, random);
+      const auto start = model.Draw(a, random);
+      const auto goal = model.Draw(b, random);
       ASSERT_TRUE(start && goal);
       const planning::PlanResult result =
-          PlanWith(PolyhedronPlanner(), body, Given(geometry.GraspOf(*start)),
-                   Given(geometry.GraspOf(*goal)), Spanned(14, 0, planning::Spanning::kUniform));
+          PlanWith(PolyhedronPlanner(), body, Given(model.GraspOf(*start)),
+                   Given(model.GraspOf(*goal)), Spanned(14, 0, planning::Spanning::kUniform));
       SCOPED_TRACE(name + ", cells " + std::to_string(a) + " and " + std::to_string(b));
       if (components.of_vertex[a] == components.of_vertex[b]) {
         ++joined;
@@ -96,17 +96,17 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
   for (const auto& [name, body] : SmallBodies()) {
     for (const double degrees : {8.0, 30.0}) {
       PolyhedronGraph graph(body, Radians(degrees), planning::Spanning::kAdaptive);
-      FocusGeometry geometry(body, graph);
+      PolyhedronModel model(body, graph);
+      const criteria::GraspEvaluator evaluator(body, {.half_angle = Radians(degrees)});
       RandomStream random(5, RandomUse::kStart);
       for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 40) {
-        const auto grasp = geometry.Draw(cell, random);
+        const auto grasp = model.Draw(cell, random);
         ASSERT_TRUE(grasp);
         EXPECT_TRUE(
-            grasp::IsForceClosure(geometry.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
+            grasp::IsForceClosure(model.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
             << name << ", cell " << cell;
-        const auto located = geometry.Locate(geometry.GraspOf(*grasp));
-        EXPECT_TRUE(
-            std::ranges::any_of(located, [&](const FocusGrasp& at) { return at.cell == cell; }))
+        const auto located = model.Attach(model.GraspOf(*grasp), evaluator);
+        EXPECT_TRUE(std::ranges::any_of(located, [&](const auto& a) { return a.set == cell; }))
             << name << ", cell " << cell;
         ++drawn;
       }
@@ -142,15 +142,15 @@ TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
   int seen = 0;
   for (const auto& [name, body] : SmallBodies()) {
     PolyhedronGraph graph(body, Radians(12), planning::Spanning::kAdaptive);
-    FocusGeometry geometry(body, graph);
+    PolyhedronModel model(body, graph);
     RandomStream random(9, RandomUse::kStart);
     for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 10) {
-      const auto drawn = geometry.Draw(cell, random);
+      const auto drawn = model.Draw(cell, random);
       ASSERT_TRUE(drawn);
-      const auto view = DescribeFocus(body, geometry.GraspOf(*drawn), Radians(12));
+      const auto view = DescribeFocus(body, model.GraspOf(*drawn), Radians(12));
       ASSERT_TRUE(view) << name;
       const double tangent = graph.cells()[cell].tangent;
-      for (const grasp::Contact& contact : geometry.GraspOf(*drawn)) {
+      for (const grasp::Contact& contact : model.GraspOf(*drawn)) {
         const Eigen::Vector3d line = view->focus - contact.p;
         const double height = std::abs(contact.n.dot(line));
         EXPECT_LE((line - contact.n.dot(line) * contact.n).norm(), tangent * height * (1 + 1e-9));

@@ -31,7 +31,7 @@ constexpr double kAtBorder = 1e-9;
 
 /// A contact that a focus point sees, and the half of the part it is on.
 struct Seen {
-  int half;
+  HalfIndex half;
   double slope;  ///< the tangent of the angle with the normal
   Vector3d contact;
 };
@@ -59,7 +59,7 @@ class GraspDraw {
     if (!IsOnFace(face, contact)) return std::nullopt;
     const int part = PartOf(face, contact);
     if (part < 0) return std::nullopt;
-    return Seen{2 * part + (height > 0 ? 0 : 1), slope, contact};
+    return Seen{HalfOf(part, height > 0), slope, contact};
   }
 
   std::size_t Index(std::size_t count) { return engine_() % count; }
@@ -88,10 +88,11 @@ class GraspDraw {
     for (int p = parts_.first[face]; p < parts_.first[face + 1]; ++p) {
       const FacePart& part = parts_.parts[p];
       const Vector2d y(part.u.dot(contact - part.origin), part.v.dot(contact - part.origin));
+      const std::vector<Vector2d> outline = part.outline();
       bool inside = true;
-      for (std::size_t i = 0; i < part.outline.size(); ++i) {
-        const Vector2d& a = part.outline[i];
-        const Vector2d side = (part.outline[(i + 1) % part.outline.size()] - a).normalized();
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vector2d& a = outline[i];
+        const Vector2d side = (outline[(i + 1) % outline.size()] - a).normalized();
         const double depth = side.x() * (y - a).y() - side.y() * (y - a).x();
         inside = inside && depth > kAtBorder * body_.diameter();
       }
@@ -121,7 +122,7 @@ struct Count {
   int grasps = 0;
   int outer = 0;  ///< with a contact seen from the outer side
   int cells = 0;
-  std::set<std::array<int, 4>> pieces;
+  std::set<Halves> pieces;
 };
 
 class GraspOracle {
@@ -165,7 +166,7 @@ class GraspOracle {
       ++count.cells;
       for (const FocusPiece& piece : cell.pieces) {
         std::vector<UnionVolume> volumes;
-        for (const int half : piece.halves) {
+        for (const HalfIndex half : piece.halves) {
           volumes.push_back(graph_.finder().VolumeOf(half, cell.tangent));
         }
         const auto deepest = graph_.finder().FindDeepest(volumes);
@@ -200,21 +201,21 @@ class GraspOracle {
 
   void CheckGrasp(const QuadrupleCandidate& candidate, const std::array<Seen, 4>& grasp,
                   const Vector3d& focus, Count& count) {
-    std::array<int, 4> halves;
+    Halves halves;
     for (std::size_t k = 0; k < grasp.size(); ++k) halves[k] = grasp[k].half;
     const auto cell = cell_of_.find(halves);
     ASSERT_NE(cell, cell_of_.end());
     EXPECT_EQ(graph_.cells()[cell->second].faces, candidate.faces);
-    for (const int half : halves) {
+    for (const HalfIndex half : halves) {
       EXPECT_LT(graph_.finder().VolumeOf(half, candidate.tangent).At(focus), 0);
     }
     EXPECT_TRUE(IsHeld(body_, grasp, candidate.faces, half_angle_));
     ++count.grasps;
-    if (std::ranges::any_of(halves, [](int half) { return half % 2 == 1; })) ++count.outer;
+    if (std::ranges::any_of(halves, [](HalfIndex half) { return !IsInner(half); })) ++count.outer;
     count.pieces.insert(halves);
   }
 
-  bool FindOn(int face, int half, double tangent, const Vector3d& focus, Seen& contact) {
+  bool FindOn(int face, HalfIndex half, double tangent, const Vector3d& focus, Seen& contact) {
     for (int i = 0; i < kTries; ++i) {
       const auto seen = draw_.See(face, tangent, focus);
       if (!seen || seen->half != half) continue;
@@ -227,7 +228,7 @@ class GraspOracle {
     if (first[face + 1] - first[face] > 1) return false;
     contact.contact = body_.ClosestPoint(FaceIndex(face), focus);
     const Vector3d line = focus - contact.contact;
-    const double height = body_.inward_normal(FaceIndex(face)).dot(line) * (half % 2 == 0 ? 1 : -1);
+    const double height = body_.inward_normal(FaceIndex(face)).dot(line) * (IsInner(half) ? 1 : -1);
     return height > 0 && line.squaredNorm() < height * height * (1 + tangent * tangent);
   }
 
@@ -235,7 +236,7 @@ class GraspOracle {
   double half_angle_;
   PolyhedronGraph graph_;
   GraspDraw draw_;
-  std::map<std::array<int, 4>, int> cell_of_;  // by the pieces' halves
+  std::map<Halves, int> cell_of_;  // by the pieces' halves
   std::vector<QuadrupleCandidate> candidates_;
 };
 

@@ -33,7 +33,7 @@ class PointSource {
 /// The part's contacts on a grid of triangles about its first corner, corners included.
 std::vector<Vector3d> ContactsOf(const FacePart& part, int cells) {
   std::vector<Vector3d> contacts;
-  const auto& o = part.outline;
+  const auto& o = part.outline();
   for (std::size_t k = 1; k + 1 < o.size(); ++k) {
     for (int i = 0; i <= cells; ++i) {
       for (int j = 0; i + j <= cells; ++j) {
@@ -61,9 +61,8 @@ int ForEachHalf(double tangent, const Check& check) {
     SCOPED_TRACE(named.name);
     const FaceParts split = SplitFaces(named.body);
     for (const FacePart& part : split.parts) {
-      const UnionVolume::Shape shape(part);
       for (const bool inner : {true, false}) {
-        check(named.body, part, UnionVolume(shape, inner, tangent),
+        check(named.body, part, UnionVolume(part, inner, tangent),
               inner ? part.normal : Vector3d(-part.normal));
         ++halves;
       }
@@ -133,10 +132,9 @@ TEST(UnionVolume, OfASquareIsKnownByHand) {
   const auto top =
       std::ranges::find_if(split.parts, [](const FacePart& p) { return p.normal.z() < -0.5; });
   ASSERT_NE(top, split.parts.end());
-  const UnionVolume::Shape shape(*top);
   const double tangent = 0.75;  // cos φ 0.8, sin φ 0.6
-  const UnionVolume inner(shape, true, tangent);
-  const UnionVolume outer(shape, false, tangent);
+  const UnionVolume inner(*top, true, tangent);
+  const UnionVolume outer(*top, false, tangent);
   EXPECT_NEAR(inner.At({0, 0, -1}), -1.2, kRounding);
   EXPECT_NEAR(inner.At({0.3, -0.9, 0}), -0.6, kRounding);
   EXPECT_NEAR(inner.At({0, 0, 2}), 0.6, kRounding);
@@ -153,9 +151,9 @@ TEST(UnionVolume, OfASingleContactIsItsCone) {
   PointSource source;
   for (const FacePart& part : split.parts) {
     const Vector3d contact = part.origin + 0.3 * part.u - 0.2 * part.v;
-    const UnionVolume::Shape shape(part, contact);
+    const FacePart point = PointPart(part, contact);
     for (const bool inner : {true, false}) {
-      const UnionVolume cone(shape, inner, 0.4);
+      const UnionVolume cone(point, inner, 0.4);
       const Vector3d axis = inner ? part.normal : Vector3d(-part.normal);
       for (int i = 0; i < kPoints; ++i) {
         const Vector3d x = source.Next(3);

@@ -1,0 +1,104 @@
+#include "planner/sets/polyhedron/focus_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace regrasp::polyhedron {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Contacts are looked for at so many places on the path from the part's point nearest to the foot
+/// of the focus point towards the middle of the part, as far as the cone reaches.
+constexpr int kContactSteps = 16;
+
+/// Random contacts tried on a face before the one that suits the focus point best is taken.
+constexpr int kContactDraws = 20;
+
+Vector2d MiddleOf(const FacePart& part) {
+  Vector2d sum = Vector2d::Zero();
+  for (const FacePart::Side& side : part.sides) sum += side.from;
+  return sum / static_cast<double>(part.sides.size());
+}
+
+/// The point of a part nearest to a point of its plane.
+Vector2d NearestOn(const FacePart& part, const Vector2d& y) {
+  if (DepthIn(part, y) >= 0) return y;
+  Vector2d nearest = y;
+  double least = std::numeric_limits<double>::infinity();
+  for (const FacePart::Side& side : part.sides) {
+    const double along = std::clamp(side.along.dot(y - side.from), 0.0, side.length);
+    const Vector2d candidate = side.from + along * side.along;
+    const double distance = (y - candidate).norm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+/// The share of the path from a point to another, both of a part's plane, at which it leaves the
+/// circle about `centre`; at most 1, 0 from a point outside.
+double ShareInside(const Vector2d& from, const Vector2d& to, const Vector2d& centre,
+                   double radius) {
+  const double a = (to - from).squaredNorm();
+  const double b = (to - from).dot(from - centre);
+  const double c = (from - centre).squaredNorm() - radius * radius;
+  if (c >= 0) return 0;
+  const double root = std::sqrt(b * b - a * c);
+  if (root - b >= a) return 1;
+  // Of the two forms of the larger root the one without cancellation.
+  return b > 0 ? -c / (b + root) : (root - b) / a;
+}
+
+/// Of the circle that a focus point sees on a part's plane.
+double RadiusOf(const FacePart& part, double tangent, const Vector3d& focus) {
+  return std::abs(part.HeightOf(focus)) * tangent;
+}
+
+}  // namespace
+
+double DepthIn(const FacePart& part, const Vector2d& y) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const FacePart::Side& side : part.sides) {
+    depth = std::min(depth, -side.outward.dot(y - side.from));
+  }
+  return depth;
+}
+
+Vector3d ContactFor(const FacePart& part, double tangent, const Vector3d& focus) {
+  const Vector2d foot = part.FootOf(focus);
+  const double radius = RadiusOf(part, tangent, focus);
+  const Vector2d nearest = NearestOn(part, foot);
+  const Vector2d middle = MiddleOf(part);
+  const Vector2d path = ShareInside(nearest, middle, foot, radius) * (middle - nearest);
+  Vector2d best = nearest;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= kContactSteps; ++step) {
+    const Vector2d y = nearest + static_cast<double>(step) / kContactSteps * path;
+    const double margin = std::min(radius - (y - foot).norm(), DepthIn(part, y));
+    if (margin <= most) continue;
+    most = margin;
+    best = y;
+  }
+  return part.PointAt(best);
+}
+
+Vector3d DrawContact(const FacePart& part, double tangent, const Vector3d& focus,
+                     RandomStream& random) {
+  const Vector2d foot = part.FootOf(focus);
+  const double radius = RadiusOf(part, tangent, focus);
+  for (int draw = 0; draw < kContactDraws; ++draw) {
+    const double r = radius * std::sqrt(random.Uniform());
+    const double angle = 2 * std::numbers::pi * random.Uniform();
+    const Vector2d y = foot + r * Vector2d(std::cos(angle), std::sin(angle));
+    if (DepthIn(part, y) > 0) return part.PointAt(y);
+  }
+  return ContactFor(part, tangent, focus);
+}
+
+}  // namespace regrasp::polyhedron

@@ -1,0 +1,59 @@
+#include "planner/sets/set_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace regrasp {
+
+double SetGraph::CheckedTangent(double half_angle) {
+  if (half_angle > 0 && half_angle < std::numbers::pi / 2) return std::tan(half_angle);
+  throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
+}
+
+void SetGraph::BeginVertices() { stage_begin_ = std::chrono::steady_clock::now(); }
+
+void SetGraph::EndVertices(int count) {
+  neighbours_.resize(count);
+  vertex_seconds_ = SecondsOfStage();
+}
+
+void SetGraph::EndEdges(std::vector<std::array<int, 2>> switches, std::vector<int> all_joined) {
+  switches_ = std::move(switches);
+  all_joined_ = std::move(all_joined);
+  for (const auto& [a, b] : switches_) {
+    neighbours_[a].push_back(b);
+    neighbours_[b].push_back(a);
+  }
+  for (std::vector<int>& list : neighbours_) std::ranges::sort(list);
+  edge_seconds_ = SecondsOfStage();
+}
+
+double SetGraph::SecondsOfStage() {
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - stage_begin_;
+  BeginVertices();
+  return took.count();
+}
+
+search::Components SetGraph::components() const {
+  const int pairs = static_cast<int>(switches_.size());
+  const int groups = pairs + (all_joined_.empty() ? 0 : 1);
+  return search::FindComponents(vertex_count(), groups, [&](int group) {
+    return group < pairs ? std::span<const int>(switches_[group])
+                         : std::span<const int>(all_joined_);
+  });
+}
+
+void SetGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
+  neighbours = neighbours_[vertex];
+  if (!std::ranges::binary_search(all_joined_, vertex)) return;
+  const auto middle = std::ssize(neighbours);
+  std::ranges::copy_if(all_joined_, std::back_inserter(neighbours),
+                       [&](int other) { return other != vertex; });
+  std::inplace_merge(neighbours.begin(), neighbours.begin() + middle, neighbours.end());
+}
+
+}  // namespace regrasp
