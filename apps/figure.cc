@@ -1,15 +1,15 @@
 // figure: draws every step of a planar plan as a figure for a paper.
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
+#include "apps/entry_names.h"
 #include "apps/options.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
@@ -32,11 +32,22 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "figure";
 
-/// Steps are numbered with this many digits, so that names sort.
-constexpr std::size_t kDigits = 3;
-
 /// The beginning of the names of figures of contact space.
 constexpr char kContactSpace[] = "contact_space";
+
+/// The folder of the figures.
+class FigureFolder {
+ public:
+  explicit FigureFolder(std::filesystem::path path);
+  void Write(const std::string& name, const std::string& bytes);
+  /// Removes the figures of an earlier run that this one has not written again: files that bear a
+  /// figure's name and are ours.
+  void RemoveOthers(const std::string& format) const;
+
+ private:
+  std::filesystem::path path_;
+  std::set<std::string> written_;
+};
 
 struct FigureProgram {
   std::string object_path;
@@ -59,7 +70,7 @@ struct FigureProgram {
   void CheckHasContactSpace(const plan::Plan& plan) const;
   void WriteFigures(const object::Polygon& polygon, const plan::Plan& plan) const;
   void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
-                         render::FigureFormat file_format, std::set<std::string>& written) const;
+                         render::FigureFormat file_format, FigureFolder& folder) const;
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
@@ -74,8 +85,7 @@ void FigureProgram::AddTo(CLI::App& app) {
                "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
-  AddScale(app, scale)
-      ->description("Metres per unit of length of the object file; must be the plan's");
+  AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
   AddQuiet(app, quiet);
 }
 
@@ -102,18 +112,11 @@ plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& 
 /// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, …,
 /// contact_space.svg, contact_space_001.svg, … in this format.
 bool IsFigureName(const std::string& name, const std::string& format) {
-  if (name == std::string(kContactSpace) + "." + format) return true;
-  const std::string prefix = std::string(kContactSpace) + "_";
-  if (name.starts_with(prefix)) {
-    const std::string rest = name.substr(prefix.size());
-    const std::size_t digits = rest.find_first_not_of("0123456789");
-    return digits >= kDigits && digits != std::string::npos && rest.substr(digits) == "." + format;
+  if (IsEntryFileName(name, format) || name == std::string(kContactSpace) + "." + format) {
+    return true;
   }
-  const auto digits = std::find_if_not(name.begin(), name.end(),
-                                       [](unsigned char c) { return std::isdigit(c) != 0; });
-  const std::string rest(digits, name.end());
-  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
-         (rest == "_hold." + format || rest == "_switch." + format || rest == "_align." + format);
+  const std::string prefix = std::string(kContactSpace) + "_";
+  return name.starts_with(prefix) && AfterEntryNumber(name.substr(prefix.size())) == "." + format;
 }
 
 std::string SheetName(const std::string& format) { return "sheet." + format; }
@@ -127,31 +130,30 @@ bool IsOurs(const std::filesystem::path& file) {
   }
 }
 
-/// Removes the figures of an earlier run that this one has not written again: files that bear a
-/// figure's name and are ours.
-void RemoveOthers(const std::filesystem::path& folder, const std::string& format,
-                  const std::set<std::string>& written) {
+FigureFolder::FigureFolder(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) throw EnvironmentError(path_.string() + ": " + error.message());
+}
+
+void FigureFolder::Write(const std::string& name, const std::string& bytes) {
+  WriteFile(path_ / name, bytes, Durability::kCached);
+  written_.insert(name);
+}
+
+void FigureFolder::RemoveOthers(const std::string& format) const {
   std::error_code error;
   std::vector<std::filesystem::path> others;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(path_, error)) {
     const std::string name = entry.path().filename().string();
     const bool file = entry.symlink_status(error).type() == std::filesystem::file_type::regular;
-    if (!file || written.contains(name) || !IsFigureName(name, format)) continue;
+    if (!file || written_.contains(name) || !IsFigureName(name, format)) continue;
     if (IsOurs(entry.path())) others.push_back(entry.path());
   }
   for (const std::filesystem::path& other : others) {
     if (!error) std::filesystem::remove(other, error);
   }
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
-}
-
-std::string Number(int index) {
-  const std::string number = std::to_string(index);
-  return std::string(kDigits - std::min(kDigits, number.size()), '0') + number;
-}
-
-std::string FileName(int index, const std::string& kind, const std::string& format) {
-  return Number(index) + "_" + kind + "." + format;
+  if (error) throw EnvironmentError(path_.string() + ": " + error.message());
 }
 
 void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
@@ -166,21 +168,17 @@ void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
 
 void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
                                       render::FigureFormat file_format,
-                                      std::set<std::string>& written) const {
-  const std::filesystem::path folder = out;
+                                      FigureFolder& folder) const {
   const int count = static_cast<int>(plan.steps.size());
   ProgressLine progress(quiet);
   progress.Report("contact space");
   render::ContactSpaceFigures figures(polygon, plan);
-  const auto write = [&](const std::string& name, const std::string& bytes) {
-    WriteFile(folder / name, bytes, Durability::kCached);
-    written.insert(name);
-  };
-  write(std::string(kContactSpace) + "." + format, figures.DrawOverview(file_format));
+  folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(file_format));
   for (int step = 1; step <= count; ++step) {
     progress.Report("contact space, step " + std::to_string(step) + " of " + std::to_string(count));
     const auto bytes = figures.DrawSwitch(step, file_format);
-    if (bytes) write(std::string(kContactSpace) + "_" + Number(step) + "." + format, *bytes);
+    if (!bytes) continue;
+    folder.Write(std::string(kContactSpace) + "_" + EntryNumber(step) + "." + format, *bytes);
   }
 }
 
@@ -190,25 +188,18 @@ void FigureProgram::WriteFigures(const object::Polygon& polygon, const plan::Pla
       {"pdf", render::FigureFormat::kPdf},
       {"png", render::FigureFormat::kPng}};
   const render::FigureFormat file_format = kFormats.at(format);
-  const std::filesystem::path folder = out;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw EnvironmentError(folder.string() + ": " + error.message());
+  FigureFolder folder(out);
   const std::vector<render::StepDiagram> diagrams = render::DescribePlan(polygon, plan);
   const int count = static_cast<int>(diagrams.size());
-  std::set<std::string> written;
   ProgressLine progress(quiet);
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
-    const std::string name = FileName(i, diagrams[i].kind, format);
-    WriteFile(folder / name, render::DrawStepFigure(polygon, diagrams, i, file_format),
-              Durability::kCached);
-    written.insert(name);
+    folder.Write(EntryFileName(i, diagrams[i].kind, format),
+                 render::DrawStepFigure(polygon, diagrams, i, file_format));
   }
-  WriteFile(folder / SheetName(format), render::DrawSheet(polygon, diagrams, file_format),
-            Durability::kCached);
-  if (contact_space) WriteContactSpace(polygon, plan, file_format, written);
-  RemoveOthers(folder, format, written);
+  folder.Write(SheetName(format), render::DrawSheet(polygon, diagrams, file_format));
+  if (contact_space) WriteContactSpace(polygon, plan, file_format, folder);
+  folder.RemoveOthers(format);
 }
 
 void FigureProgram::CheckOut() const {

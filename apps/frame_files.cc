@@ -1,10 +1,9 @@
 #include "apps/frame_files.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <vector>
 
+#include "apps/entry_names.h"
 #include "planner/base/file.h"
 #include "render/frames/contact_sheet.h"
 #include "render/picture/caption.h"
@@ -14,14 +13,7 @@ namespace regrasp::apps {
 
 namespace {
 
-/// Steps are numbered with this many digits, so that names sort.
-constexpr std::size_t kDigits = 3;
-
-std::string FrameName(std::size_t index, const std::string& kind) {
-  const std::string number = std::to_string(index);
-  const std::size_t zeros = kDigits - std::min(kDigits, number.size());
-  return std::string(zeros, '0') + number + "_" + kind + ".png";
-}
+constexpr char kFrameEnding[] = "png";
 
 std::string Caption(const plan::Plan& plan, const report::ReportStep& step) {
   const std::string caption = render::FrameCaption(plan, step.check.index);
@@ -62,24 +54,17 @@ std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames, bool a
   if (animation) names.emplace_back(kAnimationName);
   if (!frames) return names;
   names.emplace_back(kOverviewName);
-  names.push_back(FrameName(0, "hold"));
+  names.push_back(EntryFileName(0, "hold", kFrameEnding));
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    names.push_back(FrameName(i + 1, plan::StepKind(plan.steps[i])));
+    names.push_back(
+        EntryFileName(static_cast<int>(i) + 1, plan::StepKind(plan.steps[i]), kFrameEnding));
   }
   return names;
 }
 
-bool IsPictureName(const std::string& name) {
-  if (name == kOverviewName || name == kAnimationName) return true;
-  const auto digits = std::find_if_not(name.begin(), name.end(),
-                                       [](unsigned char c) { return std::isdigit(c) != 0; });
-  const std::string rest(digits, name.end());
-  return digits - name.begin() >= static_cast<std::ptrdiff_t>(kDigits) &&
-         (rest == "_hold.png" || rest == "_switch.png" || rest == "_align.png");
-}
-
 bool IsValidationFile(const std::string& name) {
-  return name == kReportName || name == kPageName || IsPictureName(name);
+  const std::vector<std::string> always = {kReportName, kPageName, kOverviewName, kAnimationName};
+  return std::ranges::find(always, name) != always.end() || IsEntryFileName(name, kFrameEnding);
 }
 
 std::vector<report::PagePicture> WriteFrames(const object::Object& object, const plan::Plan& plan,
@@ -96,7 +81,7 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
   render::ContactSheet sheet(count, frame.width, frame.height);
   for (report::ReportStep& step : report.steps) {
     if (!step.replay) continue;
-    const std::string name = FrameName(step.check.index, step.check.kind);
+    const std::string name = EntryFileName(step.check.index, step.check.kind, kFrameEnding);
     const render::Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
     render::WritePng(folder / name, image);
     step.frame = name;

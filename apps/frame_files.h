@@ -24,12 +24,8 @@ inline constexpr char kAnimationName[] = "replay.webp";
 [[nodiscard]] std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames,
                                                    bool animation);
 
-/// Whether a file of this name is a picture that a validation writes (000_hold.png, 001_switch.png,
-/// …, the contact sheet, the animation).
-[[nodiscard]] bool IsPictureName(const std::string& name);
-
 /// Whether a validation writes, or removes as an earlier one's, a file of this name in its folder:
-/// report, page and pictures.
+/// report, page, contact sheet, moving picture, or the frame of an entry.
 [[nodiscard]] bool IsValidationFile(const std::string& name);
 
 /// Draws a frame of every replayed step into `folder` and names it in the report, and all of them,

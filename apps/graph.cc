@@ -1,9 +1,9 @@
 // graph: builds the switching graph and prints what the dissertation's tables print.
 
+#include <algorithm>
 #include <iostream>
 #include <string>
 
-#include "apps/graph_summary.h"
 #include "apps/graph_text.h"
 #include "apps/output_files.h"
 #include "apps/planner_options.h"
@@ -13,11 +13,6 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/object/polygon.h"
-#include "planner/planning/planner.h"
-#include "planner/registry/registry.h"
-#include "planner/roadmap/build_roadmap.h"
-#include "planner/sets/contour/graph_memory.h"
 
 namespace {
 
@@ -35,103 +30,98 @@ constexpr int kMostSamples = 10'000'000;
 struct GraphProgram {
   PlannerOptions common;
   std::string json;
-  int sampling = 0;
+  planning::GraphTasks tasks;
   bool compare = false;
-  int queries = 0;
   bool no_lazy = false;
 
-  void AddTo(CLI::App& app) {
-    common.AddTo(app, "polygon in the plane, roadmap in space");
-    app.add_option("--json", json,
-                   "Also writes the counts as JSON; - is standard output, instead "
-                   "of the table")
-        ->type_name("FILE");
-    AddInteger(app, "--sampling", sampling, 1, kMostSamples,
-               "The planner polyhedron looks for cells by so many random focus points instead of "
-               "directly, in a box that contains all cells");
-    app.add_flag("--compare", compare,
-                 "With --sampling: also says how much of the direct graph the points found");
-    AddInteger(app, "--queries", queries, 1, kMostQueries,
-               "A roadmap of clusters also answers so many queries between random force-closure "
-               "grasps of its contact points");
-    app.add_flag("--no-lazy", no_lazy,
-                 "With --queries: no search among the grasps of all contact points where the "
-                 "representatives do not join start and goal");
-  }
+  void AddTo(CLI::App& app);
+  int Run() const;
 
-  int Run() const {
-    if (sampling > 0 && common.planner != "polyhedron") {
-      throw InputError("--sampling: the planner " + common.planner +
-                       " draws no focus points; polyhedron does");
-    }
-    if (compare && sampling == 0) throw InputError("--compare: needs --sampling");
-    if (common.planner == "general") {
-      throw InputError("--planner general: it searches from grasp to grasp and has no graph");
-    }
-    const bool may_query = common.planner == "roadmap" || common.planner == "auto";
-    if (queries > 0 && !may_query) {
-      throw InputError("--queries: the planner " + common.planner + " answers none; roadmap does");
-    }
-    if (no_lazy && queries == 0) throw InputError("--no-lazy: needs --queries");
-    if (json != "-") {
-      OutputFiles outputs;
-      outputs.Add("--json", json);
-      CheckOutputsDiffer({{"--object", common.object}}, outputs);
-      CheckOutputsWritable(outputs);
-    }
-    const object::ObjectFile object = common.ReadObjectFile();
-    const double half_angle = common.friction.required_half_angle();
-    const GraphSummary summary = Summarize(object);
-    const std::string text = FormatJson(GraphJson(summary, half_angle));
-    if (json == "-") {
-      std::cout << text;
-      return kExitDone;
-    }
-    if (!json.empty()) WriteFile(json, text);
-    std::string title = summary.planner + " of " + object.file + ", " +
-                        std::to_string(summary.faces) + FacesName(summary.planner) +
-                        FormatShort(Degrees(half_angle)) + "°";
-    if (summary.planner == "polygon" || summary.planner == "polyhedron") {
-      title += ", " + common.spanning;
-    }
-    if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
-    if (sampling > 0) title += ", " + std::to_string(sampling) + " focus points";
-    std::cout << GraphTable(summary, title);
-    if (compare) std::cout << ShareText(*summary.sampling_share);
+ private:
+  void CheckUsage() const;
+  [[nodiscard]] planning::GraphSummary Summarize(const planning::Planner& planner,
+                                                 planning::PlanRequest request) const;
+  [[nodiscard]] std::string Title(const planning::Planner& planner,
+                                  const planning::GraphSummary& summary,
+                                  const std::string& object) const;
+};
+
+void GraphProgram::AddTo(CLI::App& app) {
+  common.AddTo(app, "polygon in the plane, roadmap in space, unless an option asks for another");
+  app.add_option("--json", json,
+                 "Also writes the counts as JSON; - is standard output, instead "
+                 "of the table")
+      ->type_name("FILE");
+  AddInteger(app, "--sampling", tasks.focus_points, 1, kMostSamples,
+             "The planner polyhedron looks for cells by so many random focus points instead of "
+             "directly, in a box that contains all cells");
+  app.add_flag("--compare", compare,
+               "With --sampling: also says how much of the direct graph the points found");
+  AddInteger(app, "--queries", tasks.queries, 1, kMostQueries,
+             "A roadmap of clusters also answers so many queries between random force-closure "
+             "grasps of its contact points");
+  app.add_flag("--no-lazy", no_lazy,
+               "With --queries: no search among the grasps of all contact points where the "
+               "representatives do not join start and goal");
+}
+
+void GraphProgram::CheckUsage() const {
+  if (compare && tasks.focus_points == 0) throw InputError("--compare: needs --sampling");
+  if (no_lazy && tasks.queries == 0) throw InputError("--no-lazy: needs --queries");
+  if (json == "-") return;
+  OutputFiles outputs;
+  outputs.Add("--json", json);
+  CheckOutputsDiffer({{"--object", common.object}}, outputs);
+  CheckOutputsWritable(outputs);
+}
+
+planning::GraphSummary GraphProgram::Summarize(const planning::Planner& planner,
+                                               planning::PlanRequest request) const {
+  ProgressLine progress(common.quiet);
+  request.progress = progress.reporter();
+  try {
+    return planner.SummarizeGraph(request);
+  } catch (const TimeUp& time_up) {
+    throw TimeUp("the graph of the planner " + planner.name() + " was not complete when " +
+                 time_up.what());
+  }
+}
+
+std::string GraphProgram::Title(const planning::Planner& planner,
+                                const planning::GraphSummary& summary,
+                                const std::string& object) const {
+  std::string title = planner.name() + " of " + object + ", " + std::to_string(summary.faces) +
+                      " " + summary.face_name + ", " +
+                      FormatShort(Degrees(common.friction.required_half_angle())) + "°";
+  const auto& options = planner.traits().options;
+  if (std::ranges::find(options, planning::PlanOption::kUniformSpanning) != options.end()) {
+    title += common.spanning == planning::Spanning::kUniform ? ", uniform" : ", adaptive";
+  }
+  if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
+  if (summary.sampling_share) {
+    title += ", " + std::to_string(tasks.focus_points) + " focus points";
+  }
+  return title;
+}
+
+int GraphProgram::Run() const {
+  CheckUsage();
+  const object::ObjectFile object = common.ReadObjectFile();
+  planning::PlanRequest request = common.RequestFor(*object.object);
+  request.last_resort = !no_lazy;
+  request.graph = tasks;
+  const planning::Planner& planner = common.PlannerFor(request);
+  const planning::GraphSummary summary = Summarize(planner, request);
+  const std::string text = FormatJson(GraphJson(summary, request.criteria.half_angle));
+  if (json == "-") {
+    std::cout << text;
     return kExitDone;
   }
-
-  GraphSummary Summarize(const object::ObjectFile& object) const {
-    ProgressLine progress(common.quiet);
-    GraphSummary summary;
-    const bool planar = object.object->dimension() == 2;
-    if (queries > 0 && planar) {
-      throw InputError("--queries: " + common.object + " is planar; only a roadmap answers them");
-    }
-    planning::PlanRequest request = common.RequestFor(*object.object);
-    request.progress = [&](std::string_view text) { progress.Report(text); };
-    request.last_resort = !no_lazy;
-    const std::string name =
-        common.planner != "auto" ? common.planner : (planar ? "polygon" : "roadmap");
-    const bool clusters = name == "roadmap" && !planar && roadmap::SizeOf(request).clusters > 0;
-    if (queries > 0 && !clusters) {
-      throw InputError("--queries: needs a roadmap of clusters (--clusters)");
-    }
-    const planning::Planner& planner = *registry::FindPlanner(name);
-    if (!planner.ScopeIn(object.object->dimension())) {
-      throw InputError(planning::WhyNotServed(planner, request));
-    }
-    // A graph of contour alone takes less than planning on it.
-    const auto* polygon = dynamic_cast<const object::Polygon*>(object.object.get());
-    common.CheckMemory(name == "contour"
-                           ? contour::EstimateContourGraph(*polygon, request.criteria.half_angle)
-                           : planner.EstimateMemory(request).value());
-    request.progress("building the switching graph");
-    summary = SummarizeGraph(name, request, {sampling, queries});
-    progress.Clear();
-    return summary;
-  }
-};
+  if (!json.empty()) WriteFile(json, text);
+  std::cout << GraphTable(summary, Title(planner, summary, object.file));
+  if (compare) std::cout << ShareText(*summary.sampling_share);
+  return kExitDone;
+}
 
 }  // namespace
 

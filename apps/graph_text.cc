@@ -31,7 +31,7 @@ std::string FormatTable(const std::vector<std::vector<std::string>>& rows) {
   return table.str();
 }
 
-std::string QueryText(const QuerySummary& queries) {
+std::string QueryText(const planning::QuerySummary& queries) {
   const auto milliseconds = [](double seconds) { return FormatShort(1000 * seconds, 3); };
   return std::to_string(queries.connected) + " of " + std::to_string(queries.count) +
          " random queries joined, " + milliseconds(queries.shortest_seconds) + " to " +
@@ -41,9 +41,9 @@ std::string QueryText(const QuerySummary& queries) {
 
 }  // namespace
 
-Json GraphJson(const GraphSummary& summary, double half_angle) {
+Json GraphJson(const planning::GraphSummary& summary, double half_angle) {
   Json types = Json::object();
-  for (const TypeSummary& type : summary.types) {
+  for (const planning::TypeSummary& type : summary.types) {
     types[type.name] = {{"candidates", type.candidates},
                         {"combinations", type.combinations},
                         {"vertices", type.vertices},
@@ -62,7 +62,7 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
       {"vertices", summary.vertices},
       {"components", summary.components},
       {"seconds", {{"vertices", summary.vertex_seconds}, {"edges", summary.edge_seconds}}}};
-  if (summary.planner == "polyhedron") json["unclear"] = summary.unclear;
+  if (summary.unclear) json["unclear"] = *summary.unclear;
   if (summary.clusters > 0) json["clusters"] = summary.clusters;
   if (summary.queries) {
     json["queries"] = {{"count", summary.queries->count},
@@ -72,7 +72,7 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
                        {"mean_seconds", summary.queries->mean_seconds}};
   }
   if (summary.sampling_share) {
-    const polyhedron::SamplingShare& share = *summary.sampling_share;
+    const planning::SamplingShare& share = *summary.sampling_share;
     json["compare"] = {{"combinations", share.quadruples},
                        {"found_combinations", share.found_quadruples},
                        {"links", share.links},
@@ -81,10 +81,10 @@ Json GraphJson(const GraphSummary& summary, double half_angle) {
   return json;
 }
 
-std::string GraphTable(const GraphSummary& summary, const std::string& title) {
+std::string GraphTable(const planning::GraphSummary& summary, const std::string& title) {
   const auto cell = [](std::int64_t count) { return std::to_string(count); };
   std::vector<std::vector<std::string>> types = {{"grasps", "#can", "#comb", "#vertex", "#CC"}};
-  for (const TypeSummary& type : summary.types) {
+  for (const planning::TypeSummary& type : summary.types) {
     types.push_back({type.name, cell(type.candidates), cell(type.combinations), cell(type.vertices),
                      cell(type.components)});
   }
@@ -94,19 +94,15 @@ std::string GraphTable(const GraphSummary& summary, const std::string& title) {
   std::vector<std::vector<std::string>> edges = {{"switches", "#edge"}};
   for (const auto& [name, count] : summary.edges) edges.push_back({name, cell(count)});
   const std::string queries = summary.queries ? QueryText(*summary.queries) : "";
-  const std::string unclear =
-      summary.unclear > 0 ? cell(summary.unclear) + " decisions were too close to call\n" : "";
+  const std::string unclear = summary.unclear.value_or(0) > 0
+                                  ? cell(*summary.unclear) + " decisions were too close to call\n"
+                                  : "";
   return OneLine(title) + "\n\n" + FormatTable(types) + "\n" + FormatTable(edges) + "\nvertices " +
          FormatShort(summary.vertex_seconds, 3) + " s, edges " +
          FormatShort(summary.edge_seconds, 3) + " s\n" + unclear + queries;
 }
 
-std::string FacesName(const std::string& planner) {
-  if (planner == "roadmap") return " contact points, ";
-  return planner == "polyhedron" ? " faces, " : " edges, ";
-}
-
-std::string ShareText(const polyhedron::SamplingShare& share) {
+std::string ShareText(const planning::SamplingShare& share) {
   const auto part = [](std::int64_t found, std::int64_t all) {
     const double percent =
         all == 0 ? 100 : 100.0 * static_cast<double>(found) / static_cast<double>(all);

@@ -2,21 +2,19 @@
 
 #include <string>
 
-#include "apps/graph_summary.h"
 #include "planner/base/json.h"
+#include "planner/planning/graph_summary.h"
 
 namespace regrasp::apps {
 
 /// A graph file's contents (docs/formats.md).
-[[nodiscard]] Json GraphJson(const GraphSummary& summary, double half_angle);
+[[nodiscard]] Json GraphJson(const planning::GraphSummary& summary, double half_angle);
 
 /// What `graph` prints: tables of grasps and switches, times, and what was asked for besides.
-[[nodiscard]] std::string GraphTable(const GraphSummary& summary, const std::string& title);
-
-/// " contact points, ": what `faces` counts, inside a title.
-[[nodiscard]] std::string FacesName(const std::string& planner);
+[[nodiscard]] std::string GraphTable(const planning::GraphSummary& summary,
+                                     const std::string& title);
 
 /// How many of the direct graph's sets sampling found, and of its links.
-[[nodiscard]] std::string ShareText(const polyhedron::SamplingShare& share);
+[[nodiscard]] std::string ShareText(const planning::SamplingShare& share);
 
 }  // namespace regrasp::apps

@@ -45,7 +45,7 @@ class HeldFolder {
   void Announce(const std::vector<std::string>& names);
 
  private:
-  /// The folders that were made on the way to one; those that are still empty at the end go.
+  /// The folders that were made to make one; those that are still empty at the end go.
   class MadeFolders {
    public:
     explicit MadeFolders(const std::filesystem::path& folder);

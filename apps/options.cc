@@ -31,6 +31,11 @@ bool Contains(const NumberRange& range, double x) {
   return above && below;
 }
 
+}  // namespace
+
+NumberRange NumberRange::Positive() { return {.lower = 0, .lower_included = false}; }
+NumberRange NumberRange::NotNegative() { return {.lower = 0}; }
+
 double ParseNumber(const std::string& name, const std::string& text, const NumberRange& range) {
   const std::optional<double> value = ParseDouble(text);
   if (!value || !Contains(range, *value)) {
@@ -52,72 +57,15 @@ Integer ParseInteger(const std::string& name, const std::string& text, Integer l
   return value;
 }
 
-template <class Number>
-CLI::Option* AddParsed(CLI::App& app, const std::string& name, Number& value,
-                       const NumberRange& range, const std::string& description,
-                       const std::string& type) {
-  const auto parse = [name, range, &value](const std::string& text) {
-    value = ParseNumber(name, text, range);
-  };
-  return app.add_option_function<std::string>(name, parse, description)->type_name(type);
-}
-
-constexpr char kScaleName[] = "--scale";
-constexpr char kScaleType[] = "METRES_PER_UNIT";
-constexpr char kScaleText[] = "Metres per unit of length of the object file (default 1)";
-
-}  // namespace
-
-NumberRange NumberRange::Positive() { return {.lower = 0, .lower_included = false}; }
-NumberRange NumberRange::NotNegative() { return {.lower = 0}; }
-
-CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value,
-                       const NumberRange& range, const std::string& description) {
-  return AddParsed(app, name, value, range, description, "X");
-}
-
-CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>& value,
-                       const NumberRange& range, const std::string& description) {
-  return AddParsed(app, name, value, range, description, "X");
-}
-
-namespace {
-
-template <typename Value>
-CLI::Option* AddIntegerTo(CLI::App& app, const std::string& name, Value& value, int lower,
-                          int upper, const std::string& description) {
-  const auto parse = [name, lower, upper, &value](const std::string& text) {
-    value = ParseInteger(name, text, lower, upper);
-  };
-  return app.add_option_function<std::string>(name, parse, description)->type_name("N");
-}
-
-}  // namespace
-
-CLI::Option* AddInteger(CLI::App& app, const std::string& name, int& value, int lower, int upper,
-                        const std::string& description) {
-  return AddIntegerTo(app, name, value, lower, upper, description);
-}
-
-CLI::Option* AddInteger(CLI::App& app, const std::string& name, std::optional<int>& value,
-                        int lower, int upper, const std::string& description) {
-  return AddIntegerTo(app, name, value, lower, upper, description);
-}
+template int ParseInteger(const std::string&, const std::string&, int, int);
+template std::int64_t ParseInteger(const std::string&, const std::string&, std::int64_t,
+                                   std::int64_t);
+template std::uint64_t ParseInteger(const std::string&, const std::string&, std::uint64_t,
+                                    std::uint64_t);
 
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description) {
-  const auto parse = [&value](const std::string& text) {
-    value =
-        ParseInteger<std::uint64_t>("--seed", text, 0, std::numeric_limits<std::uint64_t>::max());
-  };
-  return app.add_option_function<std::string>("--seed", parse, description)->type_name("N");
-}
-
-CLI::Option* AddScale(CLI::App& app, double& value) {
-  return AddParsed(app, kScaleName, value, NumberRange::Positive(), kScaleText, kScaleType);
-}
-
-CLI::Option* AddScale(CLI::App& app, std::optional<double>& value) {
-  return AddParsed(app, kScaleName, value, NumberRange::Positive(), kScaleText, kScaleType);
+  return AddInteger(app, "--seed", value, std::uint64_t{0},
+                    std::numeric_limits<std::uint64_t>::max(), description);
 }
 
 CLI::Option* AddQuiet(CLI::App& app, bool& value) {
@@ -127,11 +75,10 @@ CLI::Option* AddQuiet(CLI::App& app, bool& value) {
 void FrictionOptions::AddTo(CLI::App& app) {
   const NumberRange angle = {
       .lower = 0, .upper = 90, .lower_included = false, .upper_included = false};
-  AddParsed(app, "--friction-angle", degrees_, angle,
+  AddNumber(app, "--friction-angle", degrees_, angle,
             "Half-angle of the friction cone, degrees in (0, 90)", "DEG");
-  AddParsed(app, "--mu", mu_, NumberRange::Positive(),
-            "Coefficient of friction, the tangent of the half-angle; instead of --friction-angle",
-            "X");
+  AddNumber(app, "--mu", mu_, NumberRange::Positive(),
+            "Coefficient of friction, the tangent of the half-angle; instead of --friction-angle");
 }
 
 std::optional<double> FrictionOptions::half_angle() const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace regrasp::apps {
 
@@ -19,24 +21,72 @@ struct NumberRange {
   [[nodiscard]] static NumberRange NotNegative();
 };
 
-/// Adds an option that takes a finite number inside `range`, read the same under any locale.
-CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value,
-                       const NumberRange& range, const std::string& description);
-CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>& value,
-                       const NumberRange& range, const std::string& description);
+/// Reads a finite number, the same under any locale.
+/// @throws CLI::ValidationError  it is none, or outside the range; names the option.
+[[nodiscard]] double ParseNumber(const std::string& name, const std::string& text,
+                                 const NumberRange& range);
 
-/// Adds an option that takes a decimal integer in [lower, upper].
-CLI::Option* AddInteger(CLI::App& app, const std::string& name, int& value, int lower, int upper,
-                        const std::string& description);
-CLI::Option* AddInteger(CLI::App& app, const std::string& name, std::optional<int>& value,
-                        int lower, int upper, const std::string& description);
+/// Reads a decimal integer of `Integer` (int, std::uint64_t) in [lower, upper].
+/// @throws CLI::ValidationError  likewise.
+template <class Integer>
+[[nodiscard]] Integer ParseInteger(const std::string& name, const std::string& text, Integer lower,
+                                   Integer upper);
+
+/// Adds an option that takes a number inside `range`.
+/// @param value  a double, or an optional one.
+template <class Value>
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, Value& value,
+                       const NumberRange& range, const std::string& description,
+                       const std::string& type = "X") {
+  const auto parse = [name, range, &value](const std::string& text) {
+    value = ParseNumber(name, text, range);
+  };
+  return app.add_option_function<std::string>(name, parse, description)->type_name(type);
+}
+
+/// Adds an option that takes an integer in [lower, upper].
+/// @param value  an integer of the type of the limits, or an optional one.
+template <class Value, class Integer>
+CLI::Option* AddInteger(CLI::App& app, const std::string& name, Value& value, Integer lower,
+                        Integer upper, const std::string& description) {
+  const auto parse = [name, lower, upper, &value](const std::string& text) {
+    value = ParseInteger<Integer>(name, text, lower, upper);
+  };
+  return app.add_option_function<std::string>(name, parse, description)->type_name("N");
+}
+
+/// Adds an option that takes one of some words, each of which stands for a value.
+template <class Value>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value& value,
+                       const std::vector<std::pair<std::string, Value>>& choices,
+                       const std::string& description) {
+  std::vector<std::string> words;
+  std::string type;
+  for (const auto& [word, unused] : choices) {
+    words.push_back(word);
+    type += (type.empty() ? "" : "|") + word;
+  }
+  const auto choose = [choices, &value](const std::string& given) {
+    for (const auto& [word, meant] : choices) {
+      if (word == given) value = meant;
+    }
+  };
+  return app.add_option_function<std::string>(name, choose, description)
+      ->check(CLI::IsMember(words))
+      ->type_name(type);
+}
 
 /// Adds `--seed N`, any number of 64 bits.
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description);
 
 /// Adds `--scale METRES_PER_UNIT`.
-CLI::Option* AddScale(CLI::App& app, double& value);
-CLI::Option* AddScale(CLI::App& app, std::optional<double>& value);
+/// @param value  a double, or an optional one.
+template <class Value>
+CLI::Option* AddScale(
+    CLI::App& app, Value& value,
+    const std::string& description = "Metres per unit of length of the object file (default 1)") {
+  return AddNumber(app, "--scale", value, NumberRange::Positive(), description, "METRES_PER_UNIT");
+}
 
 /// Adds `--quiet`.
 CLI::Option* AddQuiet(CLI::App& app, bool& value);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <string>
 
 #include "apps/output_files.h"
@@ -19,7 +18,6 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
-#include "planner/registry/registry.h"
 #include "planner/tree/tree_planner.h"
 
 namespace {
@@ -45,83 +43,77 @@ struct PlanProgram {
   std::string output;
   double min_quality = criteria::GraspCriteria().min_quality;
   double finger_radius = 0;  ///< 0: points
-  std::string optimize;
+  planning::Objective objective = planning::Objective::kSteps;
   bool no_lazy = false;
   std::optional<std::int64_t> effort;
-  std::optional<double> time_limit_s;
-  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   bool explain = false;
 
-  void AddTo(CLI::App& app) {
-    common.AddTo(app, "general, unless an option asks for what only another has");
-    const std::string kinds =
-        ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
-        "or random-any (evenly over the surface)";
-    app.add_option("--start", start, "Start grasp" + kinds)
-        ->type_name("FILE|random|random-any")
-        ->required();
-    app.add_option("--goal", goal, "Goal grasp" + kinds)
-        ->type_name("FILE|random|random-any")
-        ->required();
-    app.add_option("--output", output, "Where the plan goes; - is standard output")
-        ->type_name("FILE")
-        ->required();
-    AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
-              "Quality that random grasps have at least; the sequence prefers such grasps and a "
-              "warning says where it must go below: the largest ball of wrenches resisted, normal "
-              "forces summing to 1, torques "
-              "over half the diameter (default 0.01)");
-    AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
-              "Radius of the fingers, in the object file's own unit of length: contacts that a "
-              "finger cannot come to straight along the normal, and grasps in which two fingers "
-              "overlap, are avoided (default: fingers are points)")
-        ->type_name("R");
-    app.add_flag("--no-lazy", no_lazy,
-                 "On a roadmap of clusters: no search among the grasps of all contact points where "
-                 "the representatives do not join start and goal");
-    app.add_option(
-           "--optimize", optimize,
-           "The planner general: steps (the fewest found, then margin; the default), margin "
-           "(the weakest grasp's margin, with two steps more at most), travel (the fewest "
-           "found, then the least travel of the fingers). The planner contour: regions (every "
-           "switch "
-           "where the smaller of "
-           "its two grasps' contact regions is largest; default: well inside both sets)")
-        ->check(CLI::IsMember({"steps", "margin", "travel", "regions"}))
-        ->type_name("steps|margin|travel|regions");
-    AddGeneral(app);
-  }
-
-  void AddGeneral(CLI::App& app) {
-    app.add_option("--effort", effort,
-                   "The planner general: force-closure tests, some microseconds each, after which "
-                   "it gives up (default " +
-                       std::to_string(tree::TreePlanner::kDefaultEffort) + ")")
-        ->check(CLI::Range(std::int64_t{1}, kMostEffort))
-        ->type_name("N");
-    AddNumber(
-        app, "--time-limit", time_limit_s, NumberRange::Positive(),
-        "Seconds from the program's start after which reading and planning give up; the plan then "
-        "depends on the machine")
-        ->type_name("S");
-    app.add_flag("--explain", explain,
-                 "The planner general: where it finds no sequence, looks for the smallest friction "
-                 "at which it finds one");
-  }
-
+  void AddTo(CLI::App& app);
   int Run() const;
 
  private:
+  void AddEnds(CLI::App& app);
+  void AddSearch(CLI::App& app);
   planning::GraspChoice Choose(const std::string& option, const std::string& value,
                                const object::Object& object) const;
   planning::PlanRequest RequestFor(const object::Object& object) const;
   planning::PlanResult Find(const object::ObjectFile& object) const;
   void CheckOutput() const;
-  [[nodiscard]] Deadline deadline() const {
-    return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
-  }
   void PrintSummary(const planning::PlanResult& result, double seconds) const;
 };
+
+void PlanProgram::AddTo(CLI::App& app) {
+  common.AddTo(app, "general, unless an option asks for what only another has");
+  AddEnds(app);
+  AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
+            "Quality that random grasps have at least; the sequence prefers such grasps and a "
+            "warning says where it must go below: the largest ball of wrenches resisted, normal "
+            "forces summing to 1, torques over half the diameter (default 0.01)");
+  AddNumber(app, "--finger-radius", finger_radius, NumberRange::Positive(),
+            "Radius of the fingers, in the object file's own unit of length: contacts that a "
+            "finger cannot come to straight along the normal, and grasps in which two fingers "
+            "overlap, are avoided (default: fingers are points)",
+            "R");
+  AddSearch(app);
+}
+
+void PlanProgram::AddEnds(CLI::App& app) {
+  const std::string kinds =
+      ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
+      "or random-any (evenly over the surface)";
+  app.add_option("--start", start, "Start grasp" + kinds)
+      ->type_name("FILE|random|random-any")
+      ->required();
+  app.add_option("--goal", goal, "Goal grasp" + kinds)
+      ->type_name("FILE|random|random-any")
+      ->required();
+  app.add_option("--output", output, "Where the plan goes; - is standard output")
+      ->type_name("FILE")
+      ->required();
+}
+
+void PlanProgram::AddSearch(CLI::App& app) {
+  app.add_flag("--no-lazy", no_lazy,
+               "On a roadmap of clusters: no search among the grasps of all contact points where "
+               "the representatives do not join start and goal");
+  AddChoice<planning::Objective>(
+      app, "--optimize", objective,
+      {{"steps", planning::Objective::kSteps},
+       {"margin", planning::Objective::kMargin},
+       {"travel", planning::Objective::kTravel},
+       {"regions", planning::Objective::kRegions}},
+      "The planner general: steps (the fewest found, then margin; the default), margin (the "
+      "weakest grasp's margin, with two steps more at most), travel (the fewest found, then the "
+      "least travel of the fingers). The planner contour: regions (every switch where the smaller "
+      "of its two grasps' contact regions is largest; default: well inside both sets)");
+  AddInteger(app, "--effort", effort, std::int64_t{1}, kMostEffort,
+             "The planner general: force-closure tests, some microseconds each, after which it "
+             "gives up (default " +
+                 std::to_string(tree::TreePlanner::kDefaultEffort) + ")");
+  app.add_flag("--explain", explain,
+               "The planner general: where it finds no sequence, looks for the smallest friction "
+               "at which it finds one");
+}
 
 planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
                                           const object::Object& object) const {
@@ -132,29 +124,21 @@ planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::
 }
 
 planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) const {
-  static const std::map<std::string, planning::Objective> kObjectives = {
-      {"", planning::Objective::kSteps},
-      {"steps", planning::Objective::kSteps},
-      {"margin", planning::Objective::kMargin},
-      {"travel", planning::Objective::kTravel},
-      {"regions", planning::Objective::kRegions}};
   planning::PlanRequest request = common.RequestFor(object);
   request.hand.fingertip_radius = finger_radius;
   request.criteria.min_quality = min_quality;
-  request.objective = kObjectives.at(optimize);
+  request.objective = objective;
   request.last_resort = !no_lazy;
   request.effort = effort;
   request.explain = explain;
-  request.deadline = deadline();
   return request;
 }
 
 planning::PlanResult PlanProgram::Find(const object::ObjectFile& object) const {
   planning::PlanRequest request = RequestFor(*object.object);
-  const planning::Planner& planner = registry::PlannerFor(common.planner, request);
+  const planning::Planner& planner = common.PlannerFor(request);
   request.start = Choose("--start", start, *object.object);
   request.goal = Choose("--goal", goal, *object.object);
-  if (const auto need = planner.EstimateMemory(request)) common.CheckMemory(*need);
   ProgressLine progress(common.quiet);
   request.progress = progress.reporter();
   planning::PlanResult result = planning::Solve(planner, request);
@@ -175,7 +159,7 @@ void PlanProgram::CheckOutput() const {
 
 int PlanProgram::Run() const {
   CheckOutput();
-  const object::ObjectFile object = common.ReadObjectFile(deadline());
+  const object::ObjectFile object = common.ReadObjectFile();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   planning::PlanResult result = Find(object);
   if (!result.plan) {
@@ -193,7 +177,7 @@ int PlanProgram::Run() const {
     WriteFile(output, text);
   }
   for (const std::string& warning : result.warnings) PrintMessage(kProgram, "warning: " + warning);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - common.begin;
   if (!common.quiet) PrintSummary(result, time.count());
   return kExitDone;
 }

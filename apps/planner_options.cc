@@ -1,9 +1,8 @@
 #include "apps/planner_options.h"
 
-#include <limits>
-
 #include "apps/progress.h"
 #include "planner/base/error.h"
+#include "planner/base/memory.h"
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
 #include "planner/roadmap/build_roadmap.h"
@@ -28,11 +27,6 @@ std::string PlannersText() {
   return text;
 }
 
-std::string CheckSpanning(const std::string& name) {
-  if (name == "adaptive" || name == "uniform") return {};
-  return "expected adaptive or uniform, found \"" + name + "\"";
-}
-
 }  // namespace
 
 void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
@@ -44,12 +38,11 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   app.add_option("--planner", planner, PlannersText() + " (default auto: " + automatic + ")")
       ->type_name("NAME")
       ->check(CheckPlanner);
-  app.add_option(
-         "--spanning", spanning,
-         "adaptive or uniform: cones of focus cells as wide as the normals allow, or all of "
-         "the friction's half-angle; of polygon and polyhedron (default adaptive)")
-      ->type_name("NAME")
-      ->check(CheckSpanning);
+  AddChoice<planning::Spanning>(
+      app, "--spanning", spanning,
+      {{"adaptive", planning::Spanning::kAdaptive}, {"uniform", planning::Spanning::kUniform}},
+      "Cones of focus cells as wide as the normals allow, or all of the friction's half-angle; of "
+      "polygon and polyhedron (default adaptive)");
   AddInteger(app, "--contacts", contacts, roadmap::kFewestClusters, roadmap::kMaxClusteredContacts,
              "Contact points of the roadmap: spread evenly over the surface, on a mesh at the "
              "centres of its facets (default 60, in clusters 1000)");
@@ -62,6 +55,10 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   app.add_flag("--force", force,
                "Builds a planner's graph also where it would take more than half "
                "of the memory, which is refused otherwise");
+  AddNumber(app, "--time-limit", time_limit_s, NumberRange::Positive(),
+            "Seconds from the program's start after which reading, planning and building a graph "
+            "give up; a plan then depends on the machine",
+            "S");
   AddScale(app, scale);
   AddQuiet(app, quiet);
 }
@@ -72,25 +69,30 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.object_name = object;
   request.criteria.half_angle = friction.required_half_angle();
   request.seed = seed;
-  request.spanning =
-      spanning == "uniform" ? planning::Spanning::kUniform : planning::Spanning::kAdaptive;
+  request.deadline = deadline();
+  request.spanning = spanning;
   request.contact_points = contacts;
   request.clusters = clusters;
   return request;
 }
 
-object::ObjectFile PlannerOptions::ReadObjectFile(const Deadline& deadline) const {
+Deadline PlannerOptions::deadline() const {
+  return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
+}
+
+object::ObjectFile PlannerOptions::ReadObjectFile() const {
   ProgressLine progress(quiet);
-  return object::ReadObject(object, {progress.reporter(), deadline});
+  return object::ReadObject(object, {progress.reporter(), deadline()});
 }
 
-double PlannerOptions::memory() const {
-  return force ? std::numeric_limits<double>::infinity() : UsableMemory();
-}
-
-void PlannerOptions::CheckMemory(const MemoryNeed& need) const {
-  const std::string why = MemoryComplaint(need, memory());
-  if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
+const planning::Planner& PlannerOptions::PlannerFor(const planning::PlanRequest& request) const {
+  const planning::Planner& found = registry::PlannerFor(planner, request);
+  if (force) return found;
+  if (const auto need = found.EstimateMemory(request)) {
+    const std::string why = MemoryComplaint(*need, UsableMemory());
+    if (!why.empty()) throw InputError(object + ": " + why + " (--force builds it all the same)");
+  }
+  return found;
 }
 
 }  // namespace regrasp::apps

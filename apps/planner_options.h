@@ -1,14 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <optional>
 #include <string>
 
 #include "apps/options.h"
 #include "planner/base/deadline.h"
-#include "planner/base/memory.h"
 #include "planner/object/object.h"
-#include "planner/planning/plan_request.h"
+#include "planner/planning/planner.h"
 
 namespace regrasp::apps {
 
@@ -17,30 +17,35 @@ struct PlannerOptions {
   std::string object;
   FrictionOptions friction;
   std::string planner = "auto";
-  std::string spanning = "adaptive";
+  planning::Spanning spanning = planning::Spanning::kAdaptive;
   std::uint64_t seed = 0;
   std::optional<int> contacts;
   std::optional<int> clusters;
   double scale = 1;
+  std::optional<double> time_limit_s;
   bool force = false;
   bool quiet = false;
+  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 
   /// @param automatic  what `--planner auto` takes, for the help.
   void AddTo(CLI::App& app, const std::string& automatic);
 
   /// Reads the object and says so while it does.
-  /// @throws TimeUp  the deadline came.
-  [[nodiscard]] object::ObjectFile ReadObjectFile(const Deadline& deadline = {}) const;
+  /// @throws TimeUp  the time limit came.
+  [[nodiscard]] object::ObjectFile ReadObjectFile() const;
 
   /// What the options ask for, on an object; start and goal are left open.
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
   ///                     plain roadmap takes, and no clusters.
   [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;
 
-  /// Bytes that a graph may take: UsableMemory, or any number with --force.
-  [[nodiscard]] double memory() const;
-  /// @throws InputError  the graph would take more than that.
-  void CheckMemory(const MemoryNeed& need) const;
+  /// The planner that is named, or the one that `auto` takes.
+  /// @throws InputError  as registry::PlannerFor; its graph would take more than UsableMemory, and
+  ///                     there is no --force.
+  [[nodiscard]] const planning::Planner& PlannerFor(const planning::PlanRequest& request) const;
+
+ private:
+  [[nodiscard]] Deadline deadline() const;
 };
 
 }  // namespace regrasp::apps

@@ -8,6 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
+#include "report/json_values.h"
 #include "sim/scene/engine.h"
 
 namespace regrasp::apps {
@@ -17,8 +18,6 @@ namespace {
 Json FileJson(const report::FileDigest& file) {
   return {{"file", file.name}, {"sha256", file.sha256}};
 }
-
-Json DigestJson(const std::string& sha256) { return sha256.empty() ? Json(nullptr) : Json(sha256); }
 
 }  // namespace
 
@@ -40,8 +39,8 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
                      {"engine", sim::EngineVersion()},
                      {"input", FileJson(inputs.input)},
                      {"object", FileJson(inputs.object)},
-                     {"start", DigestJson(inputs.start_sha256)},
-                     {"goal", DigestJson(inputs.goal_sha256)},
+                     {"start", report::TextOrNull(inputs.start_sha256)},
+                     {"goal", report::TextOrNull(inputs.goal_sha256)},
                      {"options", options.given}};
   // File names and values may be any bytes.
   return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));

@@ -64,7 +64,7 @@ std::vector<std::string> LinesOf(const std::string& text) {
   return lines;
 }
 
-/// Why a child is an error by the way that it ended; empty where its exit code tells.
+/// Why a child is an error by how it ended; empty where its exit code tells.
 std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
   switch (exit.kind) {
     case ChildExit::Kind::kExited:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
-#include <map>
 #include <set>
 #include <system_error>
 #include <thread>
@@ -42,134 +41,123 @@ CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& he
       ->type_name("WxH");
 }
 
-void AddFiles(CLI::App& app, ValidateOptions& options) {
-  const auto add = [&app](const std::string& name, std::string& value, const std::string& text) {
+void AddInputs(CLI::App& app, ValidateOptions& options) {
+  const auto add = [&app](const std::string& name, auto& value, const std::string& text) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
   add("--object", options.object_path,
       "Object file; or a folder, in which each plan's object is the file that it names")
       ->required();
   CLI::Option* plan =
-      app.add_option("--plan", options.plans,
-                     "Plan file; or several, or a folder of plans (every *.json), each of which is "
-                     "validated in a process of its own; or --grasp")
-          ->type_name("FILE");
+      add("--plan", options.plans,
+          "Plan file; or several, or a folder of plans (every *.json), each of which is "
+          "validated in a process of its own; or --grasp");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
           "closure, the half-angle that it needs, its quality, and its weakest finger: the one "
           "whose own friction may fall least while all others keep theirs; holds and shakes it")
           ->excludes(plan);
-  app.add_option("--out", options.out,
-                 "Folder for report and frames (default out/<plan or grasp name>); of several "
-                 "plans a folder for each in it, and summary.json (default out/<folder name> or "
-                 "out/batch)")
-      ->type_name("DIR");
   add("--start", options.start, "Grasp file that the plan's initial grasp must be")
       ->excludes(grasp);
   add("--goal", options.goal, "Grasp file that the plan's goal must be")->excludes(grasp);
-  app.add_flag("--certificates", options.certificates,
-               "The report also holds, for every grasp and all along every align, contact forces "
-               "that prove force closure, or a twist that refutes it");
   add("--verify", options.verify,
       "Checks the proofs of a report that --certificates wrote, in exact rational arithmetic, "
       "against this plan and object, at the plan's friction or the one that is given, and all else "
       "that a plan must be; nothing is replayed or written")
       ->excludes(grasp);
+}
+
+void AddOutputs(CLI::App& app, ValidateOptions& options) {
+  const auto add = [&app](const std::string& name, std::string& value, const std::string& text) {
+    return app.add_option(name, value, text)->type_name("FILE");
+  };
+  add("--out", options.out,
+      "Folder for report and frames (default out/<plan or grasp name>); of several plans a folder "
+      "for each in it, and summary.json (default out/<folder name> or out/batch)")
+      ->type_name("DIR");
+  app.add_flag("--certificates", options.certificates,
+               "The report also holds, for every grasp and all along every align, contact forces "
+               "that prove force closure, or a twist that refutes it");
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
   add("--export-mjcf", options.mjcf, "Write the scene of the replay as MJCF for any MuJoCo");
   add("--trajectory", options.trajectory,
       "Write time (s), place (m) and force (N) of every finger during the replay as CSV");
 }
 
-void AddPhysics(CLI::App& app, ValidateOptions& options) {
+/// The object and the fingers, beside what the plan says of them.
+void AddBodies(CLI::App& app, ValidateOptions& options) {
   options.friction.AddTo(app);
-  AddScale(app, options.scale)
-      ->description(
-          "Metres per unit of length of the object file; must be the plan's, 1 for a grasp where "
-          "left out");
+  AddScale(app, options.scale,
+           "Metres per unit of length of the object file; must be the plan's, 1 for a grasp where "
+           "left out");
   CLI::Option* mass = AddNumber(app, "--mass", options.replay.mass_kg, NumberRange::Positive(),
-                                "Mass of the object, kg; instead of --density")
-                          ->type_name("KG");
+                                "Mass of the object, kg; instead of --density", "KG");
   AddNumber(app, "--density", options.replay.density_kg_m3, NumberRange::Positive(),
-            "Density of the object, kg/m^3 (default 1000)")
-      ->type_name("KG_M3")
+            "Density of the object, kg/m^3 (default 1000)", "KG_M3")
       ->excludes(mass);
   AddNumber(app, "--thickness", options.replay.thickness, NumberRange::Positive(),
             "Thickness of the prism that a planar object is, in the object file's own unit of "
-            "length (default a quarter of the diameter)")
-      ->type_name("X");
+            "length (default a quarter of the diameter)");
   AddNumber(app, "--finger-radius", options.replay.finger_radius, NumberRange::Positive(),
             "Radius of the fingers, in the object file's own unit of length: a finger that cannot "
             "come straight along the normal to its contact, or overlaps another, is unreachable "
-            "(default that of the plan, otherwise fingers are points)")
-      ->type_name("R");
+            "(default that of the plan, otherwise fingers are points)",
+            "R");
+}
+
+/// How the object is held, disturbed and examined.
+void AddReplay(CLI::App& app, ValidateOptions& options) {
   AddNumber(app, "--squeeze", options.replay.squeeze_N, NumberRange::Positive(),
             "Sum of the normal forces of a grasp at rest, newtons (default: such "
-            "that the weight is a tenth of the shake force, 1000 weights at the default shake)")
-      ->type_name("N");
+            "that the weight is a tenth of the shake force, 1000 weights at the default shake)",
+            "N");
   AddNumber(app, "--shake", options.replay.shake, NumberRange::NotNegative(),
             "Size of the shake: force over squeeze, and torque over squeeze times half the "
-            "diameter (default 0.01)")
-      ->type_name("RHO");
-  const std::map<std::string, sim::Protocol> protocols = {{"adapted", sim::Protocol::kAdapted},
-                                                          {"fixed", sim::Protocol::kFixed},
-                                                          {"both", sim::Protocol::kBoth}};
-  const auto set_protocol = [&options, protocols](const std::string& name) {
-    options.replay.protocol = protocols.at(name);
-  };
-  app.add_option_function<std::string>(
-         "--protocol", set_protocol,
-         "How the fingers respond to the shake: adapted with forces planned for each "
-         "direction, fixed with the forces of the rest and the stiffness of their servos "
-         "alone; both runs both, the adapted one decides (default adapted)")
-      ->check(CLI::IsMember({"adapted", "fixed", "both"}))
-      ->type_name("NAME");
+            "diameter (default 0.01)",
+            "RHO");
+  AddChoice<sim::Protocol>(
+      app, "--protocol", options.replay.protocol,
+      {{"adapted", sim::Protocol::kAdapted},
+       {"fixed", sim::Protocol::kFixed},
+       {"both", sim::Protocol::kBoth}},
+      "How the fingers respond to the shake: adapted with forces planned for each "
+      "direction, fixed with the forces of the rest and the stiffness of their servos "
+      "alone; both runs both, the adapted one decides (default adapted)");
   app.add_flag("--stress", options.replay.stress,
                "Also find the largest push and turn that each rest resists in every direction, by "
                "bisection in the replay and by analysis; takes some ten times as long");
   AddNumber(app, "--tolerance", options.replay.tolerance, NumberRange::Positive(),
             "How far the object may move and a fingertip slip, in diameters of the object "
-            "(default 0.001)")
-      ->type_name("X");
-  app.add_option_function<std::string>(
-         "--align",
-         [&options](const std::string& text) {
-           options.replay.align =
-               text == "slide" ? sim::AlignChoice::kSlide : sim::AlignChoice::kImitate;
-         },
-         "How aligns are carried out. imitate: spare fingers take over for each finger while it "
-         "goes "
-         "to its target. slide: a finger slides along the surface while the others alone hold the "
-         "object, and is taken over for only where they do not (default imitate). Without a spare "
-         "finger those that cannot slide roll, all at once")
-      ->check(CLI::IsMember({"imitate", "slide"}))
-      ->type_name("imitate|slide");
+            "(default 0.001)");
+  AddChoice<sim::AlignChoice>(
+      app, "--align", options.replay.align,
+      {{"imitate", sim::AlignChoice::kImitate}, {"slide", sim::AlignChoice::kSlide}},
+      "How aligns are carried out. imitate: spare fingers take over for each finger while it goes "
+      "to its target. slide: a finger slides along the surface while the others alone hold the "
+      "object, and is taken over for only where they do not (default imitate). Without a spare "
+      "finger those that cannot slide roll, all at once");
 }
 
 void AddTrials(CLI::App& app, ValidateOptions& options) {
   constexpr int kMostTrials = 1'000'000;
   const NumberRange share{0, sim::kMostError};
-  CLI::Option* trials = AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
-                                   "Repeat the replay so often with noise: contacts off where "
-                                   "fingers are put, friction and mass "
-                                   "other than the hand believes; the report gives the share that "
-                                   "passes. The verdict is that of "
-                                   "the replay without noise");
+  CLI::Option* trials =
+      AddInteger(app, "--trials", options.trials.count, 1, kMostTrials,
+                 "Repeat the replay so often with noise: contacts off where fingers are put, "
+                 "friction and mass other than the hand believes; the report gives the share that "
+                 "passes. The verdict is that of the replay without noise");
   AddSeed(app, options.trials.seed, "Seed of the noise (default 0)")->needs(trials);
   AddNumber(app, "--position-noise", options.trials.position_noise, share,
             "Standard deviation of each contact along the surface, in diameters of the object "
             "(default 0.01)")
-      ->needs(trials)
-      ->type_name("X");
+      ->needs(trials);
   AddNumber(app, "--friction-error", options.trials.friction_error, share,
             "Relative standard deviation of the friction coefficient (default 0.1)")
-      ->needs(trials)
-      ->type_name("X");
+      ->needs(trials);
   AddNumber(app, "--mass-error", options.trials.mass_error, share,
             "Relative standard deviation of the mass (default 0.1)")
-      ->needs(trials)
-      ->type_name("X");
+      ->needs(trials);
 }
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
@@ -204,8 +192,8 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
   AddNumber(app, "--time-limit", options.time_limit_s,
             {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
             "Longest time that one of several plans may take, seconds; it is then stopped and "
-            "counts as an error (default: none)")
-      ->type_name("S");
+            "counts as an error (default: none)",
+            "S");
   app.add_flag(
       "--fresh", options.fresh,
       "Validate all of several plans anew; otherwise a plan keeps the results of an earlier "
@@ -229,15 +217,17 @@ ValidateOptions::ValidateOptions()
     : jobs(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostJobs)) {}
 
 void ValidateOptions::AddTo(CLI::App& app) {
-  AddFiles(app, *this);
-  AddPhysics(app, *this);
+  AddInputs(app, *this);
+  AddOutputs(app, *this);
+  AddBodies(app, *this);
+  AddReplay(app, *this);
   AddTrials(app, *this);
   AddPictures(app, *this);
   AddBatch(app, *this);
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   app.add_flag("--allow-undecided", allow_undecided,
-               "Pass aligns of which up to a thousandth of a stretch between two waypoints is "
+               "Pass aligns of which up to a thousandth of a segment between two waypoints is "
                "neither proved nor refuted; otherwise they fail as not-proved");
   AddQuiet(app, quiet);
 }

@@ -53,7 +53,7 @@ std::string FaultOf(const plan::StepCheck& check) {
 std::string DescribeProofs(const certificate::EntryVerdict& entry) {
   std::string text = Describe(entry.rest);
   for (std::size_t k = 0; k < entry.ways.size(); ++k) {
-    text += (k == 0 ? "; ways " : ", ") + Describe(entry.ways[k]);
+    text += (k == 0 ? "; segments " : ", ") + Describe(entry.ways[k]);
   }
   return text;
 }

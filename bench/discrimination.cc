@@ -91,7 +91,7 @@ plan::Plan PlanOf(const Body& body, const grasp::Grasp& initial, double half_ang
   return plan;
 }
 
-Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp& judged,
+Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp& examined,
                     double ratio, const sim::ReplayOptions& options) {
   const sim::ReplayResult result = sim::ReplayPlan(body.object(), plan, options);
   const sim::StepReplay& last = result.steps.back();
@@ -99,7 +99,7 @@ Sample ExamineGrasp(const Body& body, const plan::Plan& plan, const grasp::Grasp
   sample.body = body.name();
   sample.ratio = ratio;
   sample.quality =
-      grasp::ComputeQuality(judged, body.object().wrench_frame(), plan.half_angle).lower;
+      grasp::ComputeQuality(examined, body.object().wrench_frame(), plan.half_angle).lower;
   const bool complete = result.steps.size() == plan.steps.size() + 1;
   sample.passed = complete && last.reason == plan::Reason::kNone;
   sample.reason = plan::ReasonName(last.reason);

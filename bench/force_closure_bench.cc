@@ -1,4 +1,4 @@
-// Force closure of random 4-contact grasps: exact cones against the two usual ways, an 8-sided
+// Force closure of random 4-contact grasps: exact cones against the two usual methods, an 8-sided
 // pyramid in a linear program (GLPK) and the hull of the wrenches (Qhull), on the same grasps in
 // the same run. Prints how the verdicts compare and the ratios of the times. Beside them grasps of
 // three contacts in the plane.

@@ -33,21 +33,22 @@ class QueryMaker {
   std::pair<planning::GraspChoice, planning::GraspChoice> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
-    const planning::GraspChoice start = Draw("start", StartPools(graph_.vertex_count()), of_start);
+    const planning::GraspChoice start =
+        Draw("start", sets::StartPools(graph_.vertex_count()), of_start);
     std::set<int> cells;
     for (const auto& at : model_.Attach(start.grasp, evaluator_)) cells.insert(at.set);
-    return {start, Draw("goal", GoalPools(components_, cells), of_goal)};
+    return {start, Draw("goal", sets::GoalPools(components_, cells), of_goal)};
   }
 
  private:
-  planning::GraspChoice Draw(const std::string& name, const SamplingPools& pools,
+  planning::GraspChoice Draw(const std::string& name, const sets::SamplingPools& pools,
                              RandomStream& random) {
     const auto draw = [&](int cell) {
       const auto grasp = model_.Draw(cell, random);
       return grasp ? model_.GraspOf(*grasp) : grasp::Grasp();
     };
     planning::GraspChoice choice{Kind::kGiven, {}, name};
-    choice.grasp = DrawFromSets(choice.name, pools, draw, evaluator_, random);
+    choice.grasp = sets::DrawFromSets(choice.name, pools, draw, evaluator_, random);
     return choice;
   }
 

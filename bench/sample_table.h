@@ -13,7 +13,7 @@ namespace regrasp {
 /// One replay.
 struct Sample {
   std::string body;
-  double ratio = 0;  ///< μ over the critical μ of the grasp that is judged
+  double ratio = 0;  ///< μ over the critical μ of the grasp that is examined
   double quality = 0;
   bool passed = false;
   bool passed_fixed = false;  ///< the same shakes at fixed squeeze

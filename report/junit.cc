@@ -8,18 +8,6 @@ namespace regrasp::report {
 
 namespace {
 
-JunitOutcome OutcomeOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kPass:
-      return JunitOutcome::kPassed;
-    case Verdict::kFail:
-      return JunitOutcome::kFailed;
-    case Verdict::kSkipped:
-      return JunitOutcome::kSkipped;
-  }
-  return JunitOutcome::kError;
-}
-
 Element MakeCase(const std::string& suite, const JunitCase& result) {
   Element element("testcase", {{"classname", suite}, {"name", result.name}});
   const Attributes message = {{"message", result.message}};
@@ -56,12 +44,17 @@ Element MakeSuite(const JunitSuite& suite) {
 
 }  // namespace
 
+JunitOutcome OutcomeOf(std::string_view verdict) {
+  if (verdict == "pass") return JunitOutcome::kPassed;
+  return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
+}
+
 JunitSuite MakeJunitSuite(const Report& report) {
   JunitSuite suite{report.plan_file, {}};
   for (const ReportStep& step : report.steps) {
     suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
-                           OutcomeOf(step.verdict()), std::string(plan::ReasonName(step.reason())),
-                           step.detail()});
+                           OutcomeOf(VerdictName(step.verdict())),
+                           std::string(plan::ReasonName(step.reason())), step.detail()});
   }
   return suite;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/report.h"
@@ -21,6 +22,9 @@ struct JunitSuite {
   std::string name;
   std::vector<JunitCase> cases;
 };
+
+/// Of an entry's verdict, "pass", "fail" or "skipped".
+[[nodiscard]] JunitOutcome OutcomeOf(std::string_view verdict);
 
 /// A suite named after the plan with a case for each entry of its report.
 [[nodiscard]] JunitSuite MakeJunitSuite(const Report& report);

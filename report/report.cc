@@ -96,6 +96,14 @@ std::string_view VerdictName(Verdict verdict) {
   return "";
 }
 
+std::string ReasonText(plan::Reason reason) {
+  return reason == plan::Reason::kNone ? "pass" : "fail: " + std::string(plan::ReasonName(reason));
+}
+
+std::string VerdictText(const ReportStep& step) {
+  return step.skipped ? "skipped" : ReasonText(step.reason());
+}
+
 plan::Reason ReportStep::reason() const {
   if (skipped) return plan::Reason::kNone;
   if (check.reason != plan::Reason::kNone) return check.reason;
@@ -187,9 +195,10 @@ void AddProofs(const plan::Plan& located, Report& report) {
   int entries = 0;
   for (const ReportStep& step : report.steps) {
     const plan::Reason reason = step.check.reason;
-    const bool judged = reason == plan::Reason::kNone || reason == plan::Reason::kNotForceClosure ||
-                        reason == plan::Reason::kNotProved;
-    if (step.check.skipped || !judged) break;
+    const bool decided = reason == plan::Reason::kNone ||
+                         reason == plan::Reason::kNotForceClosure ||
+                         reason == plan::Reason::kNotProved;
+    if (step.check.skipped || !decided) break;
     ++entries;
   }
   const std::vector<certificate::EntryProof> proofs =

@@ -24,6 +24,9 @@ enum class Verdict { kPass, kFail, kSkipped };
 /// "pass", "fail" or "skipped", as the report spells it.
 [[nodiscard]] std::string_view VerdictName(Verdict verdict);
 
+/// "pass", or "fail: slipped".
+[[nodiscard]] std::string ReasonText(plan::Reason reason);
+
 /// One entry of a report: the hold or a step, what the analysis and the replay say of it.
 struct ReportStep {
   plan::StepCheck check;
@@ -44,6 +47,9 @@ struct ReportStep {
   [[nodiscard]] const std::string& detail() const;
   [[nodiscard]] Verdict verdict() const;
 };
+
+/// "pass", "skipped", "fail: slipped".
+[[nodiscard]] std::string VerdictText(const ReportStep& step);
 
 /// What is said of a single grasp.
 struct GraspReport {

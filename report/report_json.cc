@@ -4,6 +4,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
 #include "planner/certificate/plan_proof.h"
+#include "report/json_values.h"
 #include "report/report.h"
 #include "report/report_seal.h"
 #include "report/simulation_json.h"
@@ -40,9 +41,9 @@ Json MakeSettings(const Report& report) {
 
 Json MakeForceClosure(const ReportStep& step) {
   if (step.check.skipped) return nullptr;
-  Json required = nullptr;
-  if (step.check.required) required = Degrees(step.check.required->upper);
-  return {{"holds", step.check.force_closure}, {"required_half_angle_deg", required}};
+  const auto& required = step.check.required;
+  return {{"holds", step.check.force_closure},
+          {"required_half_angle_deg", required ? Json(Degrees(required->upper)) : Json(nullptr)}};
 }
 
 Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
@@ -94,20 +95,14 @@ Json MakeAlignShares(const std::optional<sim::StepReplay>& replay) {
 /// `step` gets its contact region, if it has one.
 void AddRegion(const std::optional<plan::SwitchRegion>& region, Json& step) {
   if (!region) return;
-  Json claimed = nullptr;
-  if (region->claimed) claimed = *region->claimed;
-  step["region"] = {
-      {"half_width", region->half_width}, {"claimed", claimed}, {"holds", region->holds}};
+  step["region"] = {{"half_width", region->half_width},
+                    {"claimed", OrNull(region->claimed)},
+                    {"holds", region->holds}};
 }
 
 Json MakeCertificate(const std::optional<motion::ProofVerdict>& certificate) {
   if (!certificate) return nullptr;
   return certificate->proves() ? "holds" : "does-not-hold";
-}
-
-/// An empty text is null.
-Json MakeText(std::string_view text) {
-  return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
 /// What the replay measured, where there was one.
@@ -121,8 +116,8 @@ Json MakeStep(const ReportStep& step, const Report& report) {
   Json json = {{"index", step.check.index},
                {"kind", step.check.kind},
                {"verdict", std::string(VerdictName(step.verdict()))},
-               {"reason", MakeText(plan::ReasonName(step.reason()))},
-               {"detail", step.skipped ? Json(nullptr) : MakeText(step.detail())},
+               {"reason", TextOrNull(plan::ReasonName(step.reason()))},
+               {"detail", step.skipped ? Json(nullptr) : TextOrNull(step.detail())},
                {"force_closure", MakeForceClosure(step)},
                {"undecided", step.check.undecided},
                {"align_mode", MakeAlignMode(step.replay)},
@@ -131,7 +126,7 @@ Json MakeStep(const ReportStep& step, const Report& report) {
                {"simulation", step.replay ? SimulationJson(*step.replay) : Json(nullptr)},
                {"cause", CauseJson(step.disagreement)},
                {"weakest_finger", MakeWeakestFinger(step, report.half_angle)},
-               {"frame", MakeText(step.frame)}};
+               {"frame", TextOrNull(step.frame)}};
   AddReplay(step, json);
   AddRegion(step.region, json);
   if (step.proof) json["proof"] = certificate::EntryProofJson(*step.proof, report.dimension);
@@ -149,12 +144,11 @@ Json MakeGrasp(const Report& report) {
   for (FingerIndex finger{0}; finger < std::ssize(grasp.fingers); ++finger) {
     fingers.push_back(FingerNeedJson(finger, grasp.fingers[finger], report.half_angle));
   }
-  const int weakest = grasp::WeakestFinger(grasp.fingers);
   return {{"file", report.plan_file},
           {"sha256", report.plan_sha256},
           {"quality", grasp.quality.lower},
           {"quality_at_most", grasp.quality.upper},
-          {"weakest_finger", weakest < 0 ? Json(nullptr) : Json(weakest)},
+          {"weakest_finger", IndexOrNull(grasp::WeakestFinger(grasp.fingers))},
           {"fingers", fingers}};
 }
 
@@ -182,8 +176,7 @@ std::string FormatReportJson(const Report& report) {
   if (report.run) json["run"] = RunJson(*report.run);
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
-  const int weakest = report.weakest_step();
-  json["weakest_step"] = weakest < 0 ? Json(nullptr) : Json(weakest);
+  json["weakest_step"] = IndexOrNull(report.weakest_step());
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();
   for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));

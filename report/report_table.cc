@@ -43,24 +43,20 @@ Columns ColumnsOf(const Report& report) {
 
 std::string FixedVerdict(const ReportStep& step) {
   if (!step.replay || !step.replay->fixed || step.skipped) return kNothing;
-  const plan::Reason reason = step.replay->fixed->reason;
-  return reason == plan::Reason::kNone ? "pass" : "fail: " + std::string(plan::ReasonName(reason));
+  return ReasonText(step.replay->fixed->reason);
 }
 
 TextRow MakeRow(const ReportStep& step, const Columns& columns) {
   const auto length = [&](double sim::StepReplay::*member) -> std::string {
     return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
   };
-  std::string verdict(VerdictName(step.verdict()));
-  if (step.verdict() == Verdict::kFail)
-    verdict += ": " + std::string(plan::ReasonName(step.reason()));
   TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
                  length(&sim::StepReplay::displacement_m), length(&sim::StepReplay::slip_m)};
   if (columns.regions) {
     row.push_back(step.region ? FormatShort(step.region->half_width, kLengthDigits) : kNothing);
   }
   if (columns.fixed) row.push_back(FixedVerdict(step));
-  row.push_back(verdict);
+  row.push_back(VerdictText(step));
   return row;
 }
 
@@ -73,20 +69,22 @@ std::string FormatWeakest(const Report& report) {
          FormatFixed(Degrees(report.half_angle), kAngleDecimals) + " degrees\n";
 }
 
+/// What a finger needs, or the others without it.
+std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
+                     const std::string& what) {
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  return (finger.needed ? ", which alone needs " + what + degrees(finger.required)
+                        : ", without which the others need " + what + degrees(*finger.without)) +
+         " of " + degrees(half_angle) + " degrees\n";
+}
+
 /// Quality and weakest finger of a single grasp.
 std::string FormatGraspLines(const Report& report) {
   const int weakest = grasp::WeakestFinger(report.grasp->fingers);
   if (weakest < 0) return "";
-  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
-  const grasp::FingerFriction& finger = report.grasp->fingers[weakest];
-  std::string text = "quality: " + grasp::QualityText(report.grasp->quality) +
-                     "\nweakest: finger " + std::to_string(weakest);
-  if (finger.needed) {
-    text += ", which alone needs a friction half-angle of " + degrees(finger.required);
-  } else {
-    text += ", without which the others need a friction half-angle of " + degrees(*finger.without);
-  }
-  return text + " of " + degrees(report.half_angle) + " degrees\n";
+  return "quality: " + grasp::QualityText(report.grasp->quality) + "\nweakest: finger " +
+         std::to_string(weakest) +
+         NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction half-angle of ");
 }
 
 std::string FormatFailure(const Report& report) {
@@ -116,15 +114,8 @@ std::string FormatWeakestFinger(const Report& report) {
   if (index < 0 || report.grasp) return "";
   const ReportStep& step = report.steps[index];
   const sim::NeedOfFinger& need = step.needs[sim::WeakestOf(step.needs)];
-  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
-  std::string text =
-      "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index);
-  if (need.friction.needed) {
-    text += ", which alone needs " + degrees(need.friction.required);
-  } else {
-    text += ", without which the others need " + degrees(*need.friction.without);
-  }
-  return text + " of " + degrees(report.half_angle) + " degrees\n";
+  return "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index) +
+         NeedText(need.friction, report.half_angle, "");
 }
 
 std::string FormatUndecided(const Report& report) {

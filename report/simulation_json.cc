@@ -3,24 +3,16 @@
 #include <set>
 
 #include "planner/base/angle.h"
+#include "report/json_values.h"
 #include "sim/measure/push.h"
 #include "sim/world/cone_margin.h"
 
 namespace regrasp::report {
 namespace {
 
-Json DegreesOrNull(const std::optional<double>& angle) {
-  return angle ? Json(Degrees(*angle)) : Json(nullptr);
-}
-
 Json MarginOf(const sim::FingerMargins& margins, FingerIndex finger) {
   const auto found = margins.find(finger);
   return found == margins.end() ? Json(nullptr) : Json(Degrees(found->second));
-}
-
-/// An empty text is null.
-Json TextOrNull(std::string_view text) {
-  return text.empty() ? Json(nullptr) : Json(std::string(text));
 }
 
 Json FingersJson(const sim::StepReplay& replay) {

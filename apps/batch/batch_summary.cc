@@ -4,6 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
+#include "report/json_values.h"
 #include "report/junit.h"
 
 namespace regrasp::apps {
@@ -12,13 +13,6 @@ namespace {
 
 constexpr char kNothing[] = "-";
 constexpr int kAngleDecimals = 2;
-
-template <class Value>
-Json OrNull(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 long Count(const BatchSummary& summary, PlanVerdict verdict) {
   return std::ranges::count(summary.plans, verdict, &PlanOutcome::verdict);
@@ -38,14 +32,14 @@ Json PlanJson(const PlanOutcome& plan) {
                {"weakest_step", nullptr},
                {"required_half_angle_deg", nullptr},
                {"failed_step", nullptr},
-               {"reason", TextOrNull(ReasonOf(plan))},
-               {"message", TextOrNull(plan.message)},
+               {"reason", report::TextOrNull(ReasonOf(plan))},
+               {"message", report::TextOrNull(plan.message)},
                {"report", nullptr}};
   if (!plan.report) return json;
   json["steps"] = plan.report->entries.size() - 1;
-  json["weakest_step"] = OrNull(plan.report->weakest_step);
-  json["required_half_angle_deg"] = OrNull(plan.report->required_half_angle_deg);
-  json["failed_step"] = OrNull(plan.report->failed_step());
+  json["weakest_step"] = report::OrNull(plan.report->weakest_step);
+  json["required_half_angle_deg"] = report::OrNull(plan.report->required_half_angle_deg);
+  json["failed_step"] = report::OrNull(plan.report->failed_step());
   json["report"] = plan.name + "/report.json";
   return json;
 }
@@ -83,11 +77,6 @@ std::string FormatCounts(const BatchSummary& summary) {
   return text + "\n";
 }
 
-report::JunitOutcome OutcomeOf(const std::string& verdict) {
-  if (verdict == "pass") return report::JunitOutcome::kPassed;
-  return verdict == "fail" ? report::JunitOutcome::kFailed : report::JunitOutcome::kSkipped;
-}
-
 report::JunitSuite MakeSuite(const PlanOutcome& plan) {
   report::JunitSuite suite{plan.file, {}};
   if (!plan.report) {
@@ -97,8 +86,8 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan) {
   }
   for (std::size_t i = 0; i < plan.report->entries.size(); ++i) {
     const ReportSummary::Entry& entry = plan.report->entries[i];
-    suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind, OutcomeOf(entry.verdict),
-                           entry.reason, entry.detail});
+    suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind,
+                           report::OutcomeOf(entry.verdict), entry.reason, entry.detail});
   }
   return suite;
 }
@@ -141,8 +130,7 @@ std::string FormatSummaryJson(const BatchSummary& summary) {
   for (const SkippedFile& file : summary.skipped) {
     json["skipped"].push_back({{"file", file.file}, {"why", file.why}});
   }
-  // File names may be any bytes; JSON must be UTF-8.
-  return json.dump(1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+  return FormatJson(json);
 }
 
 std::string FormatSummaryTable(const BatchSummary& summary) {

@@ -208,8 +208,8 @@ void Pool::Drain(Child& child) {
       child.errors = Descriptor(-1);
       return;
     }
-    const std::size_t room = kLongestErrors - child.text.size();
-    child.text.append(piece.data(), std::min(room, static_cast<std::size_t>(count)));
+    const std::size_t left = kLongestErrors - child.text.size();
+    child.text.append(piece.data(), std::min(left, static_cast<std::size_t>(count)));
   }
 }
 

@@ -39,6 +39,12 @@ enum class Objective {
 /// Told what is being done.
 using Progress = std::function<void(std::string_view)>;
 
+/// What a graph is asked for besides its size.
+struct GraphTasks {
+  int focus_points = 0;  ///< random ones that cells are looked for by, instead of directly; 0: none
+  int queries = 0;       ///< random ones that a roadmap of clusters answers
+};
+
 /// What is asked of a planner.
 ///
 /// What stands under "Of some planners" not every planner has (Planner::options); where it is left
@@ -73,6 +79,9 @@ struct PlanRequest {
   std::optional<std::int64_t> effort = std::nullopt;
   /// Where there is no sequence: looks for the smallest friction at which one is found.
   bool explain = false;
+
+  /// Set where a planner's graph is asked for (Planner::SummarizeGraph) and no plan.
+  std::optional<GraphTasks> graph = std::nullopt;
 };
 
 }  // namespace regrasp::planning

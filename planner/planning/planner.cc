@@ -1,13 +1,19 @@
 #include "planner/planning/planner.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "planner/base/memory.h"
+#include "planner/planning/graph_summary.h"
 
 namespace regrasp::planning {
 
 std::optional<MemoryNeed> Planner::EstimateMemory(const PlanRequest& /*request*/) const {
   return std::nullopt;
+}
+
+GraphSummary Planner::SummarizeGraph(const PlanRequest& /*request*/) const {
+  throw std::logic_error("the planner " + name() + " has no graph");
 }
 
 std::string OptionName(PlanOption option) {
@@ -30,6 +36,10 @@ std::string OptionName(PlanOption option) {
       return "--effort";
     case PlanOption::kExplain:
       return "--explain";
+    case PlanOption::kFocusPoints:
+      return "--sampling";
+    case PlanOption::kQueries:
+      return "--queries";
   }
   return {};
 }
@@ -48,6 +58,9 @@ std::vector<PlanOption> OptionsOf(const PlanRequest& request) {
   add(!request.last_resort, PlanOption::kNoLastResort);
   add(request.effort.has_value(), PlanOption::kEffort);
   add(request.explain, PlanOption::kExplain);
+  const GraphTasks tasks = request.graph.value_or(GraphTasks());
+  add(tasks.focus_points > 0, PlanOption::kFocusPoints);
+  add(tasks.queries > 0, PlanOption::kQueries);
   return options;
 }
 
@@ -62,6 +75,9 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
   if (request.hand.fingers != 0 && request.hand.fingers < scope->fingers) {
     return "the planner " + planner.name() + " needs a hand of " + std::to_string(scope->fingers) +
            " fingers, and this one has " + std::to_string(request.hand.fingers);
+  }
+  if (request.graph && !planner.traits().has_graph) {
+    return "the planner " + planner.name() + " has no graph";
   }
   const std::vector<PlanOption>& has = planner.traits().options;
   for (const PlanOption option : OptionsOf(request)) {

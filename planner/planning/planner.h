@@ -14,6 +14,8 @@ struct MemoryNeed;
 
 namespace regrasp::planning {
 
+struct GraphSummary;
+
 /// Options of a PlanRequest that only some planners have.
 enum class PlanOption {
   kMargin,  ///< Objective::kMargin
@@ -25,6 +27,8 @@ enum class PlanOption {
   kNoLastResort,
   kEffort,
   kExplain,
+  kFocusPoints,  ///< of GraphTasks
+  kQueries,
 };
 
 /// As users write it: "--optimize margin".
@@ -47,9 +51,9 @@ struct PlannerTraits {
   std::optional<PlannerScope> in_plane = std::nullopt;  ///< nullopt: no planar objects
   std::optional<PlannerScope> in_space = std::nullopt;  ///< nullopt: no solids
   std::vector<PlanOption> options = {};
-  /// Whether GraspChoice::Kind::kRandom means grasps of a graph of its own; otherwise it means the
-  /// same as kRandomAny.
-  bool has_own_grasps = true;
+  /// Whether it plans on a graph of its own: SummarizeGraph builds it, and
+  /// GraspChoice::Kind::kRandom means grasps of it. Otherwise kRandom means the same as kRandomAny.
+  bool has_graph = true;
 };
 
 /// A method of planning. Whoever wants a plan calls Solve (solve.h), which sees to all that
@@ -74,6 +78,13 @@ class Planner {
   /// @throws NoGrasp, TimeUp  for Solve.
   [[nodiscard]] virtual PlanResult Plan(const PlanRequest& request) const = 0;
 
+  /// Builds its graph and counts what is in it (graph_summary.h).
+  /// @param request  for a graph, that it serves; start and goal count for nothing.
+  /// @throws InputError  the request's tasks need another graph.
+  /// @throws TimeUp      the deadline came.
+  /// @throws std::logic_error  it has no graph.
+  [[nodiscard]] virtual GraphSummary SummarizeGraph(const PlanRequest& request) const;
+
  protected:
   explicit Planner(PlannerTraits traits) : traits_(std::move(traits)) {}
 
@@ -82,8 +93,8 @@ class Planner {
 };
 
 /// Why a planner cannot serve a request: the object's dimension, the number of fingers of the hand,
-/// or an option that it does not have; empty where it can. Contacts of given grasps are not looked
-/// at: they are checked one by one, with a message for each (Solve).
+/// or an option or a graph that it does not have; empty where it can. Contacts of given grasps are
+/// not looked at: they are checked one by one, with a message for each (Solve).
 [[nodiscard]] std::string WhyNotServed(const Planner& planner, const PlanRequest& request);
 
 }  // namespace regrasp::planning

@@ -59,7 +59,7 @@ class GraspResolver {
       Check(choice);
       return choice;
     }
-    if (choice.kind == Kind::kRandom && planner_.traits().has_own_grasps) return choice;
+    if (choice.kind == Kind::kRandom && planner_.traits().has_graph) return choice;
     RandomStream random(request_.seed, use);
     choice.grasp = sampling::DrawOnSurface(*request_.object, scope_.contacts_drawn, evaluator_,
                                            random, choice.name, [&] { request_.deadline.Check(); });

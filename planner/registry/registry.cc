@@ -16,8 +16,8 @@ const std::vector<const planning::Planner*>& AllPlanners() {
   static const polygon::PolygonPlanner polygon;
   static const polyhedron::PolyhedronPlanner polyhedron;
   static const roadmap::RoadmapPlanner roadmap;
-  static const std::vector<const planning::Planner*> all = {&tree, &contour, &polygon, &polyhedron,
-                                                            &roadmap};
+  static const std::vector<const planning::Planner*> all = {&tree, &polygon, &contour, &roadmap,
+                                                            &polyhedron};
   return all;
 }
 

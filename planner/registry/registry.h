@@ -7,18 +7,20 @@
 
 namespace regrasp::registry {
 
-/// All planners: `general` first, then those that are complete over the grasps that they know.
+/// All planners: `general` first, then those that are complete over the grasps that they know, of
+/// which the first one in the plane and the first one in space are those whose graph is built where
+/// none is named.
 [[nodiscard]] const std::vector<const planning::Planner*>& AllPlanners();
 
-/// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, contour …".
+/// Their names and "auto", in the order of AllPlanners, for messages: "auto, general, polygon …".
 [[nodiscard]] std::string PlannerNames();
 
 /// @returns nullptr where no planner has that name.
 [[nodiscard]] const planning::Planner* FindPlanner(const std::string& name);
 
 /// The planner that `--planner auto` takes: the first of AllPlanners that serves the request, with
-/// every option that it asks for. So that is `general`, which joins at least as many pairs of
-/// grasps as any other and faster (bench/planners), unless an option asks for what only another
+/// every option that it asks for. For a plan that is `general`, which joins at least as many pairs
+/// of grasps as any other and faster (bench/planners), unless an option asks for what only another
 /// gives: contact regions (contour), uniform spanning (polygon, polyhedron), contact points or
 /// clusters (roadmap).
 /// @throws InputError  none does; the message says for which option.

@@ -12,6 +12,8 @@ class RoadmapPlanner final : public planning::Planner {
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
       const planning::PlanRequest& request) const override;
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::GraphSummary SummarizeGraph(
+      const planning::PlanRequest& request) const override;
 };
 
 }  // namespace regrasp::roadmap

@@ -1,8 +1,8 @@
 #include "planner/roadmap/roadmap_queries.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "planner/base/stopwatch.h"
 #include "planner/sampling/draw_grasp.h"
 
 namespace regrasp::roadmap {
@@ -24,22 +24,23 @@ std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
 
 std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
                                           const object::Polyhedron& solid, int count,
-                                          std::uint64_t seed, bool last_resort) {
+                                          std::uint64_t seed, bool last_resort,
+                                          const Deadline& deadline) {
   const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
   const criteria::GraspEvaluator evaluator(solid, force_closure);
   RandomStream starts(seed, RandomUse::kStart);
   RandomStream goals(seed, RandomUse::kGoal);
   std::vector<RandomQuery> queries;
   for (int i = 0; i < count; ++i) {
+    deadline.Check();
     const auto start = DrawContactGrasp(roadmap, evaluator, starts);
     const auto goal = DrawContactGrasp(roadmap, evaluator, goals);
     if (!start || !goal) break;
-    const auto begin = std::chrono::steady_clock::now();
-    GraspOracle oracle(solid, roadmap.clusters.contacts(), force_closure);
+    Stopwatch stopwatch;
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), force_closure, {}, deadline);
     ContactChain chain =
         FindContactChain(roadmap, roadmap.clusters, oracle, *start, *goal, last_resort);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    queries.push_back({*start, *goal, std::move(chain), time.count()});
+    queries.push_back({*start, *goal, std::move(chain), stopwatch.Lap()});
   }
   return queries;
 }

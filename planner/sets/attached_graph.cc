@@ -1,6 +1,6 @@
 #include "planner/sets/attached_graph.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 bool AttachedGraph::IsOnlySetOfAnEnd(int vertex) const {
   const auto is_only = [vertex](const GraspEnds& ends) {
@@ -37,4 +37,4 @@ void AttachedGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) cons
   AddEnd(goal_, vertex, neighbours);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

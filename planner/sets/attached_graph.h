@@ -6,7 +6,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/search/vertex_pair.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The sets that a grasp is joined to.
 struct GraspEnds {
@@ -52,4 +52,4 @@ class AttachedGraph final : public search::SwitchingGraph {
   End goal_;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

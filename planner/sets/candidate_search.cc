@@ -6,7 +6,7 @@
 #include "planner/planning/candidate_result.h"
 #include "planner/search/shortest_paths.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::optional<planning::CandidateSequence> FindCandidate(
   return best;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

@@ -11,7 +11,7 @@
 #include "planner/search/switching_graph.h"
 #include "planner/search/widest_path.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The vertices of a path with the fewest switches, of these the widest; empty where there is none.
 [[nodiscard]] std::vector<int> FindWidePath(const search::SwitchingGraph& graph, int start,
@@ -30,4 +30,4 @@ namespace regrasp {
         const std::vector<int>& path, std::set<search::VertexPair>& banned)>& make,
     const Deadline& deadline = {});
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

@@ -6,7 +6,7 @@
 
 #include "planner/planning/switch_sequence.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 namespace {
 
@@ -86,4 +86,4 @@ void FingerSequence::AddStep(plan::Step step, std::optional<search::VertexPair> 
   candidate_.steps.push_back(std::move(step));
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

@@ -5,7 +5,7 @@
 
 #include "planner/planning/candidate_sequence.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The same fingers at the contacts of the next waypoint of an align: each stays on its face, and
 /// the one whose face is gone goes to the contact that is left.
@@ -41,4 +41,4 @@ class FingerSequence {
   plan::FingerGrasp held_before_;  ///< before the last step
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

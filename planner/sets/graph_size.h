@@ -1,6 +1,6 @@
 #pragma once
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// How much a switching graph has of what takes memory while it is built; or the bytes that each of
 /// these takes, with what vectors keep to grow into.
@@ -15,4 +15,4 @@ struct GraphSize {
   }
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

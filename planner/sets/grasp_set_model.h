@@ -10,7 +10,7 @@
 #include "planner/planning/candidate_sequence.h"
 #include "planner/sets/set_graph.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// A grasp that a model's planning begins or ends at, as a place in one of its sets.
 template <typename Place>
@@ -73,4 +73,4 @@ concept GraspSetModel = requires(Model model, const typename Model::Place& place
   { model.FindRoute(place, place) } -> std::same_as<std::vector<typename Model::Place>>;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The waypoints of an align through the convex pieces of a set: one in each passage between two of
 /// them, fewest passages first (breadth first).
@@ -48,4 +48,4 @@ template <class Waypoint>
   return std::nullopt;
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

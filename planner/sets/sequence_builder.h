@@ -11,7 +11,7 @@
 #include "planner/sets/finger_sequence.h"
 #include "planner/sets/grasp_set_model.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// A switch from the grasp at hand, or to the goal, is good enough with this share of the best
 /// one's score: it spares an align.
@@ -175,4 +175,4 @@ class SequenceBuilder {
   std::map<std::pair<int, int>, BestSwitch> best_;  ///< by the sets before and after
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

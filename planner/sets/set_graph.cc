@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace regrasp {
+namespace regrasp::sets {
 
 double SetGraph::CheckedTangent(double half_angle) {
   if (half_angle > 0 && half_angle < std::numbers::pi / 2) return std::tan(half_angle);
@@ -56,4 +56,4 @@ void SetGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) const {
   std::inplace_merge(neighbours.begin(), neighbours.begin() + middle, neighbours.end());
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

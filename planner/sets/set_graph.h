@@ -8,7 +8,7 @@
 #include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The switching graph of an object's grasp sets, with its edges as a list: what such graphs have
 /// in common, whatever the sets.
@@ -48,4 +48,4 @@ class SetGraph : public search::SwitchingGraph {
   double edge_seconds_ = 0;
 };
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

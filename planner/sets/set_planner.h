@@ -19,7 +19,7 @@
 #include "planner/sets/sequence_builder.h"
 #include "planner/sets/set_sampling.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The planning of one sequence over a model of grasp sets: what its stages share.
 template <GraspSetModel Model>
@@ -181,4 +181,4 @@ template <GraspSetModel Model>
   return SetPlanner<Model>(model, request, planner).Plan();
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

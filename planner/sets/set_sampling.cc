@@ -9,7 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/sampling/no_grasp.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 namespace {
 
@@ -62,4 +62,4 @@ grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
                           (pools.size() > 1 ? " in the start's component" : "")};
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

@@ -9,7 +9,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/search/components.h"
 
-namespace regrasp {
+namespace regrasp::sets {
 
 /// The sets that a random grasp is drawn from, those of the first list first.
 using SamplingPools = std::vector<std::vector<int>>;
@@ -34,4 +34,4 @@ using SamplingPools = std::vector<std::vector<int>>;
                                         const criteria::GraspEvaluator& evaluator,
                                         RandomStream& random);
 
-}  // namespace regrasp
+}  // namespace regrasp::sets

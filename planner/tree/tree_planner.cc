@@ -230,7 +230,7 @@ TreePlanner::TreePlanner()
                planning::PlannerScope{hand::kFingersInSpace, {3, hand::kFingersInSpace}, {4, 4}},
            .options = {planning::PlanOption::kMargin, planning::PlanOption::kTravel,
                        planning::PlanOption::kEffort, planning::PlanOption::kExplain},
-           .has_own_grasps = false}) {}
+           .has_graph = false}) {}
 
 planning::PlanResult TreePlanner::Plan(const planning::PlanRequest& request) const {
   return TreeSearch(request).Plan(name());

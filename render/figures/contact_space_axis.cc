@@ -185,11 +185,8 @@ void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
 }
 
 void DrawFrame(cairo_t* cr, const PlotWindow& window) {
-  cairo_new_path(cr);
-  cairo_rectangle(cr, window.corner.x(), window.corner.y(), window.size().x(), window.size().y());
-  SetColor(cr, kInk);
-  cairo_set_line_width(cr, kFrameWidth);
-  cairo_stroke(cr);
+  SetBox(cr, window.corner, window.size());
+  Stroke(cr, kInk, kFrameWidth);
 }
 
 }  // namespace regrasp::render

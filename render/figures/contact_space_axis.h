@@ -43,9 +43,9 @@ struct AxisTick {
 /// Ticks nearer than this are not drawn apart, points.
 inline constexpr double kTickGap = 1.6;
 
-/// Room for ticks, labels and a title beside a plot, points.
-inline constexpr double kLeftRoom = 44;
-inline constexpr double kBottomRoom = 27;
+/// Space for ticks, labels and a title beside a plot, points.
+inline constexpr double kLeftSpace = 44;
+inline constexpr double kBottomSpace = 27;
 
 /// "u", or where the polygon has holes "u, outer ring", "u, hole 1".
 [[nodiscard]] std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,

@@ -20,8 +20,8 @@ using Eigen::Vector2d;
 namespace {
 
 // Points.
-constexpr double kTopRoom = 8;
-constexpr double kRightRoom = 13;
+constexpr double kTopSpace = 8;
+constexpr double kRightSpace = 13;
 constexpr double kRingGap = 22;
 constexpr double kPathWidth = 1;
 constexpr double kSwitchWidth = 0.7;
@@ -50,8 +50,8 @@ class Overview {
  public:
   Overview(const contour::Boundary& boundary, const ContactSpaceMap& map);
 
-  [[nodiscard]] double width() const { return kLeftRoom + extent_ + kRightRoom; }
-  [[nodiscard]] double height() const { return kTopRoom + extent_ + kBottomRoom; }
+  [[nodiscard]] double width() const { return kLeftSpace + extent_ + kRightSpace; }
+  [[nodiscard]] double height() const { return kTopSpace + extent_ + kBottomSpace; }
   void Draw(cairo_t* cr) const;
 
  private:
@@ -86,7 +86,7 @@ Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map
   for (double& share : shares) share = std::max(share, kLeastShare * longest);
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   const bool wide = shares.size() > 1 || edges > kManyEdges;
-  extent_ = (wide ? kTwoColumnWidth : kColumnWidth) - kLeftRoom - kRightRoom;
+  extent_ = (wide ? kTwoColumnWidth : kColumnWidth) - kLeftSpace - kRightSpace;
   const double drawn = extent_ - static_cast<double>(shares.size() - 1) * kRingGap;
   double from = 0;
   for (const double share : shares) {
@@ -101,7 +101,7 @@ PlotWindow Overview::WindowOf(const std::array<int, 2>& rings) const {
   PlotWindow window;
   window.high = {boundary_.perimeter(rings[0]), boundary_.perimeter(rings[1])};
   window.scale = Vector2d(across.length, up.length).cwiseQuotient(window.high);
-  window.corner = {kLeftRoom + across.from, kTopRoom + extent_ - up.from - up.length};
+  window.corner = {kLeftSpace + across.from, kTopSpace + extent_ - up.from - up.length};
   return window;
 }
 
@@ -166,7 +166,7 @@ void Overview::DrawPlan(cairo_t* cr) const {
   for (const SpacePoint& rest : map_.rests) DrawDot(cr, ToPage(rest), kDotRadius);
 }
 
-/// True iff a set's largest square has room for its name, and no grasp is there.
+/// True iff a set's largest square has space for its name, and no grasp is there.
 bool Overview::HasClearanceAt(const MapSet& set, const SpacePoint& place) const {
   const double half = set.largest * WindowOf(place.rings).scale.minCoeff();
   return half >= kMarkRadius && std::ranges::none_of(map_.rests, [&](const SpacePoint& rest) {
@@ -226,11 +226,8 @@ void Overview::Draw(cairo_t* cr) const {
 std::string DrawContactSpace(const contour::Boundary& boundary, const ContactSpaceMap& map,
                              const std::string& caption, FigureFormat format) {
   const Overview overview(boundary, map);
-  const std::vector<std::string> lines = WrapCaption(caption, overview.width());
-  FigurePage page(format, overview.width(), overview.height() + CaptionHeight(lines.size()));
-  overview.Draw(page.context());
-  DrawCaption(page.context(), lines, overview.width() / 2, overview.height());
-  return page.Finish();
+  return DrawWithCaption(format, {overview.width(), overview.height()}, caption,
+                         [&](cairo_t* cr) { overview.Draw(cr); });
 }
 
 }  // namespace regrasp::render

@@ -1,8 +1,6 @@
 #include "render/figures/contact_space_paint.h"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "render/picture/cairo_paint.h"
@@ -14,10 +12,8 @@ using Eigen::Vector2d;
 namespace {
 
 // Points.
-constexpr double kHatchSpacing = 2.4;  ///< between lines, measured across
-constexpr double kHatchWidth = 0.3;
-constexpr double kHatchSlope = 2;  ///< steeper than most lines of a set
-constexpr double kDotRim = 0.7;
+/// Steeper than most lines of a set.
+constexpr Hatch kHatch = {.slope = 2, .spacing = 2.4, .width = 0.3};
 constexpr double kDash = 2.4;
 constexpr double kDotDash = 0.8;
 
@@ -54,16 +50,14 @@ Color OtherSetTint(int set) {
 
 void SaveAndClip(cairo_t* cr, const PlotWindow& window) {
   cairo_save(cr);
-  cairo_new_path(cr);
-  cairo_rectangle(cr, window.corner.x(), window.corner.y(), window.size().x(), window.size().y());
+  SetBox(cr, window.corner, window.size());
   cairo_clip(cr);
 }
 
 void FillPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
                 Color color) {
   AddPieces(cr, window, pieces);
-  SetColor(cr, color);
-  cairo_fill(cr);
+  Fill(cr, color);
 }
 
 void HatchPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline> pieces,
@@ -72,19 +66,7 @@ void HatchPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline>
   cairo_save(cr);
   AddPieces(cr, window, pieces);
   cairo_clip(cr);
-  const Vector2d from = window.corner;
-  const Vector2d to = window.corner + window.size();
-  const double height = to.y() - from.y();
-  const double step = kHatchSpacing * std::hypot(1.0, 1 / kHatchSlope);
-  const double run = height / kHatchSlope;
-  cairo_new_path(cr);
-  for (double x = from.x() - run; x < to.x(); x += step) {
-    cairo_move_to(cr, x, to.y());
-    cairo_line_to(cr, x + run, from.y());
-  }
-  SetColor(cr, color);
-  cairo_set_line_width(cr, kHatchWidth);
-  cairo_stroke(cr);
+  DrawHatch(cr, window.corner, window.size(), kHatch, color);
   cairo_restore(cr);
 }
 
@@ -97,20 +79,9 @@ void StrokeSegments(cairo_t* cr, const PlotWindow& window, std::span<const Segme
     cairo_move_to(cr, a.x(), a.y());
     cairo_line_to(cr, b.x(), b.y());
   }
-  SetColor(cr, color);
-  cairo_set_line_width(cr, width);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-  cairo_stroke(cr);
+  Stroke(cr, color, width);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-}
-
-void DrawDot(cairo_t* cr, const Vector2d& at, double radius) {
-  for (const bool rim : {true, false}) {
-    cairo_new_path(cr);
-    cairo_arc(cr, at.x(), at.y(), radius + (rim ? kDotRim : 0), 0, 2 * std::numbers::pi);
-    SetColor(cr, rim ? kWhite : kInk);
-    cairo_fill(cr);
-  }
 }
 
 void SetDash(cairo_t* cr) { cairo_set_dash(cr, &kDash, 1, 0); }

@@ -36,9 +36,6 @@ void HatchPieces(cairo_t* cr, const PlotWindow& window, std::span<const Outline>
 void StrokeSegments(cairo_t* cr, const PlotWindow& window, std::span<const Segment> segments,
                     Color color, double width);
 
-/// Marks a grasp: a dot with a white rim.
-void DrawDot(cairo_t* cr, const Eigen::Vector2d& at, double radius);
-
 /// Dashes of a switch, and dots of what only helps the eye, until ClearDash.
 void SetDash(cairo_t* cr);
 void SetDots(cairo_t* cr);

@@ -18,9 +18,9 @@ using Eigen::Vector2d;
 namespace {
 
 // Points.
-constexpr double kTopRoom = 16;     ///< for the titles
-constexpr double kMiddleRoom = 74;  ///< between the windows, for the bars
-constexpr double kRightRoom = 6;
+constexpr double kTopSpace = 16;     ///< for the titles
+constexpr double kMiddleSpace = 74;  ///< between the windows, for the bars
+constexpr double kRightSpace = 6;
 constexpr double kPadding = 7;     ///< around a set in its window
 constexpr double kNarrowest = 62;  ///< window without padding
 constexpr double kTallest = 120 * kPointsPerMillimetre;
@@ -33,7 +33,7 @@ constexpr double kSharedLine = 0.5;
 constexpr double kDotRadius = 1.3;
 constexpr double kMarkAside = 6.5;   ///< from a grasp to its number inside the square
 constexpr double kMarkBeyond = 4.5;  ///< from the square to a number outside
-constexpr double kLargeSquare = 11;  ///< half-width that has room for the number
+constexpr double kLargeSquare = 11;  ///< half-width that has space for the number
 
 constexpr Color kDiagramInk = {80, 92, 120};
 /// Pale: the diagram is drawn over it.
@@ -56,11 +56,11 @@ Extent ExtentOf(const ContactSwitchSide& side) {
   return extent;
 }
 
-/// The largest scale at which two widths, none drawn below the narrowest, have room.
-double FitWidths(double a, double b, double room) {
-  const double scale = room / (a + b);
+/// The largest scale at which two widths, none drawn below the narrowest, fit.
+double FitWidths(double a, double b, double space) {
+  const double scale = space / (a + b);
   if (scale * std::min(a, b) >= kNarrowest) return scale;
-  return std::min((room - kNarrowest) / std::max(a, b), kNarrowest / std::min(a, b));
+  return std::min((space - kNarrowest) / std::max(a, b), kNarrowest / std::min(a, b));
 }
 
 void DrawSet(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& window) {
@@ -76,11 +76,8 @@ void DrawSet(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& windo
 void DrawGrasp(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& window) {
   const Vector2d at = window.ToPage(side.grasp);
   const double half = side.size * window.scale.x();
-  cairo_new_path(cr);
-  cairo_rectangle(cr, at.x() - half, at.y() - half, 2 * half, 2 * half);
-  SetColor(cr, kInk);
-  cairo_set_line_width(cr, kSquareLine);
-  cairo_stroke(cr);
+  SetBox(cr, at - Vector2d::Constant(half), Vector2d::Constant(2 * half));
+  Stroke(cr, kInk, kSquareLine);
   DrawDot(cr, at, kDotRadius);
   // In a corner of a large square, beyond the corner of a small one; towards the window's middle.
   const double aside = half > kLargeSquare ? kMarkAside : half + kMarkBeyond;
@@ -88,18 +85,13 @@ void DrawGrasp(cairo_t* cr, const ContactSwitchSide& side, const PlotWindow& win
   DrawMark(cr, std::to_string(side.grasp_entry), at + Vector2d(left ? aside : -aside, -aside));
 }
 
-/// A stretch of the shared length, as a bar about `x`.
+/// A part of the shared length, as a bar about `x`.
 void DrawBar(cairo_t* cr, const PlotWindow& window, const contour::PlaceRange& range, double x,
              Color fill, const std::string& name) {
   const double top = window.ToPage({window.low.x(), range.high}).y();
   const double bottom = window.ToPage({window.low.x(), range.low}).y();
-  cairo_new_path(cr);
-  cairo_rectangle(cr, x - kBarWidth / 2, top, kBarWidth, bottom - top);
-  SetColor(cr, fill);
-  cairo_fill_preserve(cr);
-  SetColor(cr, kInk);
-  cairo_set_line_width(cr, kSetBorder);
-  cairo_stroke(cr);
+  SetBox(cr, {x - kBarWidth / 2, top}, {kBarWidth, bottom - top});
+  FillAndStroke(cr, fill, kInk, kSetBorder);
   DrawLabel(cr, name, {x, window.corner.y() - kTitleAbove}, TextAlign::kCentre);
 }
 
@@ -127,10 +119,8 @@ void DrawBand(cairo_t* cr, const ContactSwitch& step, const SwitchLayout& layout
   const PlotWindow& window = layout.windows[0];
   const double top = window.ToPage({window.low.x(), step.overlap.high}).y();
   const double bottom = window.ToPage({window.low.x(), step.overlap.low}).y();
-  cairo_new_path(cr);
-  cairo_rectangle(cr, from, top, to - from, bottom - top);
-  SetColor(cr, kBand);
-  cairo_fill(cr);
+  SetBox(cr, {from, top}, {to - from, bottom - top});
+  Fill(cr, kBand);
 }
 
 void DrawSwitch(cairo_t* cr, const contour::Boundary& boundary, const ContactSwitch& step,
@@ -167,8 +157,8 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
   const double low = std::min(extents[0].low.y(), extents[1].low.y());
   const double high = std::max(extents[0].high.y(), extents[1].high.y());
   const auto width_of = [](const Extent& extent) { return extent.high.x() - extent.low.x(); };
-  const double room = kTwoColumnWidth - kLeftRoom - kMiddleRoom - kRightRoom - 4 * kPadding;
-  const double scale = std::min(FitWidths(width_of(extents[0]), width_of(extents[1]), room),
+  const double space = kTwoColumnWidth - kLeftSpace - kMiddleSpace - kRightSpace - 4 * kPadding;
+  const double scale = std::min(FitWidths(width_of(extents[0]), width_of(extents[1]), space),
                                 (kTallest - 2 * kPadding) / (high - low));
   SwitchLayout layout;
   double used = 0;
@@ -181,22 +171,19 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
     window.high = {middle + half / scale, high + kPadding / scale};
     used += window.size().x();
   }
-  const double spare = kTwoColumnWidth - kLeftRoom - kMiddleRoom - kRightRoom - used;
-  layout.windows[0].corner = {kLeftRoom + spare / 2, kTopRoom};
+  const double spare = kTwoColumnWidth - kLeftSpace - kMiddleSpace - kRightSpace - used;
+  layout.windows[0].corner = {kLeftSpace + spare / 2, kTopSpace};
   layout.windows[1].corner = {
-      layout.windows[0].corner.x() + layout.windows[0].size().x() + kMiddleRoom, kTopRoom};
-  layout.height = kTopRoom + layout.windows[0].size().y() + kBottomRoom;
+      layout.windows[0].corner.x() + layout.windows[0].size().x() + kMiddleSpace, kTopSpace};
+  layout.height = kTopSpace + layout.windows[0].size().y() + kBottomSpace;
   return layout;
 }
 
 std::string DrawContactSwitch(const contour::Boundary& boundary, const ContactSwitch& step,
                               const std::string& caption, FigureFormat format) {
   const SwitchLayout layout = LayOutSwitch(step);
-  const std::vector<std::string> lines = WrapCaption(caption, kTwoColumnWidth);
-  FigurePage page(format, kTwoColumnWidth, layout.height + CaptionHeight(lines.size()));
-  DrawSwitch(page.context(), boundary, step, layout);
-  DrawCaption(page.context(), lines, kTwoColumnWidth / 2, layout.height);
-  return page.Finish();
+  return DrawWithCaption(format, {kTwoColumnWidth, layout.height}, caption,
+                         [&](cairo_t* cr) { DrawSwitch(cr, boundary, step, layout); });
 }
 
 }  // namespace regrasp::render

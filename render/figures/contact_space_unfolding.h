@@ -17,7 +17,7 @@ using Segment = std::array<Eigen::Vector2d, 2>;
 struct UnfoldedSet {
   std::vector<Outline> pieces;
   std::vector<Segment> border;
-  /// Where the set goes on but the plane has no room: it comes back to itself around a ring, once
+  /// Where the set goes on but the plane has no space: it comes back to itself around a ring, once
   /// around the object, and is cut there.
   std::vector<Segment> cuts;
   std::vector<Segment> diagram;  ///< the L-infinity Voronoi diagram of its border

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/figures/figure_format.h"
+#include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
 
@@ -27,20 +28,13 @@ class FigurePage {
   [[nodiscard]] std::string Finish();
 
  private:
-  struct SurfaceDeleter {
-    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  };
-  struct ContextDeleter {
-    void operator()(cairo_t* context) const { cairo_destroy(context); }
-  };
-
   [[nodiscard]] cairo_surface_t* MakeSurface(double width, double height);
 
   FigureFormat format_;
   std::unique_ptr<std::string> bytes_;  ///< Cairo keeps its address
   double scale_ = 1;                    ///< pixels per point
-  std::unique_ptr<cairo_surface_t, SurfaceDeleter> surface_;
-  std::unique_ptr<cairo_t, ContextDeleter> context_;
+  CairoSurface surface_;
+  CairoContext context_;
 };
 
 }  // namespace regrasp::render

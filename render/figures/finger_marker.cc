@@ -24,11 +24,8 @@ constexpr std::array<MarkerShape, 5> kShapes = {
     {{0, 0}, {4, kPi / 4}, {3, -kPi / 2}, {4, 0}, {5, -kPi / 2}}};
 
 void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centre, double radius) {
+  if (shape.corners == 0) return SetCircle(cr, centre, radius);
   cairo_new_path(cr);
-  if (shape.corners == 0) {
-    cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * kPi);
-    return;
-  }
   const double step = 2 * kPi / shape.corners;
   const double reach = radius * std::sqrt(2 * kPi / (shape.corners * std::sin(step)));
   for (int k = 0; k < shape.corners; ++k) {
@@ -47,18 +44,10 @@ void DrawFingerMarker(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& ce
   AddPath(cr, shape, centre, radius);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
   if (outline) {
-    SetColor(cr, kWhite);
-    cairo_fill_preserve(cr);
-    SetColor(cr, FingerColor(finger));
-    cairo_set_line_width(cr, kOutlineWidth);
-    cairo_stroke(cr);
-    return;
+    FillAndStroke(cr, kWhite, FingerColor(finger), kOutlineWidth);
+  } else {
+    FillWithHalo(cr, FingerColor(finger), 2 * kWhiteRim);
   }
-  SetColor(cr, kWhite);
-  cairo_set_line_width(cr, 2 * kWhiteRim);
-  cairo_stroke_preserve(cr);
-  SetColor(cr, FingerColor(finger));
-  cairo_fill(cr);
 }
 
 }  // namespace regrasp::render

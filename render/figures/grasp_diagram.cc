@@ -10,6 +10,7 @@
 #include "planner/sets/polygon/focus_cell.h"
 #include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/plane.h"
+#include "render/picture/plane_geometry.h"
 
 namespace regrasp::render {
 
@@ -36,12 +37,11 @@ polygon::Vector2<double> FromEigen(const Vector2d& v) { return {v.x(), v.y()}; }
 
 double AngleOf(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-double CrossOf(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double Area(const Outline& outline) {
   double twice = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    twice += CrossOf(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
+    twice += Cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
   }
   return twice / 2;
 }
@@ -52,7 +52,7 @@ Vector2d Centroid(const Outline& outline) {
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
     const Vector2d a = outline[i] - origin;
     const Vector2d b = outline[i + 1] - origin;
-    sum += CrossOf(a, b) * (a + b) / 6;
+    sum += Cross(a, b) * (a + b) / 6;
   }
   return origin + sum / Area(outline);
 }
@@ -187,7 +187,7 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
   const Vector2d right = ToEigen(cone.right);
   const Vector2d left = ToEigen(cone.left);
   const double start = AngleOf(right);
-  const double width = std::atan2(CrossOf(right, left), right.dot(left));
+  const double width = std::atan2(Cross(right, left), right.dot(left));
   std::vector<double> turns = {0, width};
   for (const Vector2d& line : {Vector2d(b - a), Vector2d(c - a)}) {
     const double turn = std::remainder(AngleOf(line) - start, kPi);  // the line, not its direction
@@ -200,7 +200,7 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
   double widest = 0;
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
     const Vector2d direction = Direction(start + (turns[i] + turns[i + 1]) / 2);
-    const bool separates = CrossOf(direction, b - a) * CrossOf(direction, c - a) < 0;
+    const bool separates = Cross(direction, b - a) * Cross(direction, c - a) < 0;
     if (separates && turns[i + 1] - turns[i] > widest) {
       widest = turns[i + 1] - turns[i];
       best = direction;
@@ -224,7 +224,7 @@ std::optional<GraspDiagram> TryParallel(const object::Polygon& polygon, const gr
     const Vector2d right = ToEigen(cone->right).normalized();
     const Vector2d left = ToEigen(cone->left).normalized();
     const Vector2d axis = (right + left).normalized();
-    const double width = std::atan2(CrossOf(right, left), right.dot(left));
+    const double width = std::atan2(Cross(right, left), right.dot(left));
     GraspDiagram diagram;
     diagram.kind = DiagramKind::kParallel;
     diagram.force_direction = *direction;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "render/figures/finger_marker.h"
@@ -13,6 +12,7 @@
 #include "render/picture/cairo_paint.h"
 #include "render/picture/label_layout.h"
 #include "render/picture/palette.h"
+#include "render/picture/plane_geometry.h"
 
 namespace regrasp::render {
 
@@ -32,8 +32,8 @@ constexpr double kPathOffset = 4.4;  ///< from the border to the arrow of a move
 constexpr double kTick = 1.6;        ///< half of its length
 constexpr double kNumberRadius = 4.8;
 
-/// An arrow into a hole or a notch takes this share of the room there.
-constexpr double kShareOfRoom = 0.8;
+/// An arrow into a hole or a notch takes this share of the clearance there.
+constexpr double kShareOfClearance = 0.8;
 
 /// Two fingers nearer than this have their arrows this far aside, so that they don't overlap.
 constexpr double kNearby = 7;
@@ -61,8 +61,9 @@ std::vector<Vector2d> ArrowOf(const object::Polygon& polygon, const DiagramFinge
                               const PanelView& view) {
   const Vector2d contact = view.ToPanel(finger.contact.p);
   const Vector2d outward = PanelView::ToPanelDirection(finger.contact.outward);
-  const double room = kShareOfRoom * view.scale * OutwardRoom(polygon, finger.contact);
-  const double far = std::min(kArrowFar, std::max(room, kArrowNear + kArrowHead));
+  const double clearance =
+      kShareOfClearance * view.scale * OutwardClearance(polygon, finger.contact);
+  const double far = std::min(kArrowFar, std::max(clearance, kArrowNear + kArrowHead));
   const Vector2d near_end = contact + kArrowNear * outward;
   const Vector2d far_end = contact + far * outward;
   switch (finger.role) {
@@ -110,14 +111,6 @@ std::vector<FingerShape> ShapesOf(const object::Polygon& polygon, const StepDiag
   return shapes;
 }
 
-void DrawRing(cairo_t* cr, const Vector2d& centre, Color color) {
-  cairo_new_path(cr);
-  cairo_arc(cr, centre.x(), centre.y(), kRingRadius, 0, 2 * std::numbers::pi);
-  SetColor(cr, color);
-  cairo_set_line_width(cr, kRingWidth);
-  cairo_stroke(cr);
-}
-
 void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
   const DiagramFinger& finger = *shape.finger;
   const Color color = FingerColor(finger.finger);
@@ -131,7 +124,10 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
     DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
                      /*outline=*/true);
   }
-  if (finger.role == plan::FingerRole::kPlaced) DrawRing(cr, shape.contact, color);
+  if (finger.role == plan::FingerRole::kPlaced) {
+    SetCircle(cr, shape.contact, kRingRadius);
+    Stroke(cr, color, kRingWidth);
+  }
   DrawFingerMarker(cr, finger.finger, shape.contact, kMarkerRadius,
                    /*outline=*/finger.role == plan::FingerRole::kReleased);
 }
@@ -178,24 +174,21 @@ std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiag
 
 }  // namespace
 
-double OutwardRoom(const object::Polygon& polygon, const BorderPoint& from) {
-  const auto cross = [](const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  };
-  double room = std::numeric_limits<double>::infinity();
+double OutwardClearance(const object::Polygon& polygon, const BorderPoint& from) {
+  double clearance = std::numeric_limits<double>::infinity();
   for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
     const auto [begin, end] = polygon.edge(face);
     const Vector2d a = begin.head<2>() - from.p;
     const Vector2d along = (end - begin).head<2>();
-    const double slope = cross(from.outward, along);
+    const double slope = Cross(from.outward, along);
     if (slope == 0) continue;
-    const double distance = cross(a, along) / slope;
-    const double place = cross(a, from.outward) / slope;
+    const double distance = Cross(a, along) / slope;
+    const double place = Cross(a, from.outward) / slope;
     const bool hit =
         place >= 0 && place <= 1 && distance > object::kPointTolerance * polygon.diameter();
-    if (hit) room = std::min(room, distance);
+    if (hit) clearance = std::min(clearance, distance);
   }
-  return room;
+  return clearance;
 }
 
 void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
@@ -211,7 +204,7 @@ void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram&
       PlaceLabels(anchors, obstacles, kNumberRadius, static_cast<int>(view.width),
                   static_cast<int>(view.height));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    DrawFingerNumber(cr, shapes[i].finger->finger, centres[i]);
+    DrawMark(cr, std::to_string(shapes[i].finger->finger), centres[i]);
   }
 }
 

@@ -17,6 +17,6 @@ void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram&
 
 /// How far one can go out of the material from a place on the border until the polygon is met
 /// again; infinity where it never is.
-[[nodiscard]] double OutwardRoom(const object::Polygon& polygon, const BorderPoint& from);
+[[nodiscard]] double OutwardClearance(const object::Polygon& polygon, const BorderPoint& from);
 
 }  // namespace regrasp::render

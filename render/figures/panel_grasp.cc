@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
@@ -24,17 +23,15 @@ constexpr double kConeBorderOpacity = 0.8;
 constexpr double kBeyondFocus = 1.12;  ///< of the distance from the contact to the focus point
 constexpr double kLongestOuter = kPanelMargin - 2;  ///< so that cones end on the panel
 constexpr double kConeInset = 1;                    ///< from the panel's border
-constexpr double kShortestInner = 12;               ///< whatever room there is
-constexpr double kHatchSpacing = 3.2;
-constexpr double kHatchWidth = 0.35;
+constexpr double kShortestInner = 12;               ///< whatever space there is
+constexpr Hatch kHatch = {.slope = 1, .spacing = 3.2, .width = 0.35};
 constexpr double kCellBorder = 0.5;
 constexpr double kForceLine = 0.55;
 constexpr double kForceLineInset = 4;  ///< from the panel's border
 constexpr double kDash = 3;
 constexpr double kFocusRadius = 1.7;
-constexpr double kFocusRim = 0.7;
 
-constexpr Color kHatch = {168, 174, 184};
+constexpr Color kHatchInk = {168, 174, 184};
 constexpr Color kCellInk = {96, 104, 118};
 
 /// What is between two distances from the apex of one side of a cone.
@@ -56,8 +53,7 @@ void FillSector(cairo_t* cr, const Sector& sector, Color color, double opacity) 
     cairo_line_to(cr, apex.x(), apex.y());
   }
   cairo_close_path(cr);
-  SetColor(cr, color, opacity);
-  cairo_fill(cr);
+  Fill(cr, color, opacity);
 }
 
 /// One side of a cone with a round end; paler where it is longer than `usual`.
@@ -76,27 +72,27 @@ void DrawSide(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double ha
 }
 
 /// How far a side of a cone can be drawn on the panel, its borders included.
-double RoomOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
+double LengthOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
   const Vector2d apex = view.ToPanel(cone.apex);
   const Vector2d axis = side * PanelView::ToPanelDirection(cone.axis);
   const Vector2d corner(view.width, view.height);
-  double room = corner.norm();
+  double length = corner.norm();
   for (const double turn : {-cone.half_angle, 0.0, cone.half_angle}) {
     const Vector2d direction = Eigen::Rotation2Dd(turn) * axis;
     for (int k = 0; k < 2; ++k) {
       if (direction[k] == 0) continue;
       const double border = direction[k] > 0 ? corner[k] - kConeInset : kConeInset;
-      room = std::min(room, (border - apex[k]) / direction[k]);
+      length = std::min(length, (border - apex[k]) / direction[k]);
     }
   }
-  return room;
+  return length;
 }
 
 double UsualLength(const object::Polygon& polygon, const DoubleCone& cone, int side,
                    const PanelView& view) {
   const double usual = kConeLength * view.scale * polygon.diameter();
   if (side < 0) return std::min(usual, kLongestOuter);
-  return std::min(usual, std::max(RoomOnPanel(cone, side, view), kShortestInner));
+  return std::min(usual, std::max(LengthOnPanel(cone, side, view), kShortestInner));
 }
 
 /// The part of the line through `p` along `d` on the panel, a little inside its border.
@@ -149,22 +145,12 @@ void DrawFocusCell(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
   cairo_clip(cr);
-  cairo_new_path(cr);
-  const double step = kHatchSpacing * std::numbers::sqrt2;
-  for (double x = -view.height; x < view.width; x += step) {
-    cairo_move_to(cr, x, view.height);
-    cairo_line_to(cr, x + view.height, 0);
-  }
-  SetColor(cr, kHatch);
-  cairo_set_line_width(cr, kHatchWidth);
-  cairo_stroke(cr);
+  DrawHatch(cr, {0, 0}, {view.width, view.height}, kHatch, kHatchInk);
   cairo_restore(cr);
   cairo_new_path(cr);
   for (const Outline& part : grasp.focus_cell) AddOutline(cr, OnPanel(part, view));
-  SetColor(cr, kCellInk);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(cr, kCellBorder);
-  cairo_stroke(cr);
+  Stroke(cr, kCellInk, kCellBorder);
 }
 
 void DrawForceLines(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view) {
@@ -186,14 +172,7 @@ void DrawForceLines(cairo_t* cr, const GraspDiagram& grasp, const PanelView& vie
 }
 
 void DrawFocusPoint(cairo_t* cr, const GraspDiagram& grasp, const PanelView& view) {
-  if (!grasp.focus) return;
-  const Vector2d p = view.ToPanel(*grasp.focus);
-  for (const bool rim : {true, false}) {
-    cairo_new_path(cr);
-    cairo_arc(cr, p.x(), p.y(), kFocusRadius + (rim ? kFocusRim : 0), 0, 2 * std::numbers::pi);
-    SetColor(cr, rim ? kWhite : kInk);
-    cairo_fill(cr);
-  }
+  if (grasp.focus) DrawDot(cr, view.ToPanel(*grasp.focus), kFocusRadius);
 }
 
 }  // namespace regrasp::render

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <memory>
 #include <string>
 
+#include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
@@ -17,21 +17,13 @@ constexpr char kClauseEnd = ';';
 
 /// The same font on every page: unhinted, so that an SVG, a PDF and a PNG have the same layout.
 void SetFont(cairo_t* cr, double size, bool bold) {
-  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cr, size);
+  SelectFont(cr, size, bold);
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_set_font_options(cr, options);
   cairo_font_options_destroy(options);
-}
-
-double TextWidth(cairo_t* cr, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(cr, text.c_str(), &extents);
-  return extents.x_advance;
 }
 
 /// The parts of a text, each up to a separator and with it, without spaces around.
@@ -65,10 +57,8 @@ std::vector<std::string> Words(const std::string& clause) {
 }  // namespace
 
 std::vector<std::string> WrapCaption(const std::string& caption, double width) {
-  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
-                                                                   cairo_destroy);
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  const CairoContext context(cairo_create(surface.get()));
   SetFont(context.get(), kCaptionFont, /*bold=*/false);
   const auto fits = [&](const std::string& text) {
     return TextWidth(context.get(), text) <= width;
@@ -102,6 +92,15 @@ void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, d
   }
 }
 
+std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+                            const std::string& caption, const std::function<void(cairo_t*)>& draw) {
+  const std::vector<std::string> lines = WrapCaption(caption, size.x());
+  FigurePage page(format, size.x(), size.y() + CaptionHeight(lines.size()));
+  draw(page.context());
+  DrawCaption(page.context(), lines, size.x() / 2, size.y());
+  return page.Finish();
+}
+
 void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
   SetFont(cr, kLabelFont, /*bold=*/false);
   SetColor(cr, kInk);
@@ -116,25 +115,16 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
 
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre) {
   SetFont(cr, kNumberFont, /*bold=*/true);
-  cairo_text_extents_t e;
-  cairo_text_extents(cr, text.c_str(), &e);
-  const double x = centre.x() - e.x_bearing - e.width / 2;
-  const double y = centre.y() - e.y_bearing - e.height / 2;
+  const Eigen::Vector2d begin = CentredText(cr, text, centre);
   cairo_new_path(cr);
-  cairo_move_to(cr, x, y);
+  cairo_move_to(cr, begin.x(), begin.y());
   cairo_text_path(cr, text.c_str());
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  SetColor(cr, kWhite);
-  cairo_set_line_width(cr, kHalo);
-  cairo_stroke(cr);
-  cairo_move_to(cr, x, y);
+  Stroke(cr, kWhite, kHalo);
+  cairo_move_to(cr, begin.x(), begin.y());
   SetColor(cr, kInk);
   cairo_show_text(cr, text.c_str());
   cairo_new_path(cr);
-}
-
-void DrawFingerNumber(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre) {
-  DrawMark(cr, std::to_string(finger), centre);
 }
 
 }  // namespace regrasp::render

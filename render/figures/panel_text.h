@@ -3,10 +3,11 @@
 #include <cairo.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "planner/base/index.h"
+#include "render/figures/figure_format.h"
 
 namespace regrasp::render {
 
@@ -20,13 +21,19 @@ inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 /// and between words where that does not do; numbers stay with the word before them.
 [[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
 
-/// The height of a caption of so many lines, with the room below it.
+/// The height of a caption of so many lines, with the space below it.
 [[nodiscard]] inline double CaptionHeight(std::size_t lines) {
   return (static_cast<double>(lines) + 0.5) * kLineHeight;
 }
 
 /// Writes lines centred about x, the first below `top`.
 void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top);
+
+/// A figure with a caption below it, as a file's bytes.
+/// @param size  of what is drawn, points.
+[[nodiscard]] std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+                                          const std::string& caption,
+                                          const std::function<void(cairo_t*)>& draw);
 
 /// Where a line of text lies from the point that it is written at.
 enum class TextAlign { kLeft, kCentre, kRight };
@@ -37,8 +44,5 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
 
 /// Writes a bold name or number, centred, with a white halo.
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
-
-/// Writes a finger's number, centred, with a white halo.
-void DrawFingerNumber(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre);
 
 }  // namespace regrasp::render

@@ -28,11 +28,11 @@ PanelView FitView(const object::Polygon& polygon, std::span<const StepDiagram> d
     if (near) shown.extend(*focus);
   }
   const Eigen::Vector2d size = shown.sizes();
-  const double room = width - 2 * kPanelMargin;
+  const double space = width - 2 * kPanelMargin;
   const double tallest = kTallestPanel * width - 2 * kPanelMargin;
   PanelView view;
   view.width = width;
-  view.scale = std::min(room / size.x(), tallest / size.y());
+  view.scale = std::min(space / size.x(), tallest / size.y());
   view.height = view.scale * size.y() + 2 * kPanelMargin;
   view.centre = shown.center();
   return view;

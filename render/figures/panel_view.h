@@ -24,7 +24,7 @@ struct PanelView {
   }
 };
 
-/// Room around the object for markers, arrows and numbers, points.
+/// Space around the object for markers, arrows and numbers, points.
 inline constexpr double kPanelMargin = 18;
 
 /// Focus points farther than this from the polygon's bounding box, in diameters, are off the page:

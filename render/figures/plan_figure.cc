@@ -46,18 +46,15 @@ void DrawPanel(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& d
                const PanelView& view, const Vector2d& corner) {
   cairo_save(cr);
   cairo_translate(cr, corner.x(), corner.y());
-  cairo_rectangle(cr, 0, 0, view.width, view.height);
+  SetBox(cr, {0, 0}, {view.width, view.height});
   cairo_clip(cr);
   AddPolygon(cr, polygon, view);
-  SetColor(cr, kMaterial);
-  cairo_fill(cr);
+  Fill(cr, kMaterial);
   DrawFocusCell(cr, diagram.grasp, view);
   DrawCones(cr, polygon, diagram, view);
   AddPolygon(cr, polygon, view);
-  SetColor(cr, kInk);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(cr, kBorderWidth);
-  cairo_stroke(cr);
+  Stroke(cr, kInk, kBorderWidth);
   DrawForceLines(cr, diagram.grasp, view);
   DrawFingers(cr, polygon, diagram, view);
   DrawFocusPoint(cr, diagram.grasp, view);
@@ -121,11 +118,9 @@ std::string DrawStepFigure(const object::Polygon& polygon, std::span<const StepD
                            int index, FigureFormat format) {
   const StepDiagram& diagram = diagrams[index];
   const PanelView view = FitView(polygon, diagrams, kColumnWidth);
-  const Lines caption = WrapCaption(diagram.caption, view.width);
-  FigurePage page(format, view.width, view.height + CaptionHeight(caption.size()));
-  DrawPanel(page.context(), polygon, diagram, view, {0, 0});
-  DrawCaption(page.context(), caption, view.width / 2, view.height);
-  return page.Finish();
+  return DrawWithCaption(format, {view.width, view.height}, diagram.caption, [&](cairo_t* cr) {
+    DrawPanel(cr, polygon, diagram, view, {0, 0});
+  });
 }
 
 std::string DrawSheet(const object::Polygon& polygon, std::span<const StepDiagram> diagrams,

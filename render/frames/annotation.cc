@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "render/picture/cairo_image.h"
@@ -48,34 +47,10 @@ Color NumberColor(FingerIndex finger) {
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
-void SetFont(cairo_t* cr, double size, bool bold) {
-  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cr, size);
-}
-
-double TextWidth(cairo_t* cr, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(cr, text.c_str(), &extents);
-  return extents.x_advance;
-}
-
-/// Fills the current path over a white halo.
-void FillWithHalo(cairo_t* cr, Color color, double halo) {
-  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_set_line_width(cr, halo);
-  cairo_stroke_preserve(cr);
-  SetColor(cr, color);
-  cairo_fill(cr);
-}
-
 void DrawCentred(cairo_t* cr, const std::string& text, const Vector2d& centre, Color color,
                  double halo) {
-  cairo_text_extents_t e;
-  cairo_text_extents(cr, text.c_str(), &e);
-  cairo_move_to(cr, centre.x() - e.x_bearing - e.width / 2,
-                centre.y() - e.y_bearing - e.height / 2);
+  const Vector2d begin = CentredText(cr, text, centre);
+  cairo_move_to(cr, begin.x(), begin.y());
   cairo_text_path(cr, text.c_str());
   FillWithHalo(cr, color, halo);
 }
@@ -85,11 +60,8 @@ void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, doubl
   const Vector2d centre = camera.Project(glyph.ball);
   const double radius = glyph.ball_radius * camera.PixelsPerUnit(glyph.ball) + kRingGap * font;
   for (const bool white : {true, false}) {
-    cairo_new_path(cr);
-    cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * std::numbers::pi);
-    cairo_set_line_width(cr, (white ? 2.2 : 1) * kRingWidth * font);
-    white ? cairo_set_source_rgb(cr, 1, 1, 1) : SetColor(cr, NumberColor(glyph.finger));
-    cairo_stroke(cr);
+    SetCircle(cr, centre, radius);
+    Stroke(cr, white ? kWhite : NumberColor(glyph.finger), (white ? 2.2 : 1) * kRingWidth * font);
   }
 }
 
@@ -123,7 +95,7 @@ void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph>
   obstacles.insert(obstacles.end(), text.begin(), text.end());
   const std::vector<Vector2d> centres =
       PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
-  SetFont(cr, kNumberSize * font, /*bold=*/true);
+  SelectFont(cr, kNumberSize * font, /*bold=*/true);
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].finger),
                 kHalo * font);
@@ -135,11 +107,11 @@ std::vector<Obstacle> DrawCaption(cairo_t* cr, const Camera& camera, const std::
                                   double font) {
   if (caption.empty()) return {};
   const double margin = kMargin * camera.height;
-  const double room = camera.width * (1 - kLongestBar) - 3 * margin;
-  SetFont(cr, font, /*bold=*/false);
-  const double size = font * std::min(1.0, room / TextWidth(cr, caption));
+  const double space = camera.width * (1 - kLongestBar) - 3 * margin;
+  SelectFont(cr, font, /*bold=*/false);
+  const double size = font * std::min(1.0, space / TextWidth(cr, caption));
   if (size < kSmallestFont) return {};
-  SetFont(cr, size, /*bold=*/false);
+  SelectFont(cr, size, /*bold=*/false);
   const double base = camera.height - margin;
   cairo_move_to(cr, margin, base);
   cairo_text_path(cr, caption.c_str());
@@ -165,10 +137,8 @@ std::vector<Obstacle> DrawScaleBar(cairo_t* cr, const Camera& camera, double met
   }
   cairo_move_to(cr, left, y);
   cairo_line_to(cr, right, y);
-  cairo_set_line_width(cr, std::max(1.0, font / 10));
-  SetColor(cr, kInk);
-  cairo_stroke(cr);
-  SetFont(cr, font, /*bold=*/false);
+  Stroke(cr, kInk, std::max(1.0, font / 10));
+  SelectFont(cr, font, /*bold=*/false);
   DrawCentred(cr, FormatLength(metres), {(left + right) / 2, y - 0.8 * font}, kInk, kHalo * font);
   return {{{left, y - font / 2}, {right, y - font / 2}, font, kTextWeight}};
 }
@@ -183,6 +153,7 @@ Image Annotate(const Image& image, const Camera& camera, std::span<const FingerG
   for (const FingerGlyph& glyph : fingers) {
     if (glyph.role == plan::FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
   }
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   std::vector<Obstacle> text = DrawCaption(cr, camera, caption, font);
   for (const Obstacle& bar : DrawScaleBar(cr, camera, metres_per_unit, font)) text.push_back(bar);
   DrawNumbers(cr, camera, fingers, text, std::max(font, kSmallestFont));

@@ -21,7 +21,7 @@ struct AxisFit {
     max_low = std::max(max_low, -a + low * z);
   }
   [[nodiscard]] double Distance() const { return (max_high + max_low) / (high + low); }
-  /// The scene sits in the middle of the room that is left at distance `d`.
+  /// The scene sits in the middle of the space that is left at distance `d`.
   [[nodiscard]] double Centre(double d) const {
     return ((max_high - high * d) + (low * d - max_low)) / 2;
   }

@@ -54,7 +54,7 @@ struct VirtualFiles {
 
   void Add(const std::string& name, const std::string& bytes) {
     if (mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(bytes.size())) != 0) {
-      throw std::runtime_error("no room for the file " + name + " in MuJoCo's memory");
+      throw std::runtime_error("no space for the file " + name + " in MuJoCo's memory");
     }
     std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), name.c_str())], bytes.data(), bytes.size());
   }

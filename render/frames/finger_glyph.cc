@@ -116,18 +116,18 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     for (const Vector3d& p_W : state.path_W) glyph.path.push_back(frame.FromWorld(p_W));
     glyph.outward = -state.normal_W.normalized();
     glyph.force = state.force_W;
-    const double room =
+    const double clearance =
         RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
-    glyph.ball_radius = std::min(kBallRadius, kBallShare * room);
-    const double stem = std::min(kStemLength, kStemShare * room);
+    glyph.ball_radius = std::min(kBallRadius, kBallShare * clearance);
+    const double stem = std::min(kStemLength, kStemShare * clearance);
     const double gap =
         gaps == GapView::kNone ? 0 : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
     const Vector3d tip =
-        glyph.contact + std::min(kGapScale * gap, kGapShare * room) * glyph.outward;
+        glyph.contact + std::min(kGapScale * gap, kGapShare * clearance) * glyph.outward;
     glyph.ball = tip + glyph.outward * glyph.ball_radius;
     glyph.stem_end = tip + glyph.outward * stem;
-    const bool roomy = room > kStemLength + kMotionGap + kMotionLength;
-    glyph.end = IsInMotion(state.role) && roomy
+    const bool fits = clearance > kStemLength + kMotionGap + kMotionLength;
+    glyph.end = IsInMotion(state.role) && fits
                     ? Vector3d(glyph.stem_end + glyph.outward * (kMotionGap + kMotionLength))
                     : glyph.stem_end;
     glyphs.push_back(glyph);

@@ -49,8 +49,8 @@ constexpr Color kFocus = {150, 30, 90};
 /// A contact of the replay is this near to the face that it is planned on, in diameters.
 constexpr double kFocusReach = 1e-2;
 
-/// Room for a finger's number beyond its end, in diameters.
-constexpr double kLabelRoom = 0.05;
+/// Space for a finger's number beyond its end, in diameters.
+constexpr double kLabelSpace = 0.05;
 
 /// An object that moved farther than this (diameters) does not widen the picture.
 constexpr double kFarAway = 0.5;
@@ -252,7 +252,7 @@ class FrameRenderer::Impl {
       AddBody(pose, points);
       for (const FingerGlyph& glyph : frames.back()) {
         points.push_back(glyph.contact);
-        points.push_back(glyph.end + glyph.outward * kLabelRoom);
+        points.push_back(glyph.end + glyph.outward * kLabelSpace);
       }
     }
     const Vector3d back = ChooseViewpoint(body_, planar, frames);
@@ -297,8 +297,6 @@ FrameRenderer::FrameRenderer(const object::Object& object, double scale, double 
   impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
 }
 FrameRenderer::~FrameRenderer() = default;
-FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
-FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;
 
 Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption) {
   return impl_->Render(snapshot, caption);

@@ -54,8 +54,6 @@ class FrameRenderer {
   FrameRenderer(const object::Object& object, double scale, double half_angle,
                 const std::vector<plan::Snapshot>& snapshots, const FrameOptions& options = {});
   ~FrameRenderer();
-  FrameRenderer(FrameRenderer&&) noexcept;
-  FrameRenderer& operator=(FrameRenderer&&) noexcept;
 
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.
   [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "");

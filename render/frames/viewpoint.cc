@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "planner/base/angle.h"
+#include "render/picture/plane_geometry.h"
 
 namespace regrasp::render {
 
@@ -37,20 +38,11 @@ constexpr double kForeshortenedCosine = 0.80;
 
 /// Distance of two segments in the plane; zero where they cross.
 double SegmentDistance(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  const auto cross = [](const Vector2d& u, const Vector2d& v) {
-    return u.x() * v.y() - u.y() * v.x();
-  };
-  const auto to_segment = [](const Vector2d& p, const Vector2d& from, const Vector2d& to) {
-    const Vector2d segment = to - from;
-    const double square = segment.squaredNorm();
-    const double t = square > 0 ? std::clamp((p - from).dot(segment) / square, 0.0, 1.0) : 0;
-    return (p - from - t * segment).norm();
-  };
-  const bool apart_cd = cross(b - a, c - a) * cross(b - a, d - a) > 0;
-  const bool apart_ab = cross(d - c, a - c) * cross(d - c, b - c) > 0;
-  if (!apart_cd && !apart_ab && cross(b - a, d - c) != 0) return 0;
-  return std::min(
-      {to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
+  const bool apart_cd = Cross(b - a, c - a) * Cross(b - a, d - a) > 0;
+  const bool apart_ab = Cross(d - c, a - c) * Cross(d - c, b - c) > 0;
+  if (!apart_cd && !apart_ab && Cross(b - a, d - c) != 0) return 0;
+  return std::min({DistanceToSegment(a, c, d), DistanceToSegment(b, c, d),
+                   DistanceToSegment(c, a, b), DistanceToSegment(d, a, b)});
 }
 
 double ScoreFinger(const FingerGlyph& glyph, const Vector3d& back, const FacetMesh& surface) {

@@ -3,8 +3,8 @@
 #include <cairo.h>
 
 #include <cstdint>
-#include <memory>
 
+#include "render/picture/cairo_paint.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
@@ -21,18 +21,11 @@ class CairoImage {
   [[nodiscard]] Image ToImage() const;
 
  private:
-  struct SurfaceDeleter {
-    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  };
-  struct ContextDeleter {
-    void operator()(cairo_t* context) const { cairo_destroy(context); }
-  };
-
   [[nodiscard]] std::uint32_t* Row(int y) const;
 
   int width_, height_;
-  std::unique_ptr<cairo_surface_t, SurfaceDeleter> surface_;
-  std::unique_ptr<cairo_t, ContextDeleter> context_;
+  CairoSurface surface_;
+  CairoContext context_;
 };
 
 }  // namespace regrasp::render

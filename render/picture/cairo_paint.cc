@@ -1,6 +1,8 @@
 #include "render/picture/cairo_paint.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace regrasp::render {
@@ -12,6 +14,8 @@ namespace {
 /// Half the width of an arrow's head over its length.
 constexpr double kHeadSlope = 0.42;
 
+constexpr double kDotRim = 0.7;  ///< points
+
 }  // namespace
 
 void SetColor(cairo_t* cr, Color color, double opacity) {
@@ -21,6 +25,78 @@ void SetColor(cairo_t* cr, Color color, double opacity) {
   } else {
     cairo_set_source_rgb(cr, color.r / kMax, color.g / kMax, color.b / kMax);
   }
+}
+
+void SetBox(cairo_t* cr, const Vector2d& corner, const Vector2d& size) {
+  cairo_new_path(cr);
+  cairo_rectangle(cr, corner.x(), corner.y(), size.x(), size.y());
+}
+
+void SetCircle(cairo_t* cr, const Vector2d& centre, double radius) {
+  cairo_new_path(cr);
+  cairo_arc(cr, centre.x(), centre.y(), radius, 0, 2 * std::numbers::pi);
+}
+
+void Fill(cairo_t* cr, Color color, double opacity) {
+  SetColor(cr, color, opacity);
+  cairo_fill(cr);
+}
+
+void Stroke(cairo_t* cr, Color color, double width) {
+  SetColor(cr, color);
+  cairo_set_line_width(cr, width);
+  cairo_stroke(cr);
+}
+
+void FillAndStroke(cairo_t* cr, Color fill, Color border, double width) {
+  SetColor(cr, fill);
+  cairo_fill_preserve(cr);
+  Stroke(cr, border, width);
+}
+
+void FillWithHalo(cairo_t* cr, Color color, double halo) {
+  SetColor(cr, kWhite);
+  cairo_set_line_width(cr, halo);
+  cairo_stroke_preserve(cr);
+  Fill(cr, color);
+}
+
+void DrawDot(cairo_t* cr, const Vector2d& at, double radius) {
+  SetCircle(cr, at, radius + kDotRim);
+  Fill(cr, kWhite);
+  SetCircle(cr, at, radius);
+  Fill(cr, kInk);
+}
+
+void DrawHatch(cairo_t* cr, const Vector2d& corner, const Vector2d& size, const Hatch& hatch,
+               Color color) {
+  const Vector2d end = corner + size;
+  const double run = (end.y() - corner.y()) / hatch.slope;
+  cairo_new_path(cr);
+  for (double x = corner.x() - run; x < end.x();
+       x += hatch.spacing * std::hypot(1.0, 1 / hatch.slope)) {
+    cairo_move_to(cr, x, end.y());
+    cairo_line_to(cr, x + run, corner.y());
+  }
+  Stroke(cr, color, hatch.width);
+}
+
+void SelectFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+double TextWidth(cairo_t* cr, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+Vector2d CentredText(cairo_t* cr, const std::string& text, const Vector2d& centre) {
+  cairo_text_extents_t e;
+  cairo_text_extents(cr, text.c_str(), &e);
+  return {centre.x() - e.x_bearing - e.width / 2, centre.y() - e.y_bearing - e.height / 2};
 }
 
 void AddOutline(cairo_t* cr, std::span<const Vector2d> points) {

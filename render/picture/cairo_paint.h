@@ -3,7 +3,9 @@
 #include <cairo.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
+#include <string>
 
 #include "render/picture/palette.h"
 
@@ -11,8 +13,48 @@ namespace regrasp::render {
 
 inline constexpr Color kWhite = {255, 255, 255};
 
+/// What Cairo made, destroyed with its holder.
+struct CairoDeleter {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using CairoSurface = std::unique_ptr<cairo_surface_t, CairoDeleter>;
+using CairoContext = std::unique_ptr<cairo_t, CairoDeleter>;
+
 /// Sets what the next stroke or fill paints with.
 void SetColor(cairo_t* cr, Color color, double opacity = 1);
+
+/// Begin a path anew: a box by its top left corner, a circle.
+void SetBox(cairo_t* cr, const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
+void SetCircle(cairo_t* cr, const Eigen::Vector2d& centre, double radius);
+
+/// Fill and stroke the current path, which is gone then.
+void Fill(cairo_t* cr, Color color, double opacity = 1);
+void Stroke(cairo_t* cr, Color color, double width);
+void FillAndStroke(cairo_t* cr, Color fill, Color border, double width);
+/// Strokes it white and fills it.
+void FillWithHalo(cairo_t* cr, Color color, double halo);
+
+/// Marks a point: a black dot with a white rim.
+void DrawDot(cairo_t* cr, const Eigen::Vector2d& at, double radius);
+
+/// Lines that rise to the right.
+struct Hatch {
+  double slope;
+  double spacing;  ///< between lines, measured across
+  double width;
+};
+/// Hatches what the clip leaves of a box.
+void DrawHatch(cairo_t* cr, const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+               const Hatch& hatch, Color color);
+
+/// The font of all pictures.
+void SelectFont(cairo_t* cr, double size, bool bold);
+/// How far a text goes in the current font.
+[[nodiscard]] double TextWidth(cairo_t* cr, const std::string& text);
+/// Where a text begins whose ink is centred.
+[[nodiscard]] Eigen::Vector2d CentredText(cairo_t* cr, const std::string& text,
+                                          const Eigen::Vector2d& centre);
 
 /// Adds a closed path through these points to the current one.
 void AddOutline(cairo_t* cr, std::span<const Eigen::Vector2d> points);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "render/picture/plane_geometry.h"
+
 namespace regrasp::render {
 
 namespace {
@@ -24,15 +26,8 @@ constexpr double kLabelWeight = 2;
 constexpr double kLabelMargin = 1.1;
 constexpr int kRounds = 4;
 
-double DistanceToSegment(const Vector2d& p, const Obstacle& obstacle) {
-  const Vector2d segment = obstacle.b - obstacle.a;
-  const double square = segment.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - obstacle.a).dot(segment) / square, 0.0, 1.0) : 0;
-  return (p - obstacle.a - t * segment).norm();
-}
-
 double Cover(const Vector2d& centre, double radius, const Obstacle& obstacle) {
-  const double gap = DistanceToSegment(centre, obstacle) - obstacle.radius - radius;
+  const double gap = DistanceToSegment(centre, obstacle.a, obstacle.b) - obstacle.radius - radius;
   return gap < 0 ? -gap / radius * obstacle.weight : 0;
 }
 

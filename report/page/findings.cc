@@ -60,11 +60,6 @@ std::string Margin(const sim::FingerMargins& margins) {
          std::to_string(sim::FingerOfSmallestMargin(margins)) + ")";
 }
 
-std::string FixedVerdict(const ReportStep& step) {
-  const plan::Reason reason = step.replay->fixed->reason;
-  return reason == plan::Reason::kNone ? "pass" : "fail: " + std::string(plan::ReasonName(reason));
-}
-
 Element RequirementsRow(const ReportStep& step, bool both) {
   const int weakest = sim::WeakestOf(step.needs);
   const sim::NeedOfFinger* need = weakest < 0 ? nullptr : &step.needs[weakest];
@@ -74,7 +69,8 @@ Element RequirementsRow(const ReportStep& step, bool both) {
   row.Add(NumberCell(need ? DegreesText(Degrees(need->friction.required)) : kNothing));
   row.Add(NumberCell(Margin(step.replay->rest_margins)));
   row.Add(NumberCell(Margin(step.replay->shake_margins)));
-  if (both) row.Add(NumberCell(step.replay->fixed ? FixedVerdict(step) : kNothing));
+  if (both)
+    row.Add(NumberCell(step.replay->fixed ? ReasonText(step.replay->fixed->reason) : kNothing));
   return row;
 }
 
@@ -83,11 +79,9 @@ std::vector<Element> WhatItTakes(const Report& report) {
   if (steps.empty()) return {};
   const bool both = std::ranges::any_of(
       steps, [](const ReportStep* step) { return step->replay->adapted && step->replay->fixed; });
-  std::vector<Element> head, rows;
-  for (const char* name : {"Step", "Weakest finger", "Needs alone", "Least margin at rest",
-                           "Least margin in shakes"}) {
-    head.push_back(HeadCell(name));
-  }
+  std::vector<Element> head = HeadCells(
+      {"Step", "Weakest finger", "Needs alone", "Least margin at rest", "Least margin in shakes"});
+  std::vector<Element> rows;
   if (both) head.push_back(HeadCell("Fixed squeeze"));
   for (const ReportStep* step : steps) rows.push_back(RequirementsRow(*step, both));
   return {
@@ -113,10 +107,10 @@ Element StressPlot(const Report& report) {
     plot.series[1].values.push_back(Least(step, &sim::DirectionStress::analysis));
   }
   plot.limit = PlotLimit{100 * report.settings->shake, "shake", false};
-  const Element caption(
-      "figcaption", {}, Element("b", {}, "The weakest direction of each rest."),
-      " The largest push that is resisted, as the replay found it and by analysis.");
-  return Element("div", {{"class", "plots"}}, Element("figure", {}, DrawStepPlot(plot), caption));
+  return Element(
+      "div", {{"class", "plots"}},
+      Figure({}, DrawStepPlot(plot), "The weakest direction of each rest.",
+             "The largest push that is resisted, as the replay found it and by analysis."));
 }
 
 Element StressRow(const ReportStep& step) {

@@ -84,12 +84,12 @@ class Page {
     const std::string what =
         " with " + DegreesText(Degrees(report_.half_angle)) +
         " of friction, and in the replay the object resisted a push and a twist of " +
-        NumberText(100 * settings.shake) + " % of the squeeze along every axis, both ways";
+        NumberText(100 * settings.shake) + " % of the squeeze along every axis, in both directions";
     if (report_.grasp) return "The grasp is force closure" + what + ".";
     const std::string steps = std::to_string(plan_.steps.size());
     return "The hold and " +
            (plan_.steps.size() == 1 ? "the one step" : "all " + steps + " steps") +
-           " stand: every grasp on the way is force closure" + what + ", at every rest.";
+           " stand: every grasp along them is force closure" + what + ", at every rest.";
   }
 
   [[nodiscard]] std::string FailureStatement() const {
@@ -133,12 +133,6 @@ class Page {
     if (HasAny(&StepMeasures::margin_deg)) figures.push_back(MarginFigure());
     if (figures.empty()) return {};
     return {Element("div", {{"class", "plots"}}, figures)};
-  }
-
-  static Element Figure(const Attributes& attributes, const Element& picture, std::string_view name,
-                        const std::string& text) {
-    return Element("figure", attributes, picture,
-                   Element("figcaption", {}, Element("b", {}, name), " " + text));
   }
 
   [[nodiscard]] Element MotionFigure() const {

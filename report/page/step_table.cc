@@ -20,9 +20,9 @@ std::string DegreesOr(const std::optional<double>& radians, const char* otherwis
 std::string Required(const plan::StepCheck& check) {
   if (check.skipped) return kNothing;
   if (check.required) return DegreesText(Degrees(check.required->upper));
-  const bool judged =
+  const bool decided =
       check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
-  return judged ? "none" : kNothing;
+  return decided ? "none" : kNothing;
 }
 
 Element MinorCell(std::string_view text) {
@@ -70,10 +70,7 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
 
 std::vector<Element> MakeFingerTable(const Report& report) {
   if (!report.grasp || report.grasp->fingers.empty()) return {};
-  std::vector<Element> head, rows;
-  for (const char* name : {"Finger", "Needs alone", "Margin", "Others need without it"}) {
-    head.push_back(HeadCell(name));
-  }
+  std::vector<Element> rows;
   for (std::size_t i = 0; i < report.grasp->fingers.size(); ++i) {
     const grasp::FingerFriction& finger = report.grasp->fingers[i];
     rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
@@ -81,10 +78,12 @@ std::vector<Element> MakeFingerTable(const Report& report) {
                       NumberCell(DegreesText(Degrees(report.half_angle - finger.required))),
                       NumberCell(DegreesOr(finger.without, "none")));
   }
-  return {Element("h2", {}, "Fingers"), ScrolledTable(head, rows),
-          Note("Needs alone: how far the friction half-angle of this finger may fall while all "
-               "others keep theirs; 0 where it is not needed. Others need without it: the "
-               "friction half-angle at which the grasp is force closure without this finger.")};
+  return {
+      Element("h2", {}, "Fingers"),
+      ScrolledTable(HeadCells({"Finger", "Needs alone", "Margin", "Others need without it"}), rows),
+      Note("Needs alone: how far the friction half-angle of this finger may fall while all "
+           "others keep theirs; 0 where it is not needed. Others need without it: the "
+           "friction half-angle at which the grasp is force closure without this finger.")};
 }
 
 }  // namespace regrasp::report

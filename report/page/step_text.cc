@@ -12,12 +12,6 @@ std::string StepName(int index) {
   return index == 0 ? "the hold" : "step " + std::to_string(index);
 }
 
-std::string VerdictText(const ReportStep& step) {
-  const std::string verdict(VerdictName(step.verdict()));
-  if (step.verdict() != Verdict::kFail) return verdict;
-  return verdict + ": " + std::string(plan::ReasonName(step.reason()));
-}
-
 std::string Capitalized(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] += 'A' - 'a';
   return text;

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "planner/plan/plan.h"
-#include "report/report.h"
 
 namespace regrasp::report {
 
@@ -12,9 +11,6 @@ namespace regrasp::report {
 
 /// "the hold", "step 3".
 [[nodiscard]] std::string StepName(int index);
-
-/// "pass", "skipped", "fail: slipped".
-[[nodiscard]] std::string VerdictText(const ReportStep& step);
 
 /// The text with an upper-case first letter, if that is an ASCII one.
 [[nodiscard]] std::string Capitalized(std::string text);

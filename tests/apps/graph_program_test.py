@@ -213,11 +213,56 @@ class Graph(ProgramCase):
         self.assertEqual(counts, sorted(counts))
         self.assertLess(counts[0], counts[-1])
 
+    def test_an_option_that_the_planner_lacks_is_refused_with_one_that_has_it(self):
+        solid = ["--object", self.model("cube.obj"), "--friction-angle", "20"]
+        for options, lacking, having in (
+                (["--spanning", "uniform"], "roadmap", "polyhedron"),
+                (["--sampling", "9"], "roadmap", "polyhedron"),
+                (["--contacts", "20"], "polyhedron", "roadmap"),
+                (["--clusters", "9"], "polyhedron", "roadmap"),
+                (["--queries", "9"], "polyhedron", "roadmap")):
+            self.assert_refused(2, [f"{options[0]}", f"the planner {lacking} has no such option",
+                                    f"use --planner {having}"],
+                                *solid, *options, "--planner", lacking)
+        self.assert_refused(2, "the planner contour has no such option; use --planner polygon",
+                            *self.polygon("--mu", "1", "--spanning", "uniform", "--planner",
+                                          "contour"))
+        # What it has it takes, and the default of another's option is no option.
+        self.assert_done(*solid, "--contacts", "20", "--planner", "roadmap", "--spanning",
+                         "adaptive")
+
+    def test_without_a_name_the_planner_is_the_first_with_a_graph_and_every_option(self):
+        def planner(*arguments):
+            return json.loads(self.assert_done(*arguments, "--mu", "0.3", "--json", "-").stdout)[
+                "planner"]
+        self.assertEqual(planner(*self.polygon()), "polygon")
+        self.assertEqual(planner(*self.arguments()), "roadmap")
+        body = ["--object", self.model("body14.obj")]
+        self.assertEqual(planner(*body, "--spanning", "uniform"), "polyhedron")
+        self.assertEqual(planner(*body, "--sampling", "5"), "polyhedron")
+        self.assert_refused(2, ["--contacts (roadmap)", "--spanning uniform (polyhedron)"],
+                            *self.arguments("--mu", "0.3", "--spanning", "uniform"))
+
+    def test_a_time_limit_ends_the_building_of_every_graph(self):
+        cases = [self.polygon("--planner", "polygon"), self.polygon("--planner", "contour"),
+                 ["--object", self.model("body14.obj"), "--planner", "polyhedron"],
+                 self.arguments("--planner", "roadmap"),
+                 self.arguments("--planner", "roadmap", "--clusters", "8")]
+        for case in cases:
+            case = [*case, "--friction-angle", "20", "--json", "graph.json"]
+            self.assert_refused(1, "time was up", *case, "--time-limit", "1e-9")
+        for case in cases:
+            self.assert_done(*case, "--friction-angle", "20", "--time-limit", "1e300")
+        self.assert_refused(2, "--time-limit", *cases[0], "--mu", "1", "--time-limit", "0")
+
     def test_refuses_bad_usage_and_bad_input(self):
         self.assert_refused(2, "--object", "--friction-angle", "20")
         self.assert_refused(2, "friction is missing", *self.arguments())
         self.assert_refused(2, "exclude", *self.arguments("--mu", "1", "--friction-angle", "20"))
-        self.assert_refused(2, "planner", *self.arguments("--mu", "1", "--planner", "general"))
+        self.assert_refused(2, "the planner general has no graph; use --planner roadmap",
+                            *self.arguments("--mu", "1", "--planner", "general"))
+        self.assert_refused(2, "--queries: needs a roadmap of clusters",
+                            *self.arguments("--mu", "1", "--queries", "9"))
         self.assert_refused(2, "--sampling", *self.arguments("--mu", "1", "--sampling", "100"))
         self.assert_refused(2, "--compare", *self.arguments("--mu", "1", "--planner", "polyhedron",
                                                             "--compare"))

@@ -12,6 +12,8 @@ import sys
 import tempfile
 import unittest
 
+import jsonschema
+
 ARGUMENTS = argparse.Namespace(programs="", source="")
 
 # Far above what any case needs: a program that hangs fails instead of blocking the run.
@@ -47,6 +49,14 @@ class ProgramCase(unittest.TestCase):
     def read(self, name):
         with open(self.path(name), "rb") as file:
             return file.read()
+
+    def report(self):
+        """That of validate --out result; it always follows its schema."""
+        report = json.loads(self.read("result/report.json"))
+        schema = os.path.join(ARGUMENTS.source, "docs", "report.schema.json")
+        with open(schema, encoding="utf-8") as file:
+            jsonschema.validate(report, json.load(file))
+        return report
 
     def run_program(self, *arguments, program=None, environment=None, stdout=subprocess.PIPE):
         command = [os.path.join(ARGUMENTS.programs, program or self.program), *arguments]

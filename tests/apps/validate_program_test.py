@@ -14,8 +14,6 @@ import threading
 import zlib
 import xml.etree.ElementTree as ElementTree
 
-import jsonschema
-
 import program_case
 from program_case import ProgramCase
 
@@ -85,14 +83,6 @@ class Validate(ProgramCase):
         options.update({"--" + key.replace("_", "-"): value for key, value in changes.items()})
         return [word for key, value in options.items() if value is not None
                 for word in (key, value)] + list(more)
-
-    def report(self):
-        """The report, which always follows its schema."""
-        report = json.loads(self.read("result/report.json"))
-        schema = os.path.join(program_case.ARGUMENTS.source, "docs", "report.schema.json")
-        with open(schema, encoding="utf-8") as file:
-            jsonschema.validate(report, json.load(file))
-        return report
 
     def frames(self):
         return sorted(name for name in os.listdir(self.path("result"))

@@ -197,5 +197,14 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   EXPECT_THAT(FormatReportJson(weak), HasSubstr("\"quality-below-shake\""));
 }
 
+TEST(VerdictText, OfAFailedStepSaysWhy) {
+  ReportStep step;
+  EXPECT_EQ(VerdictText(step), "pass");
+  step.replay.emplace().reason = plan::Reason::kSlipped;
+  EXPECT_EQ(VerdictText(step), "fail: slipped");
+  step.skipped = true;
+  EXPECT_EQ(VerdictText(step), "skipped");
+}
+
 }  // namespace
 }  // namespace regrasp::report

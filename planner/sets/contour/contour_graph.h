@@ -59,7 +59,7 @@ struct Grouping {
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90°, or when its edges are numbered from another vertex; no grasp is lost when θ grows. Cutting
 /// an edge in two changes no component and no switch.
-class ContourGraph final : public SetGraph {
+class ContourGraph final : public sets::SetGraph {
  public:
   /// @param polygon     must outlive this object.
   /// @param half_angle  θ, radians.

@@ -15,7 +15,7 @@ constexpr double kBoundaryRounding = 1e-11;
 
 }  // namespace
 
-std::vector<Attachment<PlacedGrasp>> ContourModel::Attach(
+std::vector<sets::Attachment<PlacedGrasp>> ContourModel::Attach(
     const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) const {
   const auto place = geometry_.Locate(grasp);
   if (!place) return {};
@@ -28,7 +28,7 @@ std::string ContourModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
 }
 
 std::optional<ContourSwitch> ContourModel::FindSwitch(int from, int to,
-                                                      const SwitchEnds<Place>& ends,
+                                                      const sets::SwitchEnds<Place>& ends,
                                                       const criteria::GraspEvaluator& evaluator) {
   const PlacedScore margin = [this](const Place& place) { return geometry_.AngleMarginOf(place); };
   if (ends.before != nullptr && ends.after != nullptr) {

@@ -28,13 +28,13 @@ class ContourModel {
     return geometry_.Draw(set, random);
   }
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return geometry_.GraspOf(place); }
-  [[nodiscard]] std::vector<Attachment<Place>> Attach(
+  [[nodiscard]] std::vector<sets::Attachment<Place>> Attach(
       const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) const;
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Well inside both sets; where that is not good, the best by its score.
   [[nodiscard]] std::optional<ContourSwitch> FindSwitch(int from, int to,
-                                                        const SwitchEnds<Place>& ends,
+                                                        const sets::SwitchEnds<Place>& ends,
                                                         const criteria::GraspEvaluator& evaluator);
   /// Under Objective::kRegions the switch with the largest regions whose grasps are good, where
   /// there is one with larger regions than this one.

@@ -1,12 +1,28 @@
 #include "planner/sets/contour/contour_planner.h"
 
+#include <iterator>
+
 #include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/contour_model.h"
 #include "planner/sets/contour/graph_memory.h"
 #include "planner/sets/set_planner.h"
+#include "planner/sets/summarize_graph.h"
 
 namespace regrasp::contour {
+
+namespace {
+
+const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
+  return dynamic_cast<const object::Polygon&>(*request.object);
+}
+
+ContourGraph BuildGraph(const planning::PlanRequest& request) {
+  request.progress("building the switching graph");
+  return ContourGraph(PolygonOf(request), request.criteria.half_angle, request.deadline);
+}
+
+}  // namespace
 
 ContourPlanner::ContourPlanner()
     : planning::Planner({.name = "contour",
@@ -16,16 +32,24 @@ ContourPlanner::ContourPlanner()
 
 std::optional<MemoryNeed> ContourPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  return EstimateContourPlan(dynamic_cast<const object::Polygon&>(*request.object),
-                             request.criteria.half_angle);
+  // A graph alone takes less than planning on it.
+  const auto estimate = request.graph ? EstimateContourGraph : EstimateContourPlan;
+  return estimate(PolygonOf(request), request.criteria.half_angle);
 }
 
 planning::PlanResult ContourPlanner::Plan(const planning::PlanRequest& request) const {
-  const auto& polygon = dynamic_cast<const object::Polygon&>(*request.object);
-  request.progress("building the switching graph");
-  const ContourGraph graph(polygon, request.criteria.half_angle, request.deadline);
+  const ContourGraph graph = BuildGraph(request);
   ContourModel model(graph, request);
-  return PlanOverSets(model, request, name());
+  return sets::PlanOverSets(model, request, name());
+}
+
+planning::GraphSummary ContourPlanner::SummarizeGraph(const planning::PlanRequest& request) const {
+  const ContourGraph graph = BuildGraph(request);
+  planning::GraphSummary summary = sets::SummaryOf(graph, *request.object, name());
+  summary.edges = {{"two_finger-two_finger", std::ssize(graph.switches())}};
+  summary.types = {{"two_finger", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  return summary;
 }
 
 }  // namespace regrasp::contour

@@ -17,6 +17,8 @@ class ContourPlanner final : public planning::Planner {
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
       const planning::PlanRequest& request) const override;
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::GraphSummary SummarizeGraph(
+      const planning::PlanRequest& request) const override;
 };
 
 }  // namespace regrasp::contour

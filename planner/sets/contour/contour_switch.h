@@ -10,7 +10,7 @@
 namespace regrasp::contour {
 
 /// Two grasps of two sets that have a contact in common.
-using ContourSwitch = SetSwitch<PlacedGrasp>;
+using ContourSwitch = sets::SetSwitch<PlacedGrasp>;
 
 /// How good it is to rest in a grasp, the more the better.
 using PlacedScore = std::function<double(const PlacedGrasp&)>;

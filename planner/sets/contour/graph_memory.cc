@@ -26,7 +26,7 @@ constexpr int kRuns = 20;
 /// Measured on outlines of 300 to 10,000 edges at 2° to 40°, as the peak of resident memory: a
 /// piece of a set with its passages and its places in the lists of sets; a switch with its two
 /// entries in the lists of neighbours.
-constexpr GraphSize kBytes = {.candidates = 12, .sets = 80, .switches = 17};
+constexpr sets::GraphSize kBytes = {.candidates = 12, .sets = 80, .switches = 17};
 /// The outline of a piece in contact space. Of 20 to 210 bytes for each piece of the graph, from a
 /// given start and goal to ones that are drawn from one set of all pieces.
 constexpr double kBytesOfOutline = 120;
@@ -47,8 +47,8 @@ std::vector<int> DrawEdges(int count, RandomStream& random) {
 }
 
 /// Candidates and switches among some of the edges.
-GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable& edges,
-                  const Boundary& boundary) {
+sets::GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable& edges,
+                        const Boundary& boundary) {
   std::vector<polygon::TwoFingerCandidate> candidates =
       polygon::FindTwoFingerCandidates(edges.Of(drawn));
   for (auto& [a, b] : candidates) {
@@ -70,7 +70,8 @@ GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable& edges
           .switches = static_cast<double>(switches.size())};
 }
 
-MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, const GraphSize& bytes) {
+MemoryNeed Estimate(const object::Polygon& polygon, double half_angle,
+                    const sets::GraphSize& bytes) {
   const double tangent = std::tan(half_angle);  // before the processor rounds upward
   const polygon::IntervalScope scope;
   const polygon::EdgeTable edges(polygon, tangent);
@@ -81,7 +82,7 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, const Gra
   const double pieces =
       candidates * static_cast<double>(FindPieces(edges, sample.drawn).size()) / kTestedCandidates;
   const std::vector<int> drawn = DrawEdges(polygon.face_count(), random);
-  const GraphSize counted = CountOn(drawn, edges, Boundary(polygon));
+  const sets::GraphSize counted = CountOn(drawn, edges, Boundary(polygon));
   const double count = polygon.face_count();
   // At a place of the boundary there are so many more sets, and so many more places.
   const double more_sets = counted.candidates > 0 ? candidates / counted.candidates : 0;
@@ -89,7 +90,8 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle, const Gra
   const double switches = counted.switches * more_sets * more_sets * more_places;
   const auto bytes_for = [=](double n) {
     const double squares = n * n / (count * count);
-    const GraphSize size = {squares * candidates, squares * pieces, squares * n / count * switches};
+    const sets::GraphSize size = {squares * candidates, squares * pieces,
+                                  squares * n / count * switches};
     return size.Times(bytes) + kBytesOfEdge * n;
   };
   return {"the graph of the planner contour", polygon.face_count(), "edges", bytes_for};
@@ -102,7 +104,7 @@ MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angl
 }
 
 MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle) {
-  GraphSize bytes = kBytes;
+  sets::GraphSize bytes = kBytes;
   bytes.sets += kBytesOfOutline;
   return Estimate(polygon, half_angle, bytes);
 }

@@ -20,8 +20,8 @@ std::vector<bool> CellsWith(const SetCells& set, const VectorXd& parameters) {
 
 std::vector<VectorXd> FindAlignPath(const SetCells& set, const VectorXd& from, const VectorXd& to) {
   const auto passages =
-      FindPassages<VectorXd>(CellsWith(set, from), CellsWith(set, to),
-                             [&](int cell, int next) { return set.Passage(cell, next); });
+      sets::FindPassages<VectorXd>(CellsWith(set, from), CellsWith(set, to),
+                                   [&](int cell, int next) { return set.Passage(cell, next); });
   if (!passages) return {};
   std::vector<VectorXd> path = {from};
   path.insert(path.end(), passages->begin(), passages->end());

@@ -22,7 +22,7 @@ VectorXd WalkInside(const GraspCell& cell, RandomStream& random) {
   VectorXd z = cell.centre.z;
   for (int step = 0; step < kWalkSteps; ++step) {
     VectorXd direction(z.size());
-    for (double& x : direction) x = DrawNormal(random);
+    for (double& x : direction) x = sets::DrawNormal(random);
     const VectorXd slack = set.rows * z + set.offsets;
     const VectorXd rate = set.rows * direction;
     double back = -std::numeric_limits<double>::infinity();
@@ -107,8 +107,8 @@ double GraphCells::WidthOf(int vertex) {
   return *width;
 }
 
-std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const grasp::Grasp& grasp) {
-  std::vector<Attachment<PolygonPlace>> attachments;
+std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindAttachments(const grasp::Grasp& grasp) {
+  std::vector<sets::Attachment<PolygonPlace>> attachments;
   for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {
     std::sort(contacts.begin(), contacts.end(),
               [&](int a, int b) { return grasp[a].face < grasp[b].face; });
@@ -128,9 +128,9 @@ std::vector<Attachment<PolygonPlace>> GraphCells::FindAttachments(const grasp::G
   return attachments;
 }
 
-std::vector<Attachment<PolygonPlace>> GraphCells::FindSwitches(const grasp::Grasp& grasp,
-                                                               int fingers) {
-  std::vector<Attachment<PolygonPlace>> attachments;
+std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindSwitches(const grasp::Grasp& grasp,
+                                                                     int fingers) {
+  std::vector<sets::Attachment<PolygonPlace>> attachments;
   for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
     const std::vector<int>& edges = graph_.sets()[vertex].edges;
     const int least_kept = static_cast<int>(grasp.size() + edges.size()) - fingers;

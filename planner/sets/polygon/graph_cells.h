@@ -34,13 +34,14 @@ class GraphCells {
 
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
-  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindAttachments(const grasp::Grasp& grasp);
+  [[nodiscard]] std::vector<sets::Attachment<PolygonPlace>> FindAttachments(
+      const grasp::Grasp& grasp);
 
   /// The grasps of sets that a hand of `fingers` fingers comes to by placing fingers too: of each
   /// set and each choice of contacts that stay, the one with the most slack. For grasps that belong
   /// to no set.
-  [[nodiscard]] std::vector<Attachment<PolygonPlace>> FindSwitches(const grasp::Grasp& grasp,
-                                                                   int fingers);
+  [[nodiscard]] std::vector<sets::Attachment<PolygonPlace>> FindSwitches(const grasp::Grasp& grasp,
+                                                                         int fingers);
 
   /// A grasp of the set, anywhere in it; nullopt where it is too thin for doubles.
   [[nodiscard]] std::optional<PolygonPlace> Draw(int vertex, RandomStream& random);

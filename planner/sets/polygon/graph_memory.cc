@@ -18,7 +18,7 @@ constexpr int kCountedEdges = 40;
 /// Measured on polygons of 30 to 256 edges at 10° to 30°, as the peak of resident memory: 4 to 12
 /// kB a set, most of it the pairs of contacts that it can have; 8 bytes a switch, and two entries
 /// in the lists of neighbours.
-constexpr GraphSize kBytes = {.candidates = 48, .sets = 7000, .switches = 28};
+constexpr sets::GraphSize kBytes = {.candidates = 48, .sets = 7000, .switches = 28};
 
 /// Switches times the square of the edges over the square of the sets: 15 to 20 on the same.
 constexpr double kSwitchesOfSquaredSets = 18;
@@ -48,7 +48,7 @@ MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angl
   const auto bytes_for = [=](double n) {
     const double pairs = n * (n - 1) / (m * (m - 1));
     const double triples = pairs * (n - 2) / (m - 2);
-    GraphSize size;
+    sets::GraphSize size;
     size.candidates = triples * candidates;
     size.sets = pairs * on_two + triples * on_three;
     size.switches = kSwitchesOfSquaredSets * size.sets * size.sets / (n * n);

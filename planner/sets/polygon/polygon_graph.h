@@ -30,7 +30,7 @@ inline constexpr int kPolygonFingers = 4;
 /// Laws: the counts don't change when the polygon is scaled by a power of two, mirrored, turned by
 /// 90° or when its edges are numbered from another vertex; under Spanning::kAdaptive no grasp is
 /// lost when the friction grows.
-class PolygonGraph final : public SetGraph {
+class PolygonGraph final : public sets::SetGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).

@@ -20,7 +20,7 @@ std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchS
   for (const SwitchPoint& point : points) scores.push_back(ScoreOf(from, to, point, score));
   std::optional<std::size_t> best;
   const double highest = scores.empty() ? 0 : *std::max_element(scores.begin(), scores.end());
-  const double least = highest > 0 ? kGoodShare * highest : highest;
+  const double least = highest > 0 ? sets::kGoodShare * highest : highest;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (scores[i] < least) continue;
     const auto rank = [&](std::size_t k) { return std::pair(points[k].kept.size(), scores[k]); };
@@ -32,12 +32,12 @@ std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchS
 
 }  // namespace
 
-std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(
+std::vector<sets::Attachment<PolygonPlace>> PolygonModel::Attach(
     const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) {
-  using Scored = std::pair<double, Attachment<Place>>;
+  using Scored = std::pair<double, sets::Attachment<Place>>;
   std::vector<Scored> scored;
-  const auto add = [&](std::vector<Attachment<Place>> attachments) {
-    for (Attachment<Place>& a : attachments) {
+  const auto add = [&](std::vector<sets::Attachment<Place>> attachments) {
+    for (sets::Attachment<Place>& a : attachments) {
       // The grasp itself is there anyway, good or not.
       const double score = a.whole ? evaluator.half_angle() : evaluator.Score(GraspOf(a.place));
       scored.emplace_back(score, std::move(a));
@@ -50,7 +50,7 @@ std::vector<Attachment<PolygonPlace>> PolygonModel::Attach(
     std::erase_if(scored, [&](const Scored& s) { return !is_good(s); });
   }
   std::ranges::stable_sort(scored, std::ranges::greater(), &Scored::first);
-  std::vector<Attachment<Place>> attachments;
+  std::vector<sets::Attachment<Place>> attachments;
   for (auto& [score, attachment] : scored) attachments.push_back(std::move(attachment));
   return attachments;
 }
@@ -68,8 +68,9 @@ std::string PolygonModel::WhyUnattached(const grasp::Grasp& grasp) const {
   return why;
 }
 
-std::optional<SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(
-    int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator) {
+std::optional<sets::SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(
+    int from, int to, const sets::SwitchEnds<Place>& ends,
+    const criteria::GraspEvaluator& evaluator) {
   const auto side = [&](int set, const Place* fixed) {
     return SwitchSide{&graph_.sets()[set], &cells_.of(set),
                       fixed == nullptr ? std::nullopt : std::optional(fixed->parameters)};
@@ -83,7 +84,7 @@ std::optional<SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(
   auto best = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
   if (!best) return std::nullopt;
   if (!a.fixed && !b.fixed) best = ImproveSwitch(a, b, *best, score);
-  return SetSwitch<Place>{{from, best->before}, {to, best->after}};
+  return sets::SetSwitch<Place>{{from, best->before}, {to, best->after}};
 }
 
 std::vector<PolygonPlace> PolygonModel::FindRoute(const Place& from, const Place& to) {

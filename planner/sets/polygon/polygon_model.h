@@ -28,13 +28,14 @@ class PolygonModel {
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return cells_.GraspOf(place); }
   /// The sets that a grasp is in, or else comes to by a switch after which, or for a goal before
   /// which, the hand rests well.
-  [[nodiscard]] std::vector<Attachment<Place>> Attach(const grasp::Grasp& grasp,
-                                                      const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::vector<sets::Attachment<Place>> Attach(
+      const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator);
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Of the switches with at least half of the best score the one that keeps the most contacts.
-  [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(
-      int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<sets::SetSwitch<Place>> FindSwitch(
+      int from, int to, const sets::SwitchEnds<Place>& ends,
+      const criteria::GraspEvaluator& evaluator);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:

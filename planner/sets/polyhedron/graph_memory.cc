@@ -17,7 +17,7 @@ constexpr int kCountedFaces = 60;
 
 /// Measured on bodies of 24 to 67 faces, as the peak of resident memory: a cell with its pieces and
 /// its triples; a switch with its two entries in the lists of neighbours.
-constexpr GraphSize kBytes = {.candidates = 60, .sets = 840, .switches = 25};
+constexpr sets::GraphSize kBytes = {.candidates = 60, .sets = 840, .switches = 25};
 
 /// Cells of a candidate: 0.5 to 1.1 on the same bodies.
 constexpr double kCellsOfCandidate = 0.75;
@@ -38,7 +38,7 @@ MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_
   const auto counted = FindQuadrupleCandidates(normals, std::tan(half_angle), spanning).size();
   const double m = static_cast<double>(normals.size());
   const auto bytes_for = [counted, m](double n) {
-    GraphSize size;
+    sets::GraphSize size;
     size.candidates = static_cast<double>(counted);
     for (int k = 0; k < 4; ++k) size.candidates *= (n - k) / (m - k);
     size.sets = kCellsOfCandidate * size.candidates;

@@ -24,7 +24,7 @@ inline constexpr int kPolyhedronFingers = 5;
 /// Laws: the counts don't change when the solid is moved, scaled or mirrored, nor with the order of
 /// its facets, as far as nothing is too close to call; under Spanning::kAdaptive no grasp is lost
 /// when the friction grows.
-class PolyhedronGraph final : public SetGraph {
+class PolyhedronGraph final : public sets::SetGraph {
  public:
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).

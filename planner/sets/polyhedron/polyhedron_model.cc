@@ -44,7 +44,7 @@ grasp::Grasp PolyhedronModel::GraspOf(const Place& place) const {
   return contacts;
 }
 
-std::vector<Attachment<FocusGrasp>> PolyhedronModel::Attach(
+std::vector<sets::Attachment<FocusGrasp>> PolyhedronModel::Attach(
     const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) {
   std::vector<grasp::Contact> sorted = grasp;
   std::ranges::sort(sorted, {}, &grasp::Contact::face);
@@ -54,7 +54,7 @@ std::vector<Attachment<FocusGrasp>> PolyhedronModel::Attach(
     faces[k] = sorted[k].face;
     contacts[k] = sorted[k].p;
   }
-  std::vector<Attachment<Place>> attachments;
+  std::vector<sets::Attachment<Place>> attachments;
   const auto cells = std::ranges::equal_range(graph_.cells(), faces, {}, &FocusCell::faces);
   for (auto it = cells.begin(); it != cells.end(); ++it) {
     const int cell = static_cast<int>(it - graph_.cells().begin());
@@ -69,7 +69,8 @@ std::string PolyhedronModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const 
            "polyhedron plans between concurrent grasps only";
   }
   return "in none of the " + std::to_string(graph_.vertex_count()) +
-         " focus cells: its four contacts are not concurrent, as the planner polyhedron needs them";
+         " focus cells: its four contacts are not concurrent, and the planner polyhedron plans "
+         "between concurrent grasps only";
 }
 
 /// The grasp of a cell with these contacts whose focus point is deepest inside their cones and the
@@ -113,19 +114,19 @@ std::optional<MinMaxResult> PolyhedronModel::FindDeepestFocus(const FocusCell& c
   return graph_.finder().FindDeepest(volumes);
 }
 
-std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindSwitch(
-    int from, int to, const SwitchEnds<Place>& ends,
+std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindSwitch(
+    int from, int to, const sets::SwitchEnds<Place>& ends,
     const criteria::GraspEvaluator& /*evaluator*/) {
   if (ends.before == nullptr && ends.after == nullptr) return FindDeepestSwitch(from, to);
   if (ends.before != nullptr && ends.after != nullptr) {
     if (CountCommonContacts(*ends.before, *ends.after) != 3) return std::nullopt;
-    return SetSwitch<Place>{*ends.before, *ends.after};
+    return sets::SetSwitch<Place>{*ends.before, *ends.after};
   }
   const auto other =
       ends.before != nullptr ? Complete(*ends.before, to) : Complete(*ends.after, from);
   if (!other) return std::nullopt;
-  if (ends.before != nullptr) return SetSwitch<Place>{*ends.before, *other};
-  return SetSwitch<Place>{*other, *ends.after};
+  if (ends.before != nullptr) return sets::SetSwitch<Place>{*ends.before, *other};
+  return sets::SetSwitch<Place>{*other, *ends.after};
 }
 
 int PolyhedronModel::CountCommonContacts(const Place& a, const Place& b) const {
@@ -151,7 +152,7 @@ std::optional<FocusGrasp> PolyhedronModel::Complete(const Place& given, int cell
   return FindDeepest(cell, contacts);
 }
 
-std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(int from, int to) {
+std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(int from, int to) {
   FocusCellFinder& finder = graph_.finder();
   const FocusCell& a = graph_.cells()[from];
   const FocusCell& b = graph_.cells()[to];
@@ -160,7 +161,7 @@ std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(int from
   const double narrower = std::min(a.tangent, b.tangent);
   std::array<std::size_t, 4> in_b;
   for (std::size_t k = 0; k < in_b.size(); ++k) in_b[k] = PositionOf(b, a.faces[k]);
-  std::optional<SetSwitch<Place>> best;
+  std::optional<sets::SetSwitch<Place>> best;
   double least = 0;
   for (std::size_t p = 0; p < a.pieces.size(); ++p) {
     for (std::size_t q = 0; q < b.pieces.size(); ++q) {
@@ -187,7 +188,7 @@ std::optional<SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(int from
 }
 
 /// Those for its focus point; on common faces inside the cones of both cells.
-void PolyhedronModel::PlaceContacts(SetSwitch<Place>& change) const {
+void PolyhedronModel::PlaceContacts(sets::SetSwitch<Place>& change) const {
   const FocusCell& a = graph_.cells()[change.before.cell];
   const FocusCell& b = graph_.cells()[change.after.cell];
   const auto contact = [&](const FocusCell& cell, const Place& place, std::size_t k,
@@ -211,7 +212,7 @@ std::vector<FocusGrasp> PolyhedronModel::FindRoute(const Place& from, const Plac
   starts[from.piece] = true;
   goals[to.piece] = true;
   const auto junctions =
-      FindPassages<Place>(starts, goals, [&](int piece, int next) -> std::optional<Place> {
+      sets::FindPassages<Place>(starts, goals, [&](int piece, int next) -> std::optional<Place> {
         const auto junction =
             graph_.finder().FindJunction(cell.tangent, cell.pieces[piece], cell.pieces[next]);
         if (!junction) return std::nullopt;
@@ -252,7 +253,8 @@ Vector3d PolyhedronModel::DrawFocus(const FocusCell& cell, const FocusPiece& pie
   Vector3d focus = piece.point;
   for (int step = 0; step < kWalkSteps; ++step) {
     const Vector3d direction =
-        Vector3d(DrawNormal(random), DrawNormal(random), DrawNormal(random)).normalized();
+        Vector3d(sets::DrawNormal(random), sets::DrawNormal(random), sets::DrawNormal(random))
+            .normalized();
     const auto reach = [&](double sign) {
       double inside = 0, outside = solid_.diameter();
       for (int i = 0; i < kHalvings; ++i) {

@@ -42,13 +42,14 @@ class PolyhedronModel {
 
   /// Each with the focus point deepest inside the contacts' cones.
   /// @param grasp  four contacts that know their faces.
-  [[nodiscard]] std::vector<Attachment<Place>> Attach(const grasp::Grasp& grasp,
-                                                      const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::vector<sets::Attachment<Place>> Attach(
+      const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator);
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Where the focus point is deepest inside the volumes of all five faces.
-  [[nodiscard]] std::optional<SetSwitch<Place>> FindSwitch(
-      int from, int to, const SwitchEnds<Place>& ends, const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<sets::SetSwitch<Place>> FindSwitch(
+      int from, int to, const sets::SwitchEnds<Place>& ends,
+      const criteria::GraspEvaluator& evaluator);
   /// Straight inside pieces, from piece to piece through their junctions, fewest first.
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
@@ -62,8 +63,8 @@ class PolyhedronModel {
                                                              const GivenContacts& contacts);
   [[nodiscard]] std::optional<Place> Complete(const Place& given, int cell);
   [[nodiscard]] int CountCommonContacts(const Place& a, const Place& b) const;
-  [[nodiscard]] std::optional<SetSwitch<Place>> FindDeepestSwitch(int from, int to);
-  void PlaceContacts(SetSwitch<Place>& change) const;
+  [[nodiscard]] std::optional<sets::SetSwitch<Place>> FindDeepestSwitch(int from, int to);
+  void PlaceContacts(sets::SetSwitch<Place>& change) const;
   [[nodiscard]] Eigen::Vector3d DrawFocus(const FocusCell& cell, const FocusPiece& piece,
                                           RandomStream& random) const;
 

@@ -1,35 +1,87 @@
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 
+#include <utility>
+
 #include "planner/base/memory.h"
+#include "planner/base/stopwatch.h"
 #include "planner/object/polyhedron.h"
 #include "planner/sets/polyhedron/graph_memory.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
+#include "planner/sets/polyhedron/sampled_graph.h"
 #include "planner/sets/set_planner.h"
+#include "planner/sets/summarize_graph.h"
 
 namespace regrasp::polyhedron {
+
+namespace {
+
+const object::Polyhedron& SolidOf(const planning::PlanRequest& request) {
+  return dynamic_cast<const object::Polyhedron&>(*request.object);
+}
+
+/// The summary of the graph that random focus points find, with the share of the direct one.
+planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
+                                        const planning::PlanRequest& request,
+                                        planning::GraphSummary summary) {
+  const auto region = FindSamplingRegion(SolidOf(request), graph, request.deadline);
+  Stopwatch stopwatch;
+  const SampledGraph sampled =
+      SamplePolyhedron(SolidOf(request), request.criteria.half_angle, request.spanning, region,
+                       request.graph->focus_points, request.seed, request.deadline);
+  summary.vertex_seconds = stopwatch.Lap();
+  summary.edge_seconds = 0;
+  summary.vertices = std::ssize(sampled.quadruples);
+  summary.components = sampled.components;
+  summary.edges = {{"concurrent-concurrent", std::ssize(sampled.links)}};
+  summary.types = {{"concurrent", graph.candidate_count(), summary.vertices, summary.vertices,
+                    summary.components}};
+  summary.unclear = 0;
+  summary.sampling_share = CompareSampling(sampled, graph);
+  return summary;
+}
+
+}  // namespace
 
 PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
     : planning::Planner({.name = "polyhedron",
                          .what = "concurrent grasps of four faces",
                          .in_space = planning::PlannerScope{kPolyhedronFingers, {4, 4}, {4, 4}},
-                         .options = {planning::PlanOption::kUniformSpanning}}),
+                         .options = {planning::PlanOption::kUniformSpanning,
+                                     planning::PlanOption::kFocusPoints}}),
       graph_(graph) {}
 
 std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
-  return EstimatePolyhedronGraph(solid, request.criteria.half_angle, request.spanning);
+  return EstimatePolyhedronGraph(SolidOf(request), request.criteria.half_angle, request.spanning);
+}
+
+PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& request,
+                                             std::optional<PolyhedronGraph>& own) const {
+  if (graph_ != nullptr) return *graph_;
+  request.progress("building the switching graph");
+  return own.emplace(SolidOf(request), request.criteria.half_angle, request.spanning,
+                     request.deadline);
 }
 
 planning::PlanResult PolyhedronPlanner::Plan(const planning::PlanRequest& request) const {
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   std::optional<PolyhedronGraph> own;
-  if (graph_ == nullptr) {
-    request.progress("building the switching graph");
-    own.emplace(solid, request.criteria.half_angle, request.spanning, request.deadline);
+  PolyhedronModel model(SolidOf(request), GraphFor(request, own));
+  return sets::PlanOverSets(model, request, name());
+}
+
+planning::GraphSummary PolyhedronPlanner::SummarizeGraph(
+    const planning::PlanRequest& request) const {
+  std::optional<PolyhedronGraph> own;
+  PolyhedronGraph& graph = GraphFor(request, own);
+  planning::GraphSummary summary = sets::SummaryOf(graph, *request.object, name());
+  if (request.graph && request.graph->focus_points > 0) {
+    return SummarizeSampled(graph, request, std::move(summary));
   }
-  PolyhedronModel model(solid, own ? *own : *graph_);
-  return PlanOverSets(model, request, name());
+  summary.edges = {{"concurrent-concurrent", std::ssize(graph.switches())}};
+  summary.types = {{"concurrent", graph.candidate_count(), graph.combination_count(),
+                    summary.vertices, summary.components}};
+  summary.unclear = graph.unclear_count();
+  return summary;
 }
 
 }  // namespace regrasp::polyhedron

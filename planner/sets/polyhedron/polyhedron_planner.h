@@ -16,8 +16,14 @@ class PolyhedronPlanner final : public planning::Planner {
   [[nodiscard]] std::optional<MemoryNeed> EstimateMemory(
       const planning::PlanRequest& request) const override;
   [[nodiscard]] planning::PlanResult Plan(const planning::PlanRequest& request) const override;
+  [[nodiscard]] planning::GraphSummary SummarizeGraph(
+      const planning::PlanRequest& request) const override;
 
  private:
+  /// The graph that is built already, or else the request's, made in `own`.
+  PolyhedronGraph& GraphFor(const planning::PlanRequest& request,
+                            std::optional<PolyhedronGraph>& own) const;
+
   PolyhedronGraph* graph_;
 };
 

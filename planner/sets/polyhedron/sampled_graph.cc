@@ -61,9 +61,10 @@ class RegionGrower {
 /// The quadruples that points see, with the halves of faces that they see them from.
 class Sampler {
  public:
-  Sampler(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning)
+  Sampler(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
+          const Deadline& deadline)
       : finder_(solid, std::tan(half_angle)), tangent_(std::tan(half_angle)) {
-    candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning);
+    candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning, deadline);
     found_.assign(candidates_.size(), 0);
     seen_.assign(solid.face_count(), 0);
     const HalfIndex end(2 * static_cast<int>(finder_.parts().parts.size()));
@@ -140,10 +141,12 @@ class Sampler {
 
 }  // namespace
 
-AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph& graph) {
+AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph& graph,
+                                const Deadline& deadline) {
   AlignedBox3d box;
   RegionGrower grower(solid, graph);
   for (const FocusCell& cell : graph.cells()) {
+    deadline.Check();
     for (const FocusPiece& piece : cell.pieces) grower.Include(cell, piece, box);
   }
   return box;
@@ -151,10 +154,11 @@ AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph
 
 SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
                               planning::Spanning spanning, const AlignedBox3d& region, int points,
-                              std::uint64_t seed) {
-  Sampler sampler(solid, half_angle, spanning);
+                              std::uint64_t seed, const Deadline& deadline) {
+  Sampler sampler(solid, half_angle, spanning, deadline);
   RandomStream random(seed, RandomUse::kFocusPoints);
   for (int i = 0; i < points && !region.isEmpty(); ++i) {
+    deadline.Check();
     Vector3d share;
     for (int axis = 0; axis < 3; ++axis) share[axis] = random.Uniform();
     sampler.Include(region.min() + share.cwiseProduct(region.sizes()));
@@ -162,7 +166,7 @@ SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle
   return sampler.Result();
 }
 
-SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph& graph) {
+planning::SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph& graph) {
   using Quadruple = std::array<int, 4>;
   std::set<Quadruple> quadruples;
   for (const FocusCell& cell : graph.cells()) quadruples.insert(cell.faces);
@@ -170,7 +174,7 @@ SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph
   for (const auto& [a, b] : graph.switches()) {
     links.insert({graph.cells()[a].faces, graph.cells()[b].faces});
   }
-  SamplingShare share;
+  planning::SamplingShare share;
   share.quadruples = std::ssize(quadruples);
   share.links = std::ssize(links);
   share.found_quadruples = std::ranges::count_if(

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/deadline.h"
+#include "planner/planning/graph_summary.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
 
 namespace regrasp::polyhedron {
@@ -12,8 +14,10 @@ namespace regrasp::polyhedron {
 /// A box that contains the focus points of all cells of a graph. Its sides are bounds by cutting
 /// planes of the cells' own intersections, within a thousandth of its size; empty where the graph
 /// is.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] Eigen::AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid,
-                                                     PolyhedronGraph& graph);
+                                                     PolyhedronGraph& graph,
+                                                     const Deadline& deadline = {});
 
 /// What random focus points find of the switching graph (Phoka 2010, section 5.3.4.2): a quadruple
 /// of faces where a point sees all four, and a link where it sees two quadruples with three common
@@ -27,20 +31,14 @@ struct SampledGraph {
 };
 
 /// @param points  drawn evenly in `region`, the same for the same seed.
+/// @throws TimeUp  the deadline came.
 [[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
                                             planning::Spanning spanning,
                                             const Eigen::AlignedBox3d& region, int points,
-                                            std::uint64_t seed);
+                                            std::uint64_t seed, const Deadline& deadline = {});
 
-/// How much of the direct graph sampling found. Quadruples, as sampling does not tell components of
-/// one quadruple apart.
-struct SamplingShare {
-  std::int64_t quadruples = 0;        ///< of the direct graph
-  std::int64_t found_quadruples = 0;  ///< of these
-  std::int64_t links = 0;             ///< between quadruples of the direct graph
-  std::int64_t found_links = 0;       ///< of these
-};
-[[nodiscard]] SamplingShare CompareSampling(const SampledGraph& sampled,
-                                            const PolyhedronGraph& graph);
+/// How much of the direct graph sampling found.
+[[nodiscard]] planning::SamplingShare CompareSampling(const SampledGraph& sampled,
+                                                      const PolyhedronGraph& graph);
 
 }  // namespace regrasp::polyhedron

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 
 #include "planner/base/error.h"
+#include "planner/planning/graph_summary.h"
 #include "planner/registry/registry.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -14,6 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using ::testing::StrEq;
 using ::testing::ThrowsMessage;
 
 const object::Object& Solid() {
@@ -81,6 +84,22 @@ TEST(ChoosePlanner, TakesTheOneThatHasTheOption) {
   EXPECT_EQ(ChoosePlanner(travel).name(), "general");
 }
 
+TEST(ChoosePlanner, TakesForAGraphTheFirstThatHasOneWithTheOption) {
+  for (const object::Object* object : {&Planar(), &Solid()}) {
+    planning::PlanRequest request = On(*object);
+    request.graph = planning::GraphTasks();
+    EXPECT_EQ(ChoosePlanner(request).name(), object == &Planar() ? "polygon" : "roadmap");
+  }
+  planning::PlanRequest request = On(Solid());
+  request.graph = planning::GraphTasks{.focus_points = 5};
+  EXPECT_EQ(ChoosePlanner(request).name(), "polyhedron");
+  request.graph = planning::GraphTasks{.queries = 5};
+  EXPECT_EQ(ChoosePlanner(request).name(), "roadmap");
+  EXPECT_THAT(
+      [&] { (void)PlannerFor("general", request); },
+      ThrowsMessage<InputError>(StrEq("the planner general has no graph; use --planner roadmap")));
+}
+
 TEST(ChoosePlanner, SaysWhichOptionsNoPlannerJoins) {
   planning::PlanRequest request = On(Planar());
   request.objective = planning::Objective::kRegions;
@@ -106,7 +125,7 @@ TEST(PlannerFor, RefusesWhatThePlannerDoesNotServeAndNamesOneThatDoes) {
               ThrowsMessage<InputError>(StartsWith(
                   "file.obj: a planar object, and the planner roadmap works on solids only")));
   EXPECT_THAT([&] { (void)PlannerFor("genral", On(Planar())); },
-              ThrowsMessage<InputError>(HasSubstr("there are auto, general, contour")));
+              ThrowsMessage<InputError>(HasSubstr("there are auto, general, polygon")));
 }
 
 TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
@@ -116,6 +135,32 @@ TEST(PlannerFor, RefusesAHandOfTooFewFingers) {
               ThrowsMessage<InputError>(HasSubstr("needs a hand of 5 fingers")));
   request.hand.fingers = 5;
   EXPECT_EQ(PlannerFor("polyhedron", request).name(), "polyhedron");
+}
+
+TEST(Registry, EveryPlannerCountsTheGraphThatItSaysItHas) {
+  int graphs = 0;
+  for (const planning::Planner* planner : AllPlanners()) {
+    const object::Object& object = planner->ScopeIn(2) ? Planar() : Solid();
+    planning::PlanRequest request = On(object);
+    request.graph = planning::GraphTasks();
+    if (!planner->traits().has_graph) {
+      EXPECT_THROW((void)planner->SummarizeGraph(request), std::logic_error) << planner->name();
+      EXPECT_NE(planning::WhyNotServed(*planner, request), "") << planner->name();
+      continue;
+    }
+    const planning::GraphSummary summary = planner->SummarizeGraph(request);
+    EXPECT_EQ(summary.planner, planner->name());
+    EXPECT_GT(summary.faces, 0) << planner->name();
+    EXPECT_NE(summary.face_name, "") << planner->name();
+    std::int64_t vertices = 0;
+    for (const planning::TypeSummary& type : summary.types) vertices += type.vertices;
+    EXPECT_GT(vertices, 0) << planner->name();
+    EXPECT_EQ(vertices, summary.vertices) << planner->name();
+    EXPECT_GT(summary.components, 0) << planner->name();
+    EXPECT_FALSE(summary.edges.empty()) << planner->name();
+    ++graphs;
+  }
+  EXPECT_EQ(graphs, 4);
 }
 
 }  // namespace

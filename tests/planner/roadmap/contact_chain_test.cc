@@ -7,6 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/roadmap/roadmap_queries.h"
+#include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/roadmap/grasp_graph.h"
 #include "tests/planner/roadmap/small_meshes.h"
 
@@ -194,6 +195,19 @@ TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
   EXPECT_EQ(ends(20, 1).size(), 5u);
   EXPECT_EQ(ends(20, 1), ends(30, 1));
   EXPECT_NE(ends(20, 1), ends(20, 2));
+}
+
+TEST(RunRandomQueries, LookAtTheDeadlineForEveryQueryAndEndWhereverItComes) {
+  const object::Polyhedron solid = MakeConvexBody(20, 3);
+  const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .contacts = 36, .clusters = 6});
+  const auto run = [&](const Deadline& deadline) {
+    return RunRandomQueries(roadmap, solid, 10, 1, true, deadline).size();
+  };
+  const CountedDeadline never;
+  ASSERT_EQ(run(never.deadline()), 10u);
+  EXPECT_GE(never.looks(), 10);
+  ExpectEndsWhereverItComes(never.looks(),
+                            [&](const Deadline& deadline) { static_cast<void>(run(deadline)); });
 }
 
 TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {

@@ -178,11 +178,11 @@ TEST(PanelGraspTest, AConeEndsOnThePanel) {
   EXPECT_LT(view.ToPanel({0.8, 0}).x() + length(0.8), 240);
 }
 
-TEST(PanelFingersTest, RoomOutsideEndsWhereThePolygonBeginsAgain) {
+TEST(PanelFingersTest, ClearanceOutsideEndsWhereThePolygonBeginsAgain) {
   const object::Polygon frame = object::Polygon::FromRings(
       {{{0, 0}, {6, 0}, {6, 6}, {0, 6}}, {{1, 1}, {1, 4}, {4, 4}, {4, 1}}}, "frame");
-  EXPECT_NEAR(OutwardRoom(frame, {Vector2d(1, 2), Vector2d(1, 0)}), 3, 1e-12);
-  EXPECT_TRUE(std::isinf(OutwardRoom(frame, {Vector2d(6, 2), Vector2d(1, 0)})));
+  EXPECT_NEAR(OutwardClearance(frame, {Vector2d(1, 2), Vector2d(1, 0)}), 3, 1e-12);
+  EXPECT_TRUE(std::isinf(OutwardClearance(frame, {Vector2d(6, 2), Vector2d(1, 0)})));
 }
 
 TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {

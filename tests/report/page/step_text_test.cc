@@ -17,14 +17,5 @@ TEST(StepTextTest, StepsCountFromTheHold) {
   EXPECT_EQ(StepName(3), "step 3");
 }
 
-TEST(StepTextTest, AFailedStepSaysWhy) {
-  ReportStep step;
-  EXPECT_EQ(VerdictText(step), "pass");
-  step.replay.emplace().reason = plan::Reason::kSlipped;
-  EXPECT_EQ(VerdictText(step), "fail: slipped");
-  step.skipped = true;
-  EXPECT_EQ(VerdictText(step), "skipped");
-}
-
 }  // namespace
 }  // namespace regrasp::report

@@ -25,8 +25,9 @@ class AttachedBlob : public testing::Test {
       : graph_(MakeGraph(blob_, 20, planning::Spanning::kAdaptive)), cells_(blob_, graph_) {}
 
   /// The switches between a set of `start` and one of `goal`, and two for these.
-  [[nodiscard]] std::optional<int> Switches(const GraspEnds& start, const GraspEnds& goal) const {
-    const AttachedGraph graph(graph_, start, goal, banned_);
+  [[nodiscard]] std::optional<int> Switches(const sets::GraspEnds& start,
+                                            const sets::GraspEnds& goal) const {
+    const sets::AttachedGraph graph(graph_, start, goal, banned_);
     return search::FewestSwitches(graph, graph.start(), graph.goal(), [](int) { return true; });
   }
 
@@ -38,7 +39,7 @@ class AttachedBlob : public testing::Test {
 
 TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
   banned_ = {{0, Neighbours(graph_, 0).front()}};
-  const AttachedGraph graph(graph_, {{0}, {1, 2}}, {{2, 3}, {}}, banned_);
+  const sets::AttachedGraph graph(graph_, {{0}, {1, 2}}, {{2, 3}, {}}, banned_);
   int edges = 0;
   for (int v = 0; v < graph.vertex_count(); ++v) {
     const std::vector<int> neighbours = Neighbours(graph, v);
@@ -78,8 +79,8 @@ TEST_F(AttachedBlob, BannedSwitchesAreNotTaken) {
 TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
   int longest = 0;
   for (int goal = 0; goal < graph_.vertex_count(); ++goal) {
-    const AttachedGraph graph(graph_, {{0}, {}}, {{}, {goal}}, banned_);
-    std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
+    const sets::AttachedGraph graph(graph_, {{0}, {}}, {{}, {goal}}, banned_);
+    std::vector<int> path = sets::FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
       return graph.IsSet(vertex) ? cells_.WidthOf(vertex) : 0;
     });
     std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });
@@ -96,7 +97,7 @@ TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
 }
 
 TEST_F(AttachedBlob, ASetIsTheOnlyOneOfAnEndWhereNoOtherIsJoinedToIt) {
-  const AttachedGraph graph(graph_, {{0}, {}}, {{1}, {2}}, banned_);
+  const sets::AttachedGraph graph(graph_, {{0}, {}}, {{1}, {2}}, banned_);
   EXPECT_TRUE(graph.IsOnlySetOfAnEnd(0));
   for (const int other : {1, 2, 3}) EXPECT_FALSE(graph.IsOnlySetOfAnEnd(other)) << other;
 }

@@ -51,12 +51,12 @@ TEST(GraphCells, AttachWholeGraspsAndPartsOfThem) {
   const auto attach = [&](const std::vector<std::pair<int, double>>& places) {
     return cells.FindAttachments(MakeGrasp(square, places));
   };
-  const std::vector<Attachment<PolygonPlace>> pair = attach({{2, 0.6}, {0, 0.5}});
+  const std::vector<sets::Attachment<PolygonPlace>> pair = attach({{2, 0.6}, {0, 0.5}});
   ASSERT_EQ(pair.size(), 1U);
   EXPECT_EQ(pair[0].place.set, upright);
   EXPECT_TRUE(pair[0].whole);
   EXPECT_NEAR((pair[0].place.parameters - Eigen::Vector2d(0.5, 0.6)).norm(), 0, 1e-15);
-  const std::vector<Attachment<PolygonPlace>> four =
+  const std::vector<sets::Attachment<PolygonPlace>> four =
       attach({{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}});
   ASSERT_EQ(four.size(), 2U);
   EXPECT_EQ((std::set{four[0].place.set, four[1].place.set}), (std::set{upright, level}));
@@ -70,7 +70,8 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
   GraphCells cells(square, graph);
   // Leans by 31°; another contact opposite either one makes a pair, or a new pair altogether.
   const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
-  const std::vector<Attachment<PolygonPlace>> found = cells.FindSwitches(leaning, kPolygonFingers);
+  const std::vector<sets::Attachment<PolygonPlace>> found =
+      cells.FindSwitches(leaning, kPolygonFingers);
   ASSERT_EQ(found.size(), 4U);
   std::set<int> vertices;
   for (const auto& attachment : found) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "planner/sets/polyhedron/normal_quadruples.h"
+#include "planner/sets/polyhedron/sampled_graph.h"
 #include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 
@@ -23,6 +24,25 @@ TEST(PolyhedronDeadline, TheGraphLooksAtItForEveryCandidateAndCellAndEndsWhereve
   ExpectEndsWhereverItComes(never.looks(), [&](const Deadline& deadline) {
     static_cast<void>(PolyhedronGraph(body, Radians(15), planning::Spanning::kAdaptive, deadline));
   });
+}
+
+TEST(PolyhedronDeadline, SamplingLooksAtItForEveryPointAndEndsWhereverItComes) {
+  const object::Polyhedron body = RegularOctahedron();
+  PolyhedronGraph graph(body, Radians(15), planning::Spanning::kAdaptive);
+  const CountedDeadline bounding;
+  const auto region = FindSamplingRegion(body, graph, bounding.deadline());
+  EXPECT_EQ(bounding.looks(), graph.vertex_count());
+  const auto sample = [&](int points, const Deadline& deadline) {
+    static_cast<void>(SamplePolyhedron(body, Radians(15), planning::Spanning::kAdaptive, region,
+                                       points, 1, deadline));
+  };
+  const CountedDeadline none;
+  sample(0, none.deadline());
+  const CountedDeadline never;
+  sample(100, never.deadline());
+  EXPECT_EQ(never.looks(), none.looks() + 100);
+  ExpectEndsWhereverItComes(never.looks(),
+                            [&](const Deadline& deadline) { sample(100, deadline); });
 }
 
 }  // namespace

@@ -6,10 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/planning/plan_request.h"
-#include "planner/sets/polyhedron/sampled_graph.h"
-
-namespace regrasp::apps {
+namespace regrasp::planning {
 
 /// How many grasps of one type a graph has.
 struct TypeSummary {
@@ -29,33 +26,30 @@ struct QuerySummary {
   double mean_seconds = 0;
 };
 
-/// What is known of a graph when it is built.
+/// How much of a graph sampling found. Quadruples of faces, as sampling does not tell components of
+/// one quadruple apart.
+struct SamplingShare {
+  std::int64_t quadruples = 0;        ///< of the direct graph
+  std::int64_t found_quadruples = 0;  ///< of these
+  std::int64_t links = 0;             ///< between quadruples of the direct graph
+  std::int64_t found_links = 0;       ///< of these
+};
+
+/// The size of a planner's graph, and what was asked for besides.
 struct GraphSummary {
   std::string planner;
   std::int64_t faces = 0;  ///< edges of a polygon, contact points of a roadmap
+  std::string face_name;   ///< what `faces` counts: "edges"
   std::vector<TypeSummary> types;
   std::vector<std::pair<std::string, std::int64_t>> edges;  ///< by types, as "parallel-parallel"
   std::int64_t vertices = 0;
   std::int64_t components = 0;
   double vertex_seconds = 0;
   double edge_seconds = 0;
-  std::int64_t unclear = 0;  ///< decisions too close to call
-  std::optional<polyhedron::SamplingShare> sampling_share;
+  std::optional<std::int64_t> unclear;  ///< decisions too close to call, where there can be such
+  std::optional<SamplingShare> sampling_share;
   int clusters = 0;  ///< of the contact points of a roadmap
   std::optional<QuerySummary> queries;
 };
 
-/// What else is asked of a graph.
-struct GraphTasks {
-  int sampling =
-      0;            ///< polyhedron: random focus points in place of the direct computation; 0: none
-  int queries = 0;  ///< roadmap of clusters: random queries to answer
-};
-
-/// Builds the switching graph of a planner.
-/// @param planner  "polygon", "contour", "polyhedron" or "roadmap", which serves the object.
-[[nodiscard]] GraphSummary SummarizeGraph(const std::string& planner,
-                                          const planning::PlanRequest& request,
-                                          const GraphTasks& tasks);
-
-}  // namespace regrasp::apps
+}  // namespace regrasp::planning
