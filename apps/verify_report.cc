@@ -52,8 +52,8 @@ std::string FaultOf(const plan::StepCheck& check) {
 
 std::string DescribeProofs(const certificate::EntryVerdict& entry) {
   std::string text = Describe(entry.rest);
-  for (std::size_t k = 0; k < entry.ways.size(); ++k) {
-    text += (k == 0 ? "; segments " : ", ") + Describe(entry.ways[k]);
+  for (std::size_t k = 0; k < entry.motions.size(); ++k) {
+    text += (k == 0 ? "; segments " : ", ") + Describe(entry.motions[k]);
   }
   return text;
 }

@@ -74,7 +74,7 @@ bool IsSameFile(const struct stat& a, const struct stat& b) {
 }
 
 /// Follows links as the kernel does.
-/// @throws std::system_error  a link or a folder on the way may not be followed.
+/// @throws std::system_error  a link or a folder on the path may not be followed.
 Target Resolve(fs::path at) {
   for (int links = 0; links <= kMostLinks; ++links) {
     if (const int own = OwnDescriptor(at); own >= 0) {

@@ -12,8 +12,8 @@ namespace regrasp::certificate {
 [[nodiscard]] grasp::Grasp ContactsInOrder(const plan::FingerGrasp& grasp,
                                            const plan::FingerGrasp& order);
 
-/// A proof of force closure all along the way from one waypoint to the next: the one by which the
-/// analytic check passes it (DecidePathForceClosure), nullopt where that does not.
+/// A proof of force closure all along the motion from one waypoint to the next: the one by which
+/// the analytic check passes it (DecidePathForceClosure), nullopt where that does not.
 /// @param from, to    the contacts of each finger at the same place.
 /// @param half_angle  radians.
 /// @throws std::invalid_argument  as TestForceClosure.
@@ -29,7 +29,7 @@ namespace regrasp::certificate {
                                                                          double half_angle);
 
 /// Checks in exact arithmetic that proofs hold for an align (CheckMotionProof).
-/// @returns kForceClosure, or kNothing with the first way that is not proved.
+/// @returns kForceClosure, or kNothing with the first motion that is not proved.
 [[nodiscard]] motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimension,
                                                          double mu,
                                                          const plan::AlignCertificate& certificate);

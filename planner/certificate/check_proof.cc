@@ -76,7 +76,7 @@ motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const
   return CheckVelocities(contacts, velocities, mu);
 }
 
-/// The turn about the line through two contacts, one way or the other.
+/// The turn about the line through two contacts, with one sign or the other.
 motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const Rational& mu,
                                const std::array<int, 2>& line) {
   const int count = static_cast<int>(contacts.size());
@@ -84,8 +84,8 @@ motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const 
     return Nothing("the line is through contacts that are none");
   }
   const Vector& a = contacts[line[0]].p;
-  for (const int way : {1, -1}) {
-    const Vector omega = Rational(way) * (contacts[line[1]].p - a);
+  for (const int sign : {1, -1}) {
+    const Vector omega = Rational(sign) * (contacts[line[1]].p - a);
     const motion::ProofVerdict verdict = CheckTwist(contacts, mu, Cross(a, omega), omega);
     if (verdict.kind == Kind::kNotForceClosure) return verdict;
   }

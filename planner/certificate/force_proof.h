@@ -25,11 +25,11 @@ struct GraspProof {
   std::array<int, 2> line = {0, 0};  ///< kLine: the two contacts
 };
 
-/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's ways.
+/// The proofs of one entry of a report: of the grasp that it ends in, and of an align's motions.
 struct EntryProof {
   GraspProof rest;
   /// By pair of waypoints that follow each other; empty where no proof was found.
-  std::vector<motion::MotionSegments> ways;
+  std::vector<motion::MotionSegments> motions;
 };
 
 }  // namespace regrasp::certificate

@@ -18,16 +18,16 @@ namespace {
 using Kind = GraspProof::Kind;
 
 /// From one waypoint to the next, the contacts of each finger at the same place.
-struct Way {
+struct Motion {
   grasp::Grasp from;
   grasp::Grasp to;
 };
 
-/// One entry as the proofs see it: the grasp at its end, and the ways of an align.
+/// One entry as the proofs see it: the grasp at its end, and the motions of an align.
 struct Entry {
   std::string kind;
   grasp::Grasp rest;
-  std::vector<Way> ways;
+  std::vector<Motion> motions;
   const plan::AlignCertificate* certificate = nullptr;  ///< that the plan gives, if it does
 };
 
@@ -39,8 +39,8 @@ std::vector<Entry> EntriesOf(const plan::Plan& plan) {
     Entry entry{plan::StepKind(step), plan::ContactsOf(holding), {}, nullptr};
     if (const auto* align = std::get_if<plan::Align>(&step)) {
       for (std::size_t w = 0; w + 1 < align->waypoints.size(); ++w) {
-        entry.ways.push_back({plan::ContactsOf(align->waypoints[w]),
-                              ContactsInOrder(align->waypoints[w + 1], align->waypoints[w])});
+        entry.motions.push_back({plan::ContactsOf(align->waypoints[w]),
+                                 ContactsInOrder(align->waypoints[w + 1], align->waypoints[w])});
       }
       if (align->certificate) entry.certificate = &*align->certificate;
     }
@@ -49,12 +49,13 @@ std::vector<Entry> EntriesOf(const plan::Plan& plan) {
   return entries;
 }
 
-/// The plan's own proof of a way where it holds, otherwise one that is found; empty where none is.
-motion::MotionSegments ProvePath(const Entry& entry, std::size_t way, int dimension,
+/// The plan's own proof of a motion where it holds, otherwise one that is found; empty where none
+/// is.
+motion::MotionSegments ProvePath(const Entry& entry, std::size_t index, int dimension,
                                  double half_angle) {
-  const auto& [from, to] = entry.ways[way];
-  if (entry.certificate != nullptr && way < entry.certificate->size()) {
-    const motion::MotionSegments& given = (*entry.certificate)[way];
+  const auto& [from, to] = entry.motions[index];
+  if (entry.certificate != nullptr && index < entry.certificate->size()) {
+    const motion::MotionSegments& given = (*entry.certificate)[index];
     if (motion::CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves())
       return given;
   }
@@ -100,7 +101,7 @@ GraspProof ReadGraspProof(const plan::JsonReader& json, int dimension) {
 }  // namespace
 
 bool EntryVerdict::proved() const {
-  return rest.proves() && std::ranges::all_of(ways, &motion::ProofVerdict::proves);
+  return rest.proves() && std::ranges::all_of(motions, &motion::ProofVerdict::proves);
 }
 
 std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle, int entries) {
@@ -109,8 +110,8 @@ std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_an
     if (static_cast<int>(proofs.size()) >= entries) break;
     EntryProof proof;
     proof.rest = FindGraspProof(entry.rest, located.dimension, half_angle);
-    for (std::size_t way = 0; way < entry.ways.size(); ++way) {
-      proof.ways.push_back(ProvePath(entry, way, located.dimension, half_angle));
+    for (std::size_t index = 0; index < entry.motions.size(); ++index) {
+      proof.motions.push_back(ProvePath(entry, index, located.dimension, half_angle));
     }
     proofs.push_back(std::move(proof));
   }
@@ -128,11 +129,11 @@ std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
     const Entry& entry = entries[i];
     EntryVerdict verdict{static_cast<int>(i), entry.kind, {}, {}};
     verdict.rest = CheckGraspProof(entry.rest, located.dimension, mu, proofs[i].rest);
-    for (std::size_t way = 0; way < entry.ways.size(); ++way) {
-      const bool has = way < proofs[i].ways.size();
-      verdict.ways.push_back(
-          motion::CheckMotionProof(entry.ways[way].from, entry.ways[way].to, located.dimension, mu,
-                                   has ? proofs[i].ways[way] : motion::MotionSegments()));
+    for (std::size_t index = 0; index < entry.motions.size(); ++index) {
+      const bool has = index < proofs[i].motions.size();
+      verdict.motions.push_back(motion::CheckMotionProof(
+          entry.motions[index].from, entry.motions[index].to, located.dimension, mu,
+          has ? proofs[i].motions[index] : motion::MotionSegments()));
     }
     verdicts.push_back(std::move(verdict));
   }
@@ -141,10 +142,10 @@ std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
 
 Json EntryProofJson(const EntryProof& proof, int dimension) {
   Json json = {{"rest", GraspProofJson(proof.rest, dimension)}};
-  if (proof.ways.empty()) return json;
+  if (proof.motions.empty()) return json;
   json["ways"] = Json::array();
-  for (const motion::MotionSegments& way : proof.ways) {
-    json["ways"].push_back(plan::MotionSegmentsJson(way, dimension));
+  for (const motion::MotionSegments& segments : proof.motions) {
+    json["ways"].push_back(plan::MotionSegmentsJson(segments, dimension));
   }
   return json;
 }
@@ -153,8 +154,8 @@ EntryProof ReadEntryProof(const plan::JsonReader& json, int dimension) {
   EntryProof proof;
   proof.rest = ReadGraspProof(json.Member("rest"), dimension);
   if (!json.Has("ways")) return proof;
-  for (const plan::JsonReader& way : json.Member("ways").Elements()) {
-    proof.ways.push_back(plan::ReadMotionSegments(way, dimension));
+  for (const plan::JsonReader& segments : json.Member("ways").Elements()) {
+    proof.motions.push_back(plan::ReadMotionSegments(segments, dimension));
   }
   return proof;
 }

@@ -22,9 +22,9 @@ struct EntryVerdict {
   int index = 0;
   std::string kind;  ///< "hold", "switch" or "align"
   motion::ProofVerdict rest;
-  std::vector<motion::ProofVerdict> ways;
+  std::vector<motion::ProofVerdict> motions;
 
-  /// The grasp and all ways are proved.
+  /// The grasp and all motions are proved.
   [[nodiscard]] bool proved() const;
 };
 

@@ -26,7 +26,7 @@ struct SubsetCounts {
 /// lexicographic order: what TestForceClosure says yes to, found far faster than by asking it.
 ///
 /// The ways in which every contact turns the object about the line through every pair
-/// (TurnAboutLine) are kept as bit rows, so that the pair lines judge up to 64 subsets in a few
+/// (TurnAboutLine) are kept as bit rows, so that the pair lines decide up to 64 subsets in a few
 /// word operations; the simplex sees only what is left.
 ///
 /// @param counts  filled where not null.

@@ -198,15 +198,15 @@ Rational LargestCorrection(const MovingContacts& moving, const std::vector<Linea
          RootAbove(support.per_torque_squared * torque_squared);
 }
 
-/// A force at one end of a piece, and all within `room` of it, are inside the cones of the normals
-/// at both ends.
-bool StaysInsideCone(const Vector& force, const Rational& room, const ExactContact& start,
+/// A force at one end of a piece, and all within `margin` of it, are inside the cones of the
+/// normals at both ends.
+bool StaysInsideCone(const Vector& force, const Rational& margin, const ExactContact& start,
                      const ExactContact& end, bool turns, const Rational& mu) {
-  if (!turns) return IsInsideCone(force, start.n, mu, room);
+  if (!turns) return IsInsideCone(force, start.n, mu, margin);
   // tan(θ − δ) ≥ tan θ − δ (1 + tan² θ), as the tangent is convex.
   const Rational narrower = mu - Rational(kTurnedNormalBound) * (1 + mu * mu);
-  return narrower > 0 && IsInsideCone(force, start.n, narrower, room) &&
-         IsInsideCone(force, end.n, narrower, room);
+  return narrower > 0 && IsInsideCone(force, start.n, narrower, margin) &&
+         IsInsideCone(force, end.n, narrower, margin);
 }
 
 ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Rational& mu,
@@ -221,9 +221,9 @@ ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Ratio
   const Rational correction = LargestCorrection(moving, forces, *support);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const bool supports = std::ranges::find(support->contacts, i) != support->contacts.end();
-    const Rational room = supports ? correction : Rational(0);
+    const Rational margin = supports ? correction : Rational(0);
     for (const Vector& force : {forces[i].start, forces[i].end}) {
-      if (!StaysInsideCone(force, room, moving.start[i], moving.end[i], moving.turns[i], mu)) {
+      if (!StaysInsideCone(force, margin, moving.start[i], moving.end[i], moving.turns[i], mu)) {
         return Nothing("the force at contact " + std::to_string(i) +
                        ", balanced exactly, may leave its cone");
       }
@@ -232,7 +232,7 @@ ProofVerdict CheckPiece(const MovingContacts& moving, int dimension, const Ratio
   return {Kind::kForceClosure, ""};
 }
 
-/// The normal at t of the way from n to `to`, up to its length.
+/// The normal at t on the path from n to `to`, up to its length.
 Eigen::Vector3d TurnedNormal(const Eigen::Vector3d& n, const Eigen::Vector3d& to, double t) {
   const Eigen::Vector3d a = n.normalized();
   const Eigen::Vector3d b = to.normalized();

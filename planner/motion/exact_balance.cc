@@ -152,10 +152,11 @@ bool AllFinite(std::span<const Eigen::Vector3d> vectors) {
   return true;
 }
 
-bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu, const Rational& room) {
+bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
+                  const Rational& margin) {
   const Rational normal = Dot(force, n);
   // Of unit n the distance from the border is (μ f·n − |f × n|) / √(1 + μ²).
-  const Rational reach = mu * normal - room * RootAbove((1 + mu * mu) * Dot(n, n));
+  const Rational reach = mu * normal - margin * RootAbove((1 + mu * mu) * Dot(n, n));
   return reach > 0 && reach * reach > Dot(force, force) * Dot(n, n) - normal * normal;
 }
 

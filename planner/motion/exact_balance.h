@@ -38,11 +38,11 @@ struct ExactContact {
 
 [[nodiscard]] bool AllFinite(std::span<const Eigen::Vector3d> vectors);
 
-/// A force, and all that differ from it by no more than `room`, are strictly inside the cone of
-/// friction μ about n, which need not be unit. Where `room` is 0 the answer is exact; otherwise it
-/// may be no where less than a millionth of `room` is missing.
+/// A force, and all that differ from it by no more than `margin`, are strictly inside the cone of
+/// friction μ about n, which need not be unit. Where `margin` is 0 the answer is exact; otherwise
+/// it may be no where less than a millionth of `margin` is missing.
 [[nodiscard]] bool IsInsideCone(const Vector& force, const Vector& n, const Rational& mu,
-                                const Rational& room = 0);
+                                const Rational& margin = 0);
 
 /// Homogeneous linear equations A x = 0 with a solution that is exact up to rounding.
 class Balance {

@@ -6,17 +6,17 @@
 namespace regrasp::motion {
 
 /// Why a grasp is force closure everywhere on a piece of a motion of its contacts: forces that go
-/// linearly from `start` to `end`, one a contact, balanced all the way up to rounding and inside
+/// linearly from `start` to `end`, one a contact, balanced throughout up to rounding and inside
 /// the cones of both ends. A force between two of a cone is in the cone. Lengths and points are in
 /// the object's unit, about its origin; forces have any unit.
 struct MotionSegment {
-  double from = 0;  ///< of the way between two waypoints, 0 to 1
+  double from = 0;  ///< share of the motion between two waypoints, 0 to 1
   double to = 1;
   std::vector<Eigen::Vector3d> start;
   std::vector<Eigen::Vector3d> end;
 };
 
-/// The pieces of one way between two waypoints, from 0 to 1.
+/// The segments of one motion between two waypoints, from 0 to 1.
 using MotionSegments = std::vector<MotionSegment>;
 
 }  // namespace regrasp::motion

@@ -9,8 +9,8 @@
 
 namespace regrasp::motion {
 
-/// A contact on a straight piece of its way, in a frame in which the grasp is centred and of about
-/// radius 1 at both ends, with the friction cone that its forces keep to all along.
+/// A contact on a straight segment of its path, in a frame in which the grasp is centred and of
+/// about radius 1 at both ends, with the friction cone that its forces keep to all along.
 struct MovingContact {
   Eigen::Vector3d start;
   Eigen::Vector3d end;

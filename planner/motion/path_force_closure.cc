@@ -14,7 +14,7 @@ namespace regrasp::motion {
 
 namespace {
 
-/// Intervals shorter than this are given more room than kPathAngleAccuracy, twice as much with
+/// Intervals shorter than this are given more slack than kPathAngleAccuracy, twice as much with
 /// every halving; and all are once more with every kPatience intervals looked at. So the search
 /// ends.
 constexpr double kWidenBelow = 1e-4;
@@ -124,7 +124,7 @@ class PathDecision {
   PathForceClosure result_;
 };
 
-/// The search for a bound on the whole way: intervals with a proof are done with, others are
+/// The search for a bound on the whole path: intervals with a proof are done with, others are
 /// halved, those with the largest required half-angle in their middle first. So the largest of all
 /// is known before what it covers easily is looked at.
 class PathAngle {
@@ -178,9 +178,9 @@ class PathAngle {
 
   bool Cover(const Interval& interval) {
     const int widened = intervals_++ / kPatience;
-    const double room =
+    const double slack =
         std::ldexp(kPathAngleAccuracy, widened) * std::max(1.0, kWidenBelow / interval.length());
-    const double angle = std::min(bounds_.upper + room, kLargestHalfAngle);
+    const double angle = std::min(bounds_.upper + slack, kLargestHalfAngle);
     if (proofs_.Prove(angle, interval.from, interval.to)) {
       proved_ = std::max(proved_, angle);
       return true;

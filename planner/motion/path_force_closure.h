@@ -40,7 +40,7 @@ struct PathForceClosure {
   [[nodiscard]] bool holds() const { return decision == grasp::Decision::kYes; }
 };
 
-/// Decides force closure of a motion everywhere on the way, by bisection: an interval is halved
+/// Decides force closure of a motion everywhere on the path, by bisection: an interval is halved
 /// until it has a proof (FindSegmentProof) that exact arithmetic accepts (CheckSegmentProof), an
 /// instant fails IsForceClosure, or it is shorter than kShortestInterval.
 ///
@@ -61,14 +61,14 @@ struct PathForceClosure {
 inline constexpr double kPathAngleAccuracy = 1e-4;
 
 /// Bounds on the largest required half-angle along a motion: `lower` is attained at an instant,
-/// `upper` is proved for the whole way, piece by piece, by proofs that exact arithmetic accepts.
+/// `upper` is proved for the whole path, piece by piece, by proofs that exact arithmetic accepts.
 /// `upper` is within kPathAngleAccuracy of `lower`, unless a narrow place of the path needs proofs
-/// with more room, or the path needs hundreds of pieces at that room; then as far off as they need.
-/// Where the budget ends it is `proven`.
+/// with more slack, or the path needs hundreds of pieces at that slack; then as far off as they
+/// need. Where the budget ends it is `proven`.
 /// @param proven  a half-angle at which the whole motion is known to be force closure, if any:
 ///                `upper` is never above it.
 /// @returns nullopt where an instant is force closure at no angle, or no angle below π/2 could be
-///          proved for the whole way.
+///          proved for the whole path.
 [[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget);

@@ -302,7 +302,7 @@ bool FaceTree::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d
   const Vector3d from = ClosestPoint(face, a), to = ClosestPoint(face, b);
   if ((from - a).norm() > within || (to - b).norm() > within) return false;
   if (impl_->Covers(face, from, to, within)) return true;
-  // The ends are known to within the tolerance: a way beside this one, to which both ends can go
+  // The ends are known to within the tolerance: a path beside this one, to which both ends can go
   // without leaving the face, will do.
   const Vector3d aside = within * impl_->normals[face].cross(to - from).stableNormalized();
   const auto ends = [&](const Vector3d& end) {

@@ -154,7 +154,7 @@ class HeaderReader {
   int line_ = 0;
 };
 
-/// The values behind the header, whichever way they are written. All types fit into a double.
+/// The values behind the header, in whichever format they are written. All types fit into a double.
 class ValueReader {
  public:
   ValueReader(std::string_view body, Header::Format format, const std::string& name)

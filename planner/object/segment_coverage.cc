@@ -38,7 +38,7 @@ double FindLow(const std::function<double(double)>& distance, double threshold) 
   return at_left < at_right ? left : right;
 }
 
-/// The last point within the threshold on the way from `inside` to `end`.
+/// The last point within the threshold on the path from `inside` to `end`.
 double FindEnd(const std::function<double(double)>& distance, double threshold, double inside,
                double end) {
   if (distance(end) <= threshold) return end;

@@ -11,7 +11,7 @@ namespace regrasp::object {
 /// A soup as bytes, to be sent between two processes of this machine.
 [[nodiscard]] std::string SoupToBytes(const PolygonSoup& soup);
 
-/// The way back. @returns nullopt where the bytes are not those of a whole soup.
+/// The inverse. @returns nullopt where the bytes are not those of a whole soup.
 [[nodiscard]] std::optional<PolygonSoup> SoupFromBytes(std::string_view bytes);
 
 }  // namespace regrasp::object

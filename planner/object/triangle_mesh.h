@@ -11,7 +11,7 @@ namespace regrasp::object {
 
 using TriangleIndex = Index<struct TriangleTag>;
 
-/// Triangles with their way back to the file, so that checks can name what they find.
+/// Triangles with their places in the file, so that checks can name what they find.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<int> vertex_in_file;

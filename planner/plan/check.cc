@@ -51,7 +51,7 @@ StepCheck Skipped(int index, const char* kind) {
   return check;
 }
 
-/// Enough for any plan whose aligns keep off the limit: they need tens of pieces a stretch, and
+/// Enough for any plan whose aligns keep off the limit: they need tens of pieces a motion, and
 /// some stretches may need thousands.
 motion::ProofBudget BudgetOf(const Plan& plan) {
   constexpr std::int64_t kUnitsOfAPlan = 200'000;

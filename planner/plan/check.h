@@ -19,15 +19,15 @@ struct StepCheck {
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
   bool skipped = false;  ///< a step before it failed
-  /// Every grasp of the step, everywhere on the way, is proved to be force closure at the friction
+  /// Every grasp of the step, everywhere on the path, is proved to be force closure at the friction
   /// (with CheckOptions::allow_undecided: but for `undecided` intervals). False, and `required`
   /// nullopt, also where the step is skipped or has a fault that comes before force closure: then
-  /// there is no sequence of grasps to judge.
+  /// there is no sequence of grasps to evaluate.
   bool force_closure = false;
   /// The smallest half-angle at which every grasp of the step is force closure; nullopt where none.
   /// Where `force_closure` is true by proofs alone, `upper` is no larger than the friction's.
   std::optional<grasp::RequiredHalfAngle> required;
-  /// Intervals of an align's path, each no longer than 1e-6 of the way between two waypoints, on
+  /// Intervals of an align's path, each no longer than 1e-6 of the path between two waypoints, on
   /// which force closure stayed undecided: no proof was found, and no instant that is not force
   /// closure. They fail the step (kNotProved) unless CheckOptions::allow_undecided is set.
   int undecided = 0;
@@ -42,7 +42,7 @@ struct CheckOptions {
   bool judge_force_closure = true;
   const grasp::Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
   const grasp::Grasp* goal = nullptr;   ///< and its goal this one
-  /// Aligns pass with up to kMostUndecided undecided intervals in each stretch.
+  /// Aligns pass with up to kMostUndecided undecided intervals in each motion between waypoints.
   bool allow_undecided = false;
 };
 

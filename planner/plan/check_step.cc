@@ -129,7 +129,7 @@ void AddObstacle(const std::optional<std::string>& obstacle, StepFault& fault) {
   if (obstacle) fault.Add(Reason::kUnreachable, *obstacle);
 }
 
-/// Where force closure is about to be judged: nothing found against it yet.
+/// Where force closure is about to be decided: nothing found against it yet.
 void BeginForceClosure(const CheckContext& context, StepCheck& check) {
   if (!context.judge_force_closure) return;
   check.force_closure = true;
@@ -221,7 +221,7 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
                    : "");
 }
 
-/// Includes the way from one waypoint to the next in an align's force closure.
+/// Includes the motion from one waypoint to the next in an align's force closure.
 void IncludeMotion(const CheckContext& context, const motion::GraspMotion& motion,
                    std::size_t waypoint, StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;

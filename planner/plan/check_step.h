@@ -41,7 +41,7 @@ struct CheckContext {
 };
 
 /// The checks of one entry of the report: reason, detail, force closure, required half-angle and
-/// undecided intervals. Force closure is judged only where there is no other fault.
+/// undecided intervals. Force closure is decided only where there is no other fault.
 /// @param before  the grasp that holds before the step; it has passed.
 [[nodiscard]] StepCheck CheckHold(const CheckContext& context);
 [[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,

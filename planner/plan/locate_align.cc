@@ -20,10 +20,10 @@ constexpr std::size_t kMostChoices = 16;
 /// Points this near each other, over the diameter, are one up to rounding.
 constexpr double kRounding = 1e-12;
 
-/// One place of a contact, and the best way of the finger to it.
+/// One place of a contact, and the best path of the finger to it.
 struct Choice {
   grasp::Contact place;
-  int faults = 0;     ///< on the best way
+  int faults = 0;     ///< on the best path
   int ranks = 0;      ///< places before the chosen ones in their lists, summed
   int previous = -1;  ///< choice at the waypoint before
 };
@@ -48,17 +48,17 @@ bool IsBetter(const Choice& a, const Choice& b) {
   return a.faults != b.faults ? a.faults < b.faults : a.ranks < b.ranks;
 }
 
-/// Extends the best ways to the waypoint before by one motion.
+/// Extends the best paths to the waypoint before by one motion.
 void Extend(const object::Object& object, const Choices& before, Choices& choices) {
   for (Choice& choice : choices) {
     Choice best;
     best.faults = std::numeric_limits<int>::max();
     for (std::size_t i = 0; i < before.size(); ++i) {
-      Choice way = choice;
-      way.faults = before[i].faults + IsFault(object, before[i].place, choice.place);
-      way.ranks = before[i].ranks + choice.ranks;
-      way.previous = static_cast<int>(i);
-      if (IsBetter(way, best)) best = way;
+      Choice path = choice;
+      path.faults = before[i].faults + IsFault(object, before[i].place, choice.place);
+      path.ranks = before[i].ranks + choice.ranks;
+      path.previous = static_cast<int>(i);
+      if (IsBetter(path, best)) best = path;
     }
     choice = best;
   }

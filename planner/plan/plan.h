@@ -31,7 +31,7 @@ struct Switch {
   std::vector<FingerIndex> release;
 };
 
-/// A claim that an align is force closure everywhere on the way, with its proof: for each pair of
+/// A claim that an align is force closure everywhere on the path, with its proof: for each pair of
 /// waypoints that follow each other, pieces whose forces are in the order of the first of the two.
 using AlignCertificate = std::vector<motion::MotionSegments>;
 

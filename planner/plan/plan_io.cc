@@ -36,16 +36,16 @@ void ExpectForces(const JsonReader& json, std::size_t found, std::size_t fingers
 }
 
 AlignCertificate ReadCertificate(const JsonReader& json, const Align& step, int dimension) {
-  const std::vector<JsonReader> ways = json.Elements();
-  if (ways.size() + 1 != step.waypoints.size()) {
+  const std::vector<JsonReader> motions = json.Elements();
+  if (motions.size() + 1 != step.waypoints.size()) {
     json.Fail("expected " + std::to_string(step.waypoints.size() - 1) +
               " lists of pieces, one for each waypoint but the last, found " +
-              std::to_string(ways.size()));
+              std::to_string(motions.size()));
   }
   AlignCertificate certificate;
-  for (std::size_t w = 0; w < ways.size(); ++w) {
-    certificate.push_back(ReadMotionSegments(ways[w], dimension));
-    const std::vector<JsonReader> pieces = ways[w].Elements();
+  for (std::size_t w = 0; w < motions.size(); ++w) {
+    certificate.push_back(ReadMotionSegments(motions[w], dimension));
+    const std::vector<JsonReader> pieces = motions[w].Elements();
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const motion::MotionSegment& piece = certificate.back()[k];
       const std::size_t fingers = step.waypoints[w].size();

@@ -97,7 +97,7 @@ std::optional<double> FindMeeting(const motion::ContactMotion& a, const motion::
 
 std::optional<std::string> FindPathObstacle(const object::Object& object, const FingerGrasp& from,
                                             const FingerGrasp& to, double radius) {
-  // Where points can be at both ends they can be on the way, which stays on the surface.
+  // Where points can be at both ends they can be on the path, which stays on the surface.
   if (radius <= 0) return std::nullopt;
   std::vector<motion::ContactMotion> motions;
   for (const FingerContact& held : from) {

@@ -10,7 +10,7 @@
 
 namespace regrasp::plan {
 
-/// What stands in the way of fingers of some radius (reach.h) in a plan, in words for people;
+/// What obstructs fingers of some radius (reach.h) in a plan, in words for people;
 /// nullopt where nothing does. Contacts lie on the object and know their faces; to fingers of a
 /// radius of 0 or less, which are points, only sealed cavities are closed.
 
@@ -19,9 +19,9 @@ namespace regrasp::plan {
                                                           const FingerGrasp& grasp, double radius);
 
 /// Of a step that begins with `before`. In a switch all fingers hold together before those of
-/// `release` leave. In an align every waypoint counts as a rest, and on the way between two of them
-/// nothing may be in the way of the moving fingers either: decided by bisection with bounds on how
-/// far they move, down to kShortestReachInterval of the way; what stays undecided there passes.
+/// `release` leave. In an align every waypoint counts as a rest, and on the path between two of
+/// them nothing may obstruct the moving fingers either: decided by bisection with bounds on how far
+/// they move, down to kShortestReachInterval of the path; what stays undecided there passes.
 [[nodiscard]] std::optional<std::string> FindStepObstacle(const object::Object& object,
                                                           const FingerGrasp& before,
                                                           const Step& step, double radius);

@@ -11,7 +11,7 @@ class ReplayWorld;
 /// Looks for the largest push in every direction, each from the state of rest that the world is in;
 /// afterwards everything but the monitor is as before.
 ///
-/// What the object stands is judged as in a step: it does not move, slip or lose a contact by more
+/// What the object stands is checked as in a step: it does not move, slip or lose a contact by more
 /// than the tolerance. A grasp that resists two pushes resists all in between, so that a bisection
 /// finds the limit: to kStressGap of it, or to kLeastStress.
 [[nodiscard]] std::vector<DirectionStress> MeasureStress(ReplayWorld& world);

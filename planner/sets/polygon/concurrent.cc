@@ -175,7 +175,7 @@ std::array<int, kSidePatterns> JoinParts(const Parts& parts) {
   for (int sides = 0; sides < kSidePatterns; ++sides) {
     if (!parts[sides]) continue;
     for (int k = 0; k < 3; ++k) {
-      // Where a stretch of the edge borders the part on one side, the other side begins there.
+      // Where a segment of the edge borders the part on one side, the other side begins there.
       if (!parts[sides]->region().HasSide(k)) continue;
       const int from = component[sides];
       const int to = component[sides ^ (1 << k)];

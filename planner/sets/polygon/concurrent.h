@@ -37,7 +37,7 @@ class ConcurrentCellFinder {
   ///
   /// What sees an edge is a convex region on either side of its line, and the two are joined
   /// through the open edge. So the cell is a union of at most eight convex parts, and two parts
-  /// that differ in one side are one component iff they share a stretch of that edge. Candidates
+  /// that differ in one side are one component iff they share a segment of that edge. Candidates
   /// that come in lexicographic order share what sees their first two edges.
   [[nodiscard]] std::vector<FocusComponent> Find(const ConcurrentCandidate& candidate);
 

@@ -50,7 +50,7 @@ TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
   const plan::Plan plan = MakeCubePlan();
   std::vector<EntryProof> proofs = FindPlanProofs(plan, kHalfAngle, 3);
   ASSERT_EQ(proofs.size(), 3U);
-  ASSERT_EQ(proofs[2].ways.size(), 1U);
+  ASSERT_EQ(proofs[2].motions.size(), 1U);
   for (int round = 0; round < 2; ++round) {
     const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
     ASSERT_EQ(verdicts.size(), 3U);
@@ -104,7 +104,8 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
              CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
           SCOPED_TRACE(testing::Message() << lean << " " << apart << " " << above);
           EXPECT_TRUE(verdict.rest.proves()) << verdict.index << verdict.rest.why;
-          for (const motion::ProofVerdict& way : verdict.ways) EXPECT_TRUE(way.proves()) << way.why;
+          for (const motion::ProofVerdict& motion : verdict.motions)
+            EXPECT_TRUE(motion.proves()) << motion.why;
         }
         ++checked;
       }
@@ -116,14 +117,14 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
 TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
   plan::Plan plan = MakeCubePlan();
   auto& align = std::get<plan::Align>(plan.steps[1]);
-  align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].ways;
+  align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].motions;
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= 0.5;
   for (Vector3d& force : (*align.certificate)[0][0].end) force *= 0.5;
   const motion::MotionSegment given = (*align.certificate)[0][0];
-  EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].ways[0][0].start, given.start);
+  EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].motions[0][0].start, given.start);
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= -1;
   const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
-  EXPECT_NE(proofs[2].ways[0][0].start, (*align.certificate)[0][0].start);
+  EXPECT_NE(proofs[2].motions[0][0].start, (*align.certificate)[0][0].start);
   EXPECT_TRUE(CheckPlanProofs(plan, kMu, proofs)[2].proved());
 }
 
@@ -139,7 +140,7 @@ TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
 TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
   const plan::Plan plan = MakeCubePlan();
   auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
-  proofs[2].ways.clear();
+  proofs[2].motions.clear();
   const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
   EXPECT_EQ(verdicts[2].rest.kind, Kind::kForceClosure);
   EXPECT_FALSE(verdicts[2].proved());
