@@ -1,6 +1,7 @@
 #include "planner/roadmap/contact_point_search.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -122,7 +123,7 @@ class ContactPointSearch {
     const search::VertexFilter good = [&](int vertex) {
       request_.deadline.Check();
       const bool is_good = IsGood(vertex);
-      if (evaluator_.counts().criteria % kProgressEvery == 0) ReportSearch();
+      ReportSearchSometimes();
       return is_good;
     };
     const search::VertexFilter any = [&](int) {
@@ -131,6 +132,12 @@ class ContactPointSearch {
     };
     const std::vector<int> path = FindPath(start, goal, good);
     return path.empty() ? FindPath(start, goal, any) : path;
+  }
+
+  void ReportSearchSometimes() {
+    if (evaluator_.counts().criteria < next_report_) return;
+    next_report_ = evaluator_.counts().criteria + kProgressEvery;
+    ReportSearch();
   }
 
   void ReportSearch() const {
@@ -175,6 +182,7 @@ class ContactPointSearch {
   Roadmap roadmap_;
   criteria::GraspEvaluator evaluator_;
   KnownVertices known_;
+  std::int64_t next_report_ = kProgressEvery;  ///< at so many tests
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include "planner/base/angle.h"
 #include "planner/grasp/quality.h"
@@ -214,6 +215,26 @@ TEST(PlanOnRoadmap, DrawsTheGoalFromTheStartsComponent) {
     ++found;
   }
   EXPECT_GT(found, 5);
+}
+
+/// How often it is told that a sequence is searched.
+int CountReports(double min_quality) {
+  const object::Polyhedron cube = MakeBox({0.06, 0.06, 0.06});
+  planning::PlanRequest request = Options(40);
+  request.criteria.min_quality = min_quality;
+  int reports = 0;
+  request.progress = [&](std::string_view text) {
+    if (text.starts_with("searching a sequence")) ++reports;
+  };
+  const planning::PlanResult result = PlanWith(RoadmapPlanner(), cube, Given(AcrossAxis(cube, 0)),
+                                               Given(AcrossAxis(cube, 1)), request);
+  EXPECT_EQ(result.status, Status::kFound) << result.message;
+  return reports;
+}
+
+TEST(PlanOnRoadmap, TellsOfTheSearchAfterManyTestsAndNotAfterNone) {
+  EXPECT_EQ(CountReports(0), 1) << "no quality is tested: at the beginning alone";
+  EXPECT_GT(CountReports(0.05), 1);
 }
 
 TEST(PlanOnRoadmap, RefusesOptionsOutOfRange) {
