@@ -14,11 +14,11 @@ double SetGraph::CheckedTangent(double half_angle) {
   throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
 }
 
-void SetGraph::BeginVertices() { stage_begin_ = std::chrono::steady_clock::now(); }
+void SetGraph::BeginVertices() { stopwatch_ = {}; }
 
 void SetGraph::EndVertices(int count) {
   neighbours_.resize(count);
-  vertex_seconds_ = SecondsOfStage();
+  vertex_seconds_ = stopwatch_.Lap();
 }
 
 void SetGraph::EndEdges(std::vector<std::array<int, 2>> switches, std::vector<int> all_joined) {
@@ -29,13 +29,7 @@ void SetGraph::EndEdges(std::vector<std::array<int, 2>> switches, std::vector<in
     neighbours_[b].push_back(a);
   }
   for (std::vector<int>& list : neighbours_) std::ranges::sort(list);
-  edge_seconds_ = SecondsOfStage();
-}
-
-double SetGraph::SecondsOfStage() {
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - stage_begin_;
-  BeginVertices();
-  return took.count();
+  edge_seconds_ = stopwatch_.Lap();
 }
 
 search::Components SetGraph::components() const {

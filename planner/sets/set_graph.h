@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/stopwatch.h"
 #include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 
@@ -38,12 +38,10 @@ class SetGraph : public search::SwitchingGraph {
   void EndEdges(std::vector<std::array<int, 2>> switches, std::vector<int> all_joined = {});
 
  private:
-  double SecondsOfStage();
-
   std::vector<std::array<int, 2>> switches_;
   std::vector<int> all_joined_;
   std::vector<std::vector<int>> neighbours_;  ///< over switches_, ascending
-  std::chrono::steady_clock::time_point stage_begin_;
+  Stopwatch stopwatch_;
   double vertex_seconds_ = 0;
   double edge_seconds_ = 0;
 };
