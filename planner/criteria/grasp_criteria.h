@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/grasp/contact.h"
@@ -46,9 +47,9 @@ struct GraspCriteria {
 
 /// A criterion that a grasp does not meet.
 struct UnmetCriterion {
-  const char* name;    ///< "quality"
-  double asked = 0;    ///< at least so much
-  double reached = 0;  ///< less than that
+  std::string_view name;  ///< "quality"
+  double asked = 0;       ///< at least so much
+  double reached = 0;     ///< less than that
 };
 /// Those that a grasp does not meet, in the order of the table.
 [[nodiscard]] std::vector<UnmetCriterion> FindUnmet(std::span<const grasp::Contact> grasp,

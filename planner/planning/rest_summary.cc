@@ -49,7 +49,7 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
     }
   }
   for (const auto& [unmet, step] : weakest) {
-    warnings.push_back(std::string("the sequence passes grasps below the ") + unmet.name + " " +
+    warnings.push_back("the sequence passes grasps below the " + std::string(unmet.name) + " " +
                        FormatShort(unmet.asked) + " that was asked for; the weakest is " +
                        name(step) + " with " + FormatShort(unmet.reached));
   }

@@ -50,7 +50,7 @@ TEST_F(GraspCriteriaTest, UnmetCriteriaAreNamedWithWhatWasAskedAndReached) {
   const double quality = QualityOf(weak_);
   const auto unmet = FindUnmet(weak_, frame_, {Radians(30), 2 * quality});
   ASSERT_EQ(unmet.size(), 1u);
-  EXPECT_STREQ(unmet[0].name, "quality");
+  EXPECT_EQ(unmet[0].name, "quality");
   EXPECT_EQ(unmet[0].asked, 2 * quality);
   EXPECT_EQ(unmet[0].reached, quality);
   EXPECT_TRUE(FindUnmet(weak_, frame_, {Radians(30), 0.5 * quality}).empty());
