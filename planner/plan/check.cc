@@ -52,7 +52,7 @@ StepCheck Skipped(int index, const char* kind) {
 }
 
 /// Enough for any plan whose aligns keep off the limit: they need tens of pieces a motion, and
-/// some stretches may need thousands.
+/// some may need thousands.
 motion::ProofBudget BudgetOf(const Plan& plan) {
   constexpr std::int64_t kUnitsOfAPlan = 200'000;
   constexpr std::int64_t kUnitsOfAContact = 250;

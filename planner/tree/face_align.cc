@@ -206,14 +206,14 @@ std::vector<grasp::Grasp> FindWaypoints(const ContactPairs& pairs, const SearchS
   return JointPath(routes).Waypoints();
 }
 
-/// Whether the grasps at the turns, where fingers wait, have some of the quality that is asked for.
+/// Whether the grasps at the turns, where fingers wait, meet some of what is asked for.
 bool AreGood(const std::vector<grasp::Grasp>& waypoints, SearchSpace& space) {
-  const double asked = space.share();
+  const double share = space.share();
   if (!space.criteria().AsksMore()) return true;
-  space.SetShare(kShareAtTurns * asked);
+  space.SetShare(kShareAtTurns * share);
   const bool good = std::all_of(waypoints.begin() + 1, waypoints.end() - 1,
                                 [&](const grasp::Grasp& grasp) { return space.IsAdmitted(grasp); });
-  space.SetShare(asked);
+  space.SetShare(share);
   return good;
 }
 

@@ -30,7 +30,7 @@ class TravelSearch {
 
   std::optional<GraspPath> Search() {
     for (;;) {
-      FindLastPaths();
+      FindLastTravels();
       const std::vector<Mask> masks = Find();
       if (masks.empty()) return std::nullopt;
       auto path = graph_.MakePath(masks);
@@ -57,13 +57,14 @@ class TravelSearch {
     }
   };
 
-  void FindLastPaths() {
-    last_path_.assign(graph_.mask_count(), kNone);
+  void FindLastTravels() {
+    last_travel_.assign(graph_.mask_count(), kNone);
     const auto any = [](Mask /*mask*/, double /*travel*/ = 0) { return true; };
-    graph_.ForEachSwitch(graph_.to(), any,
-                         [&](Mask mask) { last_path_[mask] = PathOfSwitch(mask, graph_.to()); });
+    graph_.ForEachSwitch(graph_.to(), any, [&](Mask mask) {
+      last_travel_[mask] = TravelOfSwitch(mask, graph_.to());
+    });
     graph_.ForEachAlign(graph_.to(), any, [&](Mask mask, double travel) {
-      last_path_[mask] = std::min(last_path_[mask], travel);
+      last_travel_[mask] = std::min(last_travel_[mask], travel);
     });
   }
 
@@ -91,19 +92,19 @@ class TravelSearch {
     const auto push = [&](Mask next, double travel) {
       if (label.travel + travel < bound_) queue_.push({label.travel + travel, steps, next, number});
     };
-    if (last_path_[label.mask] < kNone) push(graph_.to(), last_path_[label.mask]);
+    if (last_travel_[label.mask] < kNone) push(graph_.to(), last_travel_[label.mask]);
     if (steps >= most_steps_) return;
     const auto matters = [&](Mask next, double travel = 0) {
       return fewest_[next] > steps && label.travel + travel < bound_ &&
-             (steps + 1 < most_steps_ || last_path_[next] < kNone);
+             (steps + 1 < most_steps_ || last_travel_[next] < kNone);
     };
     graph_.ForEachSwitch(label.mask, matters,
-                         [&](Mask next) { push(next, PathOfSwitch(label.mask, next)); });
+                         [&](Mask next) { push(next, TravelOfSwitch(label.mask, next)); });
     graph_.ForEachAlign(label.mask, matters, push);
   }
 
   /// As TravelOf has it.
-  [[nodiscard]] double PathOfSwitch(Mask from, Mask to) const {
+  [[nodiscard]] double TravelOfSwitch(Mask from, Mask to) const {
     const Mask left = from & ~to;
     if (left == 0) return 0;
     double travel = 0;
@@ -132,8 +133,9 @@ class TravelSearch {
   int most_steps_;
   double bound_;
   std::vector<std::vector<double>> distances_;
-  std::vector<double> last_path_;  ///< by mask: of one step to the goal; kNone where there is none
-  std::vector<int> fewest_;        ///< by mask: steps of the paths settled so far
+  std::vector<double>
+      last_travel_;          ///< by mask: of one step to the goal; kNone where there is none
+  std::vector<int> fewest_;  ///< by mask: steps of the paths settled so far
   std::vector<Label> settled_;
   std::priority_queue<Label> queue_;
 };

@@ -44,8 +44,8 @@ void AddAlign(const std::vector<plan::FingerGrasp>& waypoints,
 }
 
 /// Of each contact of `from` that is not in `to`: from there to the nearest one that is new.
-double PathOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet& to,
-                    const SearchSpace& space) {
+double TravelOfSwitch(const criteria::ContactSet& from, const criteria::ContactSet& to,
+                      const SearchSpace& space) {
   double travel = 0;
   for (const int placed : to) {
     if (from.Has(placed)) continue;
@@ -86,7 +86,7 @@ double TravelOf(const GraspPath& path, const SearchSpace& space) {
   double travel = 0;
   const criteria::ContactSet* before = &path.start;
   for (const PathStep& step : path.steps) {
-    travel += step.align ? TravelOf(*step.align, space) : PathOfSwitch(*before, step.to, space);
+    travel += step.align ? TravelOf(*step.align, space) : TravelOfSwitch(*before, step.to, space);
     before = &step.to;
   }
   return travel;

@@ -59,7 +59,7 @@ class SubsetGraph {
   }
 
   /// All that one align may lead to, with the straight distance of all contacts together; the same
-  /// more than once where contacts can be paired in several manners.
+  /// more than once where there are several pairings.
   /// @param matters, visit  also told the distance.
   template <typename Matters, typename Visit>
   void ForEachAlign(Mask mask, const Matters& matters, const Visit& visit) {
