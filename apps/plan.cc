@@ -9,12 +9,12 @@
 #include "apps/planner_options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
+#include "planner/plan/check.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
@@ -35,6 +35,25 @@ constexpr char kRandom[] = "random";
 constexpr char kRandomAny[] = "random-any";
 
 bool IsRandom(const std::string& grasp) { return grasp == kRandom || grasp == kRandomAny; }
+
+/// "2 switches, 1 align".
+std::string StepCounts(const std::vector<plan::Step>& steps) {
+  std::string text;
+  for (const auto& [kind, several] : {std::pair("switch", "switches"), {"align", "aligns"}}) {
+    const auto n = std::ranges::count(steps, std::string(kind), plan::StepKind);
+    if (n == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + (n == 1 ? kind : several);
+  }
+  return text.empty() ? "no steps, the goal is the start" : text;
+}
+
+/// Of a plan that a planner found and `validate` would fail.
+std::string CheckerComplaint(const plan::PlanCheck& check) {
+  const auto failed = std::ranges::find_if(
+      check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
+  return "the checker fails this plan in step " + std::to_string(failed->index) + ", " +
+         failed->kind + ": " + failed->detail;
+}
 
 struct PlanProgram {
   PlannerOptions common;
@@ -59,7 +78,7 @@ struct PlanProgram {
   planning::PlanRequest RequestFor(const object::Object& object) const;
   planning::PlanResult Find(const object::ObjectFile& object) const;
   void CheckOutput() const;
-  void PrintSummary(const planning::PlanResult& result, double seconds) const;
+  void PrintSummary(const planning::PlanResult& result, const plan::PlanCheck& check) const;
 };
 
 void PlanProgram::AddTo(CLI::App& app) {
@@ -170,6 +189,8 @@ int PlanProgram::Run() const {
   result.plan->object_sha256 = object.sha256;
   result.plan->scale = common.scale;
   certificate::AddCertificates(*object.object, *result.plan);
+  const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan);
+  if (!check.passed()) result.warnings.push_back(CheckerComplaint(check));
   const std::string text = plan::FormatPlan(*result.plan);
   if (output == "-") {
     std::cout << text;
@@ -177,29 +198,21 @@ int PlanProgram::Run() const {
     WriteFile(output, text);
   }
   for (const std::string& warning : result.warnings) PrintMessage(kProgram, "warning: " + warning);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - common.begin;
-  if (!common.quiet) PrintSummary(result, time.count());
+  if (!common.quiet) PrintSummary(result, check);
   return kExitDone;
 }
 
-void PlanProgram::PrintSummary(const planning::PlanResult& result, double seconds) const {
-  const auto count = [&](const std::string& kind, const std::string& several) {
-    const auto n =
-        std::count_if(result.plan->steps.begin(), result.plan->steps.end(),
-                      [&](const plan::Step& step) { return plan::StepKind(step) == kind; });
-    return std::to_string(n) + " " + (n == 1 ? kind : several);
-  };
-  const double given = Degrees(result.plan->half_angle);
+void PlanProgram::PrintSummary(const planning::PlanResult& result,
+                               const plan::PlanCheck& check) const {
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - common.begin;
   std::string planner = result.plan->planner;
   if (const auto& note = result.plan->roadmap) {
     planner += " of " + std::to_string(note->clusters) + " clusters (start: " + note->start +
                ", goal: " + note->goal + ")";
   }
-  PrintMessage(kProgram, planner + ": " + count("switch", "switches") + ", " +
-                             count("align", "aligns") +
-                             "; the weakest grasp needs a friction half-angle of " +
-                             FormatShort(given - Degrees(result.margin)) + "° of " +
-                             FormatShort(given) + "°; " + FormatShort(seconds, 2) + " s");
+  PrintMessage(kProgram, planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
+                             plan::WeakestStepText(check.steps, result.plan->half_angle) + "; " +
+                             FormatShort(time.count(), 2) + " s");
   for (const std::string& note : result.notes) PrintMessage(kProgram, note);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "planner/base/number.h"
@@ -124,17 +123,15 @@ bool Report::passed() const {
                      [](const ReportStep& step) { return step.verdict() == Verdict::kPass; });
 }
 
-int Report::weakest_step() const {
-  int weakest = -1;
-  double largest = -std::numeric_limits<double>::infinity();
+int Report::weakest_step() const { return plan::WeakestStep(checks()); }
+
+std::vector<plan::StepCheck> Report::checks() const {
+  std::vector<plan::StepCheck> checks;
   for (const ReportStep& step : steps) {
-    if (step.skipped || !step.check.required) continue;
-    if (step.check.required->upper > largest) {
-      largest = step.check.required->upper;
-      weakest = step.check.index;
-    }
+    checks.push_back(step.check);
+    checks.back().skipped = step.skipped;
   }
-  return weakest;
+  return checks;
 }
 
 int Report::weakest_finger_step() const {

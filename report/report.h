@@ -95,6 +95,8 @@ struct Report {
   /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
   /// where no step has one.
   [[nodiscard]] int weakest_step() const;
+  /// What the analytic check says of the steps; those after a failure of the replay are skipped.
+  [[nodiscard]] std::vector<plan::StepCheck> checks() const;
   /// The step with the weakest finger of all (sim/measure/weakest_finger.h), the first of equal
   /// ones; −1 where no step has one.
   [[nodiscard]] int weakest_finger_step() const;

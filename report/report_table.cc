@@ -61,12 +61,8 @@ TextRow MakeRow(const ReportStep& step, const Columns& columns) {
 }
 
 std::string FormatWeakest(const Report& report) {
-  const int weakest = report.weakest_step();
-  if (weakest < 0) return "";
-  const ReportStep& step = report.steps[weakest];
-  return "weakest: step " + std::to_string(weakest) + " (" + step.check.kind +
-         "), which needs a friction half-angle of " + RequiredAngle(step) + " of " +
-         FormatFixed(Degrees(report.half_angle), kAngleDecimals) + " degrees\n";
+  const std::string weakest = plan::WeakestStepText(report.checks(), report.half_angle);
+  return weakest.empty() ? "" : "weakest: " + weakest + "\n";
 }
 
 /// What a finger needs, or the others without it.

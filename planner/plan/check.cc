@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/plan/check_step.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/same_grasp.h"
@@ -11,6 +13,9 @@
 namespace regrasp::plan {
 
 namespace {
+
+/// Angles for people are told to a hundredth of a degree.
+constexpr int kAngleDecimals = 2;
 
 bool Passed(const StepCheck& check) { return !check.skipped && check.reason == Reason::kNone; }
 
@@ -68,6 +73,24 @@ motion::ProofBudget BudgetOf(const Plan& plan) {
 }
 
 }  // namespace
+
+int WeakestStep(const std::vector<StepCheck>& steps) {
+  int weakest = -1;
+  for (const StepCheck& step : steps) {
+    if (step.skipped || !step.required) continue;
+    if (weakest < 0 || step.required->upper > steps[weakest].required->upper) weakest = step.index;
+  }
+  return weakest;
+}
+
+std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle) {
+  const int weakest = WeakestStep(steps);
+  if (weakest < 0) return "";
+  const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
+  return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
+         "), which needs a friction half-angle of " + degrees(steps[weakest].required->upper) +
+         " of " + degrees(half_angle) + " degrees";
+}
 
 bool PlanCheck::passed() const { return !steps.empty() && std::ranges::all_of(steps, Passed); }
 

@@ -46,6 +46,15 @@ struct CheckOptions {
   bool allow_undecided = false;
 };
 
+/// The step that needs the largest half-angle, the first of equal ones; −1 where no step that is
+/// not skipped needs one.
+[[nodiscard]] int WeakestStep(const std::vector<StepCheck>& steps);
+
+/// "step 1 (align), which needs a friction half-angle of 7.34 of 20.00 degrees", of WeakestStep;
+/// empty where there is none. All programs say it so.
+/// @param half_angle  that was checked against, radians.
+[[nodiscard]] std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle);
+
 struct PlanCheck {
   std::vector<StepCheck> steps;  ///< entry 0 the hold, then one per step
   /// The plan on the surface: every point projected, every normal its face's own, faces filled in

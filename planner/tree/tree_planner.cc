@@ -6,6 +6,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
+#include "planner/plan/check.h"
 #include "planner/planning/candidate_result.h"
 #include "planner/tree/bidirectional_tree.h"
 #include "planner/tree/face_align.h"
@@ -53,7 +54,7 @@ class TreeSearch {
     // The contacts of the path alone: the search may have come across thousands.
     SearchSpace space = MakeSpace(half_angle_, 1, effort_);
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
-    std::vector<std::string> notes = Improve(path, space);
+    std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
         planning::ResultOf(MakeCandidate(path, from, space), evaluator_, name, request_, to);
     result.notes = std::move(notes);
@@ -142,17 +143,10 @@ class TreeSearch {
     });
   }
 
-  /// @returns what was gained.
-  std::vector<std::string> Improve(GraspPath& path, SearchSpace& space) {
+  /// @returns what was gained of what was asked for.
+  std::vector<std::string> Improve(GraspPath& path, const grasp::Grasp& from, SearchSpace& space) {
     request_.progress("shortening and widening the sequence");
-    std::vector<std::string> notes;
-    const auto note = [&](const std::string& what, double before, double after,
-                          const std::string& unit) {
-      notes.push_back(what + ": " + FormatShort(before) + unit + " at first, " +
-                      FormatShort(after) + unit + " now");
-    };
-    const auto steps = static_cast<double>(path.steps.size());
-    const double before = Achieved(path, space);
+    const std::string before = Achieved(path, from, space);
     path = ShortcutPath(std::move(path), source_, random_, space);
     if (request_.objective == planning::Objective::kTravel) {
       path = MinimiseTravel(std::move(path), source_, random_, space);
@@ -160,19 +154,39 @@ class TreeSearch {
       const int more = request_.objective == planning::Objective::kMargin ? kMoreSteps : 0;
       path = MaximiseMargin(std::move(path), more, source_, random_, space);
     }
-    note("steps", steps, static_cast<double>(path.steps.size()), "");
-    const bool is_travel = request_.objective == planning::Objective::kTravel;
-    note(is_travel ? "travel of all fingers together" : "margin of the weakest grasp", before,
-         Achieved(path, space), is_travel ? " diameters of the object" : "°");
-    return notes;
+    if (before.empty()) return {};
+    return {"the first sequence had " + before + ", this one has " + Achieved(path, from, space)};
   }
 
-  /// What the objective counts: the travel over the diameter, or the margin, degrees.
-  [[nodiscard]] double Achieved(const GraspPath& path, SearchSpace& space) const {
-    if (request_.objective == planning::Objective::kTravel) {
-      return TravelOf(path, space) / object_.diameter();
+  /// What the objective counts, aligns included; empty where that is the steps, which one sees.
+  [[nodiscard]] std::string Achieved(const GraspPath& path, const grasp::Grasp& from,
+                                     const SearchSpace& space) const {
+    switch (request_.objective) {
+      case planning::Objective::kTravel:
+        return "a travel of all fingers together of " +
+               FormatShort(TravelOf(path, space) / object_.diameter()) + " diameters";
+      case planning::Objective::kMargin:
+        return "a margin of " + FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) +
+               "°";
+      default:
+        return "";
     }
-    return Degrees(half_angle_ - RequiredHalfAngleOf(path, space));
+  }
+
+  /// The half-angle that the analytic check finds a sequence to need, radians.
+  [[nodiscard]] double Needed(const GraspPath& path, const grasp::Grasp& from,
+                              const SearchSpace& space) const {
+    planning::CandidateSequence candidate = MakeCandidate(path, from, space);
+    plan::Plan plan;
+    plan.dimension = object_.dimension();
+    plan.half_angle = half_angle_;
+    plan.fingers = request_.hand.fingers;
+    plan.goal = candidate.rests.back().grasp;
+    plan.initial = std::move(candidate.initial);
+    plan.steps = std::move(candidate.steps);
+    const plan::PlanCheck check = plan::CheckPlan(object_, plan);
+    const int weakest = plan::WeakestStep(check.steps);
+    return weakest < 0 ? half_angle_ : check.steps[weakest].required->upper;
   }
 
   planning::PlanResult NoSequence(const grasp::Grasp& from, const grasp::Grasp& to) {

@@ -119,17 +119,17 @@ class General(ProgramCase):
             self.validate(body, "imitate")
 
     def test_the_summary_says_what_was_gained(self):
-        for aim in ("steps", "margin", "travel"):
-            _, done = self.plan("cube.obj", 3, "--optimize", aim, degrees="25")
-            before, after = self.gain(done, r"steps: (\S+) at first, (\S+) now")
-            self.assertLessEqual(after, before)
-            if aim == "travel":
-                before, after = self.gain(done, r"together: (\S+) diameters of the object at first, "
-                                                r"(\S+) diameters of the object now")
-                self.assertLessEqual(after, before)
-            else:
-                before, after = self.gain(done, r"grasp: (\S+)° at first, (\S+)° now")
-                self.assertGreaterEqual(after, before)
+        _, done = self.plan("cube.obj", 3, "--optimize", "travel", degrees="25")
+        before, after = self.gain(done, r"first sequence had a travel of all fingers together of "
+                                        r"(\S+) diameters, this one has .* of (\S+) diameters")
+        self.assertLessEqual(after, before)
+        _, done = self.plan("cube.obj", 3, "--optimize", "margin", degrees="25")
+        before, after = self.gain(done, r"had a margin of (\S+)°, this one has a .* of (\S+)°")
+        self.assertGreaterEqual(after, before)
+        needed, given = self.gain(done, r"half-angle of (\S+) of (\S+) degrees")
+        self.assertAlmostEqual(given - needed, after, delta=0.011)  # of two rounded numbers
+        _, done = self.plan("cube.obj", 3, "--optimize", "steps", degrees="25")
+        self.assertNotIn("the first sequence", done.stderr)
         margin, _ = self.plan("cube.obj", 3, "--optimize", "margin", degrees="25")
         steps, _ = self.plan("cube.obj", 3, "--optimize", "steps", degrees="25")
         self.assertLessEqual(len(steps["steps"]), len(margin["steps"]))

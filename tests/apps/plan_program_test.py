@@ -175,10 +175,33 @@ class Plan(ProgramCase):
     def test_summary_counts_switches_and_aligns(self):
         done = self.assert_done(*self.polygon_arguments())
         steps = [step["kind"] for step in json.loads(self.read("plan.json"))["steps"]]
-        counted = re.search(r"(\d+) switch(?:es)?, (\d+) aligns?; the weakest grasp needs",
-                            done.stderr)
-        self.assertEqual([int(count) for count in counted.groups()],
-                         [steps.count("switch"), steps.count("align")])
+        counted = dict(reversed(found) for found in
+                       re.findall(r"(\d+) (switch|align)(?:es|s)?[,;] ", done.stderr))
+        self.assertEqual({kind: int(count) for kind, count in counted.items()},
+                         {kind: steps.count(kind) for kind in set(steps)})
+
+    def test_tells_the_margin_that_validate_tells(self):
+        weakest = []
+        for model, arguments in (("cube.obj", self.arguments(contacts=None)),
+                                 ("stone.obj", self.arguments(
+                                     object=self.model("stone.obj"), contacts=None,
+                                     start=self.model("stone.start.json"),
+                                     goal=self.model("stone.goal.json"))),
+                                 ("polygon15.wkt", self.polygon_arguments(planner="polygon"))):
+            with self.subTest(model=model):
+                said = self.assert_done(*arguments).stderr
+                told = re.search(r"weakest: (step (\d+) \((\w+)\), which needs a friction "
+                                 r"half-angle of (\S+) of 20\.00 degrees); ", said)
+                checked = self.assert_done(
+                    "--object", self.model(model), "--plan", "plan.json", "--out", "result",
+                    "--no-frames", program="validate").stdout
+                self.assertIn(f"weakest: {told[1]}\n", checked)
+                margin = self.report()["margins"]["friction"]
+                self.assertEqual((margin["step"], f"{margin['required_half_angle_deg']:.2f}"),
+                                 (int(told[2]), told[4]))
+                weakest.append(told[3])
+        # Where grasps at rest alone are looked at, the number is another one.
+        self.assertGreaterEqual(weakest.count("align"), 2)
 
     def test_uniform_spanning_leaves_grasps_out_that_adaptive_has(self):
         # The normals of this triangle span with cones of half-angle below 30°. Two fingers of the
@@ -226,7 +249,8 @@ class Plan(ProgramCase):
 
     def test_summary_goes_to_standard_error_and_quiet_is_silent(self):
         done = self.assert_done(*self.arguments())
-        self.assertIn("switches, 0 aligns; the weakest grasp needs", done.stderr)
+        self.assertIn("switches; weakest: step ", done.stderr)
+        self.assertNotIn("0 aligns", done.stderr)
         self.assertEqual(done.stdout, "")
         quiet = self.assert_done(*self.arguments(), "--quiet")
         self.assertEqual(quiet.stderr + quiet.stdout, "")

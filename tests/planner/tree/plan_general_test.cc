@@ -30,7 +30,7 @@ TEST_P(PlanGeneralOnModel, RandomGraspsAreJoinedByGoodGraspsAndTheCheckerPasses)
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     EXPECT_THAT(result.warnings, testing::IsEmpty());
     EXPECT_GT(result.margin, 0);
-    EXPECT_THAT(result.notes, SizeIs(2));
+    EXPECT_THAT(result.notes, testing::IsEmpty());
     ExpectGoodPlan(TreePlanner(), *file.object, result);
   }
 }
@@ -168,10 +168,9 @@ TEST(PlanGeneralTest, ObjectivesAreWhatTheySay) {
     ASSERT_TRUE(steps.plan && margin.plan && travel.plan);
     EXPECT_LE(steps.plan->steps.size(), margin.plan->steps.size());
     wider += margin.margin - steps.margin;
-    for (const planning::PlanResult* result : {&steps, &margin, &travel}) {
-      const char* gained = result == &travel ? "travel of all fingers" : "margin ";
-      EXPECT_THAT(result->notes, ElementsAre(HasSubstr("steps: "), HasSubstr(gained)));
-    }
+    EXPECT_THAT(steps.notes, testing::IsEmpty());
+    EXPECT_THAT(margin.notes, ElementsAre(HasSubstr("a margin of ")));
+    EXPECT_THAT(travel.notes, ElementsAre(HasSubstr("travel of all fingers")));
     EXPECT_TRUE(plan::CheckPlan(*file.object, *travel.plan).passed());
     EXPECT_TRUE(plan::CheckPlan(*file.object, *margin.plan).passed());
   }
