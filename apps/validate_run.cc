@@ -20,6 +20,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/object/reading.h"
 #include "planner/plan/plan_io.h"
+#include "report/failure.h"
 #include "report/junit.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
@@ -306,7 +307,12 @@ int RunValidation(const ValidateOptions& options) {
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
-  if (!options.quiet) std::cout << report::FormatReportTable(report);
+  if (!options.quiet) {
+    std::cout << report::FormatReportTable(report);
+  } else if (const auto failure = report::DescribeFailure(report)) {
+    PrintMessage(kValidateName,
+                 failure->what + ": " + failure->why + "; what would mend it: " + failure->mend);
+  }
   return report.passed() ? kExitDone : kExitNegative;
 }
 

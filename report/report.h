@@ -142,8 +142,8 @@ void AddProofs(const plan::Plan& located, Report& report);
 [[nodiscard]] std::string FormatReportJson(const Report& report);
 
 /// A readable table: a line per step with required half-angle, displacement, slip and verdict, and
-/// the contact region in plans where a step has one; then why a step failed, the weakest step, and
-/// the verdict.
+/// the contact region in plans where a step has one, and the verdict. A plan that fails says first
+/// what failed, why and what would mend it (failure.h); one that passes says what is weakest.
 [[nodiscard]] std::string FormatReportTable(const Report& report);
 
 }  // namespace regrasp::report

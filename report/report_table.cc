@@ -6,6 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
+#include "report/failure.h"
 #include "report/report.h"
 #include "report/stress_table.h"
 #include "report/trials_report.h"
@@ -83,23 +84,13 @@ std::string FormatGraspLines(const Report& report) {
          NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction half-angle of ");
 }
 
-std::string FormatFailure(const Report& report) {
-  for (const ReportStep& step : report.steps) {
-    if (step.verdict() == Verdict::kFail && !step.detail().empty()) {
-      return "step " + std::to_string(step.check.index) + ": " + step.detail() + "\n";
-    }
-  }
-  return "";
-}
-
+/// Of steps that pass: why one fails is told with its failure.
 std::string FormatCauses(const Report& report) {
   std::string text;
   for (const ReportStep& step : report.steps) {
-    if (!step.disagreement) continue;
-    const bool fixed = step.disagreement->between == sim::Between::kFixedFails;
-    text += "step " + std::to_string(step.check.index) + ": " +
-            (fixed ? "a fixed squeeze fails, " : "") + "likely cause: " + step.disagreement->text +
-            "\n";
+    if (!step.disagreement || step.disagreement->between != sim::Between::kFixedFails) continue;
+    text += "step " + std::to_string(step.check.index) +
+            ": a fixed squeeze fails, likely cause: " + step.disagreement->text + "\n";
   }
   return text;
 }
@@ -114,12 +105,22 @@ std::string FormatWeakestFinger(const Report& report) {
          NeedText(need.friction, report.half_angle, "");
 }
 
+/// What is weakest in a plan that passes. One that fails has something weaker, which is told first.
+std::string FormatWeakestOfPlan(const Report& report) {
+  return report.passed() ? FormatWeakest(report) + FormatWeakestFinger(report) : "";
+}
+
 std::string FormatUndecided(const Report& report) {
   long undecided = 0;
   for (const ReportStep& step : report.steps) undecided += step.check.undecided;
   if (undecided == 0) return "";
   return "undecided: " + std::to_string(undecided) +
          " pieces of aligns, a millionth of the path each\n";
+}
+
+std::string FormatVerdict(const Report& report) {
+  const auto failure = DescribeFailure(report);
+  return "verdict: " + (failure ? "fail, " + failure->what : "pass") + "\n";
 }
 
 std::string FormatTrials(const Report& report) {
@@ -139,10 +140,9 @@ std::string FormatReportTable(const Report& report) {
   if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
-  return FormatRows(rows) + FormatFailure(report) + FormatCauses(report) + FormatUndecided(report) +
-         (report.grasp ? FormatGraspLines(report) : FormatWeakest(report)) +
-         FormatWeakestFinger(report) + FormatStressTable(report) + FormatTrials(report) +
-         "verdict: " + (report.passed() ? "pass" : "fail") + "\n";
+  return FormatFailure(report) + FormatRows(rows) + FormatCauses(report) + FormatUndecided(report) +
+         (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
+         FormatStressTable(report) + FormatTrials(report) + FormatVerdict(report);
 }
 
 }  // namespace regrasp::report

@@ -9,6 +9,7 @@
 #include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/motion_fault.h"
+#include "planner/plan/off_surface.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/plan/tolerance.h"
@@ -30,9 +31,14 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, const s
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
     if (held.contact.face.valid()) continue;
+    // No other fault comes before it, and each takes a search of the surface to tell.
+    if (fault.reason() == Reason::kOffSurface) return;
     // Located contacts without a face are as given: looking again tells why.
     const LocatedContact located = LocateContact(context.object, held.contact);
-    fault.Add(located.reason, At(place, held.finger) + ": " + located.detail);
+    fault.Add(located.reason, At(place, held.finger) + ": " +
+                                  (located.reason == Reason::kOffSurface
+                                       ? OffSurfaceText(context.object, held.contact.p)
+                                       : located.detail));
   }
 }
 

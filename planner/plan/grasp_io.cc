@@ -4,6 +4,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/contact_json.h"
 #include "planner/plan/locate.h"
+#include "planner/plan/off_surface.h"
 
 namespace regrasp::plan {
 
@@ -15,7 +16,7 @@ grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& obje
   const double tolerance = object::kPointTolerance * object.diameter();
   const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) {
-    json.Member("point").Fail("farther than " + FormatShort(tolerance) + " from the surface");
+    json.Member("point").Fail(OffSurfaceText(object, point));
   }
   const FaceIndex face = faces.front();
   if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
@@ -30,7 +31,9 @@ grasp::Contact ReadOnObject(const JsonReader& json, const object::Object& object
     return ContactOfPoint(json, object, json.Member("point").Vector(object.dimension()));
   }
   const LocatedContact located = LocateContact(object, ReadContact(json, object.dimension()));
-  if (located.reason == Reason::kOffSurface) json.Member("point").Fail(located.detail);
+  if (located.reason == Reason::kOffSurface) {
+    json.Member("point").Fail(OffSurfaceText(object, located.contact.p));
+  }
   if (located.reason != Reason::kNone) json.Member("normal").Fail(located.detail);
   return located.contact;
 }

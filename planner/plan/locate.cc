@@ -21,6 +21,13 @@ bool IsUnit(const Eigen::Vector3d& normal) {
   return std::abs(normal.norm() - 1) <= kNormalLengthTolerance;
 }
 
+/// "(0, 0.6, -0.8)"; of a planar object two numbers.
+std::string VectorText(const Eigen::Vector3d& v, int dimension) {
+  std::string text = "(";
+  for (int k = 0; k < dimension; ++k) text += (k == 0 ? "" : ", ") + FormatShort(v[k]);
+  return text + ")";
+}
+
 /// Angles between the contact's normal and those of faces near it, nearest first.
 std::vector<std::pair<double, FaceIndex>> RankFaces(const std::vector<FaceIndex>& faces,
                                                     const object::Object& object,
@@ -46,7 +53,6 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
   const std::vector<FaceIndex> faces = object.FacesNear(contact.p, tolerance);
   if (faces.empty()) {
     located.reason = Reason::kOffSurface;
-    located.detail = "farther than " + FormatShort(tolerance) + " from the surface";
     return located;
   }
   if (!IsUnit(contact.n)) {
@@ -58,7 +64,8 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
   if (!(least <= kNormalTolerance)) {
     located.reason = Reason::kWrongNormal;
     located.detail = "the normal differs by " + FormatShort(Degrees(least)) +
-                     " degrees from the inward normal of face " + std::to_string(nearest);
+                     " degrees from the inward normal of face " + std::to_string(nearest) + ", " +
+                     VectorText(object.inward_normal(nearest), object.dimension());
     return located;
   }
   located.contact = Project(object, contact, nearest);

@@ -15,7 +15,7 @@ struct LocatedContact {
   /// −1 where it has none.
   grasp::Contact contact;
   Reason reason = Reason::kNone;  ///< kOffSurface or kWrongNormal where it has no face
-  std::string detail;             ///< how far off, for people
+  std::string detail;             ///< of a wrong normal, how far off, for people
 };
 
 /// Finds the face of a contact: among the faces within kPointTolerance · D of the point, the one

@@ -7,6 +7,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -194,6 +195,33 @@ class Validate(ProgramCase):
     def test_quiet_prints_nothing(self):
         done, _ = self.assert_passes("--quiet", "--no-frames")
         self.assertEqual(done.stdout + done.stderr, "")
+
+    def test_a_failed_plan_says_first_what_failed_why_and_what_would_mend_it(self):
+        contact = self.plan["initial"]["contacts"][0]
+        contact["point"][0] += 0.004
+        self.write_plan()
+        done = self.run_program(*self.arguments("--no-frames"))
+        said = done.stdout.splitlines()
+        self.assertEqual(said[0], "step 0 (hold) fails: off-surface")
+        self.assertRegex(said[1], r"^  why: finger \d: 0\.004 of the object file's units off the "
+                                  r"surface, 0\.03849 of the object's diameter")
+        self.assertRegex(said[2], r"^  what would mend it: .*surface")
+        self.assertEqual(said[-1], "verdict: fail, " + said[0])
+        self.assertNotIn("weakest", done.stdout)
+        quiet = self.run_program(*self.arguments("--no-frames", "--quiet"))
+        self.assertEqual((quiet.returncode, quiet.stdout), (1, ""))
+        self.assertTrue(quiet.stderr.startswith("validate: " + said[0]), quiet.stderr)
+        self.assertEqual(quiet.stderr.count("\n"), 1)
+
+    def test_the_friction_that_a_failed_plan_asks_for_passes_the_analytic_check(self):
+        done = self.run_program(*self.arguments("--no-frames", friction_angle="2"))
+        self.assertEqual(done.returncode, 1)
+        asked = re.search(r"--friction-angle (\S+) or --mu", done.stdout)[1]
+        self.run_program(*self.arguments("--no-frames", friction_angle=asked))
+        step = self.report()["steps"][0]
+        self.assertTrue(step["force_closure"]["holds"])
+        self.run_program(*self.arguments("--no-frames", friction_angle=str(float(asked) - 0.02)))
+        self.assertFalse(self.report()["steps"][0]["force_closure"]["holds"])
 
     def test_the_folder_is_named_after_the_plan_where_none_is_given(self):
         self.assert_done(*self.arguments("--no-frames", out=None))

@@ -66,9 +66,14 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
   const std::string good = R"({"point": [1, 0, 0], "normal": [-1, 0, 0]})";
   ASSERT_EQ(Complaint(good, cube), "");
   EXPECT_EQ(Complaint(R"({"point": [1.001, 0, 0], "normal": [-1, 0, 0]})", cube),
-            "grasp.json: /contacts/0/point: farther than 3.464e-06 from the surface");
+            "grasp.json: /contacts/0/point: 0.001 of the object file's units off the surface, "
+            "0.0002887 of the object's diameter; up to 1e-06 of it counts as on it");
   EXPECT_EQ(Complaint(R"({"point": [0.9, 0, 0]})", cube),
-            "grasp.json: /contacts/0/point: farther than 3.464e-06 from the surface");
+            "grasp.json: /contacts/0/point: 0.1 of the object file's units off the surface, "
+            "0.02887 of the object's diameter; up to 1e-06 of it counts as on it");
+  EXPECT_EQ(Complaint(R"({"point": [1e9, 0, 0]})", cube),
+            "grasp.json: /contacts/0/point: more than 1000 of the object's diameters off the "
+            "surface; up to 1e-06 of it counts as on it");
   EXPECT_EQ(Complaint(good + R"(, {"point": [1, 0, 0], "normal": [1, 0, 0]})", cube)
                 .find("grasp.json: /contacts/1/normal: the normal differs by 180 degrees"),
             0u);
