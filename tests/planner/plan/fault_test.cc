@@ -25,13 +25,9 @@ StepCheck FailedStep(const std::function<void(Plan&)>& change, const CheckOption
 }
 
 FingerGrasp& Placed(Plan& plan) { return std::get<Switch>(plan.steps[0]).place; }
-std::vector<FingerGrasp>& Waypoints(Plan& plan) {
-  return std::get<Align>(plan.steps[2]).waypoints;
-}
+std::vector<FingerGrasp>& Waypoints(Plan& plan) { return std::get<Align>(plan.steps[2]).waypoints; }
 
-double Distance(const Fault& fault) {
-  return (fault.found->p - fault.expected.at(0).p).norm();
-}
+double Distance(const Fault& fault) { return (fault.found->p - fault.expected.at(0).p).norm(); }
 
 TEST(Fault, OfAPlanThatPassesIsEmpty) {
   for (const StepCheck& step : CheckPlan(MakeCube(), CubePlan()).steps) {
@@ -93,9 +89,7 @@ TEST(Fault, NamesTheFingersOfItsReason) {
       {[&](Plan& plan) { plan.initial[1].contact = plan.initial[0].contact; },
        Reason::kCoincidentFingers,
        {first, second}},
-      {[&](Plan& plan) { Waypoints(plan)[1].pop_back(); },
-       Reason::kDiscontinuous,
-       {last}},
+      {[&](Plan& plan) { Waypoints(plan)[1].pop_back(); }, Reason::kDiscontinuous, {last}},
   };
   for (const Case& one : cases) {
     const StepCheck step = FailedStep(one.change);
@@ -106,7 +100,8 @@ TEST(Fault, NamesTheFingersOfItsReason) {
 }
 
 TEST(Fault, OfAnAlignHasItsWaypointAndWhereTheFingerWas) {
-  const StepCheck jumps = FailedStep([](Plan& plan) { Waypoints(plan)[0][0].contact.p.y() += 0.25; });
+  const StepCheck jumps =
+      FailedStep([](Plan& plan) { Waypoints(plan)[0][0].contact.p.y() += 0.25; });
   EXPECT_EQ(jumps.reason, Reason::kDiscontinuous);
   EXPECT_EQ(jumps.fault.waypoint, 0);
   EXPECT_NEAR(Distance(jumps.fault), 0.25, 1e-12);
