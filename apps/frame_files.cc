@@ -75,7 +75,8 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
   const std::vector<plan::Snapshot> snapshots = RestsOf(report);
   if (snapshots.empty()) return pictures;
   render::FrameOptions frame = options;
-  if (object.dimension() == 2) frame.thickness = RelativeThickness(report);
+  if (object.dimension() == 2) frame.body.thickness = RelativeThickness(report);
+  frame.finger_radius = report.finger_radius;
   render::FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
   const auto count = static_cast<int>(snapshots.size());
   render::ContactSheet sheet(count, frame.width, frame.height);

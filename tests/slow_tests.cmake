@@ -4,6 +4,7 @@
 set(regrasp_slow_tests
   apps.batch
   apps.endurance
+  apps.frames
   apps.general
   apps.meshes
   apps.models

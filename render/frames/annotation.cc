@@ -10,6 +10,7 @@
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/label_layout.h"
+#include "render/picture/plane_geometry.h"
 #include "render/picture/round_length.h"
 
 namespace regrasp::render {
@@ -28,8 +29,12 @@ constexpr double kLongestBar = 0.20;
 constexpr double kNumberSize = 1.2;
 constexpr double kLabelRadius = 0.66;
 constexpr double kHalo = 0.32;
+constexpr double kLeaderWidth = 0.08;
 constexpr double kRingGap = 0.36;
 constexpr double kRingWidth = 0.14;
+
+/// A number this near to its finger needs no line to it, in radii of a label.
+constexpr double kBeside = 2.6;
 
 /// Labels should not cover these; to cover a cone is a lesser evil.
 constexpr double kFingerWeight = 1;
@@ -84,18 +89,37 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
   return obstacles;
 }
 
+/// A line from a number to its finger's ball, where it does not stand beside the finger.
+void DrawLeader(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, const Vector2d& number,
+                double font) {
+  const Vector2d ball = camera.Project(glyph.ball);
+  if (DistanceToSegment(number, ball, camera.Project(glyph.end)) < kBeside * kLabelRadius * font) {
+    return;
+  }
+  const Vector2d along = (ball - number).normalized();
+  const Vector2d from = number + kLabelRadius * font * along;
+  for (const bool white : {true, false}) {
+    cairo_move_to(cr, from.x(), from.y());
+    cairo_line_to(cr, ball.x(), ball.y());
+    Stroke(cr, white ? kWhite : NumberColor(glyph.finger), (white ? 2.4 : 1) * kLeaderWidth * font);
+  }
+}
+
 void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph> fingers,
                  std::vector<Obstacle> text, double font) {
   std::vector<LabelAnchor> anchors;
   for (const FingerGlyph& glyph : fingers) {
     const Vector2d anchor = camera.Project(glyph.end);
-    anchors.push_back({anchor, anchor - camera.Project(glyph.contact)});
+    anchors.push_back({anchor, anchor - camera.Project(glyph.contact), camera.Project(glyph.ball)});
   }
   std::vector<Obstacle> obstacles = ObstaclesOf(camera, fingers);
   obstacles.insert(obstacles.end(), text.begin(), text.end());
   const std::vector<Vector2d> centres =
       PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
   SelectFont(cr, kNumberSize * font, /*bold=*/true);
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    DrawLeader(cr, camera, fingers[i], centres[i], font);
+  }
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].finger),
                 kHalo * font);

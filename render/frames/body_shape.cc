@@ -2,13 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
-#include "planner/base/angle.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polygon_triangulation.h"
 #include "planner/object/polyhedron.h"
@@ -19,157 +19,167 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Faces that meet at a smaller angle than this look like one: no edge is drawn.
-constexpr double kFeatureAngle = Radians(5);
-
 /// The top of a prism above the plane of the contacts, in diameters: rays in that plane meet the
 /// walls and not their rims.
 constexpr double kTop = 1e-3;
 
-/// Where a wedge lies above the plane of the contacts: on the prism's top, clear of it in the depth
-/// buffer, and below the middle of a force arrow's surface.
-constexpr double kWedgeBottom = 1.8e-3, kWedgeTop = 2.6e-3;
+/// In diameters.
+constexpr double kLongestScratch = 0.3;
 
-/// Segments of the cone's rim: its outline is within 0.1 % of a circle.
-constexpr int kConeSegments = 72;
+struct IndexedMesh {
+  std::vector<Vector3d> vertices;
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 
-/// Moves points of the object to the shape's frame.
-struct Normaliser {
-  Vector3d centroid;
-  double diameter;
-  Vector3d operator()(const Vector3d& p) const { return (p - centroid) / diameter; }
+  /// Twice the area, outward.
+  [[nodiscard]] Vector3d AreaNormal(std::size_t triangle) const {
+    const auto& [a, b, c] = triangles[triangle];
+    return (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
+  }
 };
 
-BodyShape MakeSolidShape(const object::Polyhedron& body, const Normaliser& place) {
-  BodyShape shape;
-  const std::vector<Vector3d>& vertices = body.vertices();
-  for (const auto& [a, b, c] : body.triangles()) {
-    shape.surface.AddFlat(place(vertices[a]), place(vertices[b]), place(vertices[c]));
-  }
-  std::map<std::pair<int, int>, std::vector<FaceIndex>> faces_of_edge;
-  for (FaceIndex face{0}; face < body.face_count(); ++face) {
-    for (const auto& [a, b] : body.faces()[face].border) {
-      faces_of_edge[std::minmax(a, b)].push_back(face);
+IndexedMesh MeshOf(const object::Polyhedron& solid) {
+  return {solid.vertices(), solid.triangles()};
+}
+
+/// A prism of `thickness`, a length, below the polygon.
+IndexedMesh MeshOf(const object::Polygon& polygon, double thickness) {
+  IndexedMesh mesh;
+  const double top = kTop * polygon.diameter();
+  for (const double z : {top, top - thickness}) {
+    for (const auto& ring : polygon.rings()) {
+      for (const Eigen::Vector2d& p : ring) mesh.vertices.emplace_back(p.x(), p.y(), z);
     }
   }
-  for (const auto& [edge, faces] : faces_of_edge) {
-    const Vector3d n = body.inward_normal(faces.front());
-    const double cosine = n.dot(body.inward_normal(faces.back()));
-    if (faces.size() == 2 && cosine > std::cos(kFeatureAngle)) continue;
-    shape.edges.push_back({place(vertices[edge.first]), place(vertices[edge.second])});
-  }
-  return shape;
-}
-
-BodyShape MakePrismShape(const object::Polygon& polygon, double thickness,
-                         const Normaliser& place) {
-  BodyShape shape;
-  const Vector3d top = kTop * Vector3d::UnitZ();
-  const Vector3d bottom = top - thickness * Vector3d::UnitZ();
-  std::vector<Vector3d> vertices;
-  for (const auto& ring : polygon.rings()) {
-    for (const Eigen::Vector2d& p : ring) vertices.push_back(place(Vector3d(p.x(), p.y(), 0)));
-  }
+  const int count = static_cast<int>(mesh.vertices.size()) / 2;
   for (const auto& [i, j, k] : object::TriangulatePolygon(polygon)) {
-    const std::array<Vector3d, 3> p = {vertices[i], vertices[j], vertices[k]};
-    shape.surface.AddFlat(p[0] + top, p[1] + top, p[2] + top);
-    shape.surface.AddFlat(p[0] + bottom, p[2] + bottom, p[1] + bottom);
+    mesh.triangles.push_back({i, j, k});
+    mesh.triangles.push_back({i + count, k + count, j + count});
   }
-  for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
-    const auto [from, to] = polygon.edge(face);
-    const Vector3d a = place(from);
-    const Vector3d b = place(to);
-    shape.surface.AddFlat(a + bottom, b + bottom, b + top);
-    shape.surface.AddFlat(a + bottom, b + top, a + top);
-    shape.edges.push_back({a + bottom, b + bottom});
-    shape.edges.push_back({a + top, b + top});
-    shape.edges.push_back({a + bottom, a + top});
-  }
-  return shape;
-}
-
-}  // namespace
-
-void FacetMesh::AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  triangles.push_back({a, b, c});
-  normals.push_back({normal, normal, normal});
-}
-
-FacetMesh TurnInsideOut(FacetMesh mesh) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    std::swap(mesh.normals[i][1], mesh.normals[i][2]);
-    for (Vector3d& normal : mesh.normals[i]) normal = -normal;
+  int first = 0;
+  for (const auto& ring : polygon.rings()) {
+    const int size = static_cast<int>(ring.size());
+    for (int i = 0; i < size; ++i) {
+      const int a = first + i;
+      const int b = first + (i + 1) % size;
+      mesh.triangles.push_back({a + count, b + count, b});
+      mesh.triangles.push_back({a + count, b, a});
+    }
+    first += size;
   }
   return mesh;
 }
 
-BodyShape MakeBodyShape(const object::Object& object, double thickness) {
-  const Normaliser place = {object.mass_properties().centroid, object.diameter()};
-  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
-    return MakePrismShape(*polygon, thickness, place);
+std::vector<Vector3d> UnitNormals(const IndexedMesh& mesh) {
+  std::vector<Vector3d> normals;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    normals.push_back(mesh.AreaNormal(t).normalized());
   }
-  return MakeSolidShape(dynamic_cast<const object::Polyhedron&>(object), place);
+  return normals;
 }
 
-FacetMesh MakeCone(double half_angle, double slant) {
-  FacetMesh cone;
-  const double sine = std::sin(half_angle);
-  const double cosine = std::cos(half_angle);
-  const auto rim = [&](double i) -> Vector3d {
-    const double angle = 2 * std::numbers::pi * i / kConeSegments;
-    return slant * Vector3d(sine * std::cos(angle), sine * std::sin(angle), cosine);
+/// At each corner the mean, by area, of the facets around it that turn away by no more than the
+/// crease angle.
+FacetMesh ShadeSmoothly(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
+                        double crease_angle) {
+  std::vector<std::vector<std::size_t>> around(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int vertex : mesh.triangles[t]) around[vertex].push_back(t);
+  }
+  const double least_cosine = std::cos(crease_angle);
+  FacetMesh surface;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Vector3d, 3> corners;
+    std::array<Vector3d, 3> corner_normals;
+    for (int i = 0; i < 3; ++i) {
+      const int vertex = mesh.triangles[t][i];
+      corners[i] = mesh.vertices[vertex];
+      Vector3d sum = Vector3d::Zero();
+      for (const std::size_t other : around[vertex]) {
+        if (normals[other].dot(normals[t]) >= least_cosine) sum += mesh.AreaNormal(other);
+      }
+      corner_normals[i] = sum.norm() > 0 ? Vector3d(sum.normalized()) : normals[t];
+    }
+    surface.Add(corners, corner_normals);
+  }
+  return surface;
+}
+
+/// The angle that the surface turns by where facets meet; π where they are not two.
+double TurnAt(const std::vector<std::size_t>& facets, const std::vector<Vector3d>& normals) {
+  if (facets.size() != 2) return std::numbers::pi;
+  const Vector3d& a = normals[facets[0]];
+  const Vector3d& b = normals[facets[1]];
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Leaves out creases that hang together in short trees: on a coarse mesh of a round body they are
+/// scratches in the middle of a surface. Loops, however small, stay.
+std::vector<std::pair<int, int>> WithoutScratches(const IndexedMesh& mesh,
+                                                  const std::vector<std::pair<int, int>>& creases) {
+  boost::disjoint_sets_with_storage<> joined(mesh.vertices.size());
+  for (const auto& [a, b] : creases) joined.union_set(a, b);
+  struct Group {
+    std::set<int> vertices;
+    int edges = 0;
+    double length = 0;
   };
-  const auto normal = [&](double i) -> Vector3d {
-    const double angle = 2 * std::numbers::pi * i / kConeSegments;
-    return {cosine * std::cos(angle), cosine * std::sin(angle), -sine};
+  std::map<std::size_t, Group> by_root;
+  for (const auto& [a, b] : creases) {
+    Group& group = by_root[joined.find_set(a)];
+    group.vertices.insert({a, b});
+    ++group.edges;
+    group.length += (mesh.vertices[a] - mesh.vertices[b]).norm();
+  }
+  std::vector<std::pair<int, int>> kept;
+  std::ranges::copy_if(creases, std::back_inserter(kept), [&](const auto& edge) {
+    const Group& group = by_root[joined.find_set(edge.first)];
+    const bool is_tree = group.edges < static_cast<int>(group.vertices.size());
+    return !is_tree || group.length > kLongestScratch;
+  });
+  return kept;
+}
+
+void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
+              const BodyOptions& options, BodyShape& shape) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> facets_of_edge;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
+      facets_of_edge[edge].push_back(t);
+    }
+  }
+  const bool all = options.edges == EdgeStyle::kAll;
+  const double least = all ? object::kCoplanarAngle : options.crease_angle;
+  const auto ends = [&](const std::pair<int, int>& edge) {
+    return std::array<Vector3d, 2>{mesh.vertices[edge.first], mesh.vertices[edge.second]};
   };
-  for (int i = 0; i < kConeSegments; ++i) {
-    cone.triangles.push_back({Vector3d::Zero(), rim(i + 1), rim(i)});
-    cone.normals.push_back({normal(i + 0.5), normal(i + 1), normal(i)});
-    cone.AddFlat({0, 0, slant * cosine}, rim(i), rim(i + 1));
+  std::vector<std::pair<int, int>> creases;
+  for (const auto& [edge, facets] : facets_of_edge) {
+    const double turn = TurnAt(facets, normals);
+    if (turn > least) creases.push_back(edge);
+    if (turn > object::kCoplanarAngle && facets.size() == 2) {
+      shape.folds.push_back({ends(edge), {normals[facets[0]], normals[facets[1]]}});
+    }
   }
-  return cone;
+  for (const auto& edge : all ? creases : WithoutScratches(mesh, creases)) {
+    shape.edges.push_back(ends(edge));
+  }
 }
 
-FacetMesh MakeWedge(double half_angle, double slant) {
-  FacetMesh wedge;
-  const double x = slant * std::sin(half_angle);
-  const double z = slant * std::cos(half_angle);
-  const std::array<Vector3d, 3> corners = {Vector3d::Zero(), Vector3d(x, 0, z), Vector3d(-x, 0, z)};
-  const Vector3d low = kWedgeBottom * Vector3d::UnitY(), high = kWedgeTop * Vector3d::UnitY();
-  const auto& [a, b, c] = corners;
-  wedge.AddFlat(a + high, c + high, b + high);
-  wedge.AddFlat(a + low, b + low, c + low);
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d& p = corners[i];
-    const Vector3d& q = corners[(i + 1) % 3];
-    wedge.AddFlat(p + low, p + high, q + high);
-    wedge.AddFlat(p + low, q + high, q + low);
-  }
-  return wedge;
-}
+}  // namespace
 
-double RayDistance(const FacetMesh& mesh, const Vector3d& origin, const Vector3d& direction,
-                   double skip) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b, c] : mesh.triangles) {
-    // Möller and Trumbore 1997.
-    const Vector3d u = b - a;
-    const Vector3d v = c - a;
-    const Vector3d p = direction.cross(v);
-    const double determinant = u.dot(p);
-    if (determinant == 0) continue;
-    const Vector3d s = origin - a;
-    const double alpha = s.dot(p) / determinant;
-    const Vector3d q = s.cross(u);
-    const double beta = direction.dot(q) / determinant;
-    const double distance = v.dot(q) / determinant;
-    const bool inside = alpha >= 0 && beta >= 0 && alpha + beta <= 1;
-    if (inside && distance > skip) nearest = std::min(nearest, distance);
+BodyShape MakeBodyShape(const object::Object& object, const BodyOptions& options) {
+  const auto* polygon = dynamic_cast<const object::Polygon*>(&object);
+  IndexedMesh mesh = polygon != nullptr ? MeshOf(*polygon, options.thickness * object.diameter())
+                                        : MeshOf(dynamic_cast<const object::Polyhedron&>(object));
+  for (Vector3d& p : mesh.vertices) {
+    p = (p - object.mass_properties().centroid) / object.diameter();
   }
-  return nearest;
+  const std::vector<Vector3d> normals = UnitNormals(mesh);
+  BodyShape shape;
+  shape.surface = ShadeSmoothly(mesh, normals, options.crease_angle);
+  if (options.edges != EdgeStyle::kNone) AddEdges(mesh, normals, options, shape);
+  return shape;
 }
 
 }  // namespace regrasp::render

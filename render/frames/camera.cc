@@ -9,6 +9,9 @@ namespace regrasp::render {
 
 namespace {
 
+/// Of an orthographic camera from the scene's centre: far enough to be outside, whatever the view.
+constexpr double kOrthographicDistance = 10;
+
 /// Where a camera must be along one image axis and how far back, to see coordinates `a` within
 /// slopes −`low` and `high` of its line of sight.
 struct AxisFit {
@@ -27,14 +30,54 @@ struct AxisFit {
   }
 };
 
+/// How far from the line of sight points may be, in half-heights of the picture.
+struct Slopes {
+  double side, top, bottom;
+};
+
+void FitPerspective(const Slopes& slopes, std::span<const Eigen::Vector3d> points, Camera& camera) {
+  const double t = kTanHalfHeight;
+  AxisFit horizontal = {t * slopes.side, t * slopes.side};
+  AxisFit vertical = {t * slopes.top, t * slopes.bottom};
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = camera.axes.transpose() * point;
+    horizontal.Add(p.x(), p.z());
+    vertical.Add(p.y(), p.z());
+  }
+  const double d = std::max(horizontal.Distance(), vertical.Distance());
+  camera.half_height = t;
+  camera.position = camera.axes * Eigen::Vector3d(horizontal.Centre(d), vertical.Centre(d), d);
+}
+
+void FitOrthographic(const Slopes& slopes, std::span<const Eigen::Vector3d> points,
+                     Camera& camera) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& point : points) {
+    box.extend(Eigen::Vector2d((camera.axes.transpose() * point).head<2>()));
+  }
+  const Eigen::Vector2d size = box.sizes();
+  const double half =
+      std::max(size.x() / (2 * slopes.side), size.y() / (slopes.top + slopes.bottom));
+  // The scene sits in the middle of the space that is left.
+  const double y = box.center().y() - half * (slopes.top - slopes.bottom) / 2;
+  camera.half_height = half;
+  camera.position = camera.axes * Eigen::Vector3d(box.center().x(), y, kOrthographicDistance);
+}
+
 }  // namespace
 
 double Camera::Depth(const Eigen::Vector3d& point) const {
   return -(point - position).dot(axes.col(2));
 }
 
+Eigen::Vector3d Camera::ToEye(const Eigen::Vector3d& point) const {
+  if (projection == Projection::kOrthographic) return axes.col(2);
+  return (position - point).normalized();
+}
+
 double Camera::PixelsPerUnit(const Eigen::Vector3d& point) const {
-  return height / (2 * tan_half_height * Depth(point));
+  const double depth = projection == Projection::kPerspective ? Depth(point) : 1;
+  return height / (2 * half_height * depth);
 }
 
 Eigen::Vector2d Camera::Project(const Eigen::Vector3d& point) const {
@@ -55,26 +98,22 @@ Eigen::Matrix3d CameraAxes(const Eigen::Vector3d& back) {
   return axes;
 }
 
-Camera FitCamera(const Eigen::Matrix3d& axes, double tan_half_height, int width, int height,
+Camera FitCamera(const Eigen::Matrix3d& axes, Projection projection, int width, int height,
                  const Margins& margins, std::span<const Eigen::Vector3d> points) {
-  const double t = tan_half_height;
-  // The side margin is a share of the height; a narrow image gives at most a quarter of its width.
-  const double side = std::min(2 * margins.side * height / width, 0.5);
-  const double t_side = t * width / height * (1 - side);
-  AxisFit horizontal = {t_side, t_side};
-  AxisFit vertical = {t * (1 - 2 * margins.top), t * (1 - 2 * margins.bottom)};
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d p = axes.transpose() * point;
-    horizontal.Add(p.x(), p.z());
-    vertical.Add(p.y(), p.z());
-  }
-  const double d = std::max(horizontal.Distance(), vertical.Distance());
   Camera camera;
   camera.axes = axes;
-  camera.position = axes * Eigen::Vector3d(horizontal.Centre(d), vertical.Centre(d), d);
-  camera.tan_half_height = t;
+  camera.projection = projection;
   camera.width = width;
   camera.height = height;
+  // The side margin is a share of the height; a narrow image gives at most a quarter of its width.
+  const double side = std::min(2 * margins.side * height / width, 0.5);
+  const Slopes slopes = {static_cast<double>(width) / height * (1 - side), 1 - 2 * margins.top,
+                         1 - 2 * margins.bottom};
+  if (projection == Projection::kPerspective) {
+    FitPerspective(slopes, points, camera);
+  } else {
+    FitOrthographic(slopes, points, camera);
+  }
   return camera;
 }
 

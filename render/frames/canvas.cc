@@ -1,286 +1,207 @@
 #include "render/frames/canvas.h"
 
-#include <GL/osmesa.h>
-#include <mujoco/mujoco.h>
+#include <GL/gl.h>
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
-#include <stdexcept>
-#include <string>
+#include <cstddef>
+#include <cstdint>
 
-#include "planner/base/error.h"
+#include "render/frames/offscreen_context.h"
 
 namespace regrasp::render {
 
 namespace {
 
-constexpr int kDepthBits = 24;
-constexpr int kBytesPerPixel = 4;
+using Eigen::Vector3d;
+
 /// A frame is drawn in bands of at most this many samples, so that memory stays bounded (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
-/// The depth range and the place of the white wall behind everything, in distances from the camera
-/// to the origin.
+/// The depth range, in distances from the camera to the origin.
 constexpr double kNearFactor = 0.1;
 constexpr double kFarFactor = 4;
-constexpr double kWallFactor = 3;
 
-/// Nothing but meshes: shapes are drawn without bodies.
-constexpr char kModelHead[] = R"(<mujoco model="canvas">
-  <visual>
-    <global offwidth="16" offheight="16"/>
-    <quality shadowsize="0" offsamples="0" numslices="48" numstacks="24"/>
-  </visual>
-  <asset>
-)";
-constexpr char kModelTail[] = "  </asset>\n</mujoco>\n";
+/// Of a surface's own colour: in shade, and what the light adds where it falls straight on it.
+constexpr float kAmbient = 0.60F;
+constexpr float kDiffuse = 0.48F;
+/// Where the light comes from, in the camera's axes.
+constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
+/// Weights of layers are multiples of 1 / kOne.
+constexpr int kOne = 256;
 
-/// MuJoCo's virtual files.
-struct VirtualFiles {
-  std::unique_ptr<mjVFS> vfs = std::make_unique<mjVFS>();
-  VirtualFiles() { mj_defaultVFS(vfs.get()); }
-  ~VirtualFiles() { mj_deleteVFS(vfs.get()); }
-  VirtualFiles(const VirtualFiles&) = delete;
-  VirtualFiles& operator=(const VirtualFiles&) = delete;
+/// What OpenGL draws triangles from.
+struct Vertices {
+  std::vector<float> points;
+  std::vector<float> normals;
 
-  void Add(const std::string& name, const std::string& bytes) {
-    if (mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(bytes.size())) != 0) {
-      throw std::runtime_error("no space for the file " + name + " in MuJoCo's memory");
-    }
-    std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), name.c_str())], bytes.data(), bytes.size());
+  explicit Vertices(const FacetMesh& mesh) {
+    Append(mesh.triangles, points);
+    Append(mesh.normals, normals);
   }
-};
-
-template <class Number>
-void Append(std::string& bytes, Number value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-void AppendCorners(std::string& bytes,
-                   const std::vector<std::array<Eigen::Vector3d, 3>>& triangles) {
-  for (const auto& corners : triangles) {
-    for (const Eigen::Vector3d& p : corners) {
-      for (int i = 0; i < 3; ++i) Append(bytes, static_cast<float>(p[i]));
-    }
-  }
-}
-
-/// A mesh in MuJoCo's MSH format: counts of vertices, normals, texture coordinates and faces, then
-/// the arrays. Every triangle has its own three vertices, so that it can be flat.
-std::string FormatMsh(const FacetMesh& mesh) {
-  const int triangles = static_cast<int>(mesh.triangles.size());
-  std::string bytes;
-  for (const int count : {3 * triangles, 3 * triangles, 0, triangles}) Append(bytes, count);
-  AppendCorners(bytes, mesh.triangles);
-  AppendCorners(bytes, mesh.normals);
-  for (int i = 0; i < 3 * triangles; ++i) Append(bytes, i);
-  return bytes;
-}
-
-/// MuJoCo moves a mesh to its principal axes when it compiles it; this puts it back.
-void RestoreMesh(mjModel& model, int mesh, const FacetMesh& original) {
-  if (model.mesh_vertnum[mesh] != 3 * static_cast<int>(original.triangles.size())) {
-    throw std::logic_error("MuJoCo changed the number of vertices of a mesh");
-  }
-  float* vertex = model.mesh_vert + std::ptrdiff_t{3} * model.mesh_vertadr[mesh];
-  float* normal = model.mesh_normal + std::ptrdiff_t{3} * model.mesh_vertadr[mesh];
-  for (std::size_t t = 0; t < original.triangles.size(); ++t) {
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int i = 0; i < 3; ++i) {
-        *vertex++ = static_cast<float>(original.triangles[t][corner][i]);
-        *normal++ = static_cast<float>(original.normals[t][corner][i]);
+  static void Append(const std::vector<std::array<Vector3d, 3>>& corners, std::vector<float>& out) {
+    out.reserve(9 * corners.size());
+    for (const auto& triangle : corners) {
+      for (const Vector3d& p : triangle) {
+        for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
       }
     }
   }
+  void Draw() const {
+    glVertexPointer(3, GL_FLOAT, 0, points.data());
+    glNormalPointer(GL_FLOAT, 0, normals.data());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(points.size() / 3));
+  }
+};
+
+/// Rows from `top` to `top + rows` of an image `height` rows high.
+struct Band {
+  int top, rows, height;
+};
+
+void SetCamera(const Camera& camera, const Band& band) {
+  const double distance = camera.position.norm();
+  const double near = kNearFactor * distance;
+  const double far = kFarFactor * distance;
+  const bool perspective = camera.projection == Projection::kPerspective;
+  const double half = camera.half_height * (perspective ? near : 1);
+  const double right = half * camera.width / camera.height;
+  const double top = half * (1 - 2.0 * band.top / band.height);
+  const double bottom = half * (1 - 2.0 * (band.top + band.rows) / band.height);
+  glMatrixMode(GL_PROJECTION);
+  glLoadIdentity();
+  (perspective ? glFrustum : glOrtho)(-right, right, bottom, top, near, far);
+  glMatrixMode(GL_MODELVIEW);
+  glLoadIdentity();
+  const float black[4] = {0, 0, 0, 1};
+  const float ambient[4] = {kAmbient, kAmbient, kAmbient, 1};
+  const float diffuse[4] = {kDiffuse, kDiffuse, kDiffuse, 1};
+  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
+  glLightfv(GL_LIGHT0, GL_POSITION, kLightFrom);
+  glLightfv(GL_LIGHT0, GL_AMBIENT, ambient);
+  glLightfv(GL_LIGHT0, GL_DIFFUSE, diffuse);
+  Eigen::Isometry3d camera_pose = Eigen::Isometry3d::Identity();
+  camera_pose.linear() = camera.axes;
+  camera_pose.translation() = camera.position;
+  glLoadMatrixd(camera_pose.inverse().data());
 }
 
-ModelPtr MakeModel(const std::vector<FacetMesh>& meshes) {
-  VirtualFiles files;
-  std::string xml = kModelHead;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const std::string file = "mesh" + std::to_string(i) + ".msh";
-    files.Add(file, FormatMsh(meshes[i]));
-    xml += "    <mesh file=\"" + file + "\"/>\n";
-  }
-  files.Add("canvas.xml", xml + kModelTail);
-  std::array<char, 1000> message = {};
-  ModelPtr model(mj_loadXML("canvas.xml", files.vfs.get(), message.data(), message.size()));
-  if (!model) throw std::runtime_error(std::string("rendering model: ") + message.data());
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    RestoreMesh(*model, static_cast<int>(i), meshes[i]);
-  }
-  return model;
+void SetColor(Color color, double opacity) {
+  glColor4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
 }
 
-/// An OSMesa context with the memory that it draws in.
-class OffscreenContext {
+/// Draws shapes with the colour that is set.
+class FormPainter {
  public:
-  OffscreenContext(int width, int height)
-      : width_(width),
-        height_(height),
-        pixels_(std::size_t{kBytesPerPixel} * width * height),
-        context_(CreateContext()) {
-    if (context_ == nullptr) {
-      throw EnvironmentError("no off-screen rendering context (OSMesa)");
-    }
-    try {
-      MakeCurrent();
-    } catch (...) {
-      OSMesaDestroyContext(context_);
-      throw;
-    }
-  }
-  ~OffscreenContext() { OSMesaDestroyContext(context_); }
-  OffscreenContext(const OffscreenContext&) = delete;
-  OffscreenContext& operator=(const OffscreenContext&) = delete;
-
-  void MakeCurrent() {
-    if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
-      throw EnvironmentError("the off-screen rendering context of " + std::to_string(width_) + "x" +
-                             std::to_string(height_) + " pixels cannot be used (OSMesa)");
-    }
-  }
-
- private:
-  static OSMesaContext CreateContext() {
-    // Mesa would keep shaders in the home folder. Its versions have two names for this.
-    constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
-    constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
-    if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
-      for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
-    }
-    return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
-  }
-
-  int width_, height_;
-  std::vector<unsigned char> pixels_;
-  OSMesaContext context_;
-};
-
-struct Rgba {
-  float values[4];
-};
-
-Rgba MakeRgba(Color color, double opacity) {
-  constexpr float kMax = 255;
-  // MuJoCo draws what is transparent twice, front to back and back to front.
-  const double once = opacity < 1 ? 1 - std::sqrt(1 - opacity) : 1;
-  return {{color.r / kMax, color.g / kMax, color.b / kMax, static_cast<float>(once)}};
-}
-
-/// Turns shapes into MuJoCo's geoms.
-struct GeomMaker {
-  mjvGeom& geom;
-  const Rgba& rgba;
+  FormPainter(const Camera& camera, const std::vector<Vertices>& meshes)
+      : camera_(camera), meshes_(meshes) {}
 
   void operator()(const Ball& ball) const {
-    const mjtNum size[3] = {ball.radius, ball.radius, ball.radius};
-    mjv_initGeom(&geom, mjGEOM_SPHERE, size, ball.centre.data(), nullptr, rgba.values);
+    Vertices(MakeCapsule(ball.centre, ball.centre, ball.radius)).Draw();
   }
-  void operator()(const Rod& rod) const { Connect(mjGEOM_CAPSULE, rod.radius, rod.from, rod.to); }
-  void operator()(const Arrow& arrow) const {
-    Connect(mjGEOM_ARROW, arrow.radius, arrow.tail, arrow.tip);
+  void operator()(const Rod& rod) const {
+    Vertices(MakeCapsule(rod.from, rod.to, rod.radius)).Draw();
+  }
+  void operator()(const Line& line) const {
+    glDisable(GL_LIGHTING);
+    const Vector3d back = camera_.ToEye((line.from + line.to) / 2);
+    Vertices(MakeBand(line.from, line.to, line.radius, back)).Draw();
+    glEnable(GL_LIGHTING);
   }
   void operator()(const MeshInstance& instance) const {
-    const Eigen::Vector3d position = instance.pose.translation();
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = instance.pose.linear();
-    mjv_initGeom(&geom, mjGEOM_MESH, nullptr, position.data(), rotation.data(), rgba.values);
-    geom.dataid = 2 * instance.mesh;  // the odd ones are convex hulls
+    glPushMatrix();
+    glMultMatrixd(instance.pose.data());
+    meshes_[instance.mesh].Draw();
+    glPopMatrix();
   }
-  void Connect(int type, double radius, const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    mjv_initGeom(&geom, type, nullptr, nullptr, nullptr, rgba.values);
-    mjv_makeConnector(&geom, type, radius, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
-  }
-};
-
-void CopyTo(float (&out)[3], const Eigen::Vector3d& v) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
-
-void Fill(float (&out)[3], float value) { std::fill(std::begin(out), std::end(out), value); }
-
-/// A soft directional light from above the camera's left shoulder.
-mjvLight MakeLight(const Camera& camera) {
-  mjvLight light = {};
-  const Eigen::Vector3d from = camera.axes * Eigen::Vector3d(-0.45, 0.75, 0.8);
-  CopyTo(light.dir, -from.normalized());
-  light.directional = 1;
-  light.attenuation[0] = 1;
-  Fill(light.ambient, 0.60F);
-  Fill(light.diffuse, 0.48F);
-  Fill(light.specular, 0.12F);
-  return light;
-}
-
-/// A wall that shines white behind the scene. MuJoCo clears to black, and its own background, a
-/// textured box, takes as long to draw as all the rest.
-void InitWall(mjvGeom& geom, const Camera& camera) {
-  const double distance = kWallFactor * camera.position.norm();
-  const double aspect = std::max(1.0, static_cast<double>(camera.width) / camera.height);
-  const double half = 2 * distance * camera.tan_half_height * aspect;
-  const mjtNum size[3] = {half, half, distance * kNearFactor};
-  const Eigen::Vector3d centre = camera.position - distance * camera.axes.col(2);
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = camera.axes;
-  const Rgba white = MakeRgba({255, 255, 255}, 1);
-  mjv_initGeom(&geom, mjGEOM_BOX, size, centre.data(), rotation.data(), white.values);
-  geom.emission = 1;
-}
-
-/// What is drawn: geoms, light and background.
-class Scene {
- public:
-  Scene(const mjModel& model, std::span<const Shape> shapes, const Camera& camera) {
-    mjv_defaultScene(&scene_);
-    mjv_makeScene(&model, &scene_, static_cast<int>(shapes.size()) + 1);
-    std::fill(std::begin(scene_.flags), std::end(scene_.flags), 0);
-    scene_.flags[mjRND_CULL_FACE] = 1;
+  void Draw(const std::vector<Shape>& shapes, bool opaque) const {
     for (const Shape& shape : shapes) {
-      const Rgba rgba = MakeRgba(shape.color, shape.opacity);
-      std::visit(GeomMaker{scene_.geoms[scene_.ngeom++], rgba}, shape.form);
+      if ((shape.opacity == 1) != opaque) continue;
+      SetColor(shape.color, shape.opacity);
+      std::visit(*this, shape.form);
     }
-    InitWall(scene_.geoms[scene_.ngeom++], camera);
-    scene_.lights[0] = MakeLight(camera);
-    scene_.nlight = 1;
   }
-  ~Scene() { mjv_freeScene(&scene_); }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  [[nodiscard]] mjvScene* get() { return &scene_; }
 
  private:
-  mjvScene scene_ = {};
+  const Camera& camera_;
+  const std::vector<Vertices>& meshes_;
 };
 
-/// The camera for the rows from `top` to `top + rows` of an image `height` rows high.
-mjvGLCamera MakeBandCamera(const Camera& camera, double near, double far, double top, double rows,
-                           double height) {
-  mjvGLCamera band = {};
-  CopyTo(band.pos, camera.position);
-  CopyTo(band.forward, -camera.axes.col(2));
-  CopyTo(band.up, camera.axes.col(1));
-  const double half = camera.tan_half_height * near;
-  band.frustum_top = static_cast<float>(half * (1 - 2 * top / height));
-  band.frustum_bottom = static_cast<float>(half * (1 - 2 * (top + rows) / height));
-  band.frustum_near = static_cast<float>(near);
-  band.frustum_far = static_cast<float>(far);
-  return band;
+/// Translucent shapes, the farthest first.
+std::vector<Shape> SortTranslucent(const Camera& camera, const std::vector<Shape>& shapes) {
+  struct Middle {
+    Vector3d operator()(const Ball& ball) const { return ball.centre; }
+    Vector3d operator()(const Rod& rod) const { return (rod.from + rod.to) / 2; }
+    Vector3d operator()(const Line& line) const { return (line.from + line.to) / 2; }
+    Vector3d operator()(const MeshInstance& mesh) const { return mesh.pose.translation(); }
+  };
+  std::vector<Shape> sorted;
+  std::ranges::copy_if(shapes, std::back_inserter(sorted),
+                       [](const Shape& shape) { return shape.opacity < 1; });
+  std::ranges::stable_sort(sorted, std::greater(), [&](const Shape& shape) {
+    return camera.Depth(std::visit(Middle(), shape.form));
+  });
+  return sorted;
 }
 
-/// Copies rows that OpenGL gives from the bottom into the image from the top.
-void CopyBand(Image& image, int top, const std::vector<unsigned char>& band, int rows) {
-  const std::size_t row = std::size_t{3} * image.width;
+void InitState() {
+  for (const GLenum on : {GL_DEPTH_TEST, GL_CULL_FACE, GL_LIGHTING, GL_LIGHT0, GL_COLOR_MATERIAL}) {
+    glEnable(on);
+  }
+  glColorMaterial(GL_FRONT, GL_AMBIENT_AND_DIFFUSE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthFunc(GL_LEQUAL);
+  glClearColor(1, 1, 1, 1);
+  glEnableClientState(GL_VERTEX_ARRAY);
+  glEnableClientState(GL_NORMAL_ARRAY);
+}
+
+/// The shapes' picture with a layer, nullptr for none, opaque among them.
+void DrawPicture(const FormPainter& painter, const Drawing& drawing,
+                 const std::vector<Shape>& translucent, const Layer* layer) {
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  painter.Draw(drawing.shapes, /*opaque=*/true);
+  if (layer != nullptr) painter.Draw(layer->shapes, /*opaque=*/true);
+  glEnable(GL_BLEND);
+  glDepthMask(GL_FALSE);
+  painter.Draw(translucent, /*opaque=*/false);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (const MeshInstance& mesh : drawing.hiding) painter(mesh);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  painter.Draw(drawing.outline, /*opaque=*/true);
+  glFinish();
+}
+
+/// How much of each picture is seen: that of the shapes alone, then those of the layers. Sums to
+/// kOne.
+std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
+  std::vector<int> weights;
+  int left = kOne;
+  for (std::size_t i = layers.size(); i > 0; --i) {
+    const auto weight = static_cast<int>(std::lround(left * layers[i - 1].opacity));
+    weights.insert(weights.begin(), weight);
+    left -= weight;
+  }
+  weights.insert(weights.begin(), left);
+  return weights;
+}
+
+/// Adds a band of samples, RGBA from the bottom, to the sums of the pixels that they belong to.
+void AddSamples(const unsigned char* samples, int width, int rows, int factor, int weight,
+                std::vector<std::uint32_t>& sums) {
+  const int pixels = width / factor;
   for (int y = 0; y < rows; ++y) {
-    std::copy_n(band.data() + (rows - 1 - y) * row, row, image.rgb.data() + (top + y) * row);
+    const unsigned char* in = samples + std::size_t{4} * width * (rows - 1 - y);
+    std::uint32_t* out = sums.data() + std::size_t{3} * pixels * (y / factor);
+    for (int x = 0; x < pixels; ++x, out += 3) {
+      for (int i = 0; i < factor; ++i, in += 4) {
+        out[0] += weight * in[0];
+        out[1] += weight * in[1];
+        out[2] += weight * in[2];
+      }
+    }
   }
 }
 
@@ -288,57 +209,56 @@ void CopyBand(Image& image, int top, const std::vector<unsigned char>& band, int
 
 class Canvas::Impl {
  public:
-  Impl(const std::vector<FacetMesh>& meshes, int width, int height)
+  Impl(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
       : width_(width),
         height_(height),
-        band_height_(std::clamp(kMaxBandSamples / width, 1, height)),
-        context_(width, band_height_),
-        model_(MakeModel(meshes)) {
-    mjr_defaultContext(&renderer_);
-    mjr_makeContext(model_.get(), &renderer_, mjFONTSCALE_50);
-    mjr_setBuffer(mjFB_WINDOW, &renderer_);
+        factor_(supersampling),
+        band_rows_(std::clamp(kMaxBandSamples / (width * factor_ * factor_), 1, height)),
+        context_(width * factor_, band_rows_ * factor_),
+        meshes_(meshes.begin(), meshes.end()) {
+    InitState();
   }
-  ~Impl() {
-    context_.MakeCurrent();
-    mjr_freeContext(&renderer_);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
-  Image Draw(const Camera& camera, std::span<const Shape> shapes) {
+  Image Draw(const Camera& camera, const Drawing& drawing) {
     context_.MakeCurrent();
-    Scene scene(*model_, shapes, camera);
     Image image = MakeImage(width_, height_);
-    std::vector<unsigned char> pixels(std::size_t{3} * width_ * band_height_);
-    const double distance = camera.position.norm();
-    for (int top = 0; top < height_; top += band_height_) {
-      const int rows = std::min(band_height_, height_ - top);
-      const mjrRect viewport = {0, 0, width_, rows};
-      scene.get()->camera[0] = scene.get()->camera[1] =
-          MakeBandCamera(camera, kNearFactor * distance, kFarFactor * distance, top, rows, height_);
-      mjr_render(viewport, scene.get(), &renderer_);
-      mjr_finish();
-      mjr_readPixels(pixels.data(), nullptr, viewport, &renderer_);
-      CopyBand(image, top, pixels, rows);
+    for (int top = 0; top < height_; top += band_rows_) {
+      DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
     }
     return image;
   }
 
  private:
-  int width_;
-  int height_;
-  int band_height_;
+  void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Image& image) {
+    const int rows = band.rows * factor_;
+    glViewport(0, 0, width_ * factor_, rows);
+    SetCamera(camera, band);
+    const FormPainter painter(camera, meshes_);
+    const std::vector<Shape> translucent = SortTranslucent(camera, drawing.shapes);
+    const std::vector<int> weights = WeightsOf(drawing.layers);
+    std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      DrawPicture(painter, drawing, translucent, i == 0 ? nullptr : &drawing.layers[i - 1]);
+      AddSamples(context_.pixels().data(), width_ * factor_, rows, factor_, weights[i], sums);
+    }
+    const std::uint32_t all = kOne * factor_ * factor_;
+    std::ranges::transform(
+        sums, image.rgb.begin() + std::ptrdiff_t{3} * width_ * band.top,
+        [all](std::uint32_t sum) { return static_cast<unsigned char>((sum + all / 2) / all); });
+  }
+
+  int width_, height_, factor_;
+  int band_rows_;
   OffscreenContext context_;
-  ModelPtr model_;
-  mjrContext renderer_ = {};
+  std::vector<Vertices> meshes_;
 };
 
-Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height)
-    : impl_(std::make_unique<Impl>(meshes, width, height)) {}
+Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
+    : impl_(std::make_unique<Impl>(meshes, width, height, supersampling)) {}
 Canvas::~Canvas() = default;
 
-Image Canvas::Draw(const Camera& camera, std::span<const Shape> shapes) {
-  return impl_->Draw(camera, shapes);
+Image Canvas::Draw(const Camera& camera, const Drawing& drawing) {
+  return impl_->Draw(camera, drawing);
 }
 
 }  // namespace regrasp::render

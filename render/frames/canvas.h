@@ -2,12 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <memory>
-#include <span>
 #include <variant>
 #include <vector>
 
-#include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
+#include "render/frames/facet_mesh.h"
 #include "render/picture/image.h"
 #include "render/picture/palette.h"
 
@@ -25,9 +24,10 @@ struct Rod {
   double radius;
 };
 
-struct Arrow {
-  Eigen::Vector3d tail;
-  Eigen::Vector3d tip;
+/// A line of even colour, whatever the light, with round ends.
+struct Line {
+  Eigen::Vector3d from;
+  Eigen::Vector3d to;
   double radius;
 };
 
@@ -38,26 +38,47 @@ struct MeshInstance {
 };
 
 struct Shape {
-  std::variant<Ball, Rod, Arrow, MeshInstance> form;
+  std::variant<Ball, Rod, Line, MeshInstance> form;
   Color color;
   double opacity = 1;
 };
 
-/// An off-screen OpenGL window that MuJoCo's renderer draws in, on white, with one soft light from
-/// above the camera's left shoulder and no shadows.
+/// Shapes that lie over a picture as one translucent sheet.
+struct Layer {
+  std::vector<Shape> shapes;
+  double opacity = 1;
+};
+
+/// What a canvas draws.
+struct Drawing {
+  /// Those with an opacity below 1 must be convex: only their near side is drawn.
+  std::vector<Shape> shapes;
+  /// The picture of the shapes and the first layer, opaque, is laid over that of the shapes alone;
+  /// that of the shapes and the second layer over both; and so on. A body's far side and then its
+  /// near side are so seen through exactly, whatever the order of its triangles.
+  std::vector<Layer> layers;
+  /// Lines that are drawn, opaque, where neither shapes nor `hiding` stand before them.
+  std::vector<Shape> outline;
+  std::vector<MeshInstance> hiding;
+};
+
+/// An off-screen OpenGL window, on white, with one soft light from above the camera's left shoulder
+/// and no shadows.
 ///
-/// Deterministic: the same shapes give the same bytes. The scene is about the origin, of size 1.
+/// Deterministic: the same drawing gives the same bytes. The scene is about the origin, of size 1.
 class Canvas {
  public:
-  /// @param meshes  what MeshInstance names.
+  /// @param meshes         what MeshInstance names.
   /// @param width, height  pixels of its images.
+  /// @param supersampling  samples along both axes of a pixel, averaged.
   /// @throws EnvironmentError  no off-screen rendering context.
-  Canvas(const std::vector<FacetMesh>& meshes, int width, int height);
+  Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  [[nodiscard]] Image Draw(const Camera& camera, std::span<const Shape> shapes);
+  /// @param camera  of the canvas's width and height.
+  [[nodiscard]] Image Draw(const Camera& camera, const Drawing& drawing);
 
  private:
   class Impl;

@@ -21,9 +21,10 @@ constexpr double kMotionRadius = 0.009;
 constexpr double kTrackRadius = 0.007;
 constexpr double kTrackDash = 0.030;
 
-/// Shares of the free space in front of a contact that ball and stem may take.
+/// Shares of the free space in front of a contact that ball and stem may take: less than half, so
+/// that there is space for the finger on the other side.
 constexpr double kBallShare = 0.15;
-constexpr double kStemShare = 0.75;
+constexpr double kStemShare = 0.45;
 constexpr double kGapShare = 0.2;
 
 /// Nearer than this a ray meets the face that it starts on.
@@ -57,32 +58,40 @@ void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes&
            meshes, shapes);
 }
 
-/// Dashes along the path that a finger came, just off the surface, and a small ball at its start.
-void AddTrack(const FingerGlyph& glyph, Color color, std::vector<Shape>& shapes) {
-  double length = 0;
-  for (std::size_t i = 1; i < glyph.path.size(); ++i) {
-    length += (glyph.path[i] - glyph.path[i - 1]).norm();
+/// Dashes from a to b of a path on which `before` lies behind a: gaps and dashes take turns along
+/// the whole path, and one that goes round a corner is drawn in two.
+void AddDashes(const Vector3d& a, const Vector3d& b, double before, Color color,
+               std::vector<Shape>& shapes) {
+  const double after = before + (b - a).norm();
+  const Vector3d along = (b - a).normalized();
+  for (int k = static_cast<int>(before / (2 * kTrackDash)); 2 * k * kTrackDash < after; ++k) {
+    const double start = std::max(2 * k * kTrackDash, before) - before;
+    const double end = std::min((2 * k + 1) * kTrackDash, after) - before;
+    if (start < end)
+      shapes.push_back({Rod{a + along * start, a + along * end, kTrackRadius}, color});
   }
-  if (length < kTrackDash) return;
+}
+
+/// The path that a finger came, just off the surface: its ball's ghost at the start, dashes, and an
+/// arrowhead before its ball where the path is longer than that.
+void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
+              std::vector<Shape>& shapes) {
+  if (glyph.path.size() < 2 || glyph.path.front() == glyph.path.back()) return;
   const Vector3d lift = glyph.outward * kTrackRadius;
+  // Which way it stood there is not known.
+  shapes.push_back({Ball{glyph.path.front(), glyph.ball_radius}, color, kGhostOpacity});
   shapes.push_back({Ball{glyph.path.front() + lift, 2 * kTrackRadius}, color});
-  // Gaps and dashes take turns; a dash that goes round a corner is drawn in two.
   double before = 0;
   for (std::size_t i = 1; i < glyph.path.size(); ++i) {
-    const Vector3d from = glyph.path[i - 1] + lift;
-    const Vector3d leg = glyph.path[i] - glyph.path[i - 1];
-    const double after = before + leg.norm();
-    for (int k = static_cast<int>(before / (2 * kTrackDash)); (2 * k + 1) * kTrackDash < after;
-         ++k) {
-      const double start = std::max((2 * k + 1) * kTrackDash, before) - before;
-      const double end = std::min((2 * k + 2) * kTrackDash, after) - before;
-      if (start >= end) continue;
-      shapes.push_back(
-          {Rod{from + leg * (start / leg.norm()), from + leg * (end / leg.norm()), kTrackRadius},
-           color});
-    }
-    before = after;
+    AddDashes(glyph.path[i - 1] + lift, glyph.path[i] + lift, before, color, shapes);
+    before += (glyph.path[i] - glyph.path[i - 1]).norm();
   }
+  const Vector3d& last = glyph.path[glyph.path.size() - 2];
+  const Vector3d leg = glyph.contact - last;
+  if (leg.norm() < kArrowHeadLength) return;
+  const double back = std::min(glyph.ball_radius, leg.norm() - kArrowHeadLength);
+  const Vector3d tip = glyph.contact - leg.normalized() * back + lift;
+  shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -leg.normalized())}, color});
 }
 
 /// How far the fingertip is from the surface, metres.
@@ -104,7 +113,7 @@ Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
 }
 
 std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const PictureFrame& frame,
-                                          const FacetMesh& surface, GapView gaps) {
+                                          const FacetMesh& surface, const GlyphOptions& options) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const plan::FingerState& state : snapshot.fingers) {
@@ -118,10 +127,15 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     glyph.force = state.force_W;
     const double clearance =
         RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
-    glyph.ball_radius = std::min(kBallRadius, kBallShare * clearance);
-    const double stem = std::min(kStemLength, kStemShare * clearance);
-    const double gap =
-        gaps == GapView::kNone ? 0 : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
+    glyph.ball_radius =
+        options.finger_radius.value_or(std::min(kBallRadius, kBallShare * clearance));
+    glyph.stem_radius =
+        options.finger_radius.value_or(kStemRadius * glyph.ball_radius / kBallRadius);
+    const double stem =
+        std::max(2 * glyph.ball_radius, std::min(kStemLength, kStemShare * clearance));
+    const double gap = options.gaps == GapView::kNone
+                           ? 0
+                           : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
     const Vector3d tip =
         glyph.contact + std::min(kGapScale * gap, kGapShare * clearance) * glyph.outward;
     glyph.ball = tip + glyph.outward * glyph.ball_radius;
@@ -140,10 +154,9 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   const Color color = FingerColor(glyph.finger);
   const bool ghost = glyph.role == plan::FingerRole::kReleased;
   const double opacity = ghost ? kGhostOpacity : 1;
-  const double stem_radius = kStemRadius * glyph.ball_radius / kBallRadius;
   shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});
-  const Vector3d stem_start = glyph.ball + glyph.outward * glyph.ball_radius;
-  shapes.push_back({Rod{stem_start, glyph.stem_end, stem_radius}, color, opacity});
+  const Vector3d stem_start = glyph.ball + glyph.outward * (glyph.ball_radius - glyph.stem_radius);
+  shapes.push_back({Rod{stem_start, glyph.stem_end, glyph.stem_radius}, color, opacity});
   if (glyph.end != glyph.stem_end) {
     const Vector3d near = glyph.stem_end + glyph.outward * kMotionGap;
     AddArrow(ghost ? near : glyph.end, ghost ? glyph.end : near, kMotionRadius, color, meshes,
@@ -153,7 +166,7 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
   shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
   AddForce(glyph, largest_force, meshes, shapes);
-  if (glyph.role == plan::FingerRole::kMoved) AddTrack(glyph, color, shapes);
+  if (glyph.role == plan::FingerRole::kMoved) AddTrack(glyph, color, meshes, shapes);
 }
 
 }  // namespace regrasp::render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "planner/plan/snapshot.h"
@@ -35,6 +36,7 @@ struct FingerGlyph {
   std::vector<Eigen::Vector3d> path;  ///< of an align, up to the contact; empty for others
   Eigen::Vector3d force;              ///< newtons, on the object
   double ball_radius = 0;
+  double stem_radius = 0;
 };
 
 /// Whether a finger in the air is drawn away from its contact.
@@ -44,12 +46,20 @@ enum class GapView {
 };
 inline constexpr double kGapScale = 3;
 
+struct GlyphOptions {
+  GapView gaps = GapView::kNone;
+  /// Of the fingers as they are, in diameters: balls and stems are drawn so thick; otherwise they
+  /// are signs for points.
+  std::optional<double> finger_radius = std::nullopt;
+};
+
 /// The fingers of a snapshot that are drawn: all but the free ones. In narrow places (a hole, an
-/// inner corner) balls and stems are smaller, so that they don't run into the opposite wall.
+/// inner corner) balls and stems are smaller, so that they don't run into the opposite wall, unless
+/// they have their own size.
 [[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
                                                         const PictureFrame& frame,
                                                         const FacetMesh& surface,
-                                                        GapView gaps = GapView::kNone);
+                                                        const GlyphOptions& options = {});
 
 /// The canvas's meshes that glyphs are made of.
 struct GlyphMeshes {
@@ -64,7 +74,8 @@ inline constexpr double kArrowHeadHalfAngle = 0.36;
 inline constexpr double kArrowHeadLength = 0.040;
 
 /// The shapes of one finger: ball, stem, friction cone and force; a released finger is a ghost with
-/// an arrow that leaves, a placed one has an arrow that arrives, a moved one a track behind it.
+/// an arrow that leaves, a placed one has an arrow that arrives, a moved one a ghost where it came
+/// from and a track that ends in an arrowhead.
 /// @param largest_force  of the whole sequence, newtons: the longest arrow.
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes);

@@ -20,9 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Half of the vertical field of view: a long lens, so that parallel edges look so.
-const double kTanHalfHeight = std::tan(0.15);
-
 constexpr double kEdgeRadius = 0.0026;  // in diameters
 /// The more edges a body has beyond this, the thinner they are drawn: those of a fine mesh would
 /// cover it.
@@ -59,16 +56,6 @@ constexpr int kMaxSupersampling = 4;
 
 /// The clusters' meshes come last, one a colour.
 enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
-
-/// a + (b − a) · opacity.
-void BlendOver(Image& a, const Image& b, double opacity) {
-  constexpr int kOne = 256;
-  const int weight = static_cast<int>(std::lround(opacity * kOne));
-  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
-    const int sum = a.rgb[i] * (kOne - weight) + b.rgb[i] * weight;
-    a.rgb[i] = static_cast<unsigned char>((sum + kOne / 2) / kOne);
-  }
-}
 
 void CheckOptions(const FrameOptions& options) {
   const auto good = [](int side) { return side >= kMinFrameSide && side <= kMaxFrameSide; };
@@ -114,6 +101,41 @@ void LayFlat(std::vector<Shape>& shapes) {
   }
 }
 
+/// Points whose pictures bound the pictures of shapes.
+class Extent {
+ public:
+  /// @param axes    of the camera.
+  /// @param meshes  what MeshInstance names; outlives this object.
+  Extent(const Eigen::Matrix3d& axes, const std::vector<FacetMesh>& meshes)
+      : axes_(axes), meshes_(meshes) {}
+
+  void operator()(const Ball& ball) {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const int axis : {0, 1})
+        points_.push_back(ball.centre + sign * ball.radius * axes_.col(axis));
+    }
+  }
+  void operator()(const Rod& rod) { AddEnds(rod); }
+  void operator()(const Line& line) { AddEnds(line); }
+  void operator()(const MeshInstance& instance) {
+    for (const auto& corners : meshes_[instance.mesh].triangles) {
+      for (const Vector3d& p : corners) points_.push_back(instance.pose * p);
+    }
+  }
+  template <class Form>
+  void AddEnds(const Form& form) {
+    for (const Vector3d& end : {form.from, form.to}) (*this)(Ball{end, form.radius});
+  }
+  void Add(const std::variant<Ball, Rod, Line, MeshInstance>& form) { std::visit(*this, form); }
+
+  [[nodiscard]] const std::vector<Vector3d>& points() const { return points_; }
+
+ private:
+  const Eigen::Matrix3d& axes_;
+  const std::vector<FacetMesh>& meshes_;
+  std::vector<Vector3d> points_;
+};
+
 bool IsNear(const Eigen::Isometry3d& pose) {
   return pose.translation().allFinite() && pose.translation().norm() < kFarAway;
 }
@@ -128,51 +150,63 @@ class FrameRenderer::Impl {
         object_(object),
         scale_(scale),
         half_angle_(half_angle),
-        body_(MakeBodyShape(object, options.thickness)),
+        body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
-        camera_(MakeCamera(object.dimension() == 2, snapshots)),
-        largest_force_(LargestForce(snapshots)),
         planar_(object.dimension() == 2),
-        canvas_(MakeMeshes(body_, planar_, half_angle, options.clusters),
-                options.width * options.supersampling, options.height * options.supersampling) {}
+        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
+        largest_force_(LargestForce(snapshots)),
+        camera_(MakeCamera(snapshots)),
+        canvas_(meshes_, options.width, options.height, options.supersampling) {}
 
   Image Render(const plan::Snapshot& snapshot, const std::string& caption) {
-    const std::vector<FingerGlyph> fingers =
-        MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps);
+    const std::vector<FingerGlyph> fingers = GlyphsOf(snapshot);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
-    std::vector<Shape> shapes = MakeEdges(pose);
+    Drawing drawing;
+    drawing.shapes = FingerShapes(fingers);
+    AddLines(body_.edges, pose, drawing.shapes);
+    if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
+    if (options_.clusters) AddRepresentatives(snapshot, drawing.shapes);
+    drawing.layers = {{{{MeshInstance{kInsideMesh, pose}, kBodyInside}}, kInsideOpacity},
+                      {NearSurface(pose), NearOpacity()}};
+    drawing.hiding = {{kOutsideMesh, pose}};
+    AddLines(FindOutline(body_,
+                         [&](const Vector3d& p) -> Vector3d {
+                           return pose.linear().transpose() * camera_.ToEye(pose * p);
+                         }),
+             pose, drawing.outline);
+    return Annotate(canvas_.Draw(camera_, drawing), camera_, fingers, caption, frame_.diameter_m);
+  }
+
+ private:
+  [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
+    return MakeFingerGlyphs(snapshot, frame_, body_.surface, {options_.gaps, FingerRadius()});
+  }
+
+  [[nodiscard]] std::optional<double> FingerRadius() const {
+    if (!options_.finger_radius) return std::nullopt;
+    return *options_.finger_radius / object_.diameter();
+  }
+
+  [[nodiscard]] std::vector<Shape> FingerShapes(const std::vector<FingerGlyph>& fingers) const {
+    std::vector<Shape> shapes;
     for (const FingerGlyph& glyph : fingers) {
       AddFingerShapes(glyph, largest_force_, {kConeMesh, kArrowMesh}, shapes);
     }
     if (planar_) LayFlat(shapes);
-    if (options_.show_focus) AddFocus(snapshot, shapes);
-    if (options_.clusters) AddRepresentatives(snapshot, shapes);
-    return Annotate(DrawLayers(shapes, pose), camera_, fingers, caption, frame_.diameter_m);
+    return shapes;
   }
 
- private:
-  /// The body is translucent in two layers, exactly and independent of the order of its triangles:
-  /// the picture without it, then that with its far surface opaque, then that with its near surface
-  /// opaque, laid over each other. What the body hides, edges too, comes out paler by itself.
-  Image DrawLayers(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
-    const auto draw = [&] { return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling); };
-    Image image = draw();
-    shapes.push_back({MeshInstance{kInsideMesh, pose}, kBodyInside});
-    BlendOver(image, draw(), kInsideOpacity);
-    shapes.pop_back();
-    BlendOver(image, DrawWithNearSurface(shapes, pose), NearOpacity());
-    return image;
-  }
-
-  Image DrawWithNearSurface(std::vector<Shape>& shapes, const Eigen::Isometry3d& pose) {
+  /// The body is translucent in two layers, its far side and its near side: what it hides, edges
+  /// too, comes out paler by itself.
+  [[nodiscard]] std::vector<Shape> NearSurface(const Eigen::Isometry3d& pose) const {
     if (!options_.clusters) {
-      shapes.push_back({MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside});
-    } else {
-      for (int color = 0; color < roadmap::kClusterColors; ++color) {
-        shapes.push_back({MeshInstance{kClusterMesh + color, pose}, kClusterPalette[color]});
-      }
+      return {{MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside}};
     }
-    return Shrink(canvas_.Draw(camera_, shapes), options_.supersampling);
+    std::vector<Shape> shapes;
+    for (int color = 0; color < roadmap::kClusterColors; ++color) {
+      shapes.push_back({MeshInstance{kClusterMesh + color, pose}, kClusterPalette[color]});
+    }
+    return shapes;
   }
 
   [[nodiscard]] double NearOpacity() const {
@@ -187,14 +221,11 @@ class FrameRenderer::Impl {
     }
   }
 
-  [[nodiscard]] std::vector<Shape> MakeEdges(const Eigen::Isometry3d& pose) const {
-    std::vector<Shape> shapes;
+  void AddLines(const std::vector<std::array<Vector3d, 2>>& lines, const Eigen::Isometry3d& pose,
+                std::vector<Shape>& shapes) const {
     const auto edges = static_cast<double>(body_.edges.size());
     const double radius = kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges));
-    for (const auto& [a, b] : body_.edges) {
-      shapes.push_back({Rod{pose * a, pose * b, radius}, kInk});
-    }
-    return shapes;
+    for (const auto& [a, b] : lines) shapes.push_back({Line{pose * a, pose * b, radius}, kInk});
   }
 
   /// The contacts of the fingers that hold, where they are planned, on the object.
@@ -230,40 +261,43 @@ class FrameRenderer::Impl {
     };
     shapes.push_back({Ball{place(view->focus), kFocusRadius}, kFocus});
     for (const grasp::Contact& contact : grasp) {
-      shapes.push_back({Rod{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
+      shapes.push_back({Line{place(contact.p), place(view->focus), kFocusLineRadius}, kFocus});
     }
     for (const std::vector<Vector3d>& region : view->regions) {
       for (std::size_t i = 0; i < region.size(); ++i) {
         shapes.push_back(
-            {Rod{place(region[i]), place(region[(i + 1) % region.size()]), kRegionLineRadius},
+            {Line{place(region[i]), place(region[(i + 1) % region.size()]), kRegionLineRadius},
              kFocus});
       }
     }
   }
 
-  [[nodiscard]] Camera MakeCamera(bool planar, const std::vector<plan::Snapshot>& snapshots) const {
+  /// The camera that sees all that is drawn.
+  [[nodiscard]] Camera MakeCamera(const std::vector<plan::Snapshot>& snapshots) const {
     std::vector<std::vector<FingerGlyph>> frames;
-    std::vector<Vector3d> points;
-    AddBody(Eigen::Isometry3d::Identity(), points);
+    std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
     for (const plan::Snapshot& snapshot : snapshots) {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
-      frames.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface, options_.gaps));
-      AddBody(pose, points);
-      for (const FingerGlyph& glyph : frames.back()) {
-        points.push_back(glyph.contact);
-        points.push_back(glyph.end + glyph.outward * kLabelSpace);
+      poses.push_back(pose);
+      frames.push_back(GlyphsOf(snapshot));
+    }
+    const ViewOptions& view = options_.view;
+    const Eigen::Matrix3d axes = CameraAxes(
+        view.direction ? view.direction->ToCamera() : ChooseViewpoint(body_, planar_, frames));
+    Extent extent(axes, meshes_);
+    for (const Eigen::Isometry3d& pose : poses) extent.Add(MeshInstance{kOutsideMesh, pose});
+    for (const std::vector<FingerGlyph>& fingers : frames) {
+      for (const Shape& shape : FingerShapes(fingers)) extent.Add(shape.form);
+      for (const FingerGlyph& glyph : fingers) {
+        extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
       }
     }
-    const Vector3d back = ChooseViewpoint(body_, planar, frames);
-    return FitCamera(CameraAxes(back), kTanHalfHeight, options_.width, options_.height, Margins(),
-                     points);
-  }
-
-  void AddBody(const Eigen::Isometry3d& pose, std::vector<Vector3d>& points) const {
-    for (const auto& corners : body_.surface.triangles) {
-      for (const Vector3d& p : corners) points.push_back(pose * p);
-    }
+    const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
+    Camera camera = FitCamera(axes, view.projection.value_or(usual), options_.width,
+                              options_.height, Margins(), extent.points());
+    camera.half_height /= view.zoom;
+    return camera;
   }
 
   static double LargestForce(const std::vector<plan::Snapshot>& snapshots) {
@@ -284,9 +318,10 @@ class FrameRenderer::Impl {
   double half_angle_;
   BodyShape body_;
   PictureFrame frame_;
-  Camera camera_;
-  double largest_force_;
   bool planar_;
+  std::vector<FacetMesh> meshes_;
+  double largest_force_;
+  Camera camera_;
   Canvas canvas_;
 };
 

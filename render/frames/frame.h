@@ -10,6 +10,7 @@
 #include "planner/roadmap/cluster_view.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/finger_glyph.h"
+#include "render/frames/viewpoint.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
@@ -22,9 +23,12 @@ struct FrameOptions {
   int width = 1280;
   int height = 960;
   int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
-  double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+  BodyOptions body = {};
+  ViewOptions view = {};
   /// Fingers in the air are drawn away from their contacts (render/frames/finger_glyph.h).
   GapView gaps = GapView::kNone;
+  /// Fingers are drawn as thick as they are, in the object's unit of length; otherwise as signs.
+  std::optional<double> finger_radius = std::nullopt;
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
   /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
   bool show_focus = false;
@@ -32,16 +36,16 @@ struct FrameOptions {
   std::optional<roadmap::ClusterView> clusters = std::nullopt;
 };
 
-/// Draws frames of a replay: the object translucent with its feature edges, fingers as a ball and a
-/// stem along the normal, one colour and number a finger for the whole sequence, true friction
+/// Draws frames of a replay: the object translucent with creases and outline, fingers as a ball and
+/// a stem along the normal, one colour and number a finger for the whole sequence, true friction
 /// cones, force arrows, and the finger that moves told apart: a placed one has a ring and an arrow
-/// that arrives, a released one is a ghost with an arrow that leaves, an aligned one has a dashed
-/// track. Planar objects are nearly opaque prisms, seen from above at a slight tilt, with contacts
-/// and flat friction cones on their top.
+/// that arrives, a released one is a ghost with an arrow that leaves, an aligned one has a ghost
+/// where it came from and a dashed track. Planar objects are nearly opaque prisms, seen from
+/// straight above without perspective, with contacts and flat friction cones on their top.
 ///
 /// One renderer draws a whole plan, with one camera, so that frames can be laid side by side. The
-/// camera is chosen once so that the contacts of all `snapshots` are seen as well as possible.
-/// Force arrows have one scale for all of them too. Deterministic: the same bytes every time.
+/// camera is chosen once (ChooseViewpoint) and sees all that is drawn of `snapshots`. Force arrows
+/// have one scale for all of them too. Deterministic: the same bytes every time.
 class FrameRenderer {
  public:
   /// @param object      must outlive this renderer.

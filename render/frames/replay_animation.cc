@@ -103,7 +103,7 @@ std::string RenderAnimation(const object::Object& object, const plan::Plan& plan
   FrameOptions frame;
   frame.width = options.width;
   frame.height = options.height;
-  frame.thickness = options.thickness;
+  frame.body.thickness = options.thickness;
   frame.gaps = GapView::kShown;
   FrameRenderer renderer(object, plan.scale, half_angle, rests, frame);
   WebpAnimation animation(options.width, options.height);

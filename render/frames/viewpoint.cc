@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "planner/base/angle.h"
 #include "render/picture/plane_geometry.h"
@@ -19,16 +20,16 @@ using Eigen::Vector3d;
 constexpr int kAzimuths = 36;
 constexpr std::array<double, 6> kElevationsDeg = {28, 38, 20, 48, 12, -18};
 /// What each of these elevations costs: pictures from below look odd.
-constexpr std::array<double, 6> kElevationCosts = {0, 0.02, 0.05, 0.08, 0.15, 0.8};
-
-/// A planar object is tilted a little, so that the prism shows which way the fingers stand.
-const Vector3d kPlanarView = Vector3d(0.0, -0.28, 1.0).normalized();
+constexpr std::array<double, 6> kElevationCosts = {0, 0.04, 0.05, 0.2, 0.15, 0.8};
 
 // Weights of the score, per contact or per pair of contacts.
-constexpr double kSeen = 1.0;           ///< the contact is on the near side, nothing before it
+constexpr double kSeen = 1.5;           ///< a finger from its contact to its end
+constexpr double kBodySeen = 0.5;       ///< the object fills as much of the picture as it can
 constexpr double kForeshortened = 1.0;  ///< the stem points at the camera, or away
 constexpr double kOverlap = 1.5;        ///< two fingers cover each other
 constexpr double kEdgeOnFace = 0.5;     ///< all faces are seen edge-on
+/// What a finger counts that is seen through the object.
+constexpr double kShinesThrough = 0.35;
 /// Two fingers nearer than this in the picture (diameters) disturb each other.
 constexpr double kApart = 0.15;
 /// A normal that leaves the image plane by less than this sine is a face seen edge-on.
@@ -45,14 +46,21 @@ double SegmentDistance(const Vector2d& a, const Vector2d& b, const Vector2d& c, 
                    DistanceToSegment(c, a, b), DistanceToSegment(d, a, b)});
 }
 
-double ScoreFinger(const FingerGlyph& glyph, const Vector3d& back, const FacetMesh& surface) {
-  const double facing = glyph.outward.dot(back);
-  double score = 0;
-  const bool front = facing > 0;
-  if (front && std::isinf(RayDistance(surface, glyph.ball, back, glyph.ball_radius / 2))) {
-    score += kSeen;
+/// How much of a finger nothing stands before, of 1: what the object hides shines through.
+double SeenShare(const FingerGlyph& glyph, const Vector3d& back, const FacetMesh& surface) {
+  constexpr int kSamples = 3;
+  double seen = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const Vector3d p = glyph.ball + i / (kSamples - 1.0) * (glyph.stem_end - glyph.ball);
+    const bool clear = std::isinf(RayDistance(surface, p, back, glyph.ball_radius / 2));
+    seen += clear ? 1 : kShinesThrough;
   }
-  const double excess = std::abs(facing) - kForeshortenedCosine;
+  return seen / kSamples;
+}
+
+double ScoreFinger(const FingerGlyph& glyph, const Vector3d& back, const FacetMesh& surface) {
+  double score = kSeen * SeenShare(glyph, back, surface);
+  const double excess = std::abs(glyph.outward.dot(back)) - kForeshortenedCosine;
   if (excess > 0) score -= kForeshortened * excess / (1 - kForeshortenedCosine);
   return score;
 }
@@ -80,45 +88,69 @@ double EdgeOnShare(const FacetMesh& surface, const Vector3d& back) {
   return edge_on / total;
 }
 
-double Score(const BodyShape& body, const std::vector<std::vector<FingerGlyph>>& frames,
-             const Vector3d& back) {
-  const Eigen::Matrix3d axes = CameraAxes(back);
+/// Sides of the object in the picture, multiplied.
+double PictureArea(const FacetMesh& surface, const Eigen::Matrix3d& axes) {
+  Eigen::AlignedBox2d box;
+  for (const auto& corners : surface.triangles) {
+    box.extend(Vector2d((axes.transpose() * corners[0]).head<2>()));
+  }
+  return box.volume();
+}
+
+double ScoreFingers(const FacetMesh& surface, const std::vector<std::vector<FingerGlyph>>& frames,
+                    const Eigen::Matrix3d& axes) {
   double score = 0;
   int fingers = 0;
+  // A finger that holds on stands in many frames and is seen as well in all of them.
+  std::map<std::array<double, 6>, double> scores;
   for (const std::vector<FingerGlyph>& frame : frames) {
     for (std::size_t i = 0; i < frame.size(); ++i) {
-      score += ScoreFinger(frame[i], back, body.surface);
+      const Vector3d& a = frame[i].ball;
+      const Vector3d& b = frame[i].stem_end;
+      const auto [known, is_new] = scores.try_emplace({a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
+      if (is_new) known->second = ScoreFinger(frame[i], axes.col(2), surface);
+      score += known->second;
       ++fingers;
       for (std::size_t j = i + 1; j < frame.size(); ++j) {
         score -= kOverlap * Overlap(frame[i], frame[j], axes);
       }
     }
   }
-  return score / std::max(fingers, 1) - kEdgeOnFace * EdgeOnShare(body.surface, back);
+  return score / std::max(fingers, 1);
 }
+
+struct Candidate {
+  Vector3d back;
+  double score;
+  double area;  ///< of the object in the picture
+};
 
 }  // namespace
 
+Vector3d ViewDirection::ToCamera() const {
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
 Vector3d ChooseViewpoint(const BodyShape& body, bool planar,
                          const std::vector<std::vector<FingerGlyph>>& frames) {
-  if (planar) return kPlanarView;
-  Vector3d best = Vector3d::UnitX();
-  double best_score = -std::numeric_limits<double>::infinity();
+  if (planar) return Vector3d::UnitZ();
+  std::vector<Candidate> candidates;
   for (std::size_t e = 0; e < kElevationsDeg.size(); ++e) {
     for (int a = 0; a < kAzimuths; ++a) {
       // Half a step off, so that no box is seen along a diagonal.
-      const double azimuth = Radians(360.0 * (a + 0.3) / kAzimuths);
-      const double elevation = Radians(kElevationsDeg[e]);
-      const Vector3d back(std::cos(elevation) * std::cos(azimuth),
-                          std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-      const double score = Score(body, frames, back) - kElevationCosts[e];
-      if (score > best_score) {
-        best_score = score;
-        best = back;
-      }
+      const Vector3d back =
+          ViewDirection{Radians(360.0 * (a + 0.3) / kAzimuths), Radians(kElevationsDeg[e])}
+              .ToCamera();
+      const Eigen::Matrix3d axes = CameraAxes(back);
+      const double score = ScoreFingers(body.surface, frames, axes) - kElevationCosts[e] -
+                           kEdgeOnFace * EdgeOnShare(body.surface, back);
+      candidates.push_back({back, score, PictureArea(body.surface, axes)});
     }
   }
-  return best;
+  const double largest = std::ranges::max(candidates, {}, &Candidate::area).area;
+  const auto score = [&](const Candidate& c) { return c.score + kBodySeen * c.area / largest; };
+  return std::ranges::max(candidates, {}, score).back;
 }
 
 }  // namespace regrasp::render

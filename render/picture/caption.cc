@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "render/picture/round_length.h"
+
 namespace regrasp::render {
 
 namespace {
@@ -20,15 +22,29 @@ std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
   return fingers;
 }
 
+struct Travel {
+  FingerIndex finger;
+  double length;  ///< from waypoint to waypoint, the object's unit of length
+};
+
 /// The fingers whose last waypoint is not their first, by number.
-std::vector<FingerIndex> MovedFingers(const plan::Align& align) {
-  std::vector<FingerIndex> moved;
+std::vector<Travel> MovedFingers(const plan::Align& align) {
+  std::vector<Travel> moved;
   if (align.waypoints.empty()) return moved;
   for (const plan::FingerContact& first : align.waypoints.front()) {
     const plan::FingerContact* last = plan::FindFinger(align.waypoints.back(), first.finger);
-    if (last != nullptr && first.contact.p != last->contact.p) moved.push_back(first.finger);
+    if (last == nullptr || first.contact.p == last->contact.p) continue;
+    Travel travel = {first.finger, 0};
+    const plan::FingerContact* before = &first;
+    for (const plan::FingerGrasp& waypoint : align.waypoints) {
+      const plan::FingerContact* here = plan::FindFinger(waypoint, first.finger);
+      if (here == nullptr) continue;
+      travel.length += (here->contact.p - before->contact.p).norm();
+      before = here;
+    }
+    moved.push_back(travel);
   }
-  std::sort(moved.begin(), moved.end());
+  std::ranges::sort(moved, {}, &Travel::finger);
   return moved;
 }
 
@@ -42,8 +58,20 @@ std::string Describe(const plan::Switch& step) {
 }
 
 std::string Describe(const plan::Align& step) {
-  const std::vector<FingerIndex> moved = MovedFingers(step);
-  return moved.empty() ? "align" : "align: move " + List(moved);
+  std::vector<FingerIndex> fingers;
+  for (const Travel& travel : MovedFingers(step)) fingers.push_back(travel.finger);
+  return fingers.empty() ? "align" : "align: move " + List(fingers);
+}
+
+/// "move 1 by 12 mm, 3 by 0.8 mm along the surface"; empty where nothing moves.
+std::string DescribeTravel(const plan::Align& step, double scale) {
+  std::string text;
+  for (const auto& [finger, length] : MovedFingers(step)) {
+    constexpr int kDigits = 2;
+    text += (text.empty() ? "move " : ", ") + std::to_string(finger) + " by " +
+            FormatLength(length * scale, kDigits);
+  }
+  return text.empty() ? text : text + " along the surface";
 }
 
 }  // namespace
@@ -58,8 +86,8 @@ std::string FrameCaption(const plan::Plan& plan, int entry) {
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
   const auto* align = std::get_if<plan::Align>(&plan.steps[entry - 1]);
-  const bool moves = align != nullptr && !MovedFingers(*align).empty();
-  return step + " · " + EntryTitle(plan, entry) + (moves ? " along the surface" : "");
+  const std::string travel = align != nullptr ? DescribeTravel(*align, plan.scale) : "";
+  return step + " · " + (travel.empty() ? EntryTitle(plan, entry) : "align: " + travel);
 }
 
 }  // namespace regrasp::render

@@ -43,25 +43,26 @@ Image Shrink(const Image& image, int factor) {
   return small;
 }
 
-void WritePng(const std::filesystem::path& path, const Image& image) {
+std::string EncodePng(const Image& image) {
   png_image header = {};
   header.version = PNG_IMAGE_VERSION;
   header.width = image.width;
   header.height = image.height;
   header.format = PNG_FORMAT_RGB;
-  const auto fail = [&] {
-    const std::string message = header.message;
-    png_image_free(&header);
-    throw EnvironmentError(path.string() + ": " + message);
-  };
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, /*convert_to_8bit=*/0,
                                 image.rgb.data(), /*row_stride=*/0, /*colormap=*/nullptr) == 0) {
-    fail();
+    const std::string message = header.message;
+    png_image_free(&header);
+    throw EnvironmentError("PNG: " + message);
   }
   bytes.resize(size);
-  WriteFile(path, bytes, Durability::kCached);
+  return bytes;
+}
+
+void WritePng(const std::filesystem::path& path, const Image& image) {
+  WriteFile(path, EncodePng(image), Durability::kCached);
 }
 
 }  // namespace regrasp::render

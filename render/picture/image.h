@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace regrasp::render {
@@ -18,6 +19,9 @@ struct Image {
 /// Averages blocks of `factor` × `factor` pixels into one.
 /// @throws std::invalid_argument  a side is not a multiple of `factor`.
 [[nodiscard]] Image Shrink(const Image& image, int factor);
+
+/// The bytes of a PNG file.
+[[nodiscard]] std::string EncodePng(const Image& image);
 
 /// @throws EnvironmentError  the file cannot be written.
 void WritePng(const std::filesystem::path& path, const Image& image);

@@ -16,11 +16,15 @@ using Eigen::Vector2d;
 
 constexpr int kAngles = 24;
 /// Distances from the anchor to the label's centre, in label radii, and what each costs.
-constexpr double kDistances[] = {1.15, 1.7, 2.4, 3.3, 4.5};
+constexpr double kDistances[] = {1.15, 1.7, 2.4, 3.3, 4.5, 6, 8, 11};
 constexpr double kDistanceCost = 0.35;  ///< per label radius
 constexpr double kAngleCost = 0.4;      ///< for the side opposite to the wanted one
 constexpr double kOverlapCost = 6;      ///< for covering by one label radius
 constexpr double kOutsideCost = 100;
+constexpr double kWrongOwnerCost = 200;
+/// What it costs not to be nearer to its own owner than to another by this share.
+constexpr double kClearlyNearer = 0.9;
+constexpr double kUnclearOwnerCost = 2;
 /// Other labels count as obstacles of this weight, a little larger than they are.
 constexpr double kLabelWeight = 2;
 constexpr double kLabelMargin = 1.1;
@@ -48,27 +52,36 @@ struct Layout {
       const Obstacle taken = {centres[other], centres[other], radius * kLabelMargin, kLabelWeight};
       cost += kOverlapCost * Cover(centre, radius, taken);
     }
+    const Vector2d& own = anchors[label].Owner();
+    for (const LabelAnchor& other : anchors) {
+      if (other.Owner() == own) continue;
+      const double share = (centre - own).norm() / (centre - other.Owner()).norm();
+      if (share >= 1) cost += kWrongOwnerCost;
+      if (share > kClearlyNearer) cost += kUnclearOwnerCost;
+    }
     const bool inside = centre.x() >= radius && centre.x() <= width - radius &&
                         centre.y() >= radius && centre.y() <= height - radius;
     return inside ? cost : cost + kOutsideCost;
   }
 
   [[nodiscard]] Vector2d BestPlace(std::size_t label) const {
-    const auto& [anchor, direction] = anchors[label];
-    const double wanted = std::atan2(direction.y(), direction.x());
-    Vector2d best = anchor;
+    const LabelAnchor& wish = anchors[label];
+    const double wanted = std::atan2(wish.direction.y(), wish.direction.x());
+    Vector2d best = wish.anchor;
     double best_cost = std::numeric_limits<double>::infinity();
-    for (const double distance : kDistances) {
-      for (int i = 0; i < kAngles; ++i) {
-        const double turn = 2 * std::numbers::pi * i / kAngles;
-        const double angle = wanted + turn;
-        const Vector2d centre =
-            anchor + distance * radius * Vector2d(std::cos(angle), std::sin(angle));
-        const double cost =
-            Cost(label, centre) + kDistanceCost * distance + kAngleCost * (1 - std::cos(turn)) / 2;
-        if (cost < best_cost) {
-          best_cost = cost;
-          best = centre;
+    for (const Vector2d& middle : {wish.anchor, wish.Owner()}) {
+      for (const double distance : kDistances) {
+        for (int i = 0; i < kAngles; ++i) {
+          const double turn = 2 * std::numbers::pi * i / kAngles;
+          const double angle = wanted + turn;
+          const Vector2d centre =
+              middle + distance * radius * Vector2d(std::cos(angle), std::sin(angle));
+          const double cost = Cost(label, centre) + kDistanceCost * distance +
+                              kAngleCost * (1 - std::cos(turn)) / 2;
+          if (cost < best_cost) {
+            best_cost = cost;
+            best = centre;
+          }
         }
       }
     }

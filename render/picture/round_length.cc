@@ -15,7 +15,7 @@ double RoundLength(double limit) {
   return power;
 }
 
-std::string FormatLength(double metres) {
+std::string FormatLength(double metres, int digits) {
   struct Unit {
     double metres;
     const char* name;
@@ -25,9 +25,9 @@ std::string FormatLength(double metres) {
   // A hair below one: 0.01 / 1e-2 may round down.
   constexpr double kOne = 1 - 1e-9;
   for (const auto& [size, name] : kUnits) {
-    if (metres / size >= kOne) return FormatShort(metres / size) + name;
+    if (metres / size >= kOne) return FormatShort(metres / size, digits) + name;
   }
-  return FormatShort(metres) + " m";
+  return FormatShort(metres, digits) + " m";
 }
 
 }  // namespace regrasp::render

@@ -7,6 +7,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/polygon.h"
+#include "planner/object/polygon_soup.h"
 #include "tests/render/frames/scenes.h"
 
 namespace regrasp::render {
@@ -28,13 +29,6 @@ TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
   EXPECT_EQ(shape.edges.size(), 18U);  // of a prism of six sides; no edge inside a face
 }
 
-TEST(BodyShapeTest, TurnedInsideOutHasTheOppositeVolumeAndNormals) {
-  const FacetMesh cube = MakeBodyShape(MakeCube(0.03)).surface;
-  const FacetMesh turned = TurnInsideOut(cube);
-  EXPECT_DOUBLE_EQ(Volume(turned), -Volume(cube));
-  EXPECT_EQ(turned.normals[0][0], -cube.normals[0][0]);
-}
-
 TEST(BodyShapeTest, APolygonWithAHoleBecomesAClosedPrism) {
   const object::Polygon polygon = object::Polygon::FromWkt(
       "POLYGON((0 0, 3 0, 3 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 1))", "polygon");
@@ -51,7 +45,7 @@ TEST(BodyShapeTest, APrismHasTheThicknessAskedForAndItsTopAtThePlaneOfTheContact
       object::Polygon::FromWkt("POLYGON((0 0, 3 0, 3 4, 0 4, 0 0))", "rectangle");
   for (const double thickness : {0.02, 0.25, 2.0}) {
     double low = 0, high = -1;
-    for (const auto& corners : MakeBodyShape(square, thickness).surface.triangles) {
+    for (const auto& corners : MakeBodyShape(square, {.thickness = thickness}).surface.triangles) {
       for (const Vector3d& p : corners) {
         low = std::min(low, p.z());
         high = std::max(high, p.z());
@@ -76,52 +70,96 @@ TEST(BodyShapeTest, RaysInThePlaneOfTheContactsMeetThePrismsWalls) {
   EXPECT_EQ(met, 3);
 }
 
-TEST(BodyShapeTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
-  const double half_angle = Radians(25), slant = 0.15;
-  const FacetMesh wedge = MakeWedge(half_angle, slant);
-  Vector3d flux = Vector3d::Zero();
-  double low = 1, high = 0;
-  for (const auto& corners : wedge.triangles) {
-    const auto& [a, b, c] = corners;
-    flux += (b - a).cross(c - a);
-    for (const Vector3d& p : corners) {
-      low = std::min(low, p.y());
-      high = std::max(high, p.y());
-      if (p.z() == 0) continue;
-      EXPECT_NEAR(std::atan2(std::abs(p.x()), p.z()), half_angle, 1e-12);
-      EXPECT_NEAR(std::hypot(p.x(), p.z()), slant, 1e-12);
-    }
+/// A prism of `sides` sides, 1 in radius and 0.5 high.
+object::Polyhedron MakeRoundPrism(int sides) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i < sides; ++i) {
+    const double turn = Radians(360.0 * i / sides);
+    outline.push_back({std::cos(turn), std::sin(turn)});
   }
-  EXPECT_LT(flux.norm(), 1e-15);
-  const double area = slant * slant * std::sin(half_angle) * std::cos(half_angle);
-  EXPECT_GT(low, 0);
-  EXPECT_NEAR(Volume(wedge), area * (high - low), 1e-15);
+  return object::Polyhedron::FromSoup(Extrude(outline, 0, 0.5), "prism");
 }
 
-TEST(BodyShapeTest, AConeHasItsHalfAngleAndOpensUpwards) {
-  const double half_angle = Radians(25);
-  const FacetMesh cone = MakeCone(half_angle, 2);
-  int rim = 0;
-  for (const auto& corners : cone.triangles) {
-    for (const Vector3d& p : corners) {
-      if (p.head<2>().norm() == 0) continue;
-      EXPECT_NEAR(p.norm(), 2, 1e-12);
-      EXPECT_NEAR(std::atan2(p.head<2>().norm(), p.z()), half_angle, 1e-12);
-      ++rim;
-    }
-  }
-  EXPECT_GT(rim, 100);
-  EXPECT_GT(Volume(cone), 0);
+TEST(BodyShapeTest, EdgesAreWhereTheSurfaceTurnsByMoreThanTheCreaseAngle) {
+  const object::Polyhedron prism = MakeRoundPrism(12);  // its walls meet at 30°
+  const auto edges = [&](EdgeStyle style, double degrees) {
+    const BodyOptions options = {.edges = style, .crease_angle = Radians(degrees)};
+    return MakeBodyShape(prism, options).edges.size();
+  };
+  EXPECT_EQ(edges(EdgeStyle::kCrease, 40), 24U);
+  EXPECT_EQ(edges(EdgeStyle::kCrease, 29), 36U);
+  EXPECT_EQ(edges(EdgeStyle::kAll, 40), 36U);
+  EXPECT_EQ(edges(EdgeStyle::kNone, 1), 0U);
 }
 
-TEST(BodyShapeTest, RaysMeetTheNearestTriangleBeyondTheSkip) {
-  const BodyShape cube = MakeBodyShape(MakeCube(0.03));
-  const double half = 0.5 / std::sqrt(3.0);
-  const Vector3d x = Vector3d::UnitX();
-  const Vector3d off_diagonal(0, 0.01, 0.02);
-  EXPECT_NEAR(RayDistance(cube.surface, off_diagonal, x, 1e-4), half, 1e-12);
-  EXPECT_NEAR(RayDistance(cube.surface, off_diagonal - half * x, x, 1e-4), 2 * half, 1e-12);
-  EXPECT_TRUE(std::isinf(RayDistance(cube.surface, off_diagonal + x, x, 1e-4)));
+TEST(BodyShapeTest, IsShadedSmoothlyButAcrossCreases) {
+  const BodyShape smooth = MakeBodyShape(MakeRoundPrism(12));
+  int round = 0;
+  for (std::size_t i = 0; i < smooth.surface.triangles.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3d& n = smooth.surface.normals[i][corner];
+      const Vector3d& p = smooth.surface.triangles[i][corner];
+      const Eigen::Vector2d outward = p.head<2>().normalized();
+      if (std::abs(n.z()) > 0.5) {
+        EXPECT_NEAR(std::abs(n.z()), 1, 1e-12);
+        continue;
+      }
+      // A wall's two triangles count by their area: the mean leans to one side a little.
+      EXPECT_GT(n.head<2>().dot(outward), std::cos(Radians(6)));
+      ++round;
+    }
+  }
+  EXPECT_EQ(round, 12 * 2 * 3);
+}
+
+TEST(BodyShapeTest, LeavesOutScratchesAndKeepsLoops) {
+  // A roof with a ridge that ends in the middle of it, on a block: 45° on one side only.
+  object::PolygonSoup soup;
+  const double size = 10;
+  soup.vertices = {{0, 0, 0},    {size, 0, 0},    {size, size, 0}, {0, size, 0}, {0, 0, 5},
+                   {size, 0, 5}, {size, size, 5}, {0, size, 5},    {4.5, 5, 5},  {5.5, 5, 5},
+                   {5, 4.7, 5},  {5, 5.3, 5},     {5, 5, 5.4}};
+  soup.facets = {{0, 3, 2, 1},
+                 {0, 1, 5, 4},
+                 {1, 2, 6, 5},
+                 {2, 3, 7, 6},
+                 {3, 0, 4, 7},
+                 // The top around a small hill whose sides rise at more than 40°.
+                 {4, 5, 10},
+                 {4, 10, 8},
+                 {5, 9, 10},
+                 {5, 6, 9},
+                 {6, 11, 9},
+                 {6, 7, 11},
+                 {7, 8, 11},
+                 {7, 4, 8},
+                 {8, 10, 12},
+                 {10, 9, 12},
+                 {9, 11, 12},
+                 {11, 8, 12}};
+  const BodyShape hill = MakeBodyShape(object::Polyhedron::FromSoup(soup, "hill"));
+  EXPECT_EQ(hill.edges.size(), 12U + 4 + 4) << "a small hill has a loop around its foot";
+  // The same creases without the loop: the foot is smooth, the ridge is a short tree.
+  soup.vertices[12].z() = 5.24;
+  const BodyOptions sharp = {.crease_angle = Radians(50)};
+  const BodyShape flat = MakeBodyShape(object::Polyhedron::FromSoup(soup, "hill"), sharp);
+  EXPECT_EQ(flat.edges.size(), 12U);
+}
+
+TEST(BodyShapeTest, TheOutlineOfARoundBodyIsWhereItTurnsAwayFromTheEye) {
+  const BodyShape body = MakeBodyShape(MakeRoundPrism(64), {.crease_angle = Radians(95)});
+  EXPECT_TRUE(body.edges.empty());
+  const auto outline = FindOutline(body, [](const Vector3d&) { return Vector3d(1, 0, 0); });
+  int upright = 0;
+  for (const auto& [a, b] : outline) {
+    if (std::abs(a.z() - b.z()) < 1e-9) {
+      EXPECT_GT(a.x() + b.x(), 0);  // the rims, where a wall faces the eye
+      continue;
+    }
+    EXPECT_LT(std::abs(a.x()), 0.05);
+    ++upright;
+  }
+  EXPECT_EQ(upright, 2);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ TEST(CameraTest, FitsAllPointsIntoTheMarginsAndTouchesThem) {
   for (int trial = 0; trial < 200; ++trial) {
     const std::vector<Vector3d> points = RandomPoints(random, 12);
     const Vector3d back = RandomPoints(random, 1).front();
-    const Camera camera = FitCamera(CameraAxes(back), 0.2, kWidth, kHeight, margins, points);
+    const Camera camera =
+        FitCamera(CameraAxes(back), Projection::kPerspective, kWidth, kHeight, margins, points);
     Vector2d low(1e9, 1e9);
     Vector2d high(-1e9, -1e9);
     for (const Vector3d& point : points) {
@@ -62,10 +63,38 @@ TEST(CameraTest, FitsAllPointsIntoTheMarginsAndTouchesThem) {
   EXPECT_EQ(tight, 200);
 }
 
+TEST(CameraTest, AnOrthographicCameraFitsTheSameMarginsWithOneScaleAtEveryDepth) {
+  std::mt19937 random(5);
+  constexpr int kWidth = 800, kHeight = 500;
+  const Margins margins = {0.05, 0.04, 0.10};
+  int tight = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const std::vector<Vector3d> points = RandomPoints(random, 12);
+    const Eigen::Matrix3d axes = CameraAxes(RandomPoints(random, 1).front());
+    const Camera camera =
+        FitCamera(axes, Projection::kOrthographic, kWidth, kHeight, margins, points);
+    Eigen::AlignedBox2d box;
+    for (const Vector3d& point : points) {
+      EXPECT_GT(camera.Depth(point), 0);
+      box.extend(camera.Project(point));
+      EXPECT_DOUBLE_EQ(camera.PixelsPerUnit(point), camera.PixelsPerUnit(points[0]));
+      EXPECT_EQ(camera.ToEye(point), axes.col(2));
+    }
+    constexpr double kPixel = 1e-6;
+    EXPECT_GE(box.min().x(), 0.05 * kHeight - kPixel);
+    EXPECT_LE(box.max().x(), kWidth - 0.05 * kHeight + kPixel);
+    EXPECT_GE(box.min().y(), 0.04 * kHeight - kPixel);
+    EXPECT_LE(box.max().y(), 0.90 * kHeight + kPixel);
+    const double left = box.min().x() - 0.05 * kHeight, above = box.min().y() - 0.04 * kHeight;
+    tight += std::min(left, above) < kPixel ? 1 : 0;
+  }
+  EXPECT_EQ(tight, 100);
+}
+
 TEST(CameraTest, ProjectsTheCentreOfItsViewToTheCentreOfTheImage) {
   Camera camera;
   camera.position = {0, 0, 5};
-  camera.tan_half_height = 0.5;
+  camera.half_height = 0.5;
   camera.width = 200;
   camera.height = 100;
   EXPECT_TRUE(camera.Project(Vector3d::Zero()).isApprox(Vector2d(100, 50)));

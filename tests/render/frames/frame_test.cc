@@ -199,13 +199,80 @@ plan::Snapshot MakePlanarSnapshot() {
 TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
   const object::Polygon polygon = MakePolygon();
   FrameOptions thin = Small(), thick = Small();
-  thin.thickness = 0.02;
-  thick.thickness = 0.25;
+  thin.body.thickness = 0.02;
+  thick.body.thickness = 0.25;
+  const ViewDirection tilted = {Radians(270), Radians(60)};
+  thin.view.direction = thick.view.direction = tilted;
+  FrameOptions usual = Small();
+  usual.view.direction = tilted;
   const Image a = Draw(polygon, {MakePlanarSnapshot()}, 0, thin);
   const Image b = Draw(polygon, {MakePlanarSnapshot()}, 0, thick);
   for (const int finger : {0, 1}) EXPECT_GT(CountHue(a, FingerColor(FingerIndex(finger))), 40);
   EXPECT_GT(CountDifferent(a, b), 1000);
-  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, Small())), 0);
+  EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, usual)), 0);
+}
+
+/// Pixels that are not white within `margin` pixels of the border.
+int CountAtBorder(const Image& image, int margin) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const bool inside =
+          x >= margin && y >= margin && x < image.width - margin && y < image.height - margin;
+      count += inside || IsWhite(PixelAt(image, x, y)) ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
+  const object::Polyhedron cube = MakeCube(0.03), block = MakeThinLBlock(),
+                           holed = MakeHoledBlock();
+  const object::Polygon polygon = MakePolygon();
+  struct Scene {
+    const object::Object& object;
+    std::vector<plan::Snapshot> snapshots;
+  };
+  const std::vector<Scene> scenes = {{cube, MakeCubeSequence()},
+                                     {block, MakeLBlockSequence()},
+                                     {holed, MakeHoledBlockSequence()},
+                                     {polygon, {MakePlanarSnapshot()}}};
+  int drawn = 0, cut_off = 0;
+  for (const auto& [object, snapshots] : scenes) {
+    for (const auto& [width, height] : {std::pair(640, 480), std::pair(640, 240)}) {
+      for (const double zoom : {1.0, 3.0}) {
+        FrameOptions options = {width, height, 1};
+        options.view.zoom = zoom;
+        FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
+        for (const plan::Snapshot& snapshot : snapshots) {
+          const int at_border = CountAtBorder(renderer.Render(snapshot, "caption"), 5);
+          if (zoom == 1) {
+            EXPECT_EQ(at_border, 0);
+            ++drawn;
+          } else {
+            cut_off += at_border > 0 ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cut_off, drawn);  // each is cut off once it is three times as large
+}
+
+TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
+  // The one long force of the sequence leaves the object at its other side.
+  const object::Polyhedron plate = object::Polyhedron::FromSoup(
+      Extrude({{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, 0, 0.004), "plate");
+  plan::Snapshot snapshot;
+  snapshot.fingertip_radius_m = 0.002;
+  snapshot.fingers = {
+      MakeFinger(0, plan::FingerRole::kHolding, {0.05, 0.05, 0.004}, -Eigen::Vector3d::UnitZ()),
+      MakeFinger(1, plan::FingerRole::kHolding, {0.0, 0.05, 0.002}, Eigen::Vector3d::UnitX())};
+  snapshot.fingers[0].force_W *= 10;
+  FrameOptions options = Medium();
+  options.view.direction = ViewDirection{0, 0};
+  FrameRenderer renderer(plate, 1, kHalfAngle, {snapshot}, options);
+  EXPECT_EQ(CountAtBorder(renderer.Render(snapshot), 5), 0);
 }
 
 TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {

@@ -69,7 +69,7 @@ TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
   state.tip_W.z() = 0.09;
   sample.fingers = {state};
   const auto height = [&](GapView gaps) {
-    return MakeFingerGlyphs(sample, PictureFrame(), FacetMesh(), gaps).front().ball.z();
+    return MakeFingerGlyphs(sample, PictureFrame(), FacetMesh(), {.gaps = gaps}).front().ball.z();
   };
   EXPECT_NEAR(height(GapView::kShown) - height(GapView::kNone), kGapScale * 0.05, 1e-12);
   sample.fingers[0].tip_W.z() = 0.04;

@@ -15,7 +15,7 @@ constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 
 TEST(LabelLayoutTest, PutsALoneLabelNextToItsAnchorOnTheWantedSide) {
-  const LabelAnchor anchor = {{300, 200}, {0, -1}};
+  const LabelAnchor anchor = {{300, 200}, {0, -1}, Vector2d(300, 230)};
   const auto centres = PlaceLabels({&anchor, 1}, {}, kRadius, kWidth, kHeight);
   ASSERT_EQ(centres.size(), 1U);
   EXPECT_NEAR(centres[0].x(), 300, 1e-9);
@@ -34,7 +34,7 @@ TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
     for (int finger = 0; finger < 5; ++finger) {
       const Vector2d ball(x(random), y(random));
       const Vector2d end = ball + 40 * Vector2d::Random().normalized();
-      anchors.push_back({end, end - ball});
+      anchors.push_back({end, end - ball, ball});
       obstacles.push_back({ball, end, 8});
     }
     const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
@@ -53,8 +53,37 @@ TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
   EXPECT_EQ(checked, 2500);
 }
 
+TEST(LabelLayoutTest, ALabelIsNearerToItsOwnFingersBallThanToAnotherOne) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> offset(-60, 60);
+  int at_another_stem = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    // Fingers inside a hole: the stem of each ends at the ball of the other.
+    std::vector<LabelAnchor> anchors;
+    std::vector<Obstacle> obstacles;
+    const Vector2d middle(320, 240);
+    for (int pair = 0; pair < 2; ++pair) {
+      const Vector2d a = middle + Vector2d(offset(random), offset(random));
+      const Vector2d b = middle + Vector2d(offset(random), offset(random));
+      for (const auto& [ball, end] : {std::pair(a, b), std::pair(b, a)}) {
+        anchors.push_back({end, end - ball, ball});
+        obstacles.push_back({ball, end, 8});
+      }
+    }
+    const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      for (const LabelAnchor& other : anchors) {
+        if (other.Owner() == anchors[i].Owner()) continue;
+        EXPECT_LT((centres[i] - anchors[i].Owner()).norm(), (centres[i] - other.Owner()).norm());
+        at_another_stem += other.Owner() == anchors[i].anchor ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(at_another_stem, 800);  // the place that a label would like best is a wrong one
+}
+
 TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {
-  const LabelAnchor corner = {{2, 3}, {-1, -1}};
+  const LabelAnchor corner = {{2, 3}, {-1, -1}, Vector2d(4, 5)};
   const auto centres = PlaceLabels({&corner, 1}, {}, kRadius, kWidth, kHeight);
   ASSERT_EQ(centres.size(), 1U);
   EXPECT_GE(centres[0].minCoeff(), kRadius);

@@ -1,0 +1,154 @@
+// Frames of replays at 1280 × 960 with four samples a pixel: the drawing of one, and its PNG. The
+// baseline is MuJoCo's own renderer on the scene of the same replay, in the same size and with as
+// many samples, without labels and PNG.
+
+#include <GL/osmesa.h>
+#include <benchmark/benchmark.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/base/file.h"
+#include "planner/plan/check.h"
+#include "planner/planning/solve.h"
+#include "planner/registry/registry.h"
+#include "render/frames/frame.h"
+#include "render/picture/image.h"
+#include "sim/replay/replay.h"
+
+namespace {
+
+using namespace regrasp;
+
+constexpr double kHalfAngleDegrees = 20;
+constexpr int kWidth = 1280, kHeight = 960, kSamples = 4;
+
+constexpr std::array<const char*, 7> kModels = {
+    "cube.obj",    "l_block.obj",  "mug1000.obj",    "duck1000.obj",
+    "flask1000.obj", "spanner1000.obj", "wrench256.wkt"};
+
+struct Case {
+  object::ObjectFile file;
+  plan::Plan plan;  ///< located
+  std::vector<plan::Snapshot> snapshots;
+};
+
+Case MakeCase(const std::string& model) {
+  Case made{object::ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}, {}};
+  const object::Object& object = *made.file.object;
+  const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandomAny, {}, "random"};
+  const planning::PlanResult result =
+      planning::Solve(*registry::FindPlanner("general"),
+                      {.object = &object,
+                       .start = random,
+                       .goal = random,
+                       .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+                       .seed = 1});
+  if (!result.plan) throw std::runtime_error(model + ": no plan to draw");
+  made.plan = plan::CheckPlan(object, *result.plan).located;
+  for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {
+    made.snapshots.push_back(step.snapshot);
+  }
+  return made;
+}
+
+const Case& GetCase(std::int64_t index) {
+  static std::array<std::unique_ptr<Case>, kModels.size()> cases;
+  if (!cases.at(index)) cases[index] = std::make_unique<Case>(MakeCase(kModels[index]));
+  return *cases[index];
+}
+
+void BM_Frame(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
+                                 {.width = kWidth, .height = kHeight});
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · switch")));
+  }
+  state.SetLabel(kModels.at(state.range(0)));
+}
+
+/// The view is chosen once for a plan.
+void BM_Setup(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  for (auto _ : state) {
+    render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
+                                   {.width = kWidth, .height = kHeight});
+  }
+  state.SetLabel(kModels.at(state.range(0)));
+}
+
+void BM_EncodePng(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  render::FrameRenderer renderer(*made.file.object, 1, Radians(kHalfAngleDegrees), made.snapshots,
+                                 {.width = kWidth, .height = kHeight});
+  const render::Image image = renderer.Render(made.snapshots.back(), "step 1/1 · switch");
+  for (auto _ : state) benchmark::DoNotOptimize(render::EncodePng(image));
+  state.SetLabel(kModels.at(state.range(0)));
+}
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+void BM_MuJoCoRender(benchmark::State& state) {
+  const Case& made = GetCase(state.range(0));
+  const std::string path = std::filesystem::temp_directory_path() / "regrasp_frame_bench.xml";
+  WriteFile(path, sim::SceneMjcf(*made.file.object, made.plan, {}), Durability::kCached);
+  std::array<char, 1000> message = {};
+  const std::unique_ptr<mjModel, DeleteModel> model(
+      mj_loadXML(path.c_str(), nullptr, message.data(), message.size()));
+  std::filesystem::remove(path);
+  if (!model) throw std::runtime_error(message.data());
+  model->vis.global.offwidth = kWidth;
+  model->vis.global.offheight = kHeight;
+  model->vis.quality.offsamples = kSamples;
+  const std::unique_ptr<mjData, DeleteData> data(mj_makeData(model.get()));
+  mj_forward(model.get(), data.get());
+  std::vector<unsigned char> window(4);
+  OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 8, nullptr);
+  OSMesaMakeCurrent(context, window.data(), GL_UNSIGNED_BYTE, 1, 1);
+  mjvScene scene;
+  mjv_defaultScene(&scene);
+  constexpr int kMostGeoms = 2000;
+  mjv_makeScene(model.get(), &scene, kMostGeoms);
+  mjrContext renderer;
+  mjr_defaultContext(&renderer);
+  mjr_makeContext(model.get(), &renderer, mjFONTSCALE_50);
+  mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
+  mjvCamera camera;
+  mjv_defaultFreeCamera(model.get(), &camera);
+  mjvOption options;
+  mjv_defaultOption(&options);
+  std::vector<unsigned char> pixels(std::size_t{3} * kWidth * kHeight);
+  const mjrRect viewport = {0, 0, kWidth, kHeight};
+  for (auto _ : state) {
+    mjv_updateScene(model.get(), data.get(), &options, nullptr, &camera, mjCAT_ALL, &scene);
+    mjr_render(viewport, &scene, &renderer);
+    mjr_readPixels(pixels.data(), nullptr, viewport, &renderer);
+  }
+  state.SetLabel(kModels.at(state.range(0)));
+  mjr_freeContext(&renderer);
+  mjv_freeScene(&scene);
+  OSMesaDestroyContext(context);
+}
+
+constexpr int kLast = static_cast<int>(kModels.size()) - 1;
+BENCHMARK(BM_Frame)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_MuJoCoRender)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_EncodePng)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Setup)->DenseRange(0, kLast)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

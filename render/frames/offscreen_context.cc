@@ -1,0 +1,52 @@
+#include "render/frames/offscreen_context.h"
+
+#include <GL/osmesa.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "planner/base/error.h"
+
+namespace regrasp::render {
+
+namespace {
+
+constexpr int kDepthBits = 24;
+constexpr int kBytesPerPixel = 4;
+
+OSMesaContext CreateContext() {
+  // Mesa would keep shaders in the home folder. Its versions have two names for this.
+  constexpr char kName[] = "MESA_SHADER_CACHE_DISABLE";
+  constexpr char kOldName[] = "MESA_GLSL_CACHE_DISABLE";
+  if (std::getenv(kName) == nullptr && std::getenv(kOldName) == nullptr) {
+    for (const char* name : {kName, kOldName}) setenv(name, "true", /*overwrite=*/1);
+  }
+  return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, 0, 0, nullptr);
+}
+
+}  // namespace
+
+OffscreenContext::OffscreenContext(int width, int height)
+    : width_(width),
+      height_(height),
+      pixels_(std::size_t{kBytesPerPixel} * width * height),
+      context_(CreateContext()) {
+  if (context_ == nullptr) throw EnvironmentError("no off-screen rendering context (OSMesa)");
+  try {
+    MakeCurrent();
+  } catch (...) {
+    OSMesaDestroyContext(context_);
+    throw;
+  }
+}
+
+OffscreenContext::~OffscreenContext() { OSMesaDestroyContext(context_); }
+
+void OffscreenContext::MakeCurrent() {
+  if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {
+    throw EnvironmentError("the off-screen rendering context of " + std::to_string(width_) + "x" +
+                           std::to_string(height_) + " pixels cannot be used (OSMesa)");
+  }
+}
+
+}  // namespace regrasp::render

@@ -1,0 +1,142 @@
+#include "render/frames/canvas.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace regrasp::render {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Color kRed = {200, 40, 40};
+constexpr int kSide = 64;
+
+/// Straight from above, a length of 1 is half of the picture.
+Camera FromAbove() {
+  Camera camera;
+  camera.position = {0, 0, 10};
+  camera.projection = Projection::kOrthographic;
+  camera.half_height = 1;
+  camera.width = camera.height = kSide;
+  return camera;
+}
+
+/// [−h, h]² at height z, seen from above.
+FacetMesh Square(double h, double z) {
+  FacetMesh mesh;
+  mesh.AddFlat({-h, -h, z}, {h, -h, z}, {h, h, z});
+  mesh.AddFlat({-h, -h, z}, {h, h, z}, {-h, h, z});
+  return mesh;
+}
+
+Image DrawOnce(const std::vector<FacetMesh>& meshes, const Drawing& drawing, int supersampling = 1) {
+  Canvas canvas(meshes, kSide, kSide, supersampling);
+  return canvas.Draw(FromAbove(), drawing);
+}
+
+Color CentreOf(const Image& image) {
+  const unsigned char* p =
+      image.rgb.data() + 3 * (std::size_t(image.height / 2) * image.width + image.width / 2);
+  return {p[0], p[1], p[2]};
+}
+
+int CountColored(const Image& image) {
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) count += image.rgb[i + 1] < 250 ? 1 : 0;
+  return count;
+}
+
+TEST(CanvasTest, IsWhiteWhereNothingIsDrawn) {
+  const Image image = DrawOnce({}, {});
+  EXPECT_EQ(image.rgb, MakeImage(kSide, kSide).rgb);
+}
+
+TEST(CanvasTest, ABallIsAsLargeAsItsRadiusSays) {
+  Drawing drawing;
+  drawing.shapes = {{Ball{Vector3d::Zero(), 0.5}, kRed}};
+  const double area = M_PI * std::pow(0.5 * kSide / 2, 2);
+  EXPECT_NEAR(CountColored(DrawOnce({}, drawing)), area, 0.03 * area);
+}
+
+TEST(CanvasTest, TheUpperSideOfAnImageIsUp) {
+  Drawing drawing;
+  drawing.shapes = {{Ball{Vector3d(0.5, 0.5, 0), 0.2}, kRed}};
+  const Image image = DrawOnce({}, drawing);
+  const auto green = [&](int x, int y) { return image.rgb[3 * (std::size_t(y) * kSide + x) + 1]; };
+  EXPECT_LT(green(48, 16), 100);
+  EXPECT_EQ(green(48, 48), 255);
+  EXPECT_EQ(green(16, 16), 255);
+}
+
+TEST(CanvasTest, ALayerIsLaidOverThePictureWithItsOpacity) {
+  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5)};
+  Drawing drawing;
+  drawing.shapes = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.2}, kRed}};
+  const Color below = CentreOf(DrawOnce(meshes, drawing));
+  EXPECT_EQ(below.r, kRed.r);  // lines have no light
+  Layer cover = {{{MeshInstance{0}, Color{0, 0, 255}}}, 1};
+  drawing.layers = {cover};
+  const Color covered = CentreOf(DrawOnce(meshes, drawing));
+  drawing.layers[0].opacity = 0.25;
+  const Color seen_through = CentreOf(DrawOnce(meshes, drawing));
+  EXPECT_NEAR(seen_through.r, 0.75 * below.r + 0.25 * covered.r, 1);
+  EXPECT_NEAR(seen_through.b, 0.75 * below.b + 0.25 * covered.b, 1);
+  EXPECT_GT(covered.b, 100);
+  EXPECT_EQ(covered.r, 0);
+}
+
+TEST(CanvasTest, ALayerBehindAShapeDoesNotPaleIt) {
+  Drawing drawing;
+  drawing.shapes = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.2}, kRed}};
+  drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
+  EXPECT_EQ(CentreOf(DrawOnce({Square(0.9, -0.5)}, drawing)).r, kRed.r);
+}
+
+TEST(CanvasTest, ATranslucentShapeMixesWithWhatIsBehindItOnce) {
+  Drawing drawing;
+  drawing.shapes = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.2}, Color{0, 0, 0}, 0.5}};
+  EXPECT_NEAR(CentreOf(DrawOnce({}, drawing)).g, 128, 1);
+}
+
+TEST(CanvasTest, OutlinesAreHiddenByWhatStandsBeforeThem) {
+  Drawing drawing;
+  drawing.outline = {{Line{{-0.5, 0, 0}, {0.5, 0, 0}, 0.1}, kRed}};
+  for (const double height : {-0.5, 0.5}) {
+    drawing.hiding = {{0}};
+    const Color centre = CentreOf(DrawOnce({Square(0.9, height)}, drawing));
+    EXPECT_EQ(centre.g, height < 0 ? kRed.g : 255) << height;
+  }
+}
+
+TEST(CanvasTest, SupersamplingAveragesEdgesAndKeepsAreas) {
+  Drawing drawing;
+  drawing.shapes = {{Ball{Vector3d::Zero(), 0.5}, kRed}};
+  const auto tones = [](const Image& image) {
+    std::vector<unsigned char> green;
+    for (std::size_t i = 1; i < image.rgb.size(); i += 3) green.push_back(image.rgb[i]);
+    std::ranges::sort(green);
+    return std::ranges::unique(green).begin() - green.begin();
+  };
+  const Image rough = DrawOnce({}, drawing, 1), fine = DrawOnce({}, drawing, 4);
+  EXPECT_GT(tones(fine), tones(rough));
+  EXPECT_NEAR(CountColored(fine), CountColored(rough), 150);
+}
+
+TEST(CanvasTest, PerspectiveShrinksWhatIsFartherAway) {
+  Camera camera = FromAbove();
+  const auto pixels = [&](double z) {
+    Drawing drawing;
+    drawing.shapes = {{Ball{Vector3d(0, 0, z), 0.3}, kRed}};
+    Canvas canvas({}, kSide, kSide, 1);
+    return CountColored(canvas.Draw(camera, drawing));
+  };
+  EXPECT_NEAR(pixels(-2), pixels(2), 3);
+  camera.projection = Projection::kPerspective;
+  camera.half_height = 0.1;
+  EXPECT_NEAR(pixels(-2) * 144.0 / 64, pixels(2), 0.1 * pixels(2));
+}
+
+}  // namespace
+}  // namespace regrasp::render
