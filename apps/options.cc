@@ -95,6 +95,15 @@ std::optional<double> FrictionOptions::half_angle() const {
   return angle;
 }
 
+std::string FrictionOptions::warning() const {
+  // Rubber on rough surfaces comes to 2.
+  constexpr double kMostUsual = 3;
+  if (!mu_ || *mu_ <= kMostUsual) return "";
+  return "--mu " + FormatDouble(*mu_) +
+         ": hardly any fingertip has that much friction, rubber 1 to 2; "
+         "a half-angle in degrees is --friction-angle";
+}
+
 double FrictionOptions::required_half_angle() const {
   const std::optional<double> angle = half_angle();
   if (!angle) throw InputError("friction is missing: give --friction-angle DEG or --mu X");

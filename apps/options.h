@@ -104,6 +104,9 @@ class FrictionOptions {
   /// @throws InputError  also where neither is given.
   [[nodiscard]] double required_half_angle() const;
 
+  /// Of a coefficient that hardly any fingertip has; otherwise empty.
+  [[nodiscard]] std::string warning() const;
+
  private:
   std::optional<double> degrees_;
   std::optional<double> mu_;

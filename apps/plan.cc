@@ -14,6 +14,7 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
+#include "planner/object/body_measures.h"
 #include "planner/plan/check.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
@@ -180,6 +181,8 @@ int PlanProgram::Run() const {
   CheckOutput();
   const object::ObjectFile object = common.ReadObjectFile();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
+  const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
+  const std::vector<std::string> doubts = {object::SizeWarning(body), common.friction.warning()};
   planning::PlanResult result = Find(object);
   if (!result.plan) {
     PrintMessage(kProgram, result.message);
@@ -197,8 +200,14 @@ int PlanProgram::Run() const {
   } else {
     WriteFile(output, text);
   }
-  for (const std::string& warning : result.warnings) PrintMessage(kProgram, "warning: " + warning);
-  if (!common.quiet) PrintSummary(result, check);
+  result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
+  for (const std::string& warning : result.warnings) {
+    if (!warning.empty()) PrintMessage(kProgram, "warning: " + warning);
+  }
+  if (common.quiet) return kExitDone;
+  PrintMessage(kProgram,
+               object.file + ": " + object::MeasuresText(body) + " at the density of water");
+  PrintSummary(result, check);
   return kExitDone;
 }
 

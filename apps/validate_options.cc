@@ -107,12 +107,25 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
             "R");
 }
 
+void AddSqueeze(CLI::App& app, sim::ReplayOptions& replay) {
+  const auto parse = [&replay](const std::string& text) {
+    replay.hand_squeeze = text == "realistic";
+    if (!replay.hand_squeeze) {
+      replay.squeeze_N = ParseNumber("--squeeze", text, NumberRange::Positive());
+    }
+  };
+  app.add_option_function<std::string>(
+         "--squeeze", parse,
+         "Sum of the normal forces of a grasp at rest, newtons; or realistic: what a hand applies, "
+         "twice what the weight needs in the grasp of the plan that carries it worst, at most 200 "
+         "N (default: such that the weight is a tenth of the shake force, 1000 weights at the "
+         "default shake)")
+      ->type_name("N|realistic");
+}
+
 /// How the object is held, disturbed and examined.
 void AddReplay(CLI::App& app, ValidateOptions& options) {
-  AddNumber(app, "--squeeze", options.replay.squeeze_N, NumberRange::Positive(),
-            "Sum of the normal forces of a grasp at rest, newtons (default: such "
-            "that the weight is a tenth of the shake force, 1000 weights at the default shake)",
-            "N");
+  AddSqueeze(app, options.replay);
   AddNumber(app, "--shake", options.replay.shake, NumberRange::NotNegative(),
             "Size of the shake: force over squeeze, and torque over squeeze times half the "
             "diameter (default 0.01)",

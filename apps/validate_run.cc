@@ -25,6 +25,7 @@
 #include "report/page/report_page.h"
 #include "report/report.h"
 #include "sim/replay/trajectory.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::apps {
 
@@ -184,6 +185,8 @@ void AddTrials(const ValidateOptions& options, const Task& task, report::Report&
   const object::Object& object = *task.object.object;
   sim::ReplayOptions replay = options.replay;
   replay.half_angle = report.half_angle;
+  // A hand does not know of the noise.
+  if (replay.hand_squeeze) replay.squeeze_N = report.settings->squeeze_N;
   report.trials = sim::RunTrials(object, plan::LocatePlan(object, task.plan), replay,
                                  options.trials, report.settings->fingertip_radius_m, tell);
 }
@@ -304,6 +307,10 @@ int RunValidation(const ValidateOptions& options) {
   AddTrials(options, task, report);
   if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);
+  const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
+  for (const std::string& warning : {object::SizeWarning(body), options.friction.warning()}) {
+    if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
+  }
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }

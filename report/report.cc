@@ -9,6 +9,7 @@
 #include "planner/certificate/plan_proof.h"
 #include "planner/object/polygon.h"
 #include "sim/measure/weakest_finger.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::report {
 
@@ -170,6 +171,7 @@ Report Validate(const object::Object& object, const plan::Plan& plan,
   Report report;
   report.scale = plan.scale;
   report.dimension = plan.dimension;
+  report.measures = object::MeasuresText(sim::BodyOf(object, plan.scale, replay));
   report.planner = plan.planner;
   report.half_angle = check.half_angle.value_or(plan.half_angle);
   report.finger_radius = check.finger_radius ? check.finger_radius : plan.finger_radius;

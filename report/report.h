@@ -79,6 +79,7 @@ struct Report {
   std::string planner;
   double scale = 1;
   int dimension = 3;
+  std::string measures;   ///< how large and heavy the object is: "10.4 cm across, 216 g"
   double half_angle = 0;  ///< checked against, radians
   /// Of the fingers, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;

@@ -25,6 +25,7 @@ Json MakeSettings(const Report& report) {
   settings["mu"] = replay.mu;
   settings["mass_kg"] = replay.mass_kg;
   settings["squeeze_N"] = replay.squeeze_N;
+  settings["squeeze_source"] = SqueezeSourceName(replay.squeeze_source);
   settings["gravity_m_s2"] = replay.gravity_m_s2;
   if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
   settings["shake"] = replay.shake;

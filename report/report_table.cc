@@ -8,6 +8,7 @@
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
 #include "report/report.h"
+#include "report/squeeze_text.h"
 #include "report/stress_table.h"
 #include "report/trials_report.h"
 #include "sim/measure/weakest_finger.h"
@@ -118,6 +119,12 @@ std::string FormatUndecided(const Report& report) {
          " pieces of aligns, a millionth of the path each\n";
 }
 
+/// What was held, and how hard.
+std::string FormatBody(const Report& report) {
+  return (report.measures.empty() ? "" : "object: " + report.measures + "\n") +
+         (report.settings ? "squeeze: " + SqueezeText(*report.settings) + "\n" : "");
+}
+
 std::string FormatVerdict(const Report& report) {
   const auto failure = DescribeFailure(report);
   return "verdict: " + (failure ? "fail, " + failure->what : "pass") + "\n";
@@ -140,7 +147,8 @@ std::string FormatReportTable(const Report& report) {
   if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
-  return FormatFailure(report) + FormatRows(rows) + FormatCauses(report) + FormatUndecided(report) +
+  return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
+         FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
          FormatStressTable(report) + FormatTrials(report) + FormatVerdict(report);
 }

@@ -57,6 +57,18 @@ const char* ProtocolName(sim::Protocol protocol) {
   return "";
 }
 
+const char* SqueezeSourceName(sim::SqueezeSource source) {
+  switch (source) {
+    case sim::SqueezeSource::kShake:
+      return "shake";
+    case sim::SqueezeSource::kHand:
+      return "hand";
+    case sim::SqueezeSource::kGiven:
+      return "option";
+  }
+  return "";
+}
+
 Json SimulationJson(const sim::StepReplay& replay) {
   return {{"displacement_m", replay.displacement_m},
           {"rotation_deg", replay.rotation_deg},

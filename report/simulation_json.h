@@ -10,6 +10,9 @@ namespace regrasp::report {
 /// "adapted", "fixed" or "both".
 [[nodiscard]] const char* ProtocolName(sim::Protocol protocol);
 
+/// "shake", "hand" or "option".
+[[nodiscard]] const char* SqueezeSourceName(sim::SqueezeSource source);
+
 /// The member `simulation` of an entry: motion, slip, cone margins.
 [[nodiscard]] Json SimulationJson(const sim::StepReplay& replay);
 

@@ -6,6 +6,7 @@
 #include "planner/base/angle.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
+#include "report/squeeze_text.h"
 #include "report/trials_report.h"
 
 namespace regrasp::report {
@@ -50,7 +51,7 @@ void AddTrials(const sim::TrialSummary& trials, FactList& facts) {
 void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Diameter", LengthText(settings.diameter_m));
   facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
-  facts.Add("Squeeze", NumberText(settings.squeeze_N) + " N");
+  facts.Add("Squeeze", SqueezeText(settings));
   facts.Add("Shake", NumberText(100 * settings.shake) + " % of the squeeze");
   if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed squeeze");
   facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));

@@ -22,6 +22,8 @@ constexpr double kLeastSqueeze = 1e-30, kLargestSqueeze = 1e36;    // newtons
 static_assert(kStiffness >= 5);
 static_assert(kDampingStep <= 0.6);
 
+static_assert(ReplayOptions().density_kg_m3 == object::kUsualDensity);
+
 void CheckRange(const char* what, double value, double least, double largest, const char* unit,
                 const char* look_at = "--scale and --mass") {
   if (value >= least && value <= largest) return;
@@ -30,20 +32,16 @@ void CheckRange(const char* what, double value, double least, double largest, co
                    " " + unit + " (check " + look_at + ")");
 }
 
-double ThicknessInMetres(const object::Object& object, double scale, const ReplayOptions& options) {
-  if (object.dimension() == 3) {
-    if (options.thickness) throw InputError("replay: a solid has no thickness to choose");
-    return 0;
+void CheckBody(const object::Object& object, const ReplayOptions& options,
+               const object::BodyMeasures& body) {
+  CheckRange("diameter", body.diameter_m, kLeastDiameter, kLargestDiameter, "m");
+  if (object.dimension() == 2) {
+    CheckRange("thickness", body.thickness_m / body.diameter_m, kLeastThickness, kLargestThickness,
+               "diameters", "--thickness");
+  } else if (options.thickness) {
+    throw InputError("replay: a solid has no thickness to choose");
   }
-  const double relative =
-      options.thickness ? *options.thickness / object.diameter() : kPrismThickness;
-  CheckRange("thickness", relative, kLeastThickness, kLargestThickness, "diameters", "--thickness");
-  return relative * object.diameter() * scale;
-}
-
-double Volume(const object::Object& object, double scale, double thickness_m) {
-  const double measure = object.mass_properties().volume * scale * scale;
-  return measure * (object.dimension() == 3 ? scale : thickness_m);
+  CheckRange("mass", body.mass_kg, kLeastMass, kLargestMass, "kg");
 }
 
 /// The radius of gyration about the axis where it is smallest, object's unit; in the plane there is
@@ -66,16 +64,23 @@ double RollingTime(const ReplaySettings& s, double gyration) {
 
 }  // namespace
 
+object::BodyMeasures BodyOf(const object::Object& object, double scale,
+                            const ReplayOptions& options) {
+  object::BodyMeasures body =
+      object::MeasureBody(object, scale, options.density_kg_m3, options.thickness);
+  if (options.mass_kg) body.mass_kg = *options.mass_kg;
+  return body;
+}
+
 ReplaySettings DeriveSettings(const object::Object& object, double scale, double half_angle,
                               double clearance, const ReplayOptions& options) {
   ReplaySettings s;
-  s.diameter_m = object.diameter() * scale;
-  CheckRange("diameter", s.diameter_m, kLeastDiameter, kLargestDiameter, "m");
+  const object::BodyMeasures body = BodyOf(object, scale, options);
+  CheckBody(object, options, body);
+  s.diameter_m = body.diameter_m;
   s.mu = std::tan(options.half_angle.value_or(half_angle));
-  s.thickness_m = ThicknessInMetres(object, scale, options);
-  s.mass_kg =
-      options.mass_kg.value_or(options.density_kg_m3 * Volume(object, scale, s.thickness_m));
-  CheckRange("mass", s.mass_kg, kLeastMass, kLargestMass, "kg");
+  s.thickness_m = body.thickness_m;
+  s.mass_kg = body.mass_kg;
   s.shake = options.shake;
   s.protocol = options.protocol;
   s.stress = options.stress;
@@ -86,6 +91,9 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
   s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
   s.squeeze_N = options.squeeze_N.value_or(
       s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
+  if (options.squeeze_N) {
+    s.squeeze_source = options.hand_squeeze ? SqueezeSource::kHand : SqueezeSource::kGiven;
+  }
   CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
   s.natural_time_s = std::sqrt(s.mass_kg * s.diameter_m / s.squeeze_N);
   const double steps = 2 / kDampingStep;

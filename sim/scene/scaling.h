@@ -1,10 +1,15 @@
 #pragma once
 
+#include "planner/object/body_measures.h"
 #include "planner/object/object.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp::sim {
+
+/// Size and mass as the options have them.
+[[nodiscard]] object::BodyMeasures BodyOf(const object::Object& object, double scale,
+                                          const ReplayOptions& options);
 
 /// Derives mass, squeeze, finger and time step from the body, so that every replay is the same
 /// experiment up to units: two bodies of one shape move through the same positions relative to
@@ -28,11 +33,12 @@ namespace regrasp::sim {
 ///   half of `clearance` where that is less; the radius that the options ask for, or `clearance`
 ///   where that is less. Thicker tips on a needle turn it the more the more they roll.
 ///
-/// A planar object is the prism of its polygon, kPrismThickness · D thick unless the options say
-/// otherwise; M = density · area · thickness. The thickness matters through M only.
+/// A planar object is the prism of its polygon, object::kPrismThickness · D thick unless the
+/// options say otherwise; M = density · area · thickness. The thickness matters through M only.
 ///
 /// @param half_angle  θ, radians.
 /// @param scale       metres per unit of the object.
+/// @param options     a `hand_squeeze` is in `squeeze_N` already.
 /// @param clearance   metres: the largest ball that touches the object only at a contact, smallest
 ///                    over the plan's contacts (planner/criteria/clearance.h).
 /// @throws InputError  size, thickness, mass or squeeze out of the range that can be simulated; a
@@ -65,7 +71,6 @@ inline constexpr double kLeastTipRadius = 1e-4;
 /// Over D: where no larger ball fits, a finger cannot stand. What is read to within kPointTolerance
 /// cannot be told from a contact in the corner itself, where no ball fits.
 inline constexpr double kLeastClearance = object::kPointTolerance;
-inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
 inline constexpr double kPatchSize = 0.02;       ///< over D: 20 times the allowed slip
 inline constexpr double kPatchThickness = 0.01;  ///< over D
 

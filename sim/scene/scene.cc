@@ -10,6 +10,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "sim/scene/align_script.h"
+#include "sim/scene/hand_squeeze.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {
@@ -344,6 +345,11 @@ Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
   scene.fingers.resize(sequence.CountFingers());
   LayOut(sequence, options, scene);
   AssignCollisionBits(scene);
+  if (options.hand_squeeze && !options.squeeze_N) {
+    options.squeeze_N =
+        HandSqueeze(body, plan, steps + 1, options.half_angle.value_or(plan.half_angle),
+                    BodyOf(body, plan.scale, options).mass_kg);
+  }
   scene.settings = DeriveSettings(
       body, plan.scale, plan.half_angle,
       SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);

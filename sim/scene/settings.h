@@ -17,6 +17,13 @@ enum class AlignChoice {
   kSlide,    ///< fingers slide while the others alone hold the object
 };
 
+/// Where the squeeze comes from.
+enum class SqueezeSource {
+  kShake,  ///< such that the weight is a tenth of the shake (scaling.h)
+  kHand,   ///< what a hand applies (hand_squeeze.h)
+  kGiven,
+};
+
 /// How the replay is set up. What is left out is derived from the body (sim/scene/scaling.h).
 struct ReplayOptions {
   std::optional<double> half_angle;  ///< friction, radians; the plan's where left out
@@ -27,7 +34,9 @@ struct ReplayOptions {
   /// the plan says.
   std::optional<double> finger_radius;
   std::optional<double> squeeze_N;  ///< total normal force of a grasp at rest
-  double shake = 0.01;              ///< ρ: shake force over squeeze, and torque over squeeze·R
+  /// Where `squeeze_N` is left out: that of a hand (hand_squeeze.h) instead of one for the shake.
+  bool hand_squeeze = false;
+  double shake = 0.01;  ///< ρ: shake force over squeeze, and torque over squeeze·R
   Protocol protocol = Protocol::kAdapted;
   bool stress = false;  ///< also look for the largest push in each direction (sim/measure/stress.h)
   double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
@@ -45,6 +54,7 @@ struct ReplaySettings {
   double mu = 0;
   double mass_kg = 0;
   double squeeze_N = 0;
+  SqueezeSource squeeze_source = SqueezeSource::kShake;
   double shake = 0;
   Protocol protocol = Protocol::kAdapted;
   bool stress = false;

@@ -265,6 +265,23 @@ class Plan(ProgramCase):
         self.assertNotIn("\u202e", shown)
         self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
 
+    def test_says_how_large_and_heavy_the_object_is_and_warns_of_what_no_hand_holds(self):
+        done = self.assert_done(*self.arguments())
+        self.assertIn("plan: cube.obj: 10.4 cm across, 216 g at the density of water\n",
+                      done.stderr)
+        self.assertNotIn("warning", done.stderr)
+        for scale, size in (("1000", "104 m across, 2.16e+08 kg"), ("0.01", "1.04 mm across")):
+            done = self.assert_done(*self.arguments(scale=scale), "--quiet")
+            self.assertRegex(done.stderr, f"^plan: warning: the object is {re.escape(size)}.*"
+                                          "--scale says")
+            self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_warns_of_a_coefficient_of_friction_that_is_an_angle(self):
+        done = self.assert_done(*self.arguments(friction_angle=None, mu="20"), "--quiet")
+        self.assertIn("plan: warning: --mu 20: hardly any fingertip", done.stderr)
+        for usual in ({"friction_angle": None, "mu": "3"}, {"friction_angle": "80"}):
+            self.assertEqual(self.assert_done(*self.arguments(**usual), "--quiet").stderr, "")
+
     def test_dash_writes_the_plan_to_standard_output(self):
         self.assert_done(*self.arguments())
         done = self.assert_done(*self.arguments(output="-"))

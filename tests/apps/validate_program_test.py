@@ -223,6 +223,35 @@ class Validate(ProgramCase):
         self.run_program(*self.arguments("--no-frames", friction_angle=str(float(asked) - 0.02)))
         self.assertFalse(self.report()["steps"][0]["force_closure"]["holds"])
 
+    def test_a_realistic_squeeze_is_what_a_hand_applies(self):
+        weight = 0.216 * 9.81
+        done, report = self.assert_passes("--no-frames", squeeze="realistic")
+        self.assertEqual(report["settings"]["squeeze_source"], "hand")
+        self.assertLess(weight, report["settings"]["squeeze_N"])
+        self.assertLess(report["settings"]["squeeze_N"], 50 * weight)
+        self.assertIn("as a hand grips", done.stdout)
+        report = self.assert_passes("--no-frames")[1]
+        self.assertEqual(report["settings"]["squeeze_source"], "shake")
+        self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
+        # A hand drops what weighs 50 kg, which a squeeze that goes by the shake holds.
+        self.assert_passes("--no-frames", mass="50")
+        heavy = ["--no-frames", "--mass", "50", "--squeeze", "realistic"]
+        done = self.run_program(*self.arguments(*heavy))
+        self.assertEqual((done.returncode, self.report()["settings"]["squeeze_N"]), (1, 200))
+        self.assertEqual(self.report()["steps"][0]["cause"]["cause"], "weight")
+        self.assertIn("200 N, 0.4077 times the weight: the most that a hand applies", done.stdout)
+
+    def test_says_how_large_and_heavy_the_object_is_and_warns_of_what_no_hand_holds(self):
+        done, _ = self.assert_passes("--no-frames")
+        self.assertIn("object: 10.4 cm across, 216 g\n", done.stdout)
+        for scale, size in ((1000, "104 m across, 2.16e+08 kg"), (0.01, "1.04 mm across, 216 µg")):
+            self.plan["object"]["scale"] = scale
+            self.write_plan()
+            done = self.run_program(*self.arguments("--no-frames"))
+            self.assertIn(f"object: {size}\n", done.stdout)
+            self.assertRegex(done.stderr, f"validate: warning: the object is {re.escape(size)}.*"
+                                          "--scale")
+
     def test_the_folder_is_named_after_the_plan_where_none_is_given(self):
         self.assert_done(*self.arguments("--no-frames", out=None))
         self.assertEqual(json.loads(self.read("out/plan/report.json"))["verdict"], "pass")

@@ -171,6 +171,19 @@ TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {
   EXPECT_THAT(failed, EndsWith("verdict: fail, step 1 (switch) fails: slipped\n"));
 }
 
+TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatItIs) {
+  Report report = MakeReport();
+  report.measures = "10.4 cm across, 216 g";
+  report.settings->mass_kg = 0.216;
+  report.settings->squeeze_N = 2119;
+  const std::string usual = FormatReportTable(report);
+  EXPECT_THAT(usual, HasSubstr("object: 10.4 cm across, 216 g\n"));
+  EXPECT_THAT(usual, HasSubstr("squeeze: 2119 N, 1000 times the weight: so much that"));
+  EXPECT_THAT(usual, HasSubstr("--squeeze realistic"));
+  report.settings->squeeze_source = sim::SqueezeSource::kHand;
+  EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--squeeze realistic")));
+}
+
 TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   const sim::CubeCase cube;
   plan::Plan plan = sim::MakePlan(cube.Start(), 25);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/angle.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::report {
 namespace {
@@ -23,7 +24,8 @@ TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>20.00° (μ = 0.364)</dd>"));
   EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Squeeze")));
   report.settings.emplace().squeeze_N = 25;
-  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Squeeze</dt><dd>25 N</dd>"));
+  report.settings->mass_kg = 2.5 / sim::kGravity;
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Squeeze</dt><dd>25 N, 10 times the weight: "));
 }
 
 TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "planner/object/object.h"
+
+namespace regrasp::object {
+
+/// How large and heavy an object is.
+struct BodyMeasures {
+  double diameter_m = 0;
+  double thickness_m = 0;  ///< of the prism that a planar object is; 0 for a solid
+  double mass_kg = 0;
+};
+
+inline constexpr double kUsualDensity = 1000;    ///< kg/m³, water's
+inline constexpr double kPrismThickness = 0.25;  ///< over D, of a polygon's prism
+
+/// Beyond these, metres, hands grasp little: a unit of length was probably taken for another.
+inline constexpr double kSmallestUsual = 0.002;
+inline constexpr double kLargestUsual = 2;
+
+/// @param scale      metres per unit of the object.
+/// @param thickness  of the prism, the object's own unit; kPrismThickness · D where left out.
+[[nodiscard]] BodyMeasures MeasureBody(const Object& object, double scale,
+                                       double density_kg_m3 = kUsualDensity,
+                                       std::optional<double> thickness = std::nullopt);
+
+/// "10.4 cm across, 216 g".
+[[nodiscard]] std::string MeasuresText(const BodyMeasures& body);
+
+/// Of a body below kSmallestUsual or above kLargestUsual, what to look at; otherwise empty.
+[[nodiscard]] std::string SizeWarning(const BodyMeasures& body);
+
+}  // namespace regrasp::object

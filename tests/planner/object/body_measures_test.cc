@@ -1,0 +1,48 @@
+#include "planner/object/body_measures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/models.h"
+
+namespace regrasp::object {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(BodyMeasures, OfACubeOfSixCentimetresAreThoseOfWater) {
+  const ObjectFile cube = ReadModel("cube.obj");
+  const BodyMeasures body = MeasureBody(*cube.object, 1);
+  EXPECT_NEAR(body.mass_kg, 0.216, 1e-9);
+  EXPECT_EQ(body.thickness_m, 0);
+  EXPECT_EQ(MeasuresText(body), "10.4 cm across, 216 g");
+  EXPECT_NEAR(MeasureBody(*cube.object, 1, 2 * kUsualDensity).mass_kg, 0.432, 1e-9);
+}
+
+TEST(BodyMeasures, OfAPolygonAreThoseOfAPrism) {
+  const ObjectFile square = ReadModel("square.wkt");
+  const BodyMeasures body = MeasureBody(*square.object, 1);
+  EXPECT_NEAR(body.thickness_m, square.object->diameter() / 4, 1e-12);
+  EXPECT_THAT(MeasuresText(body), HasSubstr(" thick, "));
+  EXPECT_NEAR(MeasureBody(*square.object, 1, kUsualDensity, 2 * body.thickness_m).mass_kg,
+              2 * body.mass_kg, 1e-12);
+}
+
+TEST(BodyMeasures, GrowWithTheScaleAndSaySoInOtherUnits) {
+  const ObjectFile cube = ReadModel("cube.obj");
+  EXPECT_EQ(MeasuresText(MeasureBody(*cube.object, 10)), "1.04 m across, 216 kg");
+  EXPECT_EQ(MeasuresText(MeasureBody(*cube.object, 0.01)), "1.04 mm across, 216 µg");
+  EXPECT_EQ(MeasuresText(MeasureBody(*cube.object, 1000)), "104 m across, 2.16e+08 kg");
+}
+
+TEST(BodyMeasures, WarnOfASizeThatHandsDoNotGraspAndNameTheScale) {
+  for (const double usual : {kSmallestUsual, 0.1, kLargestUsual}) {
+    EXPECT_EQ(SizeWarning({usual, 0, 1}), "") << usual;
+  }
+  for (const double unusual : {0.99 * kSmallestUsual, 1.01 * kLargestUsual}) {
+    EXPECT_THAT(SizeWarning({unusual, 0, 1}), HasSubstr("--scale")) << unusual;
+  }
+}
+
+}  // namespace
+}  // namespace regrasp::object
