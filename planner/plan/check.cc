@@ -26,6 +26,24 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
+/// The fingers whose contacts are none of the expected ones, and those that no finger has.
+Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, double tolerance) {
+  Fault fault;
+  for (const FingerContact& finger : held) {
+    const auto same = [&](const grasp::Contact& contact) {
+      return AreSameContact(finger.contact, contact, tolerance);
+    };
+    if (std::ranges::none_of(expected, same)) fault.fingers.push_back(finger.finger);
+  }
+  for (const grasp::Contact& contact : expected) {
+    const auto same = [&](const FingerContact& finger) {
+      return AreSameContact(finger.contact, contact, tolerance);
+    };
+    if (std::ranges::none_of(held, same)) fault.expected.push_back(contact);
+  }
+  return fault;
+}
+
 /// start-differs and goal-not-reached are the last reasons of the order: they are looked for only
 /// where an entry has no other fault, so that grasps are no larger than a hand.
 void CheckStart(const CheckContext& context, const CheckOptions& options, StepCheck& hold) {
@@ -33,6 +51,7 @@ void CheckStart(const CheckContext& context, const CheckOptions& options, StepCh
   if (AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) return;
   hold.reason = Reason::kStartDiffers;
   hold.detail = "the initial grasp is not the given start grasp";
+  hold.fault = CompareGrasps(context.plan.initial, *options.start, context.tolerance());
 }
 
 void CheckGoal(const CheckContext& context, const CheckOptions& options, const FingerGrasp& end,
@@ -41,10 +60,12 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   if (!AreSameGrasp(ContactsOf(end), context.plan.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
     last.detail = "the last contacts are not those of the plan's goal";
+    last.fault = CompareGrasps(end, context.plan.goal, context.tolerance());
   } else if (options.goal != nullptr &&
              !AreSameGrasp(context.plan.goal, *options.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
     last.detail = "the plan's goal is not the given goal grasp";
+    last.fault = CompareGrasps(end, *options.goal, context.tolerance());
   }
 }
 

@@ -18,6 +18,7 @@ struct StepCheck {
   std::string kind;  ///< "hold", "switch" or "align"
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
+  Fault fault;           ///< the same for a picture
   bool skipped = false;  ///< a step before it failed
   /// Every grasp of the step, everywhere on the path, is proved to be force closure at the friction
   /// (with CheckOptions::allow_undecided: but for `undecided` intervals). False, and `required`

@@ -22,30 +22,46 @@ std::string FingerName(FingerIndex finger) { return "finger " + std::to_string(f
 
 std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
 
-/// "waypoint 2: finger 1", or "finger 1" where there is no place to name.
-std::string At(const std::string& place, FingerIndex finger) {
-  return place.empty() ? FingerName(finger) : place + ": " + FingerName(finger);
+/// Of a grasp that is no waypoint of an align.
+constexpr int kNoWaypoint = -1;
+
+/// "waypoint 2: finger 1", or "finger 1" where there is no waypoint to name.
+std::string At(int waypoint, FingerIndex finger) {
+  return waypoint < 0 ? FingerName(finger) : WaypointName(waypoint) + ": " + FingerName(finger);
 }
 
-void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, const std::string& place,
+Fault FaultOf(FingerIndex finger, int waypoint = kNoWaypoint) {
+  return {.fingers = {finger}, .waypoint = waypoint};
+}
+
+/// A contact that is not where it should be.
+Fault Misplaced(FingerIndex finger, int waypoint, const grasp::Contact& found,
+                const grasp::Contact& expected) {
+  return {.fingers = {finger}, .found = found, .expected = {expected}, .waypoint = waypoint};
+}
+
+void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int waypoint,
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
     if (held.contact.face.valid()) continue;
-    // No other fault comes before it, and each takes a search of the surface to tell.
-    if (fault.reason() == Reason::kOffSurface) return;
     // Located contacts without a face are as given: looking again tells why.
     const LocatedContact located = LocateContact(context.object, held.contact);
-    fault.Add(located.reason, At(place, held.finger) + ": " +
-                                  (located.reason == Reason::kOffSurface
-                                       ? OffSurfaceText(context.object, held.contact.p)
-                                       : located.detail));
+    // To tell a fault takes a search of the surface.
+    if (!fault.Wants(located.reason)) continue;
+    const std::string detail = located.reason == Reason::kOffSurface
+                                   ? OffSurfaceText(context.object, held.contact.p)
+                                   : located.detail;
+    fault.Add(located.reason, At(waypoint, held.finger) + ": " + detail,
+              Misplaced(held.finger, waypoint, held.contact,
+                        NearestContact(context.object, held.contact)));
   }
 }
 
 void CheckFingerNumber(const CheckContext& context, FingerIndex finger, StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
-            FingerName(finger) + " of a hand of " + std::to_string(context.plan.fingers));
+            FingerName(finger) + " of a hand of " + std::to_string(context.plan.fingers),
+            FaultOf(finger));
 }
 
 void CheckFingerCount(const CheckContext& context, std::size_t count, StepFault& fault) {
@@ -62,20 +78,22 @@ void CheckCoincidence(const CheckContext& context, const FingerGrasp& grasp, Ste
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
       const double distance = (grasp[i].contact.p - grasp[j].contact.p).norm();
       if (distance <= context.tolerance()) {
-        fault.Add(Reason::kCoincidentFingers, FingerName(grasp[i].finger) + " and " +
-                                                  FingerName(grasp[j].finger) +
-                                                  " hold at the same point");
+        fault.Add(Reason::kCoincidentFingers,
+                  FingerName(grasp[i].finger) + " and " + FingerName(grasp[j].finger) +
+                      " hold at the same point",
+                  {.fingers = {grasp[i].finger, grasp[j].finger}});
       }
     }
   }
 }
 
 /// A finger can make one contact at a time.
-void CheckNamedOnce(const FingerGrasp& grasp, const std::string& place, StepFault& fault) {
+void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
   std::set<FingerIndex> seen;
   for (const FingerContact& held : grasp) {
     if (!seen.insert(held.finger).second) {
-      fault.Add(Reason::kFingerNotFree, At(place, held.finger) + " is named twice");
+      fault.Add(Reason::kFingerNotFree, At(waypoint, held.finger) + " is named twice",
+                FaultOf(held.finger, waypoint));
     }
   }
 }
@@ -92,6 +110,16 @@ std::string AngleNeeded(const CheckContext& context,
   if (!required) return "at no friction half-angle";
   return "needs a friction half-angle of " + FormatShort(Degrees(required->upper)) +
          " degrees, has " + FormatShort(Degrees(context.half_angle));
+}
+
+/// @param grasp  that is not force closure.
+Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
+                    const std::optional<grasp::RequiredHalfAngle>& required) {
+  Fault fault;
+  fault.grasp = grasp;
+  if (required) fault.required = required->upper;
+  fault.half_angle = context.half_angle;
+  return fault;
 }
 
 void LeaveUnproved(const std::string& why, StepCheck& check, StepFault& fault) {
@@ -124,15 +152,16 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
   check.force_closure = check.force_closure && holds;
   if (!holds) {
     fault.Add(Reason::kNotForceClosure,
-              std::string(name) + " is not force closure: " + AngleNeeded(context, required));
+              std::string(name) + " is not force closure: " + AngleNeeded(context, required),
+              LossOfClosure(context, grasp, required));
   } else if (!required) {
     LeaveUnproved(std::string(name) + " is force closure at no half-angle that is surely below 90",
                   check, fault);
   }
 }
 
-void AddObstacle(const std::optional<std::string>& obstacle, StepFault& fault) {
-  if (obstacle) fault.Add(Reason::kUnreachable, *obstacle);
+void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {
+  if (obstacle) fault.Add(Reason::kUnreachable, obstacle->detail, obstacle->fault);
 }
 
 /// Where force closure is about to be decided: nothing found against it yet.
@@ -145,6 +174,7 @@ void BeginForceClosure(const CheckContext& context, StepCheck& check) {
 StepCheck Finish(StepCheck check, const StepFault& fault) {
   check.reason = fault.reason();
   check.detail = fault.detail();
+  check.fault = fault.fault();
   return check;
 }
 
@@ -156,41 +186,46 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
     if (!AreSameContact(held.contact, moved->contact, context.tolerance())) {
       const double distance = (held.contact.p - moved->contact.p).norm();
       const double angle = Degrees(grasp::AngleBetween(held.contact.n, moved->contact.n));
-      fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
-                                            " is not where it was: " + FormatShort(distance) +
-                                            " away, normal turned by " + FormatShort(angle) +
-                                            " degrees");
+      fault.Add(Reason::kDiscontinuous,
+                At(0, held.finger) + " is not where it was: " + FormatShort(distance) +
+                    " away, normal turned by " + FormatShort(angle) + " degrees",
+                Misplaced(held.finger, 0, moved->contact, held.contact));
     } else if (moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
-      fault.Add(Reason::kDiscontinuous, At(WaypointName(0), held.finger) +
-                                            " is not where it was: beyond a gap in the surface, or "
-                                            "a wall, thinner than points are known to");
+      fault.Add(Reason::kDiscontinuous,
+                At(0, held.finger) +
+                    " is not where it was: beyond a gap in the surface, or a wall, thinner than "
+                    "points are known to",
+                Misplaced(held.finger, 0, moved->contact, held.contact));
     }
   }
 }
 
 /// The fingers of a waypoint are those that hold.
-void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint,
-                      const std::string& place, StepFault& fault) {
+void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, int index,
+                      StepFault& fault) {
   for (const FingerContact& held : before) {
     if (FindFinger(waypoint, held.finger) == nullptr) {
-      fault.Add(Reason::kDiscontinuous, At(place, held.finger) + " is missing");
+      Fault missing = FaultOf(held.finger, index);
+      missing.expected = {held.contact};
+      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " is missing", missing);
     }
   }
   for (const FingerContact& held : waypoint) {
     if (FindFinger(before, held.finger) == nullptr) {
-      fault.Add(Reason::kDiscontinuous, At(place, held.finger) + " did not hold before");
+      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " did not hold before",
+                FaultOf(held.finger, index));
     }
   }
 }
 
 void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
-                   const FingerGrasp& waypoint, const std::string& place, StepFault& fault) {
-  CheckSurface(context, waypoint, place, fault);
-  CheckNamedOnce(waypoint, place, fault);
+                   const FingerGrasp& waypoint, int index, StepFault& fault) {
+  CheckSurface(context, waypoint, index, fault);
+  CheckNamedOnce(waypoint, index, fault);
   for (const FingerContact& held : waypoint) CheckFingerNumber(context, held.finger, fault);
   CheckFingerCount(context, waypoint.size(), fault);
-  CheckSameFingers(before, waypoint, place, fault);
+  CheckSameFingers(before, waypoint, index, fault);
 }
 
 /// For waypoints without other faults.
@@ -199,10 +234,19 @@ void CheckMotions(const CheckContext& context, const Align& step, StepFault& fau
     for (const FingerContact& from : step.waypoints[w]) {
       const FingerContact* to = FindFinger(step.waypoints[w + 1], from.finger);
       if (const auto wrong = FindMotionFault(context.object, from.contact, to->contact)) {
-        fault.Add(Reason::kLeavesFace, "from " + At(WaypointName(w), from.finger) + " " + *wrong);
+        const auto index = static_cast<int>(w);
+        fault.Add(Reason::kLeavesFace, "from " + At(index, from.finger) + " " + *wrong,
+                  Misplaced(from.finger, index + 1, to->contact, from.contact));
       }
     }
   }
+}
+
+/// The fingers of a motion's start where they are at an instant of it.
+FingerGrasp FingersAt(const FingerGrasp& from, const motion::GraspMotion& motion, double t) {
+  FingerGrasp there = from;
+  for (std::size_t i = 0; i < there.size(); ++i) there[i].contact = motion[i].At(t);
+  return there;
 }
 
 motion::GraspMotion MotionBetween(const FingerGrasp& from, const FingerGrasp& to) {
@@ -228,9 +272,11 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
 }
 
 /// Includes the motion from one waypoint to the next in an align's force closure.
-void IncludeMotion(const CheckContext& context, const motion::GraspMotion& motion,
-                   std::size_t waypoint, StepCheck& check, StepFault& fault) {
+void IncludeMotion(const CheckContext& context, const Align& step, int waypoint, StepCheck& check,
+                   StepFault& fault) {
   if (!context.judge_force_closure) return;
+  const FingerGrasp& from = step.waypoints[waypoint];
+  const motion::GraspMotion motion = MotionBetween(from, step.waypoints[waypoint + 1]);
   const object::WrenchFrame frame = context.object.wrench_frame();
   const motion::PathForceClosure path =
       motion::DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
@@ -244,9 +290,12 @@ void IncludeMotion(const CheckContext& context, const motion::GraspMotion& motio
   if (path.decision == grasp::Decision::kNo) {
     const auto there = grasp::ComputeRequiredHalfAngle(motion::GraspAt(motion, path.at), frame);
     check.force_closure = false;
+    Fault loss = LossOfClosure(context, FingersAt(from, motion, path.at), there);
+    loss.waypoint = waypoint;
     fault.Add(Reason::kNotForceClosure,
               "at " + FormatShort(path.at) + " of the way " + way +
-                  " the grasp is not force closure: " + AngleNeeded(context, there));
+                  " the grasp is not force closure: " + AngleNeeded(context, there),
+              loss);
   } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
     LeaveUnproved(UnprovedText(path, way, required), check, fault);
   } else if (!required && !allowed) {
@@ -257,10 +306,11 @@ void IncludeMotion(const CheckContext& context, const motion::GraspMotion& motio
 
 }  // namespace
 
-void StepFault::Add(Reason reason, const std::string& detail) {
-  if (reason_ != Reason::kNone && reason_ <= reason) return;
+void StepFault::Add(Reason reason, const std::string& detail, const Fault& fault) {
+  if (!Wants(reason)) return;
   reason_ = reason;
   detail_ = detail;
+  fault_ = fault;
 }
 
 StepCheck CheckHold(const CheckContext& context) {
@@ -268,8 +318,8 @@ StepCheck CheckHold(const CheckContext& context) {
   StepCheck check;
   check.kind = "hold";
   StepFault fault;
-  CheckSurface(context, initial, "", fault);
-  CheckNamedOnce(initial, "", fault);
+  CheckSurface(context, initial, kNoWaypoint, fault);
+  CheckNamedOnce(initial, kNoWaypoint, fault);
   for (const FingerContact& held : initial) CheckFingerNumber(context, held.finger, fault);
   CheckFingerCount(context, initial.size(), fault);
   CheckCoincidence(context, initial, fault);
@@ -285,19 +335,21 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   StepCheck check;
   check.kind = StepKind(step);
   StepFault fault;
-  CheckSurface(context, step.place, "", fault);
-  CheckNamedOnce(step.place, "", fault);
+  CheckSurface(context, step.place, kNoWaypoint, fault);
+  CheckNamedOnce(step.place, kNoWaypoint, fault);
   for (const FingerContact& placed : step.place) {
     CheckFingerNumber(context, placed.finger, fault);
-    if (FindFinger(before, placed.finger) != nullptr) {
-      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds");
+    if (const FingerContact* holds = FindFinger(before, placed.finger)) {
+      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds",
+                Misplaced(placed.finger, kNoWaypoint, placed.contact, holds->contact));
     }
   }
   std::set<FingerIndex> released;
   for (const FingerIndex finger : step.release) {
     CheckFingerNumber(context, finger, fault);
     if (FindFinger(before, finger) == nullptr || !released.insert(finger).second) {
-      fault.Add(Reason::kFingerNotHolding, FingerName(finger) + " is released, but does not hold");
+      fault.Add(Reason::kFingerNotHolding, FingerName(finger) + " is released, but does not hold",
+                FaultOf(finger));
     }
   }
   CheckFingerCount(context, before.size() + step.place.size(), fault);
@@ -321,7 +373,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
     return Finish(check, fault);
   }
   for (std::size_t w = 0; w < step.waypoints.size(); ++w) {
-    CheckWaypoint(context, before, step.waypoints[w], WaypointName(w), fault);
+    CheckWaypoint(context, before, step.waypoints[w], static_cast<int>(w), fault);
   }
   CheckCoincidence(context, step.waypoints.back(), fault);
   CheckContinuity(context, before, step.waypoints.front(), fault);
@@ -332,8 +384,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
     IncludeRest(context, step.waypoints.front(), "the grasp before", check, fault);
     IncludeRest(context, step.waypoints.back(), "the grasp after", check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
-      IncludeMotion(context, MotionBetween(step.waypoints[w], step.waypoints[w + 1]), w, check,
-                    fault);
+      IncludeMotion(context, step, static_cast<int>(w), check, fault);
     }
     AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }

@@ -12,15 +12,21 @@ namespace regrasp::plan {
 /// The faults of one step: the first of the report's order counts.
 class StepFault {
  public:
-  void Add(Reason reason, const std::string& detail);
+  void Add(Reason reason, const std::string& detail, const Fault& fault = {});
+  /// Whether a fault of this reason would count.
+  [[nodiscard]] bool Wants(Reason reason) const {
+    return reason_ == Reason::kNone || reason < reason_;
+  }
 
   [[nodiscard]] bool none() const { return reason_ == Reason::kNone; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] const std::string& detail() const { return detail_; }
+  [[nodiscard]] const Fault& fault() const { return fault_; }
 
  private:
   Reason reason_ = Reason::kNone;
   std::string detail_;
+  Fault fault_;
 };
 
 /// What every step is checked against. The plan is located (LocatePlan).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planner/base/number.h"
@@ -12,6 +13,9 @@
 namespace regrasp::plan {
 
 namespace {
+
+/// Points may be given anywhere; in diameters.
+constexpr double kFarthest = 1e6;
 
 void LocateAll(const object::Object& object, FingerGrasp& grasp) {
   for (FingerContact& held : grasp) held.contact = LocateContact(object, held.contact).contact;
@@ -70,6 +74,23 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
   }
   located.contact = Project(object, contact, nearest);
   return located;
+}
+
+grasp::Contact NearestContact(const object::Object& object, const grasp::Contact& contact) {
+  const Eigen::Vector3d& centre = object.mass_properties().centroid;
+  const Eigen::Vector3d away = contact.p - centre;
+  // From farther away the same point is nearest, and squares of distances stay finite.
+  const double most = kFarthest * object.diameter();
+  const double distance = away.stableNorm();
+  const Eigen::Vector3d p = distance <= most ? contact.p : centre + away * (most / distance);
+  double least = std::numeric_limits<double>::infinity();
+  for (FaceIndex face{0}; face < object.face_count(); ++face) {
+    least = std::min(least, (object.ClosestPoint(face, p) - p).norm());
+  }
+  const grasp::Contact near = {p, contact.n.stableNormalized()};
+  const double tolerance = object::kPointTolerance * object.diameter();
+  return Project(object, near,
+                 RankFaces(object.FacesNear(p, least + tolerance), object, near).front().second);
 }
 
 std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,

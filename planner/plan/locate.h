@@ -24,6 +24,11 @@ struct LocatedContact {
 [[nodiscard]] LocatedContact LocateContact(const object::Object& object,
                                            const grasp::Contact& contact);
 
+/// The place on the surface that is nearest to a contact's point, with the normal there; where
+/// faces are equally near, on the one whose normal is nearest to the contact's.
+[[nodiscard]] grasp::Contact NearestContact(const object::Object& object,
+                                            const grasp::Contact& contact);
+
 /// All places that a contact can have by the tolerances, nearest normal first, ties by distance and
 /// index; the first is that of LocateContact. Empty where that has none.
 [[nodiscard]] std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,

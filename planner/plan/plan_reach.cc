@@ -12,37 +12,57 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::string Name(const FingerContact& held) { return "finger " + std::to_string(held.finger); }
+/// Of a fault that is named by where it is between waypoints.
+constexpr int kNoWaypoint = -1;
 
-std::string TooClose(const FingerContact& a, const FingerContact& b, double distance,
-                     double radius) {
-  return "fingers " + std::to_string(a.finger) + " and " + std::to_string(b.finger) +
-         " overlap: their centres are " + FormatShort(distance) +
-         " apart, and two fingers of radius " + FormatShort(radius) + " need " +
-         FormatShort(2 * radius);
-}
+std::string Name(const FingerContact& held) { return "finger " + std::to_string(held.finger); }
 
 double CentreDistance(const grasp::Contact& a, const grasp::Contact& b, double radius) {
   return (criteria::BallCentre(a, radius) - criteria::BallCentre(b, radius)).norm();
 }
 
-std::optional<std::string> FindOverlap(const FingerGrasp& grasp, double radius) {
+/// @param grasp  at that instant.
+Obstacle Overlap(const FingerContact& a, const FingerContact& b, const FingerGrasp& grasp,
+                 double radius) {
+  return {"fingers " + std::to_string(a.finger) + " and " + std::to_string(b.finger) +
+              " overlap: their centres are " +
+              FormatShort(CentreDistance(a.contact, b.contact, radius)) +
+              " apart, and two fingers of radius " + FormatShort(radius) + " need " +
+              FormatShort(2 * radius),
+          {.fingers = {a.finger, b.finger}, .grasp = grasp, .finger_radius = radius}};
+}
+
+Obstacle Unreached(const FingerContact& held, const std::string& why, const FingerGrasp& grasp,
+                   double radius) {
+  return {Name(held) + ": " + why,
+          {.fingers = {held.finger}, .grasp = grasp, .finger_radius = radius}};
+}
+
+/// The obstacle with words before its own.
+Obstacle Named(const std::string& where, Obstacle obstacle, int waypoint) {
+  obstacle.detail = where + obstacle.detail;
+  obstacle.fault.waypoint = waypoint;
+  return obstacle;
+}
+
+std::optional<Obstacle> FindOverlap(const FingerGrasp& grasp, double radius) {
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     for (std::size_t j = i + 1; j < grasp.size(); ++j) {
       const grasp::Contact& a = grasp[i].contact;
       const grasp::Contact& b = grasp[j].contact;
       if (criteria::KeepApart(std::vector{a, b}, radius)) continue;
-      return TooClose(grasp[i], grasp[j], CentreDistance(a, b, radius), radius);
+      return Overlap(grasp[i], grasp[j], grasp, radius);
     }
   }
   return std::nullopt;
 }
 
-std::optional<std::string> FindUnreached(const object::Object& object, const FingerGrasp& grasp,
-                                         double radius) {
+/// @param shown  the whole grasp that these contacts are of.
+std::optional<Obstacle> FindUnreached(const object::Object& object, const FingerGrasp& grasp,
+                                      const FingerGrasp& shown, double radius) {
   for (const FingerContact& held : grasp) {
     if (const auto obstacle = criteria::FindObstacle(object, held.contact, radius)) {
-      return Name(held) + ": " + *obstacle;
+      return Unreached(held, *obstacle, shown, radius);
     }
   }
   return std::nullopt;
@@ -95,8 +115,8 @@ std::optional<double> FindMeeting(const motion::ContactMotion& a, const motion::
   return FindInstant(0, 1, fails, is_clear);
 }
 
-std::optional<std::string> FindPathObstacle(const object::Object& object, const FingerGrasp& from,
-                                            const FingerGrasp& to, double radius) {
+std::optional<Obstacle> FindPathObstacle(const object::Object& object, const FingerGrasp& from,
+                                         const FingerGrasp& to, double radius) {
   // Where points can be at both ends they can be on the path, which stays on the surface.
   if (radius <= 0) return std::nullopt;
   std::vector<motion::ContactMotion> motions;
@@ -106,65 +126,70 @@ std::optional<std::string> FindPathObstacle(const object::Object& object, const 
     motions.emplace_back(held.contact, end->contact);
   }
   const auto at = [](double t) { return FormatShort(t) + " of the way: "; };
+  const auto grasp_at = [&](double t) {
+    FingerGrasp there = from;
+    for (std::size_t i = 0; i < there.size(); ++i) there[i].contact = motions[i].At(t);
+    return there;
+  };
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (const auto t = FindBlocked(object, motions[i], radius)) {
-      return at(*t) + Name(from[i]) + ": " +
-             criteria::FindObstacle(object, motions[i].At(*t), radius).value_or("");
+      const auto why = criteria::FindObstacle(object, motions[i].At(*t), radius);
+      return Named(at(*t), Unreached(from[i], why.value_or(""), grasp_at(*t), radius), kNoWaypoint);
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (const auto t = FindMeeting(motions[i], motions[j], radius)) {
-        const double distance = CentreDistance(motions[i].At(*t), motions[j].At(*t), radius);
-        return at(*t) + TooClose(from[j], from[i], distance, radius);
+        const FingerGrasp there = grasp_at(*t);
+        return Named(at(*t), Overlap(there[j], there[i], there, radius), kNoWaypoint);
       }
     }
   }
   return std::nullopt;
 }
 
-std::optional<std::string> FindAlignObstacle(const object::Object& object, const Align& align,
-                                             double radius) {
-  for (std::size_t w = 0; w < align.waypoints.size(); ++w) {
+std::optional<Obstacle> FindAlignObstacle(const object::Object& object, const Align& align,
+                                          double radius) {
+  for (int w = 0; w < std::ssize(align.waypoints); ++w) {
     const std::string waypoint = "waypoint " + std::to_string(w);
     if (const auto found = FindRestObstacle(object, align.waypoints[w], radius)) {
-      return waypoint + ": " + *found;
+      return Named(waypoint + ": ", *found, w);
     }
     if (w == 0) continue;
     const auto found = FindPathObstacle(object, align.waypoints[w - 1], align.waypoints[w], radius);
-    if (found) return "before " + waypoint + ", " + *found;
+    if (found) return Named("before " + waypoint + ", ", *found, w - 1);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::string> FindRestObstacle(const object::Object& object, const FingerGrasp& grasp,
-                                            double radius) {
-  if (auto found = FindUnreached(object, grasp, radius)) return found;
+std::optional<Obstacle> FindRestObstacle(const object::Object& object, const FingerGrasp& grasp,
+                                         double radius) {
+  if (auto found = FindUnreached(object, grasp, grasp, radius)) return found;
   return FindOverlap(grasp, radius);
 }
 
-std::optional<std::string> FindStepObstacle(const object::Object& object, const FingerGrasp& before,
-                                            const Step& step, double radius) {
+std::optional<Obstacle> FindStepObstacle(const object::Object& object, const FingerGrasp& before,
+                                         const Step& step, double radius) {
   if (const auto* align = std::get_if<Align>(&step)) {
     return FindAlignObstacle(object, *align, radius);
   }
   const FingerGrasp& placed = std::get<Switch>(step).place;
-  if (auto found = FindUnreached(object, placed, radius)) return found;
   FingerGrasp during = before;
   during.insert(during.end(), placed.begin(), placed.end());
+  if (auto found = FindUnreached(object, placed, during, radius)) return found;
   return FindOverlap(during, radius);
 }
 
 std::optional<PlanObstacle> FindPlanObstacle(const object::Object& object,
                                              const FingerGrasp& initial,
                                              std::span<const Step> steps, double radius) {
-  if (auto found = FindRestObstacle(object, initial, radius)) return PlanObstacle{0, *found};
+  if (auto found = FindRestObstacle(object, initial, radius)) return PlanObstacle{0, found->detail};
   FingerGrasp holding = initial;
   int index = 0;
   for (const Step& step : steps) {
     ++index;
     if (auto found = FindStepObstacle(object, holding, step, radius)) {
-      return PlanObstacle{index, *found};
+      return PlanObstacle{index, found->detail};
     }
     holding = GraspAfter(holding, step);
   }

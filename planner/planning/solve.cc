@@ -86,7 +86,7 @@ class GraspResolver {
     CheckForceClosure(grasp, refuse);
     if (const auto obstacle = plan::FindRestObstacle(*request_.object, plan::FingersInOrder(grasp),
                                                      request_.hand.fingertip_radius)) {
-      refuse("with a finger at each, by their numbers: " + *obstacle);
+      refuse("with a finger at each, by their numbers: " + obstacle->detail);
     }
   }
 

@@ -65,7 +65,8 @@ void PushOnce(ReplayWorld& world, const grasp::Wrench& push_S, DisturbanceRespon
   response == DisturbanceResponse::kAdapted ? PushAdapted(world, push_S) : PushFixed(world, push_S);
 }
 
-void Shake(ReplayWorld& world, DisturbanceResponse response) {
+void Shake(ReplayWorld& world, DisturbanceResponse response,
+           const std::function<void(const grasp::Wrench& push_S)>& on_fault) {
   const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
   const char* name =
@@ -73,8 +74,12 @@ void Shake(ReplayWorld& world, DisturbanceResponse response) {
   KeepRest rest(world);
   for (const Push& push : PushDirections(world.scene().dimension)) {
     world.monitor().SetPhase(name + PushName(push));
-    PushOnce(world, PushWrench(push, size), response);
-    if (world.monitor().reason() != plan::Reason::kNone) return;
+    const grasp::Wrench push_S = PushWrench(push, size);
+    PushOnce(world, push_S, response);
+    if (world.monitor().reason() != plan::Reason::kNone) {
+      on_fault(push_S);
+      return;
+    }
     rest.Restore();
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "planner/grasp/grasp_forces.h"
 #include "sim/world/replay_world.h"
 
@@ -18,8 +20,10 @@ enum class DisturbanceResponse {
 /// lasts until everything is still (sim/world/stillness.h). The world's monitor measures; a push
 /// that the grasp does not stand is the last. Afterwards everything is as before, whatever is
 /// thrown.
+/// @param on_fault  called while the world is as that push, in newtons, left it.
 /// @throws UnstableError
-void Shake(ReplayWorld& world, DisturbanceResponse response);
+void Shake(ReplayWorld& world, DisturbanceResponse response,
+           const std::function<void(const grasp::Wrench& push_S)>& on_fault);
 
 /// One push on the object at rest, and a look at its contacts. Adapted forces and their push stay;
 /// a push that fixed forces meet is taken away again.

@@ -72,18 +72,53 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   return result;
 }
 
+/// What is at fault by the monitor, as the world is now.
+plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object, double scale) {
+  const MotionMonitor& monitor = world.monitor();
+  const Eigen::Vector3d& centroid = object.mass_properties().centroid;
+  plan::Fault fault;
+  if (monitor.reason() == plan::Reason::kObjectMoved) {
+    const Eigen::Translation3d p_WS(scale * centroid);
+    fault.X_WO_before = p_WS * monitor.start() * p_WS.inverse();
+  }
+  const FingerIndex f = monitor.finger();
+  if (!f.valid()) return fault;
+  const WorldFinger& finger = world.fingers()[f];
+  const auto contact_at = [&](const Eigen::Vector3d& p_B) {
+    return grasp::Contact{centroid + p_B / scale, finger.contact.n, finger.contact.face};
+  };
+  const bool slipped = monitor.reason() == plan::Reason::kSlipped;
+  fault.fingers = {f};
+  fault.found = contact_at(world.ContactPoint_B(f));
+  fault.expected = {contact_at(slipped ? finger.touch_B : finger.contact.p)};
+  return fault;
+}
+
 /// The step with its shakes; the monitor is as before.
-StepMotion ShakeAtRest(ReplayWorld& world, DisturbanceResponse response) {
+StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double scale,
+                       DisturbanceResponse response) {
   const MotionMonitor before = world.monitor();
+  StepMotion seen;
+  seen.fault = DescribeFault(world, object, scale);
+  seen.snapshot = world.TakeSnapshot();
+  const auto see_fault = [&](const grasp::Wrench& push_S) {
+    // What failed before any push did not fail for it.
+    if (world.monitor().reason() == before.reason()) return;
+    seen.fault = DescribeFault(world, object, scale);
+    seen.fault.push = {push_S.force, world.settings().diameter_m / 2 * push_S.torque_over_radius};
+    seen.snapshot = world.TakeSnapshot();
+  };
   StepMotion result;
   world.monitor().ForgetForces();
   try {
-    Shake(world, response);
+    Shake(world, response, see_fault);
     result = Describe(world.monitor());
   } catch (const UnstableError& error) {
     result = Unstable(world.monitor(), error);
   }
   result.shake_margins = world.monitor().margins();
+  result.fault = seen.fault;
+  result.snapshot = seen.snapshot;
   world.monitor() = before;
   return result;
 }
@@ -100,15 +135,15 @@ FingerMargins MarginsNow(const ReplayWorld& world) {
 }
 
 /// What is asked of a step once it is at rest.
-void ExamineRest(ReplayWorld& world, StepReplay& result) {
+void ExamineRest(ReplayWorld& world, const object::Object& object, double scale,
+                 StepReplay& result) {
   const ReplaySettings& settings = world.settings();
   result.rest_margins = MarginsNow(world);
-  result.snapshot = world.TakeSnapshot();
-  if (settings.protocol != Protocol::kFixed) {
-    result.adapted = ShakeAtRest(world, DisturbanceResponse::kAdapted);
-  }
-  if (settings.protocol != Protocol::kAdapted)
-    result.fixed = ShakeAtRest(world, DisturbanceResponse::kFixed);
+  const auto shake = [&](DisturbanceResponse response) {
+    return ShakeAtRest(world, object, scale, response);
+  };
+  if (settings.protocol != Protocol::kFixed) result.adapted = shake(DisturbanceResponse::kAdapted);
+  if (settings.protocol != Protocol::kAdapted) result.fixed = shake(DisturbanceResponse::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
   // A grasp that lost the object before any push has no limit to look for.
   if (settings.stress && world.monitor().reason() == plan::Reason::kNone)
@@ -119,9 +154,10 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
                       int index) {
   StepReplay result;
   result.index = index;
-  if (const std::string& why = world.scene().entries[index].unreachable; !why.empty()) {
+  if (const auto& obstacle = world.scene().entries[index].unreachable) {
     result.reason = plan::Reason::kUnreachable;
-    result.detail = why;
+    result.detail = obstacle->detail;
+    result.fault = obstacle->fault;
     result.snapshot = world.TakeSnapshot();
     return result;
   }
@@ -133,7 +169,7 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
     world.monitor().SetPhase("rest");
     ComeToRest(world);
     result.motion_margins = world.monitor().margins();
-    ExamineRest(world, result);
+    ExamineRest(world, object, plan.scale, result);
   } catch (const UnstableError& error) {
     static_cast<StepMotion&>(result) = Unstable(world.monitor(), error);
   }

@@ -18,6 +18,7 @@ namespace regrasp::sim {
 struct StepMotion {
   plan::Reason reason = plan::Reason::kNone;
   std::string detail;         ///< for people: which finger, which direction of the shake
+  plan::Fault fault;          ///< the same for a picture
   double displacement_m = 0;  ///< largest translation of the object's centroid in this step
   double rotation_deg = 0;    ///< largest rotation of the object in this step
   double moved_m = 0;         ///< largest |Δx| + R|Δrotation|, what the tolerance is about
@@ -26,6 +27,9 @@ struct StepMotion {
   bool contact_lost = false;  ///< a holding finger left the surface
   FingerMargins
       shake_margins;  ///< smallest cone margins (sim/world/cone_margin.h) during the shakes
+  /// The rest state after the step, or the state under the push that the grasp does not stand; no
+  /// fingers where the engine came to no end.
+  plan::Snapshot snapshot;
 };
 
 /// What the replay says of entry k of the report; the numbers of StepMotion are those of the
@@ -39,7 +43,6 @@ struct StepReplay : StepMotion {
   FingerMargins rest_margins;    ///< at rest after the step
   std::optional<StepMotion> adapted, fixed;  ///< of each protocol that ran
   std::vector<DirectionStress> stress;       ///< where it was asked for, in each direction
-  plan::Snapshot snapshot;                   ///< the rest state after the step
 };
 
 struct ReplayResult {

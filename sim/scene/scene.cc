@@ -198,16 +198,19 @@ double DistanceTo(const ContactSite& site, const Vector3d& point) {
 }
 
 /// Names the first finger that has to come to rest where no ball fits.
-std::string FindUnreachable(const object::Object& object, const plan::FingerGrasp& rests) {
+std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
+                                              const plan::FingerGrasp& rests) {
   const double least = kLeastClearance * object.diameter();
   for (const plan::FingerContact& held : rests) {
     const double clearance = criteria::ComputeClearance(object, held.contact, least);
     if (clearance >= least) continue;
-    return "finger " + std::to_string(held.finger) +
-           " cannot stand at its contact: no fingertip thicker than a radius of " +
-           FormatShort(clearance) + " fits in the corner there";
+    return plan::Obstacle{
+        "finger " + std::to_string(held.finger) +
+            " cannot stand at its contact: no fingertip thicker than a radius of " +
+            FormatShort(clearance) + " fits in the corner there",
+        {.fingers = {held.finger}, .found = held.contact}};
   }
-  return "";
+  return std::nullopt;
 }
 
 /// Everywhere that fingers come to rest in entry `index`.

@@ -7,6 +7,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/plan_reach.h"
 #include "sim/scene/align_script.h"
 #include "sim/scene/contact_patches.h"
 #include "sim/scene/engine.h"
@@ -30,8 +31,8 @@ struct SceneFinger {
 
 /// What the scene knows of an entry of the replay.
 struct SceneEntry {
-  std::optional<AlignScript> script;  ///< of an align, in S
-  std::string unreachable;            ///< which finger cannot stand where it has to, or nothing
+  std::optional<AlignScript> script;          ///< of an align, in S
+  std::optional<plan::Obstacle> unreachable;  ///< a finger that cannot stand where it has to
 };
 
 /// A body and a plan in the frame S of the simulation: metres about the object's centroid.

@@ -56,12 +56,14 @@ bool MotionMonitor::lost() const {
 void MotionMonitor::AddSlip(FingerIndex finger, double slip_m) {
   slip_ = std::max(slip_, slip_m);
   if (slipped_.empty() && slip_m > settings_.tolerance * settings_.diameter_m) {
+    slipped_finger_ = finger;
     slipped_ = phase_ + ": finger " + std::to_string(finger) + " slipped";
   }
 }
 
 void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
   if (!lost_.empty() || gap_m <= kLostGap * settings_.diameter_m) return;
+  lost_finger_ = finger;
   lost_ = phase_ + ": finger " + std::to_string(finger) + " is " + FormatShort(gap_m) +
           " m off the surface";
 }
@@ -77,6 +79,17 @@ plan::Reason MotionMonitor::reason() const {
   if (!slipped_.empty()) return plan::Reason::kSlipped;
   if (!object_moved_.empty()) return plan::Reason::kObjectMoved;
   return plan::Reason::kNone;
+}
+
+FingerIndex MotionMonitor::finger() const {
+  switch (reason()) {
+    case plan::Reason::kContactLost:
+      return lost_finger_;
+    case plan::Reason::kSlipped:
+      return slipped_finger_;
+    default:
+      return {};
+  }
 }
 
 std::string MotionMonitor::detail() const {

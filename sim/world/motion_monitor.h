@@ -42,6 +42,10 @@ class MotionMonitor {
   [[nodiscard]] plan::Reason reason() const;
   /// One phrase on what the reason is, empty where there is none.
   [[nodiscard]] std::string detail() const;
+  /// The finger that lost its contact or slipped first; not valid where the reason is another.
+  [[nodiscard]] FingerIndex finger() const;
+  /// Where the object was when measuring began.
+  [[nodiscard]] const Eigen::Isometry3d& start() const { return start_; }
   [[nodiscard]] double displacement_m() const { return displacement_; }
   [[nodiscard]] double rotation_rad() const { return rotation_; }
   /// Largest |Δx| + R |Δrotation|, what the tolerance is about.
@@ -65,6 +69,7 @@ class MotionMonitor {
   bool giving_ = false;
   FingerMargins margins_;
   std::string lost_, slipped_, object_moved_;  ///< where each was seen first
+  FingerIndex lost_finger_, slipped_finger_;
 };
 
 /// (|Δx| + R |Δrotation|), metres, between two poses of a body of diameter 2R.

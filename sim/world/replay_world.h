@@ -66,6 +66,7 @@ class ReplayWorld {
   /// Looks whether every holding finger still touches.
   void MonitorRest();
   MotionMonitor& monitor() { return monitor_; }
+  [[nodiscard]] const MotionMonitor& monitor() const { return monitor_; }
 
   /// Samples go to the observer unless this is off (shakes are not part of the motion).
   void SetSampling(bool on) { sampling_ = on; }

@@ -19,6 +19,8 @@ FingerContact At(const object::Object& object, int finger, const Vector3d& p, co
   return {FingerIndex(finger), {p, n, {}}};
 }
 
+std::string DetailOf(const std::optional<Obstacle>& found) { return found ? found->detail : ""; }
+
 /// [−3, 3]² × [0, 1] with the post [−1/2, 1/2]² × [1, 2] on it.
 object::Polyhedron MakePostPlate() {
   object::PolygonSoup soup;
@@ -48,11 +50,11 @@ TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
                              At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
   EXPECT_FALSE(FindRestObstacle(l, grasp, 0).has_value());
   EXPECT_FALSE(FindRestObstacle(l, grasp, 0.2).has_value());
-  const std::string corner = FindRestObstacle(l, grasp, 0.25).value_or("");
+  const std::string corner = DetailOf(FindRestObstacle(l, grasp, 0.25));
   EXPECT_NE(corner.find("finger 3: a ball of radius 0.25"), std::string::npos) << corner;
   const FingerGrasp close = {At(l, 3, {1.6, 1, 0.5}, {0, -1, 0}),
                              At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
-  const std::string overlap = FindRestObstacle(l, close, 0.25).value_or("");
+  const std::string overlap = DetailOf(FindRestObstacle(l, close, 0.25));
   EXPECT_NE(overlap.find("fingers 3 and 7 overlap: their centres are 0.4 apart"), std::string::npos)
       << overlap;
 }
@@ -64,7 +66,9 @@ TEST(PlanReach, FingersPlacedInASwitchKeepApartFromThoseThatLeave) {
   EXPECT_FALSE(FindStepObstacle(cube, before, step, 0.1).has_value());
   const auto found = FindStepObstacle(cube, before, step, 0.2);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NE(found->find("fingers 0 and 2 overlap"), std::string::npos) << *found;
+  EXPECT_NE(found->detail.find("fingers 0 and 2 overlap"), std::string::npos) << found->detail;
+  EXPECT_EQ(found->fault.fingers, (std::vector{FingerIndex(0), FingerIndex(2)}));
+  EXPECT_EQ(found->fault.grasp.size(), 3u);
   // After it there is room again: only the switch itself is in the way.
   EXPECT_FALSE(FindRestObstacle(cube, GraspAfter(before, step), 0.2).has_value());
 }
@@ -79,7 +83,7 @@ TEST(PlanReach, AFingerThatSlidesPastAPostNeedsRoomAllTheWay) {
     EXPECT_FALSE(FindRestObstacle(body, before, radius).has_value()) << radius;
     EXPECT_FALSE(FindRestObstacle(body, after, radius).has_value()) << radius;
     const auto found = FindStepObstacle(body, before, slide, radius);
-    EXPECT_EQ(found.has_value(), radius > 0.3) << radius << found.value_or("");
+    EXPECT_EQ(found.has_value(), radius > 0.3) << radius << DetailOf(found);
     ++(found ? fails : passes);
   }
   EXPECT_EQ(passes, 4);
@@ -94,7 +98,7 @@ TEST(PlanReach, FingersThatCrossMeetOnTheWay) {
                              At(cube, 1, {-0.8, 0.1, 1}, kDown)};
   const Step cross = Align{{before, after}};
   EXPECT_FALSE(FindStepObstacle(cube, before, cross, 0.099).has_value());
-  const std::string found = FindStepObstacle(cube, before, cross, 0.11).value_or("");
+  const std::string found = DetailOf(FindStepObstacle(cube, before, cross, 0.11));
   EXPECT_NE(found.find("fingers 0 and 1 overlap"), std::string::npos) << found;
   EXPECT_FALSE(FindRestObstacle(cube, before, 0.11).has_value());
 }

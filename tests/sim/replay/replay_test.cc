@@ -64,6 +64,42 @@ TEST(ReplayHold, FailsUnderAShakeLargerThanTheQuality) {
       LosesObject(ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0).reason));
 }
 
+TEST(ReplayFault, OfASlipIsWhereTheFingerWasAndCameToUnderThePush) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.tolerance = 1e-12;  // fingertips creep, and the first reason counts
+  const StepReplay step = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0);
+  ASSERT_EQ(step.reason, plan::Reason::kSlipped);
+  ASSERT_EQ(step.fault.fingers.size(), 1u);
+  EXPECT_NE(step.detail.find("finger " + std::to_string(step.fault.fingers[0])), std::string::npos);
+  const Eigen::Vector3d& from = step.fault.expected.at(0).p;
+  EXPECT_LT((from - cube.Start()[step.fault.fingers[0]].contact.p).norm(), 1e-3);
+  EXPECT_GT((step.fault.found->p - from).norm(), 0);
+  EXPECT_FALSE(step.fault.X_WO_before.has_value());
+}
+
+TEST(ReplayFault, OfAnObjectThatMovesHasThePushAndWhereItWas) {
+  const CubeCase cube;
+  ReplayOptions options;
+  options.shake = 0.6;
+  const StepReplay step = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0);
+  ASSERT_TRUE(LosesObject(step.reason));
+  ASSERT_TRUE(step.fault.push.has_value()) << step.detail;
+  const double size = step.fault.push->force_N.norm() + step.fault.push->torque_Nm.norm();
+  EXPECT_GT(size, 0);
+  EXPECT_EQ(step.fault.X_WO_before.has_value(), step.reason == plan::Reason::kObjectMoved);
+  // The snapshot is of that instant, not of the rest before it.
+  EXPECT_GT((step.snapshot.X_WO.translation()).norm(), step.displacement_m / 2);
+}
+
+TEST(ReplayFault, OfAStepThatPassesIsEmpty) {
+  const CubeCase cube;
+  const StepReplay step = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}).steps.at(0);
+  ASSERT_EQ(step.reason, plan::Reason::kNone);
+  EXPECT_TRUE(step.fault.fingers.empty());
+  EXPECT_FALSE(step.fault.push || step.fault.found || step.fault.X_WO_before);
+}
+
 TEST(ReplayHold, AGraspWithoutFingersFails) {
   const CubeCase cube;
   EXPECT_NE(ReplayPlan(cube.object, MakePlan({}, 25), {}).steps.at(0).reason, plan::Reason::kNone);
