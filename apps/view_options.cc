@@ -16,24 +16,23 @@ render::ViewDirection ParseView(const std::string& name, const std::string& text
     throw CLI::ValidationError(name, "\"" + text + "\" is not AZIMUTH,ELEVATION, as in 30,20");
   }
   constexpr double kTurn = 360, kPole = 90;
-  return {
-      Radians(ParseNumber(name, text.substr(0, comma), {.lower = -kTurn, .upper = kTurn})),
-      Radians(ParseNumber(name, text.substr(comma + 1), {.lower = -kPole, .upper = kPole}))};
+  return {Radians(ParseNumber(name, text.substr(0, comma), {.lower = -kTurn, .upper = kTurn})),
+          Radians(ParseNumber(name, text.substr(comma + 1), {.lower = -kPole, .upper = kPole}))};
 }
 
 }  // namespace
 
 void AddView(CLI::App& app, render::FrameOptions& frame) {
   app.add_option_function<std::string>(
-             "--view",
-             [&frame](const std::string& text) { frame.view.direction = ParseView("--view", text); },
-             "Where frames are taken from, degrees: azimuth about z from the x axis, elevation above "
-             "the plane of x and y (default: where most of the fingers is seen; a planar object "
-             "from above, 270,90)")
-          ->type_name("AZIMUTH,ELEVATION");
+         "--view",
+         [&frame](const std::string& text) { frame.view.direction = ParseView("--view", text); },
+         "Where frames are taken from, degrees: azimuth about z from the x axis, elevation above "
+         "the plane of x and y (default: where most of the fingers is seen; a planar object "
+         "from above, 270,90)")
+      ->type_name("AZIMUTH,ELEVATION");
   AddNumber(app, "--zoom", frame.view.zoom, NumberRange::Positive(),
-                                "How much larger things are in frames than where all of them are "
-                                "seen (default 1)");
+            "How much larger things are in frames than where all of them are "
+            "seen (default 1)");
   app.add_flag_callback(
       "--orthographic", [&frame] { frame.view.projection = render::Projection::kOrthographic; },
       "Frames of a solid without perspective: parallel edges are parallel, and lengths across the "
@@ -46,12 +45,12 @@ void AddView(CLI::App& app, render::FrameOptions& frame) {
       "crease angle, and the outline; all, between all facets; none (default crease)");
   constexpr double kHalfTurn = 180;
   app.add_option_function<std::string>(
-      "--crease-angle",
-      [&frame](const std::string& text) {
-        frame.body.crease_angle =
-            Radians(ParseNumber("--crease-angle", text, {.lower = 0, .upper = kHalfTurn}));
-      },
-      "Facets that meet at less than this are shown as one smooth surface, degrees (default 40)")
+         "--crease-angle",
+         [&frame](const std::string& text) {
+           frame.body.crease_angle =
+               Radians(ParseNumber("--crease-angle", text, {.lower = 0, .upper = kHalfTurn}));
+         },
+         "Facets that meet at less than this are shown as one smooth surface, degrees (default 40)")
       ->type_name("DEG");
 }
 

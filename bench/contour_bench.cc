@@ -90,7 +90,7 @@ Timed TimeGraph(const object::Polygon& polygon, double degrees, int runs) {
 double TimeDiagrams(const object::Polygon& polygon, double degrees) {
   const contour::ContourGraph graph(polygon, Radians(degrees));
   const auto start = std::chrono::steady_clock::now();
-  for (int set = 0; set < graph.vertex_count(); ++set) {
+  for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
     benchmark::DoNotOptimize(contour::RegionMetric(graph, set).MakeDiagram());
   }
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;

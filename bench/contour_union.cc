@@ -49,11 +49,11 @@ int ComponentOf(const UnionPolygon& outline, const std::vector<UnionComponent>& 
 PieceOutlines MakePieceOutlines(const contour::ContourGraph& graph) {
   const contour::Boundary& boundary = graph.boundary();
   PieceOutlines result;
-  for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p) {
+  for (contour::PieceIndex p{0}; p < std::ssize(graph.pieces()); ++p) {
     const auto& edges = graph.pieces()[p].edges;
     if (boundary.ring_of(edges[0]) != 0 || boundary.ring_of(edges[1]) != 0) continue;
-    UnionPolygon outline =
-        MakeOutline(contour::PieceOutline(graph, p), kSameCorner * boundary.perimeter(0));
+    UnionPolygon outline = MakeOutline(contour::PieceOutline(graph, p),
+                                       kSameCorner * boundary.perimeter(contour::RingIndex(0)));
     if (outline.size() < 3 || outline.orientation() != CGAL::COUNTERCLOCKWISE) continue;
     result.pieces.push_back(p);
     result.outlines.push_back(std::move(outline));
@@ -71,7 +71,7 @@ std::vector<UnionComponent> Unite(const std::vector<UnionPolygon>& outlines) {
 
 int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines,
                const std::vector<UnionComponent>& components) {
-  std::map<int, int> index_of;
+  std::map<contour::PieceIndex, int> index_of;
   for (std::size_t i = 0; i < outlines.pieces.size(); ++i) {
     index_of[outlines.pieces[i]] = static_cast<int>(i);
   }
@@ -86,9 +86,7 @@ int CountGlued(const contour::ContourGraph& graph, const PieceOutlines& outlines
     const int b = ComponentOf(outlines.outlines[after->second], components);
     if (a >= 0 && b >= 0) glued.push_back({a, b});
   }
-  return search::FindComponents(static_cast<int>(components.size()), static_cast<int>(glued.size()),
-                                [&](int group) { return std::span<const int>(glued[group]); })
-      .count();
+  return search::ComponentsOfEdges(static_cast<int>(components.size()), glued).count();
 }
 
 }  // namespace regrasp

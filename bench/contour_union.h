@@ -18,7 +18,7 @@ using UnionComponent = CGAL::Polygon_with_holes_2<UnionKernel>;
 
 /// The outlines of all pieces on the ring pair of the outer ring with itself, in [0, L]².
 struct PieceOutlines {
-  std::vector<int> pieces;
+  std::vector<contour::PieceIndex> pieces;
   std::vector<UnionPolygon> outlines;
 };
 [[nodiscard]] PieceOutlines MakePieceOutlines(const contour::ContourGraph& graph);

@@ -29,9 +29,9 @@ using namespace regrasp;
 constexpr double kHalfAngleDegrees = 20;
 constexpr int kWidth = 1280, kHeight = 960, kSamples = 4;
 
-constexpr std::array<const char*, 7> kModels = {
-    "cube.obj",    "l_block.obj",  "mug1000.obj",    "duck1000.obj",
-    "flask1000.obj", "spanner1000.obj", "wrench256.wkt"};
+constexpr std::array<const char*, 7> kModels = {"cube.obj",     "l_block.obj",   "mug1000.obj",
+                                                "duck1000.obj", "flask1000.obj", "spanner1000.obj",
+                                                "wrench256.wkt"};
 
 struct Case {
   object::ObjectFile file;
@@ -43,13 +43,12 @@ Case MakeCase(const std::string& model) {
   Case made{object::ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}, {}};
   const object::Object& object = *made.file.object;
   const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandomAny, {}, "random"};
-  const planning::PlanResult result =
-      planning::Solve(*registry::FindPlanner("general"),
-                      {.object = &object,
-                       .start = random,
-                       .goal = random,
-                       .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
-                       .seed = 1});
+  const planning::PlanResult result = planning::Solve(
+      *registry::FindPlanner("general"), {.object = &object,
+                                          .start = random,
+                                          .goal = random,
+                                          .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+                                          .seed = 1});
   if (!result.plan) throw std::runtime_error(model + ": no plan to draw");
   made.plan = plan::CheckPlan(object, *result.plan).located;
   for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {

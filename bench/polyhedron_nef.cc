@@ -62,7 +62,7 @@ NefVolumes::NefVolumes(const object::Polyhedron& solid, const polyhedron::FacePa
 
 NefVolumes::~NefVolumes() = default;
 
-bool NefVolumes::HasCell(std::span<const int, 4> faces) const {
+bool NefVolumes::HasCell(std::span<const FaceIndex, 4> faces) const {
   Nef common = volumes_->of_face.at(faces[0]);
   for (const int face : faces.subspan(1)) common *= volumes_->of_face.at(face);
   return !common.interior().is_empty();

@@ -21,7 +21,7 @@ class NefVolumes {
 
   /// Whether the volumes of four faces have an interior in common; that alone is what a benchmark
   /// should measure.
-  [[nodiscard]] bool HasCell(std::span<const int, 4> faces) const;
+  [[nodiscard]] bool HasCell(std::span<const FaceIndex, 4> faces) const;
 
  private:
   struct Volumes;

@@ -26,36 +26,34 @@ constexpr double kMillisecondsPerSecond = 1e3;
 /// Draws starts from all cells of a graph and goals from a start's component.
 class QueryMaker {
  public:
-  QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::PolyhedronModel& model,
-             const criteria::GraspEvaluator& evaluator)
-      : graph_(graph), components_(graph.components()), model_(model), evaluator_(evaluator) {}
+  QueryMaker(polyhedron::PolyhedronGraph& graph, polyhedron::PolyhedronModel& model)
+      : graph_(graph), components_(graph.components()), model_(model) {}
 
   std::pair<planning::GraspChoice, planning::GraspChoice> Make(std::uint64_t seed) {
     RandomStream of_start(seed, RandomUse::kStart);
     RandomStream of_goal(seed, RandomUse::kGoal);
     const planning::GraspChoice start =
         Draw("start", sets::StartPools(graph_.vertex_count()), of_start);
-    std::set<int> cells;
-    for (const auto& at : model_.Attach(start.grasp, evaluator_)) cells.insert(at.set);
+    std::set<sets::SetIndex> cells;
+    for (const auto& at : model_.Attach(start.grasp)) cells.insert(at.set);
     return {start, Draw("goal", sets::GoalPools(components_, cells), of_goal)};
   }
 
  private:
   planning::GraspChoice Draw(const std::string& name, const sets::SamplingPools& pools,
                              RandomStream& random) {
-    const auto draw = [&](int cell) {
+    const auto draw = [&](sets::SetIndex cell) {
       const auto grasp = model_.Draw(cell, random);
       return grasp ? model_.GraspOf(*grasp) : grasp::Grasp();
     };
     planning::GraspChoice choice{Kind::kGiven, {}, name};
-    choice.grasp = sets::DrawFromSets(choice.name, pools, draw, evaluator_, random);
+    choice.grasp = sets::DrawFromSets(choice.name, pools, draw, model_.evaluator(), random);
     return choice;
   }
 
   polyhedron::PolyhedronGraph& graph_;
   search::Components components_;
   polyhedron::PolyhedronModel& model_;
-  const criteria::GraspEvaluator& evaluator_;
 };
 
 }  // namespace
@@ -64,11 +62,10 @@ QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees, planning
                        int queries) {
   planning::PlanRequest request = {
       .object = &solid, .criteria = {.half_angle = Radians(degrees)}, .spanning = spanning};
-  const criteria::GraspEvaluator evaluator(solid, request.criteria);
   polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
   const polyhedron::PolyhedronPlanner planner(&graph);
-  polyhedron::PolyhedronModel model(solid, graph);
-  QueryMaker maker(graph, model, evaluator);
+  polyhedron::PolyhedronModel model(solid, graph, request);
+  QueryMaker maker(graph, model);
   QueryTimes times;
   std::vector<double> milliseconds;
   int switches = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -19,5 +21,17 @@ struct Components {
 [[nodiscard]] Components FindComponents(
     int vertex_count, int group_count,
     const std::function<std::span<const int>(int group)>& members);
+
+/// Components of a graph with these edges. @param ends  gives an edge's two vertices.
+template <class Edges, class Ends = std::identity>
+[[nodiscard]] Components ComponentsOfEdges(int vertex_count, const Edges& edges,
+                                           const Ends& ends = {}) {
+  std::array<int, 2> pair;
+  return FindComponents(vertex_count, static_cast<int>(std::ssize(edges)), [&](int edge) {
+    const auto& [a, b] = std::invoke(ends, edges[edge]);
+    pair = {a, b};
+    return std::span<const int>(pair);
+  });
+}
 
 }  // namespace regrasp::search

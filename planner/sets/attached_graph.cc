@@ -3,16 +3,16 @@
 namespace regrasp::sets {
 
 bool AttachedGraph::IsOnlySetOfAnEnd(int vertex) const {
-  const auto is_only = [vertex](const GraspEnds& ends) {
+  const auto is_only = [set = SetIndex(vertex)](const GraspEnds& ends) {
     return ends.of_itself.size() + ends.by_switch.size() == 1 &&
-           (ends.of_itself.contains(vertex) || ends.by_switch.contains(vertex));
+           (ends.of_itself.contains(set) || ends.by_switch.contains(set));
   };
   return is_only(start_.sets) || is_only(goal_.sets);
 }
 
 bool AttachedGraph::GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours) {
   if (vertex != end.grasp && vertex != end.changed) return false;
-  const std::set<int>& sets = vertex == end.grasp ? end.sets.of_itself : end.sets.by_switch;
+  const std::set<SetIndex>& sets = vertex == end.grasp ? end.sets.of_itself : end.sets.by_switch;
   neighbours.assign(sets.begin(), sets.end());
   if (!end.sets.by_switch.empty()) {
     neighbours.push_back(vertex == end.grasp ? end.changed : end.grasp);
@@ -20,7 +20,7 @@ bool AttachedGraph::GetNeighboursOfEnd(const End& end, int vertex, std::vector<i
   return true;
 }
 
-void AttachedGraph::AddEnd(const End& end, int set, std::vector<int>& neighbours) {
+void AttachedGraph::AddEnd(const End& end, SetIndex set, std::vector<int>& neighbours) {
   if (end.sets.of_itself.contains(set)) neighbours.push_back(end.grasp);
   if (end.sets.by_switch.contains(set)) neighbours.push_back(end.changed);
 }
@@ -33,8 +33,8 @@ void AttachedGraph::GetNeighbours(int vertex, std::vector<int>& neighbours) cons
     std::erase_if(neighbours,
                   [&](int other) { return banned_.contains(search::Unordered(vertex, other)); });
   }
-  AddEnd(start_, vertex, neighbours);
-  AddEnd(goal_, vertex, neighbours);
+  AddEnd(start_, SetIndex(vertex), neighbours);
+  AddEnd(goal_, SetIndex(vertex), neighbours);
 }
 
 }  // namespace regrasp::sets

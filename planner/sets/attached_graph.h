@@ -3,15 +3,15 @@
 #include <set>
 #include <vector>
 
-#include "planner/search/switching_graph.h"
 #include "planner/search/vertex_pair.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp::sets {
 
 /// The sets that a grasp is joined to.
 struct GraspEnds {
-  std::set<int> of_itself;  ///< that it is in
-  std::set<int> by_switch;  ///< that it comes to by a switch of its own
+  std::set<SetIndex> of_itself;  ///< that it is in
+  std::set<SetIndex> by_switch;  ///< that it comes to by a switch of its own
 };
 
 /// A switching graph with a start and a goal grasp as vertices of their own, and without some
@@ -44,7 +44,7 @@ class AttachedGraph final : public search::SwitchingGraph {
     GraspEnds sets;
   };
   static bool GetNeighboursOfEnd(const End& end, int vertex, std::vector<int>& neighbours);
-  static void AddEnd(const End& end, int set, std::vector<int>& neighbours);
+  static void AddEnd(const End& end, SetIndex set, std::vector<int>& neighbours);
 
   const search::SwitchingGraph& graph_;
   const std::set<search::VertexPair>& banned_;

@@ -7,7 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/index.h"
+
 namespace regrasp::sets {
+
+/// A convex piece of a set, by its number in the set.
+using PieceIndex = Index<struct PieceTag>;
 
 /// The waypoints of an align through the convex pieces of a set: one in each passage between two of
 /// them, fewest passages first (breadth first).
@@ -17,30 +22,29 @@ namespace regrasp::sets {
 template <class Waypoint>
 [[nodiscard]] std::optional<std::vector<Waypoint>> FindPassages(
     const std::vector<bool>& starts, const std::vector<bool>& goals,
-    const std::function<std::optional<Waypoint>(int from, int to)>& find_passage) {
-  constexpr int kUnseen = -2;
-  constexpr int kStart = -1;
+    const std::function<std::optional<Waypoint>(PieceIndex from, PieceIndex to)>& find_passage) {
   const int count = static_cast<int>(starts.size());
-  std::vector<int> before(count, kUnseen);
+  std::vector<bool> seen = starts;
+  std::vector<PieceIndex> before(count);  // not valid before a start
   std::vector<Waypoint> through(count);
-  std::deque<int> queue;
-  for (int piece = 0; piece < count; ++piece) {
+  std::deque<PieceIndex> queue;
+  for (PieceIndex piece{0}; piece < count; ++piece) {
     if (!starts[piece]) continue;
     if (goals[piece]) return std::vector<Waypoint>();
-    before[piece] = kStart;
     queue.push_back(piece);
   }
   for (; !queue.empty(); queue.pop_front()) {
-    for (int next = 0; next < count; ++next) {
-      if (before[next] != kUnseen) continue;
+    for (PieceIndex next{0}; next < count; ++next) {
+      if (seen[next]) continue;
       std::optional<Waypoint> passage = find_passage(queue.front(), next);
       if (!passage) continue;
+      seen[next] = true;
       before[next] = queue.front();
       through[next] = std::move(*passage);
       queue.push_back(next);
       if (!goals[next]) continue;
       std::vector<Waypoint> path;
-      for (int at = next; before[at] != kStart; at = before[at]) path.push_back(through[at]);
+      for (PieceIndex at = next; before[at].valid(); at = before[at]) path.push_back(through[at]);
       std::ranges::reverse(path);
       return path;
     }

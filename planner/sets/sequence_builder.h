@@ -29,16 +29,15 @@ class SequenceBuilder {
   using Place = typename Model::Place;
 
   /// All arguments outlive this object. @param fingers  of the hand.
-  SequenceBuilder(Model& model, const criteria::GraspEvaluator& evaluator,
-                  const grasp::Grasp& start, const grasp::Grasp& goal, int fingers)
-      : model_(model), evaluator_(evaluator), start_(start), goal_(goal), fingers_(fingers) {}
+  SequenceBuilder(Model& model, const grasp::Grasp& start, const grasp::Grasp& goal, int fingers)
+      : model_(model), start_(start), goal_(goal), fingers_(fingers) {}
 
   /// @param path    of sets, from the one that `from` is in to that of `to`.
   /// @param banned  gets a switch of the path where doubles find none, or no align to it.
   /// @returns nullopt then.
   /// @throws NoGrasp  from one grasp of a set to another there is none.
   [[nodiscard]] std::optional<planning::CandidateSequence> Make(
-      const std::vector<int>& path, const Place& from, const Place& to,
+      const std::vector<SetIndex>& path, const Place& from, const Place& to,
       std::set<search::VertexPair>& banned) {
     const auto switches = ChooseSwitches(path, from, to, banned);
     if (!switches) return std::nullopt;
@@ -64,7 +63,7 @@ class SequenceBuilder {
   }
 
  private:
-  using Switch = SetSwitch<Place>;
+  using Switch = typename Model::Switch;
 
   struct BestSwitch {
     std::optional<Switch> found;
@@ -78,7 +77,7 @@ class SequenceBuilder {
   };
 
   [[nodiscard]] std::optional<std::vector<ChosenSwitch>> ChooseSwitches(
-      const std::vector<int>& path, const Place& from, const Place& to,
+      const std::vector<SetIndex>& path, const Place& from, const Place& to,
       std::set<search::VertexPair>& banned) {
     std::vector<ChosenSwitch> switches;
     Place at = from;
@@ -93,36 +92,36 @@ class SequenceBuilder {
       at = found->after;
       switches.push_back({*found, edge, std::nullopt});
     }
-    if constexpr (requires(Switch & change) { model_.Refine(change, evaluator_); }) {
+    if constexpr (requires(Switch & change) { model_.Refine(change); }) {
       for (ChosenSwitch& chosen : switches) {
-        chosen.region = model_.Refine(chosen.change, evaluator_);
+        chosen.region = model_.Refine(chosen.change);
       }
     }
     return switches;
   }
 
-  [[nodiscard]] std::optional<Switch> ChooseSwitch(int from, int to, const Place& at,
+  [[nodiscard]] std::optional<Switch> ChooseSwitch(SetIndex from, SetIndex to, const Place& at,
                                                    const Place* goal) {
     if (goal != nullptr) {
-      auto between = model_.FindSwitch(from, to, {&at, goal}, evaluator_);
+      auto between = model_.FindSwitch({from, to, &at, goal});
       if (between) return between;
     }
     const BestSwitch& best = FindBest(from, to);
     if (!best.found) return std::nullopt;
     const double least = std::max(kGoodShare * best.score, 0.0);
-    auto from_here = model_.FindSwitch(from, to, {&at, nullptr}, evaluator_);
+    auto from_here = model_.FindSwitch({from, to, &at});
     if (from_here && ScoreOf(from_here->after) >= least) return from_here;
     if (goal != nullptr) {
-      auto to_goal = model_.FindSwitch(from, to, {nullptr, goal}, evaluator_);
+      auto to_goal = model_.FindSwitch({from, to, nullptr, goal});
       if (to_goal && ScoreOf(to_goal->before) >= least) return to_goal;
     }
     return best.found;
   }
 
-  [[nodiscard]] const BestSwitch& FindBest(int from, int to) {
+  [[nodiscard]] const BestSwitch& FindBest(SetIndex from, SetIndex to) {
     const auto [known, is_new] = best_.try_emplace({from, to});
     if (is_new) {
-      known->second.found = model_.FindSwitch(from, to, {}, evaluator_);
+      known->second.found = model_.FindSwitch({from, to});
       if (const auto& found = known->second.found) {
         known->second.score = std::min(ScoreOf(found->before), ScoreOf(found->after));
       }
@@ -131,13 +130,13 @@ class SequenceBuilder {
   }
 
   [[nodiscard]] double ScoreOf(const Place& place) const {
-    return evaluator_.Score(GraspAt(place));
+    return model_.evaluator().Score(GraspAt(place));
   }
 
   /// The contacts of a place; those of start and goal as they were given.
   [[nodiscard]] grasp::Grasp GraspAt(const Place& place) const {
     grasp::Grasp grasp = model_.GraspOf(place);
-    const double rounding = kContactRounding * evaluator_.object().diameter();
+    const double rounding = kContactRounding * model_.evaluator().object().diameter();
     for (grasp::Contact& contact : grasp) {
       for (const grasp::Grasp* given : {&start_, &goal_}) {
         for (const grasp::Contact& other : *given) {
@@ -168,11 +167,10 @@ class SequenceBuilder {
   }
 
   Model& model_;
-  const criteria::GraspEvaluator& evaluator_;
   const grasp::Grasp& start_;
   const grasp::Grasp& goal_;
   int fingers_;
-  std::map<std::pair<int, int>, BestSwitch> best_;  ///< by the sets before and after
+  std::map<std::pair<SetIndex, SetIndex>, BestSwitch> best_;  ///< by the sets before and after
 };
 
 }  // namespace regrasp::sets

@@ -21,9 +21,9 @@ void SetGraph::EndVertices(int count) {
   vertex_seconds_ = stopwatch_.Lap();
 }
 
-void SetGraph::EndEdges(std::vector<std::array<int, 2>> switches, std::vector<int> all_joined) {
+void SetGraph::EndEdges(std::vector<SetPair> switches, const std::vector<SetIndex>& all_joined) {
   switches_ = std::move(switches);
-  all_joined_ = std::move(all_joined);
+  all_joined_.assign(all_joined.begin(), all_joined.end());
   for (const auto& [a, b] : switches_) {
     neighbours_[a].push_back(b);
     neighbours_[b].push_back(a);
@@ -35,9 +35,11 @@ void SetGraph::EndEdges(std::vector<std::array<int, 2>> switches, std::vector<in
 search::Components SetGraph::components() const {
   const int pairs = static_cast<int>(switches_.size());
   const int groups = pairs + (all_joined_.empty() ? 0 : 1);
+  std::array<int, 2> pair;
   return search::FindComponents(vertex_count(), groups, [&](int group) {
-    return group < pairs ? std::span<const int>(switches_[group])
-                         : std::span<const int>(all_joined_);
+    if (group >= pairs) return std::span<const int>(all_joined_);
+    pair = {switches_[group][0], switches_[group][1]};
+    return std::span<const int>(pair);
   });
 }
 

@@ -4,11 +4,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/index.h"
 #include "planner/base/stopwatch.h"
 #include "planner/search/components.h"
 #include "planner/search/switching_graph.h"
 
 namespace regrasp::sets {
+
+/// A set of grasps: a vertex of a SetGraph.
+using SetIndex = Index<struct SetTag>;
+/// Two sets that a switch joins.
+using SetPair = std::array<SetIndex, 2>;
 
 /// The switching graph of an object's grasp sets, with its edges as a list: what such graphs have
 /// in common, whatever the sets.
@@ -16,7 +22,7 @@ class SetGraph : public search::SwitchingGraph {
  public:
   /// Pairs of sets that a switch joins; but for those of a kind of which each two are joined, where
   /// the object's graph has such a kind.
-  [[nodiscard]] const std::vector<std::array<int, 2>>& switches() const { return switches_; }
+  [[nodiscard]] const std::vector<SetPair>& switches() const { return switches_; }
   [[nodiscard]] search::Components components() const;
 
   /// Wall time that the vertices and the edges took.
@@ -35,10 +41,10 @@ class SetGraph : public search::SwitchingGraph {
   void BeginVertices();
   void EndVertices(int count);
   /// @param all_joined  ascending; sets of which each two are joined.
-  void EndEdges(std::vector<std::array<int, 2>> switches, std::vector<int> all_joined = {});
+  void EndEdges(std::vector<SetPair> switches, const std::vector<SetIndex>& all_joined = {});
 
  private:
-  std::vector<std::array<int, 2>> switches_;
+  std::vector<SetPair> switches_;
   std::vector<int> all_joined_;
   std::vector<std::vector<int>> neighbours_;  ///< over switches_, ascending
   Stopwatch stopwatch_;

@@ -30,7 +30,6 @@ class SetPlanner {
       : model_(model),
         request_(request),
         planner_(std::move(planner)),
-        evaluator_(*request.object, request.criteria, request.hand),
         of_start_(request.seed, RandomUse::kStart),
         of_goal_(request.seed, RandomUse::kGoal) {}
 
@@ -57,7 +56,7 @@ class SetPlanner {
 
  private:
   using Place = typename Model::Place;
-  using Attachments = std::vector<Attachment<Place>>;
+  using Attachments = typename Model::Attachments;
 
   static bool IsRandom(const planning::GraspChoice& choice) {
     return choice.kind == planning::GraspChoice::Kind::kRandom;
@@ -67,12 +66,12 @@ class SetPlanner {
                                   RandomStream& random) {
     return DrawFromSets(
         choice.name, std::move(pools),
-        [&](int set) {
+        [&](SetIndex set) {
           request_.deadline.Check();
           const auto place = model_.Draw(set, random);
           return place ? model_.GraspOf(*place) : grasp::Grasp();
         },
-        evaluator_, random);
+        model_.evaluator(), random);
   }
 
   [[nodiscard]] bool IsGoalTheStart() const {
@@ -80,15 +79,15 @@ class SetPlanner {
   }
 
   [[nodiscard]] Attachments Attach(const planning::GraspChoice& choice, const grasp::Grasp& grasp) {
-    Attachments found = model_.Attach(grasp, evaluator_);
+    Attachments found = model_.Attach(grasp);
     if (found.empty()) {
       throw sampling::NoGrasp{choice.name + ": force closure, but " + model_.WhyUnattached(grasp)};
     }
     return found;
   }
 
-  [[nodiscard]] static std::set<int> SetsOf(const Attachments& attachments) {
-    std::set<int> sets;
+  [[nodiscard]] static std::set<SetIndex> SetsOf(const Attachments& attachments) {
+    std::set<SetIndex> sets;
     for (const auto& a : attachments) sets.insert(a.set);
     return sets;
   }
@@ -102,7 +101,7 @@ class SetPlanner {
   }
 
   /// Of the places of a grasp in a set the best.
-  [[nodiscard]] static const Place& PlaceIn(const Attachments& attachments, int set) {
+  [[nodiscard]] static const Place& PlaceIn(const Attachments& attachments, SetIndex set) {
     return std::ranges::find(attachments, set, &Attachment<Place>::set)->place;
   }
 
@@ -110,10 +109,11 @@ class SetPlanner {
     goal_at_ = Attach(request_.goal, goal_);
     request_.progress("searching a sequence among " +
                       std::to_string(model_.graph().vertex_count()) + " " + model_.sets_name());
-    SequenceBuilder<Model> builder(model_, evaluator_, start_, goal_, request_.hand.fingers);
+    SequenceBuilder<Model> builder(model_, start_, goal_, request_.hand.fingers);
     const auto candidate = FindCandidate(
-        evaluator_, [&](const auto& banned) { return FindPath(banned); },
-        [&](const auto& path, auto& banned) {
+        model_.evaluator(), [&](const auto& banned) { return FindPath(banned); },
+        [&](const std::vector<int>& vertices, auto& banned) {
+          const std::vector<SetIndex> path(vertices.begin(), vertices.end());
           return builder.Make(path, PlaceIn(start_at_, path.front()),
                               PlaceIn(goal_at_, path.back()), banned);
         },
@@ -131,21 +131,21 @@ class SetPlanner {
     std::vector<int> path = FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
       request_.deadline.Check();
       const bool counts = graph.IsSet(vertex) && !graph.IsOnlySetOfAnEnd(vertex);
-      return counts ? model_.WidthOf(vertex) : std::numeric_limits<double>::infinity();
+      return counts ? model_.WidthOf(SetIndex(vertex)) : std::numeric_limits<double>::infinity();
     });
     std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });
     return path;
   }
 
   [[nodiscard]] planning::PlanResult Finish(const planning::CandidateSequence& candidate) const {
-    return planning::ResultOf(candidate, evaluator_, planner_, request_, goal_);
+    return planning::ResultOf(candidate, model_.evaluator(), planner_, request_, goal_);
   }
 
   [[nodiscard]] std::string NoSequenceMessage() const {
     const search::Components components = model_.graph().components();
     const auto size = [&](const Attachments& attachments) {
       std::set<int> reached;
-      for (const int set : SetsOf(attachments)) reached.insert(components.of_vertex[set]);
+      for (const SetIndex set : SetsOf(attachments)) reached.insert(components.of_vertex[set]);
       return std::to_string(std::accumulate(
           reached.begin(), reached.end(), 0,
           [&](int sum, int component) { return sum + components.sizes[component]; }));
@@ -158,7 +158,6 @@ class SetPlanner {
   Model& model_;
   const planning::PlanRequest& request_;
   std::string planner_;
-  criteria::GraspEvaluator evaluator_;
   RandomStream of_start_;
   RandomStream of_goal_;
   grasp::Grasp start_;

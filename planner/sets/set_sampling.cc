@@ -25,16 +25,17 @@ double DrawNormal(RandomStream& random) {
 }
 
 SamplingPools StartPools(int set_count) {
-  std::vector<int> all(set_count);
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<SetIndex> all(set_count);
+  std::iota(all.begin(), all.end(), SetIndex(0));
   return {all};
 }
 
-SamplingPools GoalPools(const search::Components& components, const std::set<int>& start_sets) {
+SamplingPools GoalPools(const search::Components& components,
+                        const std::set<SetIndex>& start_sets) {
   std::set<int> reachable;
-  for (const int set : start_sets) reachable.insert(components.of_vertex[set]);
-  std::vector<int> others;
-  for (int set = 0; set < static_cast<int>(components.of_vertex.size()); ++set) {
+  for (const SetIndex set : start_sets) reachable.insert(components.of_vertex[set]);
+  std::vector<SetIndex> others;
+  for (SetIndex set{0}; set < static_cast<int>(components.of_vertex.size()); ++set) {
     if (reachable.contains(components.of_vertex[set]) && !start_sets.contains(set)) {
       others.push_back(set);
     }
@@ -43,10 +44,10 @@ SamplingPools GoalPools(const search::Components& components, const std::set<int
 }
 
 grasp::Grasp DrawFromSets(const std::string& name, SamplingPools pools,
-                          const std::function<grasp::Grasp(int set)>& draw,
+                          const std::function<grasp::Grasp(SetIndex set)>& draw,
                           const criteria::GraspEvaluator& evaluator, RandomStream& random) {
   std::size_t sets = 0;
-  for (std::vector<int>& pool : pools) {
+  for (std::vector<SetIndex>& pool : pools) {
     sets += pool.size();
     const std::size_t draws = std::min(pool.size(), kMaxSetDraws);
     for (std::size_t i = 0; i < draws; ++i) {

@@ -41,13 +41,13 @@ struct Vertex {
   bool begins;    ///< the ring begins here
 };
 
-std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, int ring,
+std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, contour::RingIndex ring,
                                   const contour::PlaceRange& shown) {
   const double perimeter = boundary.perimeter(ring);
   const double slack = kRounding * perimeter;
   std::vector<Vertex> vertices;
   for (double turn = std::floor(shown.low / perimeter); turn * perimeter <= shown.high; ++turn) {
-    for (int edge = boundary.first_edge(ring); edge < boundary.first_edge(ring + 1); ++edge) {
+    for (FaceIndex edge = boundary.first_edge(ring); edge < boundary.end_edge(ring); ++edge) {
       const double length = boundary.begin(edge);
       const double place = turn * perimeter + length;
       if (place < shown.low - slack || place > shown.high + slack) continue;
@@ -60,7 +60,7 @@ std::vector<Vertex> ShownVertices(const contour::Boundary& boundary, int ring,
 std::string LengthLabel(double length) { return FormatShort(length, kVertexDigits); }
 
 /// The length that an axis shows where a ring begins: its end, where it shows one turn.
-std::string BeginLabel(const contour::Boundary& boundary, int ring,
+std::string BeginLabel(const contour::Boundary& boundary, contour::RingIndex ring,
                        const contour::PlaceRange& shown, double place) {
   const double perimeter = boundary.perimeter(ring);
   const double slack = kRounding * perimeter;
@@ -120,7 +120,7 @@ std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& sh
 
 }  // namespace
 
-std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, int ring,
+std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, contour::RingIndex ring,
                                 const contour::PlaceRange& shown, double points_per_unit,
                                 double label_gap) {
   assert(points_per_unit > 0 && shown.low < shown.high);
@@ -142,12 +142,13 @@ std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, int ring,
   return ticks;
 }
 
-std::string AxisTitle(const contour::Boundary& boundary, const std::string& length, int ring) {
+std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
+                      contour::RingIndex ring) {
   if (boundary.ring_count() == 1) return length;
   return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
 }
 
-void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
                     const PlotWindow& window, const std::string& title) {
   const double bottom = window.corner.y() + window.size().y();
   SetColor(cr, kInk);
@@ -163,7 +164,7 @@ void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
   DrawLabel(cr, title, middle, TextAlign::kCentre);
 }
 
-void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
                   const PlotWindow& window, const std::string& title) {
   const double left = window.corner.x();
   SetColor(cr, kInk);

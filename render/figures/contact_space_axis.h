@@ -36,7 +36,8 @@ struct AxisTick {
 /// to the end has the perimeter.
 /// @param points_per_unit  > 0.
 /// @param label_gap        least distance of labels, points.
-[[nodiscard]] std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, int ring,
+[[nodiscard]] std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary,
+                                              contour::RingIndex ring,
                                               const contour::PlaceRange& shown,
                                               double points_per_unit, double label_gap);
 
@@ -49,12 +50,12 @@ inline constexpr double kBottomSpace = 27;
 
 /// "u", or where the polygon has holes "u, outer ring", "u, hole 1".
 [[nodiscard]] std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
-                                    int ring);
+                                    contour::RingIndex ring);
 
 /// Draw ticks, labels and a title below a plot, and to its left.
-void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
                     const PlotWindow& window, const std::string& title);
-void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, int ring,
+void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
                   const PlotWindow& window, const std::string& title);
 
 /// Draws the rectangle around a plot.

@@ -36,7 +36,7 @@ class ContactSpaceFigures {
   contour::ContourGraph graph_;
   contour::SetGeometry geometry_;
   std::vector<TrackEntry> track_;
-  std::map<int, int> names_;
+  std::map<sets::SetIndex, int> names_;
 };
 
 }  // namespace regrasp::render

@@ -26,7 +26,7 @@ void AddBoth(const SpaceShape& shape, std::vector<SpaceShape>& shapes) {
   shapes.push_back(Mirrored(shape));
 }
 
-std::array<int, 2> RingsOf(const contour::ContourGraph& graph, int set) {
+std::array<contour::RingIndex, 2> RingsOf(const contour::ContourGraph& graph, sets::SetIndex set) {
   const auto& edges = graph.pieces()[graph.pieces_of(set).front()].edges;
   return {graph.boundary().ring_of(edges[0]), graph.boundary().ring_of(edges[1])};
 }
@@ -46,14 +46,14 @@ LargestSquare FindLargest(const std::vector<contour::DiagramEdge>& diagram) {
   return largest;
 }
 
-MapSet MakeSet(contour::SetGeometry& geometry, int set, std::optional<int> name) {
+MapSet MakeSet(contour::SetGeometry& geometry, sets::SetIndex set, std::optional<int> name) {
   const contour::ContourGraph& graph = geometry.graph();
   MapSet made;
   made.set = set;
   made.name = name;
   made.stretching = graph.pieces()[graph.pieces_of(set).front()].stretching;
   const auto rings = RingsOf(graph, set);
-  for (const int piece : graph.pieces_of(set)) {
+  for (const contour::PieceIndex piece : graph.pieces_of(set)) {
     const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
     if (!outline.empty()) AddBoth({rings, outline}, made.pieces);
   }
@@ -99,9 +99,9 @@ std::string SetName(int k) {
   return letters;
 }
 
-std::map<int, int> NameSets(const contour::SetGeometry& geometry,
-                            const std::vector<TrackEntry>& track) {
-  std::map<int, int> names;
+std::map<sets::SetIndex, int> NameSets(const contour::SetGeometry& geometry,
+                                       const std::vector<TrackEntry>& track) {
+  std::map<sets::SetIndex, int> names;
   for (const TrackEntry& entry : track) {
     const auto at = geometry.Locate({entry.grasp[0].contact, entry.grasp[1].contact});
     if (!at) continue;
@@ -115,7 +115,7 @@ ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
   const contour::ContourGraph& graph = geometry.graph();
   ContactSpaceMap map;
   map.set_count = graph.vertex_count();
-  std::set<int> used;
+  std::set<contour::RingIndex> used;
   for (std::size_t i = 0; i < track.size(); ++i) {
     const TrackEntry& entry = track[i];
     map.rests.push_back(PointOf(graph.boundary(), entry.grasp));
@@ -126,8 +126,8 @@ ContactSpaceMap MapContactSpace(contour::SetGeometry& geometry,
     }
   }
   map.rings.assign(used.begin(), used.end());
-  const std::map<int, int> names = NameSets(geometry, track);
-  for (int set = 0; set < graph.vertex_count(); ++set) {
+  const std::map<sets::SetIndex, int> names = NameSets(geometry, track);
+  for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
     const auto rings = RingsOf(graph, set);
     if (!used.contains(rings[0]) || !used.contains(rings[1])) continue;
     const auto name = names.find(set);

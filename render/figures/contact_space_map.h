@@ -14,14 +14,14 @@ namespace regrasp::render {
 /// A path or an outline in contact space, all of it between one ring on the horizontal axis and one
 /// on the vertical axis.
 struct SpaceShape {
-  std::array<int, 2> rings = {};
+  std::array<contour::RingIndex, 2> rings = {};
   std::vector<Eigen::Vector2d> points;
 };
 
 /// A graspable set as the overview shows it: both halves of the space, the set and its mirror
 /// image.
 struct MapSet {
-  int set = 0;
+  sets::SetIndex set;
   bool stretching = false;
   std::optional<int> name;  ///< of a set of the plan
   std::vector<SpaceShape> pieces;
@@ -38,7 +38,7 @@ struct MapSwitch {
 
 /// The whole contact space of the rings that a plan uses, and the plan in it.
 struct ContactSpaceMap {
-  std::vector<int> rings;
+  std::vector<contour::RingIndex> rings;
   std::vector<MapSet> sets;       ///< those on these rings
   int set_count = 0;              ///< of the whole boundary
   std::vector<SpacePoint> rests;  ///< the grasp after each entry of the plan
@@ -48,8 +48,8 @@ struct ContactSpaceMap {
 
 /// The sets that a plan's grasps at rest lie in, in the order in which they come. Grasps in no set,
 /// at the very border of force closure, have none.
-[[nodiscard]] std::map<int, int> NameSets(const contour::SetGeometry& geometry,
-                                          const std::vector<TrackEntry>& track);
+[[nodiscard]] std::map<sets::SetIndex, int> NameSets(const contour::SetGeometry& geometry,
+                                                     const std::vector<TrackEntry>& track);
 
 /// The name of the k-th of them: "A", "B", … "Z", "AA" …
 [[nodiscard]] std::string SetName(int k);

@@ -55,14 +55,14 @@ class Overview {
   void Draw(cairo_t* cr) const;
 
  private:
-  [[nodiscard]] int IndexOf(int ring) const {
+  [[nodiscard]] int IndexOf(contour::RingIndex ring) const {
     return static_cast<int>(std::ranges::find(map_.rings, ring) - map_.rings.begin());
   }
-  [[nodiscard]] PlotWindow WindowOf(const std::array<int, 2>& rings) const;
+  [[nodiscard]] PlotWindow WindowOf(const std::array<contour::RingIndex, 2>& rings) const;
   [[nodiscard]] Vector2d ToPage(const SpacePoint& p) const {
     return WindowOf(p.rings).ToPage(p.places);
   }
-  void DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const;
+  void DrawSets(cairo_t* cr, const std::array<contour::RingIndex, 2>& rings) const;
   void DrawAxes(cairo_t* cr) const;
   void DrawPlan(cairo_t* cr) const;
   [[nodiscard]] bool HasClearanceAt(const MapSet& set, const SpacePoint& place) const;
@@ -78,9 +78,9 @@ Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map
     : boundary_(boundary), map_(map) {
   std::vector<double> shares;
   int edges = 0;
-  for (const int ring : map.rings) {
+  for (const contour::RingIndex ring : map.rings) {
     shares.push_back(boundary.perimeter(ring));
-    edges += boundary.first_edge(ring + 1) - boundary.first_edge(ring);
+    edges += boundary.end_edge(ring) - boundary.first_edge(ring);
   }
   const double longest = std::ranges::max(shares);
   for (double& share : shares) share = std::max(share, kLeastShare * longest);
@@ -95,7 +95,7 @@ Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map
   }
 }
 
-PlotWindow Overview::WindowOf(const std::array<int, 2>& rings) const {
+PlotWindow Overview::WindowOf(const std::array<contour::RingIndex, 2>& rings) const {
   const RingSpan& across = spans_[IndexOf(rings[0])];
   const RingSpan& up = spans_[IndexOf(rings[1])];
   PlotWindow window;
@@ -105,7 +105,7 @@ PlotWindow Overview::WindowOf(const std::array<int, 2>& rings) const {
   return window;
 }
 
-void Overview::DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const {
+void Overview::DrawSets(cairo_t* cr, const std::array<contour::RingIndex, 2>& rings) const {
   const PlotWindow window = WindowOf(rings);
   SaveAndClip(cr, window);
   std::vector<Outline> hatched;
@@ -133,7 +133,7 @@ void Overview::DrawSets(cairo_t* cr, const std::array<int, 2>& rings) const {
 }
 
 void Overview::DrawAxes(cairo_t* cr) const {
-  for (const int ring : map_.rings) {
+  for (const contour::RingIndex ring : map_.rings) {
     DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}),
                    AxisTitle(boundary_, "u", ring));
     DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}),
@@ -213,8 +213,8 @@ void Overview::DrawMarks(cairo_t* cr) const {
 }
 
 void Overview::Draw(cairo_t* cr) const {
-  for (const int across : map_.rings) {
-    for (const int up : map_.rings) DrawSets(cr, {across, up});
+  for (const contour::RingIndex across : map_.rings) {
+    for (const contour::RingIndex up : map_.rings) DrawSets(cr, {across, up});
   }
   DrawAxes(cr);
   DrawPlan(cr);

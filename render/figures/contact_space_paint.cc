@@ -42,7 +42,7 @@ Color PlanSetTint(int index) {
   return kTints[index % kTints.size()];
 }
 
-Color OtherSetTint(int set) {
+Color OtherSetTint(sets::SetIndex set) {
   static constexpr std::array<unsigned char, 3> kGreys = {224, 236, 213};
   const unsigned char grey = kGreys[set % kGreys.size()];
   return {grey, grey, grey};

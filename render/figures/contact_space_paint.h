@@ -16,7 +16,7 @@ namespace regrasp::render {
 [[nodiscard]] Color PlanSetTint(int index);
 
 /// The tint of any other set: greys, all lighter.
-[[nodiscard]] Color OtherSetTint(int set);
+[[nodiscard]] Color OtherSetTint(sets::SetIndex set);
 
 /// Widths of lines, points.
 inline constexpr double kThinLine = 0.25;

@@ -11,7 +11,7 @@ namespace {
 
 std::optional<ContactSwitchSide> DescribeSide(contour::SetGeometry& geometry,
                                               const AxisGrasp& grasp, int shared_axis,
-                                              const std::map<int, int>& names) {
+                                              const std::map<sets::SetIndex, int>& names) {
   const grasp::Contact& shared = grasp[shared_axis].contact;
   const grasp::Contact& other = grasp[1 - shared_axis].contact;
   const auto at = geometry.Locate({shared, other});
@@ -41,7 +41,7 @@ std::optional<ContactSwitchSide> DescribeSide(contour::SetGeometry& geometry,
 
 std::optional<ContactSwitch> DescribeContactSwitch(contour::SetGeometry& geometry,
                                                    const std::vector<TrackEntry>& track, int entry,
-                                                   const std::map<int, int>& names) {
+                                                   const std::map<sets::SetIndex, int>& names) {
   const auto axis = track[entry].shared_axis;
   if (!axis) return std::nullopt;
   ContactSwitch found;

@@ -18,7 +18,7 @@ struct ContactSwitchSide {
   int name = 0;  ///< of the set (SetName)
   bool stretching = false;
   int grasp_entry = 0;  ///< of the plan: the grasp after it
-  int other_ring = 0;
+  contour::RingIndex other_ring;
   UnfoldedSet set;
   Eigen::Vector2d grasp = Eigen::Vector2d::Zero();
   double size = 0;                 ///< half-width of the largest square about the grasp
@@ -28,7 +28,7 @@ struct ContactSwitchSide {
 /// What the figure of a switch shows: both sets with that length in line.
 struct ContactSwitch {
   int entry = 0;
-  int shared_ring = 0;
+  contour::RingIndex shared_ring;
   std::array<ContactSwitchSide, 2> sides;  ///< before and after
   contour::PlaceRange overlap;             ///< of the two projections, about the contact that stays
 };
@@ -38,6 +38,6 @@ struct ContactSwitch {
 ///          closure.
 [[nodiscard]] std::optional<ContactSwitch> DescribeContactSwitch(
     contour::SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
-    const std::map<int, int>& names);
+    const std::map<sets::SetIndex, int>& names);
 
 }  // namespace regrasp::render

@@ -16,7 +16,7 @@ using AxisGrasp = std::array<plan::FingerContact, 2>;
 
 /// A point of contact space: the rings that its axes belong to and the places on them.
 struct SpacePoint {
-  std::array<int, 2> rings = {};
+  std::array<contour::RingIndex, 2> rings = {};
   Eigen::Vector2d places = Eigen::Vector2d::Zero();
 };
 

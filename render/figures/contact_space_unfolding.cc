@@ -24,18 +24,18 @@ struct Placement {
 
 /// A neighbour of a piece, as it continues a placement of that piece.
 struct Continuation {
-  int piece;
+  contour::PieceIndex piece;
   Placement placement;
 };
 
 Continuation Continue(const contour::ContourGraph& graph, const contour::PiecePassage& passage,
-                      int piece, const Placement& placement) {
+                      contour::PieceIndex piece, const Placement& placement) {
   const contour::Boundary& boundary = graph.boundary();
   const bool forward = passage.pieces[0] == piece;
-  const int beyond = passage.pieces[forward ? 1 : 0];
-  const int next = boundary.next(passage.edge);
-  const int edge = forward ? passage.edge : next;
-  const int edge_beyond = forward ? next : passage.edge;
+  const contour::PieceIndex beyond = passage.pieces[forward ? 1 : 0];
+  const FaceIndex next = boundary.next(passage.edge);
+  const FaceIndex edge = forward ? passage.edge : next;
+  const FaceIndex edge_beyond = forward ? next : passage.edge;
   const int turning = graph.pieces()[piece].edges[0] == edge ? 0 : 1;
   const int axis = placement.swapped ? 1 - turning : turning;
   Continuation found = {beyond, placement};
@@ -48,7 +48,7 @@ Continuation Continue(const contour::ContourGraph& graph, const contour::PiecePa
 
 /// The passage as a line, at the border of one of its pieces.
 Segment PassageLine(const contour::ContourGraph& graph, const contour::PiecePassage& passage,
-                    int piece) {
+                    contour::PieceIndex piece) {
   const contour::Boundary& boundary = graph.boundary();
   const bool forward = passage.pieces[0] == piece;
   const int other = graph.pieces()[piece].edges[0] == passage.other ? 0 : 1;
@@ -63,7 +63,7 @@ Segment PassageLine(const contour::ContourGraph& graph, const contour::PiecePass
 
 class Unfolder {
  public:
-  Unfolder(const contour::ContourGraph& graph, int root, const Placement& placement)
+  Unfolder(const contour::ContourGraph& graph, contour::PieceIndex root, const Placement& placement)
       : graph_(graph) {
     placements_.emplace(root, placement);
     queue_.push(root);
@@ -73,12 +73,14 @@ class Unfolder {
     }
   }
 
-  [[nodiscard]] const std::map<int, Placement>& placements() const { return placements_; }
+  [[nodiscard]] const std::map<contour::PieceIndex, Placement>& placements() const {
+    return placements_;
+  }
 
   [[nodiscard]] std::vector<Segment> FindCuts() const {
     std::vector<Segment> cuts;
     for (const auto& [piece, placement] : placements_) {
-      for (const int i : graph_.passages_at(piece)) {
+      for (const contour::PassageIndex i : graph_.passages_at(piece)) {
         const contour::PiecePassage& passage = graph_.passages()[i];
         const Continuation next = Continue(graph_, passage, piece, placement);
         if (placements_.at(next.piece) == next.placement) continue;
@@ -90,8 +92,8 @@ class Unfolder {
   }
 
  private:
-  void PlaceNeighbours(int piece) {
-    for (const int i : graph_.passages_at(piece)) {
+  void PlaceNeighbours(contour::PieceIndex piece) {
+    for (const contour::PassageIndex i : graph_.passages_at(piece)) {
       const Continuation next =
           Continue(graph_, graph_.passages()[i], piece, placements_.at(piece));
       if (placements_.emplace(next.piece, next.placement).second) queue_.push(next.piece);
@@ -99,13 +101,14 @@ class Unfolder {
   }
 
   const contour::ContourGraph& graph_;
-  std::map<int, Placement> placements_;
-  std::queue<int> queue_;
+  std::map<contour::PieceIndex, Placement> placements_;
+  std::queue<contour::PieceIndex> queue_;
 };
 
 }  // namespace
 
-std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& graph, int set) {
+std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& graph,
+                                                sets::SetIndex set) {
   const contour::Boundary& boundary = graph.boundary();
   std::vector<contour::BorderSegment> parts;
   for (const contour::BorderSegment& segment : contour::SetBorder(graph, set)) {
@@ -116,13 +119,13 @@ std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& gra
     }
     const int along = upright ? 1 : 0;
     const auto& edges = graph.pieces()[segment.piece].edges;
-    const int ring = boundary.ring_of(edges[along]);
-    for (int edge = boundary.first_edge(ring); edge < boundary.first_edge(ring + 1); ++edge) {
+    const contour::RingIndex ring = boundary.ring_of(edges[along]);
+    for (FaceIndex edge = boundary.first_edge(ring); edge < boundary.end_edge(ring); ++edge) {
       contour::BorderSegment part = segment;
       part.from[along] = std::max(segment.from[along], boundary.begin(edge));
       part.to[along] = std::min(segment.to[along], boundary.end(edge));
       if (part.from[along] >= part.to[along] || edge == edges[1 - along]) continue;
-      for (const int piece : graph.PiecesOn(edges[1 - along], edge)) {
+      for (const contour::PieceIndex piece : graph.PiecesOn(edges[1 - along], edge)) {
         if (graph.set_of(piece) != set) continue;
         part.piece = piece;
         parts.push_back(part);
@@ -136,7 +139,7 @@ UnfoldedSet UnfoldSet(contour::SetGeometry& geometry, const contour::PlacedGrasp
                       int upright) {
   assert(upright == 0 || upright == 1);
   const contour::ContourGraph& graph = geometry.graph();
-  const int set = graph.set_of(root.piece);
+  const sets::SetIndex set = graph.set_of(root.piece);
   const Unfolder unfolder(graph, root.piece, {.swapped = upright == 0});
   UnfoldedSet unfolded;
   for (const auto& [piece, placement] : unfolder.placements()) {
@@ -145,7 +148,7 @@ UnfoldedSet UnfoldSet(contour::SetGeometry& geometry, const contour::PlacedGrasp
     if (placement.swapped) std::ranges::reverse(outline);
     if (!outline.empty()) unfolded.pieces.push_back(std::move(outline));
   }
-  const auto place = [&](int piece, const Vector2d& a, const Vector2d& b) {
+  const auto place = [&](contour::PieceIndex piece, const Vector2d& a, const Vector2d& b) {
     const Placement& placement = unfolder.placements().at(piece);
     return Segment{placement(a), placement(b)};
   };

@@ -33,6 +33,6 @@ struct UnfoldedSet {
 
 /// The parts of a set's border, none longer than an edge, each with the piece that it bounds.
 [[nodiscard]] std::vector<contour::BorderSegment> SplitBorder(const contour::ContourGraph& graph,
-                                                              int set);
+                                                              sets::SetIndex set);
 
 }  // namespace regrasp::render

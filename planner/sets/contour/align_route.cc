@@ -27,18 +27,16 @@ constexpr double kLeastMargin = 1e-6;
 
 /// A step through a passage.
 struct Crossing {
-  int passage;
+  PassageIndex passage;
   bool forward;  ///< from the first piece to the second
   PlaceRange range;
   double place;  ///< of the contact that stays
 };
 
-constexpr int kNone = -1;
-
 /// What the search for the cheapest path knows of a passage.
 struct Reached {
   double cost = std::numeric_limits<double>::infinity();
-  int previous = kNone;  ///< passage
+  PassageIndex previous;  ///< not valid: the start
   bool forward = true;
   double hurry = 0;   ///< one over its width; 0: not known yet
   bool done = false;  ///< the cheapest path to it is known, or it is too narrow
@@ -62,7 +60,7 @@ class Router {
   }
 
  private:
-  [[nodiscard]] int PieceOf(const Crossing& c, bool before) const {
+  [[nodiscard]] PieceIndex PieceOf(const Crossing& c, bool before) const {
     return graph_.passages()[c.passage].pieces[before == c.forward ? 0 : 1];
   }
 
@@ -84,13 +82,13 @@ class Router {
     return grasp;
   }
 
-  [[nodiscard]] Crossing MakeCrossing(int passage, bool forward) const {
+  [[nodiscard]] Crossing MakeCrossing(PassageIndex passage, bool forward) const {
     const PlaceRange range = PassageRange(graph_, graph_.passages()[passage]);
     return {passage, forward, range, (range.low + range.high) / 2};
   }
 
   /// How wide the middle of a passage is, by the normals of both of its sides, radians.
-  [[nodiscard]] double WidthOf(int passage) const {
+  [[nodiscard]] double WidthOf(PassageIndex passage) const {
     const Crossing crossing = MakeCrossing(passage, true);
     return std::min(geometry_.AngleMarginOf(Side(crossing, true)),
                     geometry_.AngleMarginOf(Side(crossing, false)));
@@ -99,9 +97,9 @@ class Router {
   /// The width of the narrowest passage of the widest path: passages are opened from the widest on,
   /// until start and goal are joined.
   [[nodiscard]] double WidestWidth() const {
-    std::vector<std::pair<double, int>> passages;
-    for (const int piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
-      for (const int passage : graph_.passages_at(piece)) {
+    std::vector<std::pair<double, PassageIndex>> passages;
+    for (const PieceIndex piece : graph_.pieces_of(graph_.set_of(from_.piece))) {
+      for (const PassageIndex passage : graph_.passages_at(piece)) {
         if (graph_.passages()[passage].pieces[0] != piece) continue;
         passages.emplace_back(WidthOf(passage), passage);
       }
@@ -110,8 +108,8 @@ class Router {
     boost::disjoint_sets_with_storage<> joined(graph_.pieces().size());
     for (const auto& [width, passage] : passages) {
       const auto& [a, b] = graph_.passages()[passage].pieces;
-      joined.union_set(a, b);
-      if (joined.find_set(from_.piece) == joined.find_set(to_.piece)) return width;
+      joined.union_set(int{a}, int{b});
+      if (joined.find_set(int{from_.piece}) == joined.find_set(int{to_.piece})) return width;
     }
     return 0;
   }
@@ -126,9 +124,10 @@ class Router {
     if (from_.piece == to_.piece) return {};
     const double widest = WidestWidth();
     least_width_ = widest > 0 ? kWideShare * widest : widest;
-    Relax(from_, Hurry(from_), 0, kNone);
+    Relax(from_, Hurry(from_), 0, {});
     std::vector<Crossing> crossings;
-    for (int passage = FindLastPassage(); passage != kNone; passage = reached_[passage].previous) {
+    for (PassageIndex passage = FindLastPassage(); passage.valid();
+         passage = reached_[passage].previous) {
       crossings.push_back(MakeCrossing(passage, reached_[passage].forward));
     }
     std::ranges::reverse(crossings);
@@ -136,10 +135,10 @@ class Router {
   }
 
   /// The last passage of the cheapest path: the goal is behind it.
-  int FindLastPassage() {
+  PassageIndex FindLastPassage() {
     const double goal_hurry = Hurry(to_);
     double best = std::numeric_limits<double>::infinity();
-    int last = kNone;
+    PassageIndex last;
     while (!queue_.empty()) {
       const auto [cost, passage] = queue_.top();
       queue_.pop();
@@ -161,8 +160,8 @@ class Router {
   }
 
   /// Looks at all passages from a grasp's piece but the one that led there.
-  void Relax(const PlacedGrasp& at, double hurry, double cost, int previous) {
-    for (const int next : graph_.passages_at(at.piece)) {
+  void Relax(const PlacedGrasp& at, double hurry, double cost, PassageIndex previous) {
+    for (const PassageIndex next : graph_.passages_at(at.piece)) {
       if (next == previous) continue;
       Reached& entry = reached_[next];
       if (!IsOpen(next, entry)) continue;
@@ -176,7 +175,7 @@ class Router {
   }
 
   /// Whether a passage is wide enough, and the cheapest path to it not yet known.
-  [[nodiscard]] bool IsOpen(int passage, Reached& entry) const {
+  [[nodiscard]] bool IsOpen(PassageIndex passage, Reached& entry) const {
     if (!entry.done && entry.hurry == 0) {
       const double width = WidthOf(passage);
       entry.done = width < least_width_;
@@ -217,9 +216,9 @@ class Router {
   const PlacedGrasp& from_;
   const PlacedGrasp& to_;
   double least_width_ = 0;  ///< of passages that are admitted
-  std::map<int, Reached> reached_;
-  std::priority_queue<std::tuple<double, int>, std::vector<std::tuple<double, int>>, std::greater<>>
-      queue_;  ///< costs and passages
+  std::map<PassageIndex, Reached> reached_;
+  using Entry = std::tuple<double, PassageIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;  ///< by costs
 };
 
 }  // namespace

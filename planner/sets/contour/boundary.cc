@@ -5,22 +5,22 @@
 namespace regrasp::contour {
 
 Boundary::Boundary(const object::Polygon& polygon) : polygon_(polygon) {
-  int edge = 0;
+  int first = 0;
   for (std::size_t ring = 0; ring < polygon.rings().size(); ++ring) {
     const int count = static_cast<int>(polygon.rings()[ring].size());
-    first_edges_.push_back(edge);
+    first_edges_.emplace_back(first);
     double place = 0;
     for (int k = 0; k < count; ++k) {
-      ring_of_.push_back(static_cast<int>(ring));
-      next_.push_back(edge + (k + 1) % count);
+      ring_of_.emplace_back(static_cast<int>(ring));
+      next_.emplace_back(first + (k + 1) % count);
       begins_.push_back(place);
-      place += polygon.face_measure(FaceIndex(edge + k));
+      place += polygon.face_measure(FaceIndex(first + k));
       ends_.push_back(place);
     }
     perimeters_.push_back(place);
-    edge += count;
+    first += count;
   }
-  first_edges_.push_back(edge);
+  first_edges_.emplace_back(first);
 }
 
 double Boundary::PlaceOf(const grasp::Contact& contact) const {
@@ -29,12 +29,11 @@ double Boundary::PlaceOf(const grasp::Contact& contact) const {
   return std::clamp(begin(contact.face) + along, begin(contact.face), end(contact.face));
 }
 
-grasp::Contact Boundary::ContactAt(int edge, double place) const {
-  const FaceIndex face(edge);
-  const auto [from, to] = polygon_.edge(face);
+grasp::Contact Boundary::ContactAt(FaceIndex edge, double place) const {
+  const auto [from, to] = polygon_.edge(edge);
   // Divided by this difference, the end of an edge is its vertex to the last bit.
   const double share = std::clamp((place - begin(edge)) / (end(edge) - begin(edge)), 0.0, 1.0);
-  return {(1 - share) * from + share * to, polygon_.inward_normal(face), face};
+  return {(1 - share) * from + share * to, polygon_.inward_normal(edge), edge};
 }
 
 }  // namespace regrasp::contour

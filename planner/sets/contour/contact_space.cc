@@ -34,9 +34,9 @@ std::array<LinearForm, 4> PieceForms(const ContourGraph& graph, const GraspPiece
   std::array<Vector2d, 2> starts, along;
   std::array<Vector2d, 4> borders;  // turning left from the right ones
   for (int k = 0; k < 2; ++k) {
-    const auto [from, to] = polygon.edge(FaceIndex(piece.edges[k]));
+    const auto [from, to] = polygon.edge(piece.edges[k]);
     starts[k] = from.head<2>();
-    along[k] = (to - from).head<2>() / polygon.face_measure(FaceIndex(piece.edges[k]));
+    along[k] = (to - from).head<2>() / polygon.face_measure(piece.edges[k]);
     const Vector2d normal(-along[k].y(), along[k].x());
     const double side = k == 0 ? sign : -sign;
     borders[2 * k] = side * (std::cos(angle) * normal + std::sin(angle) * along[k]);
@@ -96,8 +96,8 @@ void DropShortSides(std::vector<TaggedCorner>& outline, double rounding) {
 /// In places counted from where the edges begin.
 std::vector<TaggedCorner> LocalOutline(const ContourGraph& graph, const GraspPiece& piece) {
   const object::Polygon& polygon = graph.boundary().polygon();
-  const double width = polygon.face_measure(FaceIndex(piece.edges[0]));
-  const double height = polygon.face_measure(FaceIndex(piece.edges[1]));
+  const double width = polygon.face_measure(piece.edges[0]);
+  const double height = polygon.face_measure(piece.edges[1]);
   std::vector<TaggedCorner> outline = {{{0, 0}}, {{width, 0}}, {{width, height}}, {{0, height}}};
   if (piece.full) return outline;
   const double rounding = Rounding(graph, piece);
@@ -115,12 +115,12 @@ Vector2d Origin(const ContourGraph& graph, const GraspPiece& piece) {
 std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece& piece, int k,
                                     bool at_end) {
   const object::Polygon& polygon = graph.boundary().polygon();
-  const FaceIndex other(piece.edges[1 - k]);
+  const FaceIndex other = piece.edges[1 - k];
   const double length = polygon.face_measure(other);
   PlaceRange range = {0, length};
   if (!piece.full) {
     Vector2d from = Vector2d::Zero();
-    if (at_end) from[k] = polygon.face_measure(FaceIndex(piece.edges[k]));
+    if (at_end) from[k] = polygon.face_measure(piece.edges[k]);
     Vector2d to = from;
     to[1 - k] = length;
     for (const LinearForm& form : PieceForms(graph, piece)) {
@@ -140,9 +140,9 @@ std::optional<PlaceRange> SideRange(const ContourGraph& graph, const GraspPiece&
 /// Finds the border of one set.
 class BorderFinder {
  public:
-  BorderFinder(const ContourGraph& graph, int set)
+  BorderFinder(const ContourGraph& graph, sets::SetIndex set)
       : graph_(graph), rounding_(Rounding(graph, graph.pieces()[graph.pieces_of(set).front()])) {
-    for (const int piece : graph.pieces_of(set)) {
+    for (const PieceIndex piece : graph.pieces_of(set)) {
       AddCuts(piece);
       for (int k = 0; k < 2; ++k) {
         AddSide(piece, k, false);
@@ -157,17 +157,17 @@ class BorderFinder {
  private:
   /// A line that sides of pieces lie on: where the edge of the k-th contact begins or ends.
   struct Line {
-    int edge;
+    FaceIndex edge;
     int k;
     bool at_end;
     auto operator<=>(const Line&) const = default;
   };
   struct Part {
     PlaceRange range;
-    int piece;
+    PieceIndex piece;
   };
 
-  void AddCuts(int piece) {
+  void AddCuts(PieceIndex piece) {
     const GraspPiece& p = graph_.pieces()[piece];
     const std::vector<TaggedCorner> outline = LocalOutline(graph_, p);
     const Vector2d origin = Origin(graph_, p);
@@ -180,7 +180,7 @@ class BorderFinder {
   }
 
   /// What a side of a piece has beyond what the next piece has.
-  void AddSide(int piece, int k, bool at_end) {
+  void AddSide(PieceIndex piece, int k, bool at_end) {
     const GraspPiece& p = graph_.pieces()[piece];
     const auto range = SideRange(graph_, p, k, at_end);
     if (!range) return;
@@ -195,12 +195,12 @@ class BorderFinder {
   }
 
   /// The same side as the piece beyond it has it; nullopt where the two don't meet.
-  [[nodiscard]] std::optional<PlaceRange> RangeBeyond(int piece, int k, bool at_end) const {
-    const int edge = graph_.pieces()[piece].edges[k];
-    for (const int i : graph_.passages_at(piece)) {
+  [[nodiscard]] std::optional<PlaceRange> RangeBeyond(PieceIndex piece, int k, bool at_end) const {
+    const FaceIndex edge = graph_.pieces()[piece].edges[k];
+    for (const PassageIndex i : graph_.passages_at(piece)) {
       const PiecePassage& passage = graph_.passages()[i];
       if (passage.pieces[at_end ? 0 : 1] != piece) continue;
-      const int turning = at_end ? passage.edge : graph_.boundary().next(passage.edge);
+      const FaceIndex turning = at_end ? passage.edge : graph_.boundary().next(passage.edge);
       if (turning != edge) continue;
       const GraspPiece& beyond = graph_.pieces()[passage.pieces[at_end ? 1 : 0]];
       return SideRange(graph_, beyond, beyond.edges[0] == passage.other ? 1 : 0, !at_end);
@@ -235,7 +235,7 @@ class BorderFinder {
 
 }  // namespace
 
-std::vector<Vector2d> PieceOutline(const ContourGraph& graph, int piece) {
+std::vector<Vector2d> PieceOutline(const ContourGraph& graph, PieceIndex piece) {
   const GraspPiece& p = graph.pieces()[piece];
   const Vector2d origin = Origin(graph, p);
   std::vector<Vector2d> outline;
@@ -244,12 +244,12 @@ std::vector<Vector2d> PieceOutline(const ContourGraph& graph, int piece) {
   return outline;
 }
 
-std::vector<BorderSegment> SetBorder(const ContourGraph& graph, int set) {
+std::vector<BorderSegment> SetBorder(const ContourGraph& graph, sets::SetIndex set) {
   return BorderFinder(graph, set).Take();
 }
 
 PlaceRange PassageRange(const ContourGraph& graph, const PiecePassage& passage) {
-  const auto range = [&](int piece, bool at_end) {
+  const auto range = [&](PieceIndex piece, bool at_end) {
     const GraspPiece& p = graph.pieces()[piece];
     const auto found = SideRange(graph, p, p.edges[0] == passage.other ? 1 : 0, at_end);
     const Boundary& boundary = graph.boundary();

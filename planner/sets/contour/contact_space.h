@@ -13,19 +13,20 @@ namespace regrasp::contour {
 /// their edges are listed.
 
 /// A convex polygon, counter-clockwise; empty where the piece is too thin for doubles.
-[[nodiscard]] std::vector<Eigen::Vector2d> PieceOutline(const ContourGraph& graph, int piece);
+[[nodiscard]] std::vector<Eigen::Vector2d> PieceOutline(const ContourGraph& graph,
+                                                        PieceIndex piece);
 
 /// A straight part of the border of a set. Lines that cut a piece fall (dy/dx < 0), all others are
 /// parallel to an axis and lie on the polygon's vertices.
 struct BorderSegment {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
-  int piece = 0;  ///< a piece that it bounds
+  PieceIndex piece;  ///< a piece that it bounds
 };
 
 /// The border of a set: what bounds its pieces and is not inside the set. Segments on one line
 /// that follow each other are one. Each is listed once, as the piece's rectangle has it.
-[[nodiscard]] std::vector<BorderSegment> SetBorder(const ContourGraph& graph, int set);
+[[nodiscard]] std::vector<BorderSegment> SetBorder(const ContourGraph& graph, sets::SetIndex set);
 
 /// The places of the staying contact at a passage: (low, high), low < high; low = high = their
 /// middle where doubles cannot tell.

@@ -11,13 +11,14 @@ namespace regrasp::contour {
 namespace {
 
 /// @param owner_of  the owner of the i-th entry, whose member is member_of(i).
-template <class OwnerOf, class MemberOf>
-Grouping Group(int owners, int entries, const OwnerOf& owner_of, const MemberOf& member_of) {
-  Grouping grouping{std::vector<int>(entries), std::vector<int>(owners + 1)};
+template <class Owner, class Member, class OwnerOf, class MemberOf>
+Grouping<Owner, Member> Group(int owners, int entries, const OwnerOf& owner_of,
+                              const MemberOf& member_of) {
+  Grouping<Owner, Member> grouping{std::vector<Member>(entries), std::vector<int>(owners + 1)};
   for (int i = 0; i < entries; ++i) ++grouping.first[owner_of(i) + 1];
   for (int o = 0; o < owners; ++o) grouping.first[o + 1] += grouping.first[o];
   std::vector<int> next(grouping.first.begin(), grouping.first.end() - 1);
-  for (int i = 0; i < entries; ++i) grouping.members[next[owner_of(i)]++] = member_of(i);
+  for (int i = 0; i < entries; ++i) grouping.members[next[owner_of(i)]++] = Member(member_of(i));
   return grouping;
 }
 
@@ -44,31 +45,29 @@ ContourGraph::ContourGraph(const object::Polygon& polygon, double half_angle,
   passages_ = FindPassages(edges, boundary_, pieces_, deadline);
   EndVertices(GroupPieces());
   EndEdges(FindOverlaps(
-      edges, boundary_, pieces_, vertex_count(), [&](int set) { return pieces_of(set); },
+      edges, boundary_, pieces_, vertex_count(), [&](sets::SetIndex set) { return pieces_of(set); },
       deadline));
 }
 
 int ContourGraph::GroupPieces() {
   const int count = static_cast<int>(pieces_.size());
-  search::Components sets = search::FindComponents(
-      count, static_cast<int>(passages_.size()),
-      [&](int passage) { return std::span<const int>(passages_[passage].pieces); });
-  set_of_ = std::move(sets.of_vertex);
-  pieces_by_set_ = Group(
-      sets.count(), count, [&](int piece) { return set_of_[piece]; }, std::identity());
-  passages_by_piece_ = Group(
+  const search::Components components = FindSets(count, passages_);
+  set_of_ = std::vector<sets::SetIndex>(components.of_vertex.begin(), components.of_vertex.end());
+  pieces_by_set_ = Group<sets::SetIndex, PieceIndex>(
+      components.count(), count, [&](int piece) { return set_of_[piece]; }, std::identity());
+  passages_by_piece_ = Group<PieceIndex, PassageIndex>(
       count, 2 * static_cast<int>(passages_.size()),
       [&](int end) { return passages_[end / 2].pieces[end % 2]; }, [](int end) { return end / 2; });
-  return sets.count();
+  return components.count();
 }
 
-std::vector<int> ContourGraph::PiecesOn(int edge, int other) const {
+std::vector<PieceIndex> ContourGraph::PiecesOn(FaceIndex edge, FaceIndex other) const {
   const auto [a, b] = std::minmax(edge, other);
-  const std::array<int, 2> edges = {a, b};
+  const std::array<FaceIndex, 2> edges = {a, b};
   const auto found = std::ranges::equal_range(pieces_, edges, {}, &GraspPiece::edges);
-  std::vector<int> pieces;
+  std::vector<PieceIndex> pieces;
   for (auto it = found.begin(); it != found.end(); ++it) {
-    pieces.push_back(static_cast<int>(it - pieces_.begin()));
+    pieces.emplace_back(static_cast<int>(it - pieces_.begin()));
   }
   return pieces;
 }

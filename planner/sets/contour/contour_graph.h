@@ -12,14 +12,16 @@
 
 namespace regrasp::contour {
 
-/// Fingers of the hand: two hold, one more is placed in a switch.
-inline constexpr int kContourFingers = 3;
+/// A GraspPiece of a graph; its number in ContourGraph::pieces.
+using PieceIndex = Index<struct PieceTag>;
+/// A PiecePassage; its number in ContourGraph::passages.
+using PassageIndex = Index<struct PassageTag>;
 
 /// The 2-finger grasps of a pair of edges that squeeze or that stretch the object: with
 /// v = p_b − p_a, squeezing is v ∈ C(n_a) ∩ −C(n_b), stretching −v. In the contacts' places on the
 /// two edges a piece is a convex polygon of at most six corners.
 struct GraspPiece {
-  std::array<int, 2> edges;  ///< ascending
+  std::array<FaceIndex, 2> edges;  ///< ascending
   bool stretching = false;
   /// Every two points of the two edges are such a grasp.
   bool full = false;
@@ -31,17 +33,18 @@ struct GraspPiece {
 /// Where two pieces meet: one contact goes around a vertex of the polygon while the other stays on
 /// its edge, through an open interval of it.
 struct PiecePassage {
-  std::array<int, 2> pieces;  ///< before the vertex and after it
-  int edge = 0;               ///< the edge that ends at the vertex, of the first piece
-  int other = 0;              ///< the edge of the contact that stays, of both
+  std::array<PieceIndex, 2> pieces;  ///< before the vertex and after it
+  FaceIndex edge;                    ///< the edge that ends at the vertex, of the first piece
+  FaceIndex other;                   ///< the edge of the contact that stays, of both
 };
 
 /// Lists of what belongs to each of some owners, one after the other.
+template <class Owner, class Member>
 struct Grouping {
-  std::vector<int> members;
+  std::vector<Member> members;
   std::vector<int> first;  ///< of each owner's members; one more after the last
 
-  [[nodiscard]] std::span<const int> of(int owner) const {
+  [[nodiscard]] std::span<const Member> of(Owner owner) const {
     return {members.begin() + first[owner], members.begin() + first[owner + 1]};
   }
 };
@@ -75,14 +78,16 @@ class ContourGraph final : public sets::SetGraph {
   [[nodiscard]] const std::vector<GraspPiece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<PiecePassage>& passages() const { return passages_; }
   /// The vertex that a piece belongs to.
-  [[nodiscard]] int set_of(int piece) const { return set_of_[piece]; }
-  [[nodiscard]] std::span<const int> pieces_of(int set) const { return pieces_by_set_.of(set); }
-  /// The passages from and to a piece, by their numbers.
-  [[nodiscard]] std::span<const int> passages_at(int piece) const {
+  [[nodiscard]] sets::SetIndex set_of(PieceIndex piece) const { return set_of_[piece]; }
+  [[nodiscard]] std::span<const PieceIndex> pieces_of(sets::SetIndex set) const {
+    return pieces_by_set_.of(set);
+  }
+  /// The passages from and to a piece.
+  [[nodiscard]] std::span<const PassageIndex> passages_at(PieceIndex piece) const {
     return passages_by_piece_.of(piece);
   }
-  /// The pieces on two edges, given in any order, by their numbers: none, one or two.
-  [[nodiscard]] std::vector<int> PiecesOn(int edge, int other) const;
+  /// The pieces on two edges, given in any order: none, one or two.
+  [[nodiscard]] std::vector<PieceIndex> PiecesOn(FaceIndex edge, FaceIndex other) const;
 
   /// Pairs of edges whose normals are within 2θ of opposite, and those with a piece.
   [[nodiscard]] std::int64_t candidate_count() const { return candidates_; }
@@ -96,9 +101,9 @@ class ContourGraph final : public sets::SetGraph {
   double tangent_;
   std::vector<GraspPiece> pieces_;
   std::vector<PiecePassage> passages_;
-  std::vector<int> set_of_;
-  Grouping pieces_by_set_;
-  Grouping passages_by_piece_;
+  std::vector<sets::SetIndex> set_of_;
+  Grouping<sets::SetIndex, PieceIndex> pieces_by_set_;
+  Grouping<PieceIndex, PassageIndex> passages_by_piece_;
   std::int64_t candidates_ = 0;
   std::int64_t combinations_ = 0;
 };

@@ -13,45 +13,40 @@
 namespace regrasp::contour {
 
 /// The sets of 2-finger grasps of a contour's switching graph, as planning over sets sees them.
-class ContourModel {
+class ContourModel : public sets::EvaluatedModel<PlacedGrasp> {
  public:
-  using Place = PlacedGrasp;
-
-  /// @param graph  outlives this object. @param request  its objective and deadline count.
+  /// @param graph  outlives this object. @param request  its objective and deadline count too.
   ContourModel(const ContourGraph& graph, const planning::PlanRequest& request)
-      : geometry_(graph, request.deadline), objective_(request.objective) {}
+      : EvaluatedModel(request),
+        geometry_(graph, request.deadline),
+        objective_(request.objective) {}
 
   [[nodiscard]] const ContourGraph& graph() const { return geometry_.graph(); }
   [[nodiscard]] static std::string sets_name() { return "sets of 2-finger grasps"; }
-  [[nodiscard]] double WidthOf(int set) { return geometry_.WidthOf(set); }
-  [[nodiscard]] std::optional<Place> Draw(int set, RandomStream& random) {
+  [[nodiscard]] double WidthOf(sets::SetIndex set) { return geometry_.WidthOf(set); }
+  [[nodiscard]] std::optional<Place> Draw(sets::SetIndex set, RandomStream& random) {
     return geometry_.Draw(set, random);
   }
   [[nodiscard]] grasp::Grasp GraspOf(const Place& place) const { return geometry_.GraspOf(place); }
-  [[nodiscard]] std::vector<sets::Attachment<Place>> Attach(
-      const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) const;
+  [[nodiscard]] Attachments Attach(const grasp::Grasp& grasp) const;
   [[nodiscard]] std::string WhyUnattached(const grasp::Grasp& grasp) const;
 
   /// Well inside both sets; where that is not good, the best by its score.
-  [[nodiscard]] std::optional<ContourSwitch> FindSwitch(int from, int to,
-                                                        const sets::SwitchEnds<Place>& ends,
-                                                        const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<Switch> FindSwitch(const Ends& ends);
   /// Under Objective::kRegions the switch with the largest regions whose grasps are good, where
   /// there is one with larger regions than this one.
   /// @returns the half-width of the smaller contact region of its two grasps, rounded down.
-  [[nodiscard]] std::optional<double> Refine(ContourSwitch& change,
-                                             const criteria::GraspEvaluator& evaluator);
+  [[nodiscard]] std::optional<double> Refine(Switch& change);
   [[nodiscard]] std::vector<Place> FindRoute(const Place& from, const Place& to);
 
  private:
-  [[nodiscard]] double RegionOf(const ContourSwitch& change);
-  [[nodiscard]] bool IsGood(const ContourSwitch& change,
-                            const criteria::GraspEvaluator& evaluator) const;
+  [[nodiscard]] double RegionOf(const Switch& change);
+  [[nodiscard]] bool IsGood(const Switch& change) const;
 
   SetGeometry geometry_;
   planning::Objective objective_;
   /// Of the largest regions, found once for all paths, by the sets before and after.
-  std::map<std::pair<int, int>, std::optional<ContourSwitch>> largest_;
+  std::map<std::pair<sets::SetIndex, sets::SetIndex>, std::optional<Switch>> largest_;
 };
 
 }  // namespace regrasp::contour

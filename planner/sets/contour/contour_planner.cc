@@ -27,7 +27,7 @@ ContourGraph BuildGraph(const planning::PlanRequest& request) {
 ContourPlanner::ContourPlanner()
     : planning::Planner({.name = "contour",
                          .what = "2-finger grasps of the whole boundary",
-                         .in_plane = planning::PlannerScope{kContourFingers, {2, 2}, {2, 2}},
+                         .in_plane = planning::PlannerScope{3, {2, 2}, {2, 2}},
                          .options = {planning::PlanOption::kRegions}}) {}
 
 std::optional<MemoryNeed> ContourPlanner::EstimateMemory(

@@ -21,14 +21,14 @@ double At(const PlaceRange& range, double share) {
 
 /// A piece as one of its edges sees it.
 struct OnEdge {
-  int piece;
+  PieceIndex piece;
   int k;
 };
 
 /// The pieces of a set by their edges.
-std::map<int, std::vector<OnEdge>> ByEdges(const ContourGraph& graph, int set) {
-  std::map<int, std::vector<OnEdge>> by_edges;
-  for (const int piece : graph.pieces_of(set)) {
+std::map<FaceIndex, std::vector<OnEdge>> ByEdges(const ContourGraph& graph, sets::SetIndex set) {
+  std::map<FaceIndex, std::vector<OnEdge>> by_edges;
+  for (const PieceIndex piece : graph.pieces_of(set)) {
     for (int k = 0; k < 2; ++k) by_edges[graph.pieces()[piece].edges[k]].push_back({piece, k});
   }
   return by_edges;
@@ -94,11 +94,11 @@ struct Profile {
   }
 };
 
-std::map<int, std::vector<Profile>> Profiles(SetGeometry& geometry, int set) {
-  std::map<int, std::vector<Profile>> profiles;
+std::map<FaceIndex, std::vector<Profile>> Profiles(SetGeometry& geometry, sets::SetIndex set) {
+  std::map<FaceIndex, std::vector<Profile>> profiles;
   for (const DiagramEdge& edge : geometry.DiagramOf(set)) {
     for (int k = 0; k < 2; ++k) {
-      const int on = geometry.graph().pieces()[edge.piece].edges[k];
+      const FaceIndex on = geometry.graph().pieces()[edge.piece].edges[k];
       const bool rising = edge.from[k] <= edge.to[k];
       profiles[on].push_back(
           {&edge, k, rising ? edge.from[k] : edge.to[k], rising ? edge.to[k] : edge.from[k],
@@ -167,8 +167,8 @@ class LargestSwitch {
 
 }  // namespace
 
-std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from, int to,
-                                                 const PlacedScore& score) {
+std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, sets::SetIndex from,
+                                                 sets::SetIndex to, const PlacedScore& score) {
   const auto of_from = ByEdges(geometry.graph(), from);
   const auto of_to = ByEdges(geometry.graph(), to);
   std::optional<ContourSwitch> best;
@@ -197,11 +197,11 @@ std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from
 }
 
 std::optional<PlacedGrasp> FindGraspKeeping(SetGeometry& geometry, const PlacedGrasp& given,
-                                            int set, const PlacedScore& score) {
+                                            sets::SetIndex set, const PlacedScore& score) {
   const ContourGraph& graph = geometry.graph();
   std::optional<Scored> best;
   for (int k = 0; k < 2; ++k) {
-    for (const int piece : graph.pieces_of(set)) {
+    for (const PieceIndex piece : graph.pieces_of(set)) {
       const auto& edges = graph.pieces()[piece].edges;
       const auto on = std::ranges::find(edges, graph.pieces()[given.piece].edges[k]);
       if (on == edges.end()) continue;
@@ -225,7 +225,7 @@ bool HaveCommonContact(const ContourGraph& graph, const PlacedGrasp& a, const Pl
 }
 
 std::optional<ContourSwitch> FindLargestSwitch(
-    SetGeometry& geometry, int from, int to,
+    SetGeometry& geometry, sets::SetIndex from, sets::SetIndex to,
     const std::function<bool(const ContourSwitch&)>& accepts) {
   const auto of_from = Profiles(geometry, from);
   const auto of_to = Profiles(geometry, to);

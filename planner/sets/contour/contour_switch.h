@@ -18,12 +18,15 @@ using PlacedScore = std::function<double(const PlacedGrasp&)>;
 /// A switch between two sets, where both grasps are well inside (Phoka 2010, section 4.6.1): of the
 /// middles, and places towards the borders, of where two pieces project on the same places of an
 /// edge, the one with the best worse score. nullopt where doubles know no common place.
-[[nodiscard]] std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry, int from,
-                                                               int to, const PlacedScore& score);
+[[nodiscard]] std::optional<ContourSwitch> FindMaxMarginSwitch(SetGeometry& geometry,
+                                                               sets::SetIndex from,
+                                                               sets::SetIndex to,
+                                                               const PlacedScore& score);
 
 /// The best grasp of a set that keeps a contact of a given one: a switch from the one to the other.
 [[nodiscard]] std::optional<PlacedGrasp> FindGraspKeeping(SetGeometry& geometry,
-                                                          const PlacedGrasp& given, int set,
+                                                          const PlacedGrasp& given,
+                                                          sets::SetIndex set,
                                                           const PlacedScore& score);
 
 [[nodiscard]] bool HaveCommonContact(const ContourGraph& graph, const PlacedGrasp& a,
@@ -37,7 +40,7 @@ using PlacedScore = std::function<double(const PlacedGrasp&)>;
 /// @param accepts  the best switch that it accepts is taken, of the best of every pair of edges;
 ///                 the best of all where it accepts none of many.
 [[nodiscard]] std::optional<ContourSwitch> FindLargestSwitch(
-    SetGeometry& geometry, int from, int to,
+    SetGeometry& geometry, sets::SetIndex from, sets::SetIndex to,
     const std::function<bool(const ContourSwitch&)>& accepts = [](const ContourSwitch&) {
       return true;
     });

@@ -5,11 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "planner/base/random.h"
-#include "planner/search/components.h"
 #include "planner/sets/contour/grasp_pieces.h"
 #include "planner/sets/contour/projection_sweep.h"
-#include "planner/sets/graph_size.h"
+#include "planner/sets/graph_estimate.h"
 
 namespace regrasp::contour {
 
@@ -33,21 +31,21 @@ constexpr double kBytesOfOutline = 120;
 /// The edges as exact predicates see them.
 constexpr double kBytesOfEdge = 500;
 
-std::vector<int> DrawEdges(int count, RandomStream& random) {
-  std::vector<int> edges;
+std::vector<FaceIndex> DrawEdges(int count, RandomStream& random) {
+  std::vector<FaceIndex> edges;
   if (count <= kRuns * kEdgesOfRun) {
-    for (int edge = 0; edge < count; ++edge) edges.push_back(edge);
+    for (FaceIndex edge{0}; edge < count; ++edge) edges.push_back(edge);
     return edges;
   }
   for (const int run : random.Choose(count / kEdgesOfRun, kRuns)) {
-    for (int i = 0; i < kEdgesOfRun; ++i) edges.push_back(run * kEdgesOfRun + i);
+    for (int i = 0; i < kEdgesOfRun; ++i) edges.emplace_back(run * kEdgesOfRun + i);
   }
   std::ranges::sort(edges);
   return edges;
 }
 
 /// Candidates and switches among some of the edges.
-sets::GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable& edges,
+sets::GraphSize CountOn(const std::vector<FaceIndex>& drawn, const polygon::EdgeTable& edges,
                         const Boundary& boundary) {
   std::vector<polygon::TwoFingerCandidate> candidates =
       polygon::FindTwoFingerCandidates(edges.Of(drawn));
@@ -57,15 +55,14 @@ sets::GraphSize CountOn(const std::vector<int>& drawn, const polygon::EdgeTable&
   }
   const std::vector<GraspPiece> pieces = FindPieces(edges, candidates);
   const std::vector<PiecePassage> passages = FindPassages(edges, boundary, pieces);
-  const search::Components sets = search::FindComponents(
-      static_cast<int>(pieces.size()), static_cast<int>(passages.size()),
-      [&](int passage) { return std::span<const int>(passages[passage].pieces); });
-  std::vector<std::vector<int>> pieces_of(sets.count());
-  for (int piece = 0; piece < std::ssize(pieces); ++piece) {
+  const search::Components sets = FindSets(static_cast<int>(pieces.size()), passages);
+  std::vector<std::vector<PieceIndex>> pieces_of(sets.count());
+  for (PieceIndex piece{0}; piece < std::ssize(pieces); ++piece) {
     pieces_of[sets.of_vertex[piece]].push_back(piece);
   }
-  const auto switches = FindOverlaps(edges, boundary, pieces, sets.count(),
-                                     [&](int set) { return std::span<const int>(pieces_of[set]); });
+  const auto switches =
+      FindOverlaps(edges, boundary, pieces, sets.count(),
+                   [&](sets::SetIndex set) { return std::span<const PieceIndex>(pieces_of[set]); });
   return {.candidates = static_cast<double>(candidates.size()),
           .switches = static_cast<double>(switches.size())};
 }
@@ -81,20 +78,19 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle,
   const auto candidates = static_cast<double>(sample.total);
   const double pieces =
       candidates * static_cast<double>(FindPieces(edges, sample.drawn).size()) / kTestedCandidates;
-  const std::vector<int> drawn = DrawEdges(polygon.face_count(), random);
+  const std::vector<FaceIndex> drawn = DrawEdges(polygon.face_count(), random);
   const sets::GraphSize counted = CountOn(drawn, edges, Boundary(polygon));
   const double count = polygon.face_count();
   // At a place of the boundary there are so many more sets, and so many more places.
   const double more_sets = counted.candidates > 0 ? candidates / counted.candidates : 0;
   const double more_places = static_cast<double>(drawn.size()) / count;
   const double switches = counted.switches * more_sets * more_sets * more_places;
-  const auto bytes_for = [=](double n) {
+  return sets::NeedOfGraph("contour", polygon, [=](double n) {
     const double squares = n * n / (count * count);
     const sets::GraphSize size = {squares * candidates, squares * pieces,
                                   squares * n / count * switches};
     return size.Times(bytes) + kBytesOfEdge * n;
-  };
-  return {"the graph of the planner contour", polygon.face_count(), "edges", bytes_for};
+  });
 }
 
 }  // namespace

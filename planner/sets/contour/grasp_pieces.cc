@@ -19,9 +19,9 @@ enum class Verdict { kNone, kAll, kUnknown };
 class CornerFilter {
  public:
   explicit CornerFilter(const polygon::EdgeTable& edges) {
-    polygon::Vector2<double> low = edges.ends(0).a;
+    polygon::Vector2<double> low = edges.ends(FaceIndex(0)).a;
     polygon::Vector2<double> high = low;
-    for (int e = 0; e < edges.size(); ++e) {
+    for (FaceIndex e{0}; e < edges.size(); ++e) {
       const polygon::EdgeFrame<double> frame =
           polygon::MakeEdgeFrame<double>(edges.ends(e), edges.tangent());
       frames_.push_back(frame);
@@ -37,7 +37,7 @@ class CornerFilter {
   }
 
   /// For squeezing and for stretching.
-  [[nodiscard]] std::array<Verdict, 2> Classify(int a, int b) const {
+  [[nodiscard]] std::array<Verdict, 2> Classify(FaceIndex a, FaceIndex b) const {
     const polygon::EdgeFrame<double>& from = frames_[a];
     const polygon::EdgeFrame<double>& to = frames_[b];
     const std::array<polygon::Vector2<double>, 4> corners = {to.a - from.a, to.b - from.a,
@@ -102,12 +102,12 @@ bool Reaches(const polygon::EdgeFrame<NT>& edge, bool at_end, const polygon::Edg
 }
 
 /// The sides that a piece reaches, as GraspPiece::reaches.
-std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, int a, int b,
+std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, FaceIndex a, FaceIndex b,
                                      bool stretching) {
   std::array<bool, 4> reaches;
   for (int side = 0; side < 4; ++side) {
-    const int edge = side < 2 ? a : b;
-    const int other = side < 2 ? b : a;
+    const FaceIndex edge = side < 2 ? a : b;
+    const FaceIndex other = side < 2 ? b : a;
     reaches[side] = polygon::DecideFiltered([&](auto zero) {
       using NT = decltype(zero);
       return Reaches(edges.frame<NT>(edge), side % 2 == 1, edges.frame<NT>(other), stretching);
@@ -117,20 +117,20 @@ std::array<bool, 4> FindReachedSides(const polygon::EdgeTable& edges, int a, int
 }
 
 /// The edge of the piece that is not `edge`.
-int OtherEdge(const GraspPiece& piece, int edge) {
+FaceIndex OtherEdge(const GraspPiece& piece, FaceIndex edge) {
   return piece.edges[0] == edge ? piece.edges[1] : piece.edges[0];
 }
 
-bool ReachesEnd(const GraspPiece& piece, int edge, bool at_end) {
+bool ReachesEnd(const GraspPiece& piece, FaceIndex edge, bool at_end) {
   return piece.reaches[(piece.edges[0] == edge ? 0 : 2) + (at_end ? 1 : 0)];
 }
 
 /// Whether two pieces meet in more than a point where `edge` ends and `next` begins.
-bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, int edge,
-          const GraspPiece& after, int next) {
+bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, FaceIndex edge,
+          const GraspPiece& after, FaceIndex next) {
   if (!ReachesEnd(before, edge, true) || !ReachesEnd(after, next, false)) return false;
   if (before.full || after.full) return true;
-  const int other = OtherEdge(before, edge);
+  const FaceIndex other = OtherEdge(before, edge);
   return polygon::DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
     const polygon::EdgeFrame<NT> to = edges.frame<NT>(other);
@@ -146,23 +146,24 @@ bool Meet(const polygon::EdgeTable& edges, const GraspPiece& before, int edge,
 }
 
 /// Finds pieces by their edges.
-class PieceIndex {
+class PieceFinder {
  public:
-  PieceIndex(const std::vector<GraspPiece>& pieces, int edge_count)
+  PieceFinder(const std::vector<GraspPiece>& pieces, int edge_count)
       : pieces_(pieces), first_(edge_count + 1) {
     for (const GraspPiece& piece : pieces) ++first_[piece.edges[0] + 1];
     for (int e = 0; e < edge_count; ++e) first_[e + 1] += first_[e];
   }
 
-  /// −1 where there is none.
-  [[nodiscard]] int Find(int edge, int other, bool stretching) const {
+  /// nullopt where there is none.
+  [[nodiscard]] std::optional<PieceIndex> Find(FaceIndex edge, FaceIndex other,
+                                               bool stretching) const {
     const auto [a, b] = std::minmax(edge, other);
     const auto begin = pieces_.begin() + first_[a];
     const auto end = pieces_.begin() + first_[a + 1];
     const auto key = [](const GraspPiece& piece) { return 2 * piece.edges[1] + piece.stretching; };
     const auto found = std::ranges::lower_bound(begin, end, 2 * b + stretching, {}, key);
-    if (found == end || key(*found) != 2 * b + stretching) return -1;
-    return static_cast<int>(found - pieces_.begin());
+    if (found == end || key(*found) != 2 * b + stretching) return std::nullopt;
+    return PieceIndex(static_cast<int>(found - pieces_.begin()));
   }
 
  private:
@@ -197,21 +198,25 @@ std::vector<GraspPiece> FindPieces(const polygon::EdgeTable& edges,
 std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges, const Boundary& boundary,
                                        const std::vector<GraspPiece>& pieces,
                                        const Deadline& deadline) {
-  const PieceIndex index(pieces, edges.size());
+  const PieceFinder finder(pieces, edges.size());
   std::vector<PiecePassage> passages;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     deadline.Check();
     const GraspPiece& piece = pieces[i];
-    for (const int edge : piece.edges) {
-      const int other = OtherEdge(piece, edge);
-      const int next = boundary.next(edge);
+    for (const FaceIndex edge : piece.edges) {
+      const FaceIndex other = OtherEdge(piece, edge);
+      const FaceIndex next = boundary.next(edge);
       if (next == other || !ReachesEnd(piece, edge, true)) continue;
-      const int neighbour = index.Find(next, other, piece.stretching);
-      if (neighbour < 0 || !Meet(edges, piece, edge, pieces[neighbour], next)) continue;
-      passages.push_back({{static_cast<int>(i), neighbour}, edge, other});
+      const auto neighbour = finder.Find(next, other, piece.stretching);
+      if (!neighbour || !Meet(edges, piece, edge, pieces[*neighbour], next)) continue;
+      passages.push_back({{PieceIndex(static_cast<int>(i)), *neighbour}, edge, other});
     }
   }
   return passages;
+}
+
+search::Components FindSets(int piece_count, const std::vector<PiecePassage>& passages) {
+  return search::ComponentsOfEdges(piece_count, passages, &PiecePassage::pieces);
 }
 
 polygon::FilteredRange PieceRange(const polygon::EdgeTable& edges, const GraspPiece& piece, int k) {

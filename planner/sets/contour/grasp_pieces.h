@@ -30,6 +30,10 @@ namespace regrasp::contour {
                                                      const std::vector<GraspPiece>& pieces,
                                                      const Deadline& deadline = {});
 
+/// The sets that pieces are by their passages.
+[[nodiscard]] search::Components FindSets(int piece_count,
+                                          const std::vector<PiecePassage>& passages);
+
 /// The contacts of a piece on its k-th edge. `edges` must outlive the result; inside an
 /// IntervalScope.
 [[nodiscard]] polygon::FilteredRange PieceRange(const polygon::EdgeTable& edges,

@@ -14,11 +14,11 @@ struct Event {
   /// At the edge's first end, inside it, at its second end.
   enum class Where { kBegin, kInside, kEnd };
 
-  int edge = 0;
+  FaceIndex edge;
   Where where = Where::kBegin;
   const polygon::FilteredRange* range = nullptr;  ///< inside: this is one end of it
   bool opens = false;
-  int set = 0;
+  sets::SetIndex set;
 };
 
 /// Of two events inside one edge.
@@ -54,18 +54,18 @@ class Sweep {
         const std::vector<GraspPiece>& pieces)
       : edges_(edges), boundary_(boundary), pieces_(pieces), covered_(edges.size()) {}
 
-  void AddSet(int set, std::span<const int> pieces) {
+  void AddSet(sets::SetIndex set, std::span<const PieceIndex> pieces) {
     AddCovered(set, pieces);
-    for (const int piece : pieces) {
+    for (const PieceIndex piece : pieces) {
       for (int k = 0; k < 2; ++k) AddPartial(set, piece, k);
     }
-    for (const int edge : covered_edges_) covered_[edge] = 0;
+    for (const FaceIndex edge : covered_edges_) covered_[edge] = 0;
   }
 
-  std::vector<std::array<int, 2>> Run(int set_count, const Deadline& deadline) {
+  std::vector<sets::SetPair> Run(int set_count, const Deadline& deadline) {
     std::sort(events_.begin(), events_.end(), IsBefore);
-    std::vector<std::array<int, 2>> pairs;
-    std::vector<int> active;
+    std::vector<sets::SetPair> pairs;
+    std::vector<sets::SetIndex> active;
     std::vector<int> times(set_count);  // that a set is active
     for (const Event& event : events_) {
       deadline.Check();
@@ -73,7 +73,7 @@ class Sweep {
       if (!event.opens) {
         if (--count == 0) active.erase(std::find(active.begin(), active.end(), event.set));
       } else if (++count == 1) {
-        for (const int other : active) {
+        for (const sets::SetIndex other : active) {
           pairs.push_back({std::min(event.set, other), std::max(event.set, other)});
         }
         active.push_back(event.set);
@@ -87,9 +87,9 @@ class Sweep {
  private:
   /// The edges on which a piece projects on every place, in runs of edges that follow each other:
   /// most of a large set.
-  void AddCovered(int set, std::span<const int> pieces) {
+  void AddCovered(sets::SetIndex set, std::span<const PieceIndex> pieces) {
     covered_edges_.clear();
-    for (const int i : pieces) {
+    for (const PieceIndex i : pieces) {
       const GraspPiece& piece = pieces_[i];
       for (int k = 0; k < 2; ++k) {
         char& covered = covered_[piece.edges[k]];
@@ -100,9 +100,9 @@ class Sweep {
     }
     std::sort(covered_edges_.begin(), covered_edges_.end());
     for (std::size_t i = 0; i < covered_edges_.size(); ++i) {
-      const int edge = covered_edges_[i];
-      const bool goes_on = i > 0 && covered_edges_[i - 1] == edge - 1 &&
-                           boundary_.ring_of(edge - 1) == boundary_.ring_of(edge);
+      const FaceIndex edge = covered_edges_[i];
+      const bool goes_on = i > 0 && covered_edges_[i - 1] + 1 == edge &&
+                           boundary_.ring_of(covered_edges_[i - 1]) == boundary_.ring_of(edge);
       if (goes_on) {
         events_.back().edge = edge;
         continue;
@@ -112,8 +112,8 @@ class Sweep {
     }
   }
 
-  void AddPartial(int set, int piece, int k) {
-    const int edge = pieces_[piece].edges[k];
+  void AddPartial(sets::SetIndex set, PieceIndex piece, int k) {
+    const FaceIndex edge = pieces_[piece].edges[k];
     if (covered_[edge] != 0) return;
     const auto& reaches = pieces_[piece].reaches;
     const polygon::FilteredRange* range =
@@ -129,19 +129,20 @@ class Sweep {
   const Boundary& boundary_;
   const std::vector<GraspPiece>& pieces_;
   std::vector<char> covered_;  ///< edges of the set at hand
-  std::vector<int> covered_edges_;
+  std::vector<FaceIndex> covered_edges_;
   std::deque<polygon::FilteredRange> ranges_;
   std::vector<Event> events_;
 };
 
 }  // namespace
 
-std::vector<std::array<int, 2>> FindOverlaps(
+std::vector<sets::SetPair> FindOverlaps(
     const polygon::EdgeTable& edges, const Boundary& boundary,
     const std::vector<GraspPiece>& pieces, int set_count,
-    const std::function<std::span<const int>(int set)>& pieces_of, const Deadline& deadline) {
+    const std::function<std::span<const PieceIndex>(sets::SetIndex set)>& pieces_of,
+    const Deadline& deadline) {
   Sweep sweep(edges, boundary, pieces);
-  for (int set = 0; set < set_count; ++set) {
+  for (sets::SetIndex set{0}; set < set_count; ++set) {
     deadline.Check();
     sweep.AddSet(set, pieces_of(set));
   }

@@ -18,9 +18,10 @@ namespace regrasp::contour {
 /// of m intervals. Inside an IntervalScope.
 /// @param pieces_of  the pieces of a set.
 /// @throws TimeUp  the deadline came.
-[[nodiscard]] std::vector<std::array<int, 2>> FindOverlaps(
+[[nodiscard]] std::vector<sets::SetPair> FindOverlaps(
     const polygon::EdgeTable& edges, const Boundary& boundary,
     const std::vector<GraspPiece>& pieces, int set_count,
-    const std::function<std::span<const int>(int set)>& pieces_of, const Deadline& deadline = {});
+    const std::function<std::span<const PieceIndex>(sets::SetIndex set)>& pieces_of,
+    const Deadline& deadline = {});
 
 }  // namespace regrasp::contour

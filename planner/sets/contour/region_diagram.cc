@@ -122,9 +122,9 @@ class DiagramMaker {
                const Deadline& deadline)
       : graph_(graph), sites_(sites), rounding_(rounding), deadline_(deadline) {}
 
-  std::vector<DiagramEdge> Make(std::span<const int> pieces) {
+  std::vector<DiagramEdge> Make(std::span<const PieceIndex> pieces) {
     std::vector<Part> parts;
-    for (const int piece : pieces) {
+    for (const PieceIndex piece : pieces) {
       deadline_.Check();
       std::vector<Vector2d> outline = PieceOutline(graph_, piece);
       if (outline.empty()) continue;
@@ -139,7 +139,7 @@ class DiagramMaker {
 
  private:
   struct Part {
-    int piece;
+    PieceIndex piece;
     std::vector<Vector2d> outline;
     Box box;
   };
@@ -261,7 +261,7 @@ class DiagramMaker {
   }
 
   /// Where more than two sites are equally near, several pairs have the same edge: it is kept once.
-  void AddEdge(int piece, const LinePart& line, const Term& size, std::size_t first) {
+  void AddEdge(PieceIndex piece, const LinePart& line, const Term& size, std::size_t first) {
     const DiagramEdge edge = {piece, line.At(line.low), line.At(line.high), size(line.At(line.low)),
                               size(line.At(line.high))};
     const auto near = [&](const Vector2d& a, const Vector2d& b) {
@@ -306,26 +306,27 @@ Site Shift(Site site, const Vector2d& by) {
 
 /// No square inside a set is wider than the set is along one contact's place, wherever the other
 /// contact is: half of that.
-double LargestSize(const ContourGraph& graph, int set) {
+double LargestSize(const ContourGraph& graph, sets::SetIndex set) {
   std::vector<double> widths(graph.boundary().edge_count());
   const object::Polygon& polygon = graph.boundary().polygon();
-  for (const int piece : graph.pieces_of(set)) {
+  for (const PieceIndex piece : graph.pieces_of(set)) {
     const auto& edges = graph.pieces()[piece].edges;
-    for (int k = 0; k < 2; ++k) widths[edges[k]] += polygon.face_measure(FaceIndex(edges[1 - k]));
+    for (int k = 0; k < 2; ++k) widths[edges[k]] += polygon.face_measure(edges[1 - k]);
   }
   return *std::ranges::max_element(widths) / 2;
 }
 
 }  // namespace
 
-RegionMetric::RegionMetric(const ContourGraph& graph, int set) : graph_(graph), set_(set) {
+RegionMetric::RegionMetric(const ContourGraph& graph, sets::SetIndex set)
+    : graph_(graph), set_(set) {
   const Boundary& boundary = graph.boundary();
   const GraspPiece& any = graph.pieces()[graph.pieces_of(set).front()];
-  const std::array<int, 2> rings = {boundary.ring_of(any.edges[0]), boundary.ring_of(any.edges[1])};
+  const std::array rings = {boundary.ring_of(any.edges[0]), boundary.ring_of(any.edges[1])};
   const Vector2d period(boundary.perimeter(rings[0]), boundary.perimeter(rings[1]));
   Box extent = {Vector2d::Constant(std::numeric_limits<double>::infinity()),
                 Vector2d::Constant(-std::numeric_limits<double>::infinity())};
-  for (const int piece : graph.pieces_of(set)) {
+  for (const PieceIndex piece : graph.pieces_of(set)) {
     const auto& [a, b] = graph.pieces()[piece].edges;
     extent.Include({{boundary.begin(a), boundary.begin(b)}, {boundary.end(a), boundary.end(b)}});
   }

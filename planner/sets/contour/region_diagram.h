@@ -12,7 +12,7 @@ namespace regrasp::contour {
 /// half-width of the largest square about a point of it that lies in the set changes evenly from
 /// one end to the other.
 struct DiagramEdge {
-  int piece = 0;
+  PieceIndex piece;
   Eigen::Vector2d from;  ///< in contact space, as PieceOutline has it
   Eigen::Vector2d to;
   double from_size = 0;  ///< half-width of the largest centred square
@@ -24,7 +24,7 @@ struct DiagramEdge {
 class RegionMetric {
  public:
   /// `graph` must outlive this object.
-  RegionMetric(const ContourGraph& graph, int set);
+  RegionMetric(const ContourGraph& graph, sets::SetIndex set);
 
   /// Half-width of the largest square (in the L-infinity metric: the distance to the border) about
   /// a point of the set: the two contacts may be anywhere within that length along the boundary,
@@ -47,7 +47,7 @@ class RegionMetric {
 
  private:
   const ContourGraph& graph_;
-  int set_;
+  sets::SetIndex set_;
   std::vector<Site> sites_;
   double rounding_ = 0;  ///< lengths this close are equal
 };

@@ -31,18 +31,18 @@ Vector2d PointOfTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c
 
 }  // namespace
 
-const std::vector<Vector2d>& SetGeometry::OutlineOf(int piece) {
+const std::vector<Vector2d>& SetGeometry::OutlineOf(PieceIndex piece) {
   deadline_.Check();
   const auto [known, is_new] = outlines_.try_emplace(piece);
   if (is_new) known->second = PieceOutline(graph_, piece);
   return known->second;
 }
 
-const RegionMetric& SetGeometry::MetricOf(int set) {
+const RegionMetric& SetGeometry::MetricOf(sets::SetIndex set) {
   return metrics_.try_emplace(set, graph_, set).first->second;
 }
 
-const SetGeometry::Diagram& SetGeometry::FindDiagram(int set) {
+const SetGeometry::Diagram& SetGeometry::FindDiagram(sets::SetIndex set) {
   const auto known = diagrams_.find(set);
   if (known != diagrams_.end()) return known->second;
   Diagram diagram;
@@ -53,9 +53,11 @@ const SetGeometry::Diagram& SetGeometry::FindDiagram(int set) {
   return diagrams_.emplace(set, std::move(diagram)).first->second;
 }
 
-const std::vector<DiagramEdge>& SetGeometry::DiagramOf(int set) { return FindDiagram(set).edges; }
+const std::vector<DiagramEdge>& SetGeometry::DiagramOf(sets::SetIndex set) {
+  return FindDiagram(set).edges;
+}
 
-double SetGeometry::WidthOf(int set) { return FindDiagram(set).width; }
+double SetGeometry::WidthOf(sets::SetIndex set) { return FindDiagram(set).width; }
 
 double SetGeometry::SizeAt(const PlacedGrasp& grasp) {
   return MetricOf(graph_.set_of(grasp.piece)).SizeAt(grasp.places);
@@ -70,7 +72,7 @@ double SetGeometry::AngleMarginOf(const PlacedGrasp& grasp) const {
                                                 grasp::AngleBetween(contacts[1].n, -line));
 }
 
-std::optional<PlaceRange> SetGeometry::RangeOf(int piece, int k) {
+std::optional<PlaceRange> SetGeometry::RangeOf(PieceIndex piece, int k) {
   const std::vector<Vector2d>& outline = OutlineOf(piece);
   if (outline.empty()) return std::nullopt;
   const auto [low, high] =
@@ -79,7 +81,7 @@ std::optional<PlaceRange> SetGeometry::RangeOf(int piece, int k) {
   return PlaceRange{low[k], high[k]};
 }
 
-std::optional<PlaceRange> SetGeometry::SliceOf(int piece, int k, double place) {
+std::optional<PlaceRange> SetGeometry::SliceOf(PieceIndex piece, int k, double place) {
   const std::vector<Vector2d>& outline = OutlineOf(piece);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -98,13 +100,13 @@ std::optional<PlaceRange> SetGeometry::SliceOf(int piece, int k, double place) {
   return PlaceRange{low, high};
 }
 
-std::optional<PlacedGrasp> SetGeometry::Draw(int set, RandomStream& random) {
+std::optional<PlacedGrasp> SetGeometry::Draw(sets::SetIndex set, RandomStream& random) {
   double total = 0;
-  for (const int piece : graph_.pieces_of(set)) total += DoubleArea(OutlineOf(piece));
+  for (const PieceIndex piece : graph_.pieces_of(set)) total += DoubleArea(OutlineOf(piece));
   double left = total * random.Uniform();
   const double s = random.Uniform();
   const double t = random.Uniform();
-  for (const int piece : graph_.pieces_of(set)) {
+  for (const PieceIndex piece : graph_.pieces_of(set)) {
     const std::vector<Vector2d>& outline = OutlineOf(piece);
     for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
       left -= Cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
@@ -122,7 +124,7 @@ std::optional<PlacedGrasp> SetGeometry::Locate(const grasp::Grasp& grasp) const 
   const grasp::Contact& first = grasp[ascending ? 0 : 1];
   const grasp::Contact& second = grasp[ascending ? 1 : 0];
   const bool stretching = first.n.dot(second.p - first.p) < 0;
-  for (const int piece : graph_.PiecesOn(first.face, second.face)) {
+  for (const PieceIndex piece : graph_.PiecesOn(first.face, second.face)) {
     if (graph_.pieces()[piece].stretching != stretching) continue;
     return PlacedGrasp{piece, {boundary.PlaceOf(first), boundary.PlaceOf(second)}};
   }

@@ -13,7 +13,7 @@ namespace regrasp::contour {
 
 /// A grasp of two contacts as a point of contact space.
 struct PlacedGrasp {
-  int piece = 0;
+  PieceIndex piece;
   Eigen::Vector2d places = Eigen::Vector2d::Zero();  ///< on the piece's edges, as Boundary has them
 
   friend bool operator==(const PlacedGrasp&, const PlacedGrasp&) = default;
@@ -29,12 +29,12 @@ class SetGeometry {
 
   [[nodiscard]] const ContourGraph& graph() const { return graph_; }
 
-  [[nodiscard]] const std::vector<Eigen::Vector2d>& OutlineOf(int piece);
-  [[nodiscard]] const RegionMetric& MetricOf(int set);
-  [[nodiscard]] const std::vector<DiagramEdge>& DiagramOf(int set);
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& OutlineOf(PieceIndex piece);
+  [[nodiscard]] const RegionMetric& MetricOf(sets::SetIndex set);
+  [[nodiscard]] const std::vector<DiagramEdge>& DiagramOf(sets::SetIndex set);
 
   /// Half-width of the largest square in a set.
-  [[nodiscard]] double WidthOf(int set);
+  [[nodiscard]] double WidthOf(sets::SetIndex set);
   /// Half-width of the largest square about a grasp that lies in its set.
   [[nodiscard]] double SizeAt(const PlacedGrasp& grasp);
 
@@ -44,11 +44,11 @@ class SetGeometry {
 
   /// The places of the contact on the k-th edge that a piece's grasps have, and for one of them the
   /// places of the other contact; nullopt where doubles know none.
-  [[nodiscard]] std::optional<PlaceRange> RangeOf(int piece, int k);
-  [[nodiscard]] std::optional<PlaceRange> SliceOf(int piece, int k, double place);
+  [[nodiscard]] std::optional<PlaceRange> RangeOf(PieceIndex piece, int k);
+  [[nodiscard]] std::optional<PlaceRange> SliceOf(PieceIndex piece, int k, double place);
 
   /// A grasp anywhere in a set, evenly by lengths; nullopt where it is too thin for doubles.
-  [[nodiscard]] std::optional<PlacedGrasp> Draw(int set, RandomStream& random);
+  [[nodiscard]] std::optional<PlacedGrasp> Draw(sets::SetIndex set, RandomStream& random);
 
   /// The point of contact space of a grasp whose contacts know their edges; nullopt where the exact
   /// decision knows no such grasp.
@@ -61,13 +61,13 @@ class SetGeometry {
     std::vector<DiagramEdge> edges;
     double width = 0;
   };
-  [[nodiscard]] const Diagram& FindDiagram(int set);
+  [[nodiscard]] const Diagram& FindDiagram(sets::SetIndex set);
 
   const ContourGraph& graph_;
   Deadline deadline_;
-  std::map<int, std::vector<Eigen::Vector2d>> outlines_;
-  std::map<int, RegionMetric> metrics_;
-  std::map<int, Diagram> diagrams_;
+  std::map<PieceIndex, std::vector<Eigen::Vector2d>> outlines_;
+  std::map<sets::SetIndex, RegionMetric> metrics_;
+  std::map<sets::SetIndex, Diagram> diagrams_;
 };
 
 }  // namespace regrasp::contour

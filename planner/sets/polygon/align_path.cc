@@ -19,9 +19,9 @@ std::vector<bool> CellsWith(const SetCells& set, const VectorXd& parameters) {
 }  // namespace
 
 std::vector<VectorXd> FindAlignPath(const SetCells& set, const VectorXd& from, const VectorXd& to) {
-  const auto passages =
-      sets::FindPassages<VectorXd>(CellsWith(set, from), CellsWith(set, to),
-                                   [&](int cell, int next) { return set.Passage(cell, next); });
+  const auto passages = sets::FindPassages<VectorXd>(
+      CellsWith(set, from), CellsWith(set, to),
+      [&](sets::PieceIndex cell, sets::PieceIndex next) { return set.Passage(cell, next); });
   if (!passages) return {};
   std::vector<VectorXd> path = {from};
   path.insert(path.end(), passages->begin(), passages->end());

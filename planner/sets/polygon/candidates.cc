@@ -22,15 +22,15 @@ Vector2<NT> Normal(const EdgeFrame<NT>& frame) {
 }
 
 /// Sorts edges by the angles of their normals in [0, 2π), equal ones by index.
-std::vector<int> SortByAngle(const EdgeTable& edges) {
+std::vector<FaceIndex> SortByAngle(const EdgeTable& edges) {
   std::vector<int> half(edges.size());
-  std::vector<int> order(edges.size());
-  for (int e = 0; e < edges.size(); ++e) {
+  std::vector<FaceIndex> order(edges.size());
+  for (FaceIndex e{0}; e < edges.size(); ++e) {
     order[e] = e;
     half[e] =
         DecideFiltered([&](auto zero) { return HalfTurn(Normal(edges.frame<decltype(zero)>(e))); });
   }
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
+  std::sort(order.begin(), order.end(), [&](FaceIndex a, FaceIndex b) {
     if (half[a] != half[b]) return half[a] < half[b];
     if (a == b) return false;
     const int turn = DecideFiltered([&](auto zero) {
@@ -44,7 +44,7 @@ std::vector<int> SortByAngle(const EdgeTable& edges) {
 
 /// True iff the turn from the normal of `a` counter-clockwise to that of `b` is positive and below
 /// π, or below π − 2θ.
-bool IsGap(const EdgeTable& edges, int a, int b, planning::Spanning spanning) {
+bool IsGap(const EdgeTable& edges, FaceIndex a, FaceIndex b, planning::Spanning spanning) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
     const EdgeFrame<NT> from = edges.frame<NT>(a);
@@ -64,7 +64,7 @@ Interval HalfTangent(const Number& cross, const Number& dot, const Interval& len
 }
 
 /// tan φ* of a gap, rounded down by no more than 1e-13 of the larger of it and 1.
-double SpanningTangent(const EdgeTable& edges, int a, int b) {
+double SpanningTangent(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
   /// Intervals wider than this are computed anew from exact products.
   constexpr double kTightEnough = 1e-13;
   const auto bound = [&](auto zero) {
@@ -86,7 +86,7 @@ double SpanningTangent(const EdgeTable& edges, int a, int b) {
 }
 
 /// True iff two cones of half-angle θ have a common interior.
-bool ConesMeet(const EdgeTable& edges, int a, int b, bool opposite) {
+bool ConesMeet(const EdgeTable& edges, FaceIndex a, FaceIndex b, bool opposite) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
     const DirectionCone<NT> from = ConeOf(edges.frame<NT>(a));
@@ -97,7 +97,7 @@ bool ConesMeet(const EdgeTable& edges, int a, int b, bool opposite) {
 
 /// True iff the turn from the normal of `a` counter-clockwise to that of `b` is in (0, π), or 0 and
 /// `b` comes after `a` among equal ones.
-bool TurnsLeft(const EdgeTable& edges, int a, int b) {
+bool TurnsLeft(const EdgeTable& edges, FaceIndex a, FaceIndex b) {
   return DecideFiltered([&](auto zero) {
     using NT = decltype(zero);
     const Vector2<NT> u = edges.frame<NT>(a).along;
@@ -125,7 +125,7 @@ class OpposedEdges {
     const int n = edges.size();
     for (int rank = 0; rank < n; ++rank) {
       deadline.Check();
-      const int edge = order_[rank];
+      const FaceIndex edge = order_[rank];
       const auto at = [&](int steps) { return order_[(rank + steps) % n]; };
       // Steps counter-clockwise to the first normal that is opposite, or beyond it.
       const int opposite =
@@ -138,8 +138,8 @@ class OpposedEdges {
     }
   }
 
-  [[nodiscard]] int count(int edge) const { return runs_[edge].count; }
-  [[nodiscard]] int at(int edge, int i) const {
+  [[nodiscard]] int count(FaceIndex edge) const { return runs_[edge].count; }
+  [[nodiscard]] FaceIndex at(FaceIndex edge, int i) const {
     return order_[(runs_[edge].first + i) % order_.size()];
   }
 
@@ -149,7 +149,7 @@ class OpposedEdges {
     int count = 0;
   };
 
-  std::vector<int> order_;
+  std::vector<FaceIndex> order_;
   std::vector<Run> runs_;  ///< by edge
 };
 
@@ -158,7 +158,7 @@ class OpposedEdges {
 std::vector<ConcurrentCandidate> FindConcurrentCandidates(const EdgeTable& edges,
                                                           planning::Spanning spanning,
                                                           const Deadline& deadline) {
-  const std::vector<int> order = SortByAngle(edges);
+  const std::vector<FaceIndex> order = SortByAngle(edges);
   const int n = edges.size();
   // By rank in `order`; a triple that spans has three gaps around the circle.
   std::vector<std::vector<char>> gap(n, std::vector<char>(n, 0));
@@ -200,15 +200,15 @@ std::vector<TwoFingerCandidate> FindTwoFingerCandidates(const EdgeTable& edges,
                                                         const Deadline& deadline) {
   const OpposedEdges opposed(edges, deadline);
   std::vector<TwoFingerCandidate> candidates;
-  std::vector<int> partners;
-  for (int edge = 0; edge < edges.size(); ++edge) {
+  std::vector<FaceIndex> partners;
+  for (FaceIndex edge{0}; edge < edges.size(); ++edge) {
     deadline.Check();
     partners.clear();
     for (int i = 0; i < opposed.count(edge); ++i) {
       if (opposed.at(edge, i) > edge) partners.push_back(opposed.at(edge, i));
     }
     std::sort(partners.begin(), partners.end());
-    for (const int partner : partners) candidates.push_back({edge, partner});
+    for (const FaceIndex partner : partners) candidates.push_back({edge, partner});
   }
   return candidates;
 }
@@ -217,13 +217,14 @@ CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, Rando
   const OpposedEdges opposed(edges, {});
   std::vector<std::int64_t> up_to;  // pairs of the edges so far, in both orders
   std::int64_t pairs = 0;
-  for (int edge = 0; edge < edges.size(); ++edge) up_to.push_back(pairs += opposed.count(edge));
+  for (FaceIndex edge{0}; edge < edges.size(); ++edge)
+    up_to.push_back(pairs += opposed.count(edge));
   CandidateSample sample{pairs / 2, {}};
   for (int i = 0; i < count && pairs > 0; ++i) {
     const auto drawn = static_cast<std::int64_t>(random.Index(static_cast<std::uint64_t>(pairs)));
     const auto above = std::ranges::upper_bound(up_to, drawn);
-    const int edge = static_cast<int>(above - up_to.begin());
-    const int other = opposed.at(edge, static_cast<int>(*above - drawn - 1));
+    const FaceIndex edge(static_cast<int>(above - up_to.begin()));
+    const FaceIndex other = opposed.at(edge, static_cast<int>(*above - drawn - 1));
     sample.drawn.push_back({std::min(edge, other), std::max(edge, other)});
   }
   return sample;
@@ -231,10 +232,10 @@ CandidateSample DrawTwoFingerCandidates(const EdgeTable& edges, int count, Rando
 
 std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
                                                       const Deadline& deadline) {
-  std::vector<std::pair<std::array<int, 3>, int>> centred;  // triples with one centre's position
-  for (int centre = 0; centre < edges.size(); ++centre) {
-    std::vector<int> opposite;
-    for (int e = 0; e < edges.size(); ++e) {
+  std::vector<std::pair<EdgeTriple, int>> centred;  // triples with one centre's position
+  for (FaceIndex centre{0}; centre < edges.size(); ++centre) {
+    std::vector<FaceIndex> opposite;
+    for (FaceIndex e{0}; e < edges.size(); ++e) {
       if (e != centre && ConesMeet(edges, centre, e, true)) opposite.push_back(e);
     }
     for (std::size_t i = 0; i < opposite.size(); ++i) {
@@ -247,7 +248,7 @@ std::vector<ParallelCandidate> FindParallelCandidates(const EdgeTable& edges,
               .has_value();
         });
         if (!meet) continue;
-        std::array<int, 3> triple = {centre, opposite[i], opposite[j]};
+        EdgeTriple triple = {centre, opposite[i], opposite[j]};
         std::ranges::sort(triple);
         centred.emplace_back(triple, std::ranges::find(triple, centre) - triple.begin());
       }

@@ -11,18 +11,21 @@
 
 namespace regrasp::polygon {
 
-/// Three edges, ascending, whose normals let them hold concurrent grasps.
+/// Three edges, ascending.
+using EdgeTriple = std::array<FaceIndex, 3>;
+
+/// Three edges whose normals let them hold concurrent grasps.
 struct ConcurrentCandidate {
-  std::array<int, 3> edges;
+  EdgeTriple edges;
   double tangent;  ///< tan φ
 };
 
 /// Two edges, ascending.
-using TwoFingerCandidate = std::array<int, 2>;
+using TwoFingerCandidate = std::array<FaceIndex, 2>;
 
-/// Three edges, ascending, and the positions among them that may be the centre's, ascending.
+/// Three edges, and the positions among them that may be the centre's, ascending.
 struct ParallelCandidate {
-  std::array<int, 3> edges;
+  EdgeTriple edges;
   std::vector<int> centres;
 };
 

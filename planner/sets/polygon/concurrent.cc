@@ -31,7 +31,7 @@ SightRegion<NT> MakeSightRegion(const EdgeFrame<NT>& e, const std::array<int, 2>
 template <class NT>
 SightRegion<NT> MakeSightRegion(const EdgeTable& edges, const ConcurrentCandidate& candidate,
                                 int sides, int k) {
-  const int edge = candidate.edges[k];
+  const FaceIndex edge = candidate.edges[k];
   return MakeSightRegion(edges.frame<NT>(edge, candidate.tangent), edges.vertices(edge),
                          IsOuter(sides, k), k);
 }
@@ -138,7 +138,7 @@ ConvexRegion<NT> MakeContactPairs(const EdgeTable& edges, const ConcurrentCandid
     }
   }
   const int third = 3 - k - l;
-  const int edge = candidate.edges[third];
+  const FaceIndex edge = candidate.edges[third];
   const SightRegion<NT> sight = MakeSightRegion(edges.frame<NT>(edge, candidate.tangent),
                                                 edges.vertices(edge), IsOuter(sides, third), third);
   for (const HalfPlane<NT>& h : sight.half_planes) half_planes.push_back({{h.a, h.b}, h.c, {}});
@@ -188,7 +188,7 @@ std::array<int, kSidePatterns> JoinParts(const Parts& parts) {
 }  // namespace
 
 void ConcurrentCellFinder::SeeFirstTwo(const ConcurrentCandidate& candidate) {
-  const std::array<int, 2> first_two = {candidate.edges[0], candidate.edges[1]};
+  const std::array first_two = {candidate.edges[0], candidate.edges[1]};
   if (first_two == first_two_ && candidate.tangent == tangent_) return;
   first_two_ = first_two;
   tangent_ = candidate.tangent;

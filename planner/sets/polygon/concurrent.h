@@ -48,7 +48,7 @@ class ConcurrentCellFinder {
   Parts MakeParts(const ConcurrentCandidate& candidate);
 
   const EdgeTable& edges_;
-  std::array<int, 2> first_two_ = {-1, -1};
+  TwoFingerCandidate first_two_;
   double tangent_ = 0;
   /// What sees the first two edges, by the sides; nullopt where intervals cannot tell.
   std::array<std::optional<ConvexRegion<Interval>>, kSidePatterns / 2> seeing_two_;

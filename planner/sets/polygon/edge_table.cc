@@ -17,9 +17,9 @@ EdgeTable::EdgeTable(const object::Polygon& polygon, double tangent) : tangent_(
   }
 }
 
-EdgeTable EdgeTable::Of(const std::vector<int>& edges) const {
+EdgeTable EdgeTable::Of(const std::vector<FaceIndex>& edges) const {
   EdgeTable table(tangent_);
-  for (const int edge : edges) {
+  for (const FaceIndex edge : edges) {
     table.ends_.push_back(ends_[edge]);
     table.vertices_.push_back(vertices_[edge]);
     table.frames_.push_back(frames_[edge]);

@@ -58,9 +58,9 @@ using FixedParameters = std::vector<std::optional<double>>;
 /// All choices of a grasp's contacts to keep in a set on these edges, none of them among the
 /// choices.
 std::vector<FixedParameters> ChooseKept(const object::Polygon& polygon, const grasp::Grasp& grasp,
-                                        const std::vector<int>& edges) {
+                                        const std::vector<FaceIndex>& edges) {
   std::vector<FixedParameters> choices = {FixedParameters()};
-  for (const int edge : edges) {
+  for (const FaceIndex edge : edges) {
     std::vector<FixedParameters> longer;
     for (const FixedParameters& choice : choices) {
       longer.push_back(choice);
@@ -89,20 +89,20 @@ SlackSolution MaximizeSlackWith(const Inequalities& cell, const FixedParameters&
 
 }  // namespace
 
-const SetCells& GraphCells::of(int vertex) {
+const SetCells& GraphCells::of(sets::SetIndex set) {
   deadline_.Check();
-  std::optional<SetCells>& cells = cells_[vertex];
-  if (!cells) cells.emplace(polygon_, graph_.sets()[vertex]);
+  std::optional<SetCells>& cells = cells_[set];
+  if (!cells) cells.emplace(polygon_, graph_.sets()[set]);
   return *cells;
 }
 
-double GraphCells::WidthOf(int vertex) {
+double GraphCells::WidthOf(sets::SetIndex set) {
   deadline_.Check();
-  std::optional<double>& width = widths_[vertex];
+  std::optional<double>& width = widths_[set];
   if (!width) {
-    const GraspSet& set = graph_.sets()[vertex];
-    const bool parallel = set.type == GraspType::kParallel;
-    width = parallel ? ClearWidth(polygon_, set) : of(vertex).width();
+    const GraspSet& grasps = graph_.sets()[set];
+    const bool parallel = grasps.type == GraspType::kParallel;
+    width = parallel ? ClearWidth(polygon_, grasps) : of(set).width();
   }
   return *width;
 }
@@ -112,7 +112,7 @@ std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindAttachments(const gr
   for (std::vector<int> contacts : SubsetsOf(static_cast<int>(grasp.size()))) {
     std::sort(contacts.begin(), contacts.end(),
               [&](int a, int b) { return grasp[a].face < grasp[b].face; });
-    std::vector<int> edges;
+    std::vector<FaceIndex> edges;
     VectorXd parameters(static_cast<Eigen::Index>(contacts.size()));
     for (const int contact : contacts) {
       parameters[static_cast<Eigen::Index>(edges.size())] =
@@ -120,9 +120,9 @@ std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindAttachments(const gr
       edges.push_back(grasp[contact].face);
     }
     if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) continue;
-    for (const int vertex : graph_.SetsOn(edges)) {
-      if (!IsInSet(of(vertex), parameters)) continue;
-      attachments.push_back({vertex, {vertex, parameters}, contacts.size() == grasp.size()});
+    for (const sets::SetIndex set : graph_.SetsOn(edges)) {
+      if (!IsInSet(of(set), parameters)) continue;
+      attachments.push_back({set, {set, parameters}, contacts.size() == grasp.size()});
     }
   }
   return attachments;
@@ -131,38 +131,38 @@ std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindAttachments(const gr
 std::vector<sets::Attachment<PolygonPlace>> GraphCells::FindSwitches(const grasp::Grasp& grasp,
                                                                      int fingers) {
   std::vector<sets::Attachment<PolygonPlace>> attachments;
-  for (int vertex = 0; vertex < graph_.vertex_count(); ++vertex) {
-    const std::vector<int>& edges = graph_.sets()[vertex].edges;
+  for (sets::SetIndex set{0}; set < graph_.vertex_count(); ++set) {
+    const std::vector<FaceIndex>& edges = graph_.sets()[set].edges;
     const int least_kept = static_cast<int>(grasp.size() + edges.size()) - fingers;
     for (const FixedParameters& fixed : ChooseKept(polygon_, grasp, edges)) {
       const auto kept = std::count_if(fixed.begin(), fixed.end(),
                                       [](const auto& parameter) { return parameter.has_value(); });
       if (kept < least_kept || kept == std::ssize(edges)) continue;
       SlackSolution best;
-      for (const GraspCell& cell : of(vertex).cells()) {
+      for (const GraspCell& cell : of(set).cells()) {
         SlackSolution solution = MaximizeSlackWith(cell.inequalities, fixed);
         if (solution.slack > std::max(best.slack, kNoSlack)) best = std::move(solution);
       }
       if (best.slack > 0) {
-        attachments.push_back({vertex, {vertex, best.z.head(std::ssize(edges))}, false});
+        attachments.push_back({set, {set, best.z.head(std::ssize(edges))}, false});
       }
     }
   }
   return attachments;
 }
 
-std::optional<PolygonPlace> GraphCells::Draw(int vertex, RandomStream& random) {
-  const std::vector<GraspCell>& cells = of(vertex).cells();
+std::optional<PolygonPlace> GraphCells::Draw(sets::SetIndex set, RandomStream& random) {
+  const std::vector<GraspCell>& cells = of(set).cells();
   if (cells.empty()) return std::nullopt;
   const VectorXd z = WalkInside(cells[random.Index(cells.size())], random);
-  return PolygonPlace{vertex, z.head(std::ssize(graph_.sets()[vertex].edges))};
+  return PolygonPlace{set, z.head(std::ssize(graph_.sets()[set].edges))};
 }
 
 grasp::Grasp GraphCells::GraspOf(const PolygonPlace& place) const {
   grasp::Grasp grasp;
-  for (const int edge : graph_.sets()[place.set].edges) {
+  for (const FaceIndex edge : graph_.sets()[place.set].edges) {
     const auto k = static_cast<Eigen::Index>(grasp.size());
-    grasp.push_back(grasp::ContactAt(polygon_, FaceIndex(edge), place.parameters[k]));
+    grasp.push_back(grasp::ContactAt(polygon_, edge, place.parameters[k]));
   }
   return grasp;
 }

@@ -12,7 +12,7 @@ namespace regrasp::polygon {
 
 /// A grasp of a set, by the parameters of its contacts in the order of the set's edges.
 struct PolygonPlace {
-  int set = 0;
+  sets::SetIndex set;
   Eigen::VectorXd parameters;
 };
 
@@ -27,10 +27,10 @@ class GraphCells {
         cells_(graph.sets().size()),
         widths_(graph.sets().size()) {}
 
-  [[nodiscard]] const SetCells& of(int vertex);
+  [[nodiscard]] const SetCells& of(sets::SetIndex set);
 
   /// The largest slack of a grasp in the set; of a parallel one ClearWidth, which is cheaper.
-  [[nodiscard]] double WidthOf(int vertex);
+  [[nodiscard]] double WidthOf(sets::SetIndex set);
 
   /// The sets that contain the grasp, or two or three of its contacts; those with more contacts
   /// first.
@@ -44,7 +44,7 @@ class GraphCells {
                                                                          int fingers);
 
   /// A grasp of the set, anywhere in it; nullopt where it is too thin for doubles.
-  [[nodiscard]] std::optional<PolygonPlace> Draw(int vertex, RandomStream& random);
+  [[nodiscard]] std::optional<PolygonPlace> Draw(sets::SetIndex set, RandomStream& random);
 
   [[nodiscard]] grasp::Grasp GraspOf(const PolygonPlace& place) const;
 

@@ -2,7 +2,7 @@
 
 namespace regrasp::polygon {
 
-CommonEdges FindCommonEdges(std::span<const int> a, std::span<const int> b) {
+CommonEdges FindCommonEdges(std::span<const FaceIndex> a, std::span<const FaceIndex> b) {
   CommonEdges common;
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (a[i] == b[j]) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/index.h"
 #include "planner/planning/spanning.h"  // IWYU pragma: export
 
 namespace regrasp::polygon {
@@ -32,7 +33,7 @@ enum class GraspType {
 ///   (planner/sets/polygon/parallel.h), always connected.
 struct GraspSet {
   GraspType type = GraspType::kConcurrent;
-  std::vector<int> edges;  ///< ascending; three, or two of a two-finger set
+  std::vector<FaceIndex> edges;  ///< ascending; three, or two of a two-finger set
   double tangent = 0;      ///< tan φ of a concurrent set, tan θ of the others; exact as it stands
   std::vector<int> parts;  ///< ascending
 };
@@ -59,6 +60,7 @@ struct GraspTypeCounts {
 /// second.
 using CommonEdges = boost::container::static_vector<std::pair<int, int>, 3>;
 /// @param a, b  ascending.
-[[nodiscard]] CommonEdges FindCommonEdges(std::span<const int> a, std::span<const int> b);
+[[nodiscard]] CommonEdges FindCommonEdges(std::span<const FaceIndex> a,
+                                          std::span<const FaceIndex> b);
 
 }  // namespace regrasp::polygon

@@ -44,8 +44,7 @@ Sides<NT> MakeSides(const DirectionCone<NT>& cone, const EdgeFrame<NT>& a, const
 }
 
 template <class NT>
-CentredSet<NT> MakeCentredSet(const EdgeTable& edges, const std::array<int, 3>& triple,
-                              int centre) {
+CentredSet<NT> MakeCentredSet(const EdgeTable& edges, const EdgeTriple& triple, int centre) {
   CentredSet<NT> set;
   set.outer = OuterOf(centre);
   const EdgeFrame<NT> a = edges.frame<NT>(triple[centre]);
@@ -212,8 +211,8 @@ ConvexRegion<NT> MakeContactPairs(const CentredSet<NT>& set, int centre, int k, 
   return square;
 }
 
-void AddContactPairs(const EdgeTable& edges, const std::array<int, 3>& triple, int centre, int k,
-                     int l, std::vector<FilteredRegion>& pairs) {
+void AddContactPairs(const EdgeTable& edges, const EdgeTriple& triple, int centre, int k, int l,
+                     std::vector<FilteredRegion>& pairs) {
   std::optional<CentredSet<Interval>> by_intervals;
   try {
     by_intervals = MakeCentredSet<Interval>(edges, triple, centre);
@@ -236,8 +235,8 @@ void AddContactPairs(const EdgeTable& edges, const std::array<int, 3>& triple, i
 }
 
 /// Whether f >= 0 (sign 1) or f <= 0 (sign −1) on all of a union of regions.
-bool HasSignOn(const EdgeTable& edges, const std::array<int, 3>& triple, int centre, int x, int i,
-               int sign, const std::vector<FilteredRegion>& regions) {
+bool HasSignOn(const EdgeTable& edges, const EdgeTriple& triple, int centre, int x, int i, int sign,
+               const std::vector<FilteredRegion>& regions) {
   return std::all_of(regions.begin(), regions.end(), [&](const FilteredRegion& region) {
     return DecideFiltered([&](auto zero) {
       using NT = decltype(zero);
@@ -250,7 +249,7 @@ bool HasSignOn(const EdgeTable& edges, const std::array<int, 3>& triple, int cen
   });
 }
 
-PairProjections ProjectOnPairs(const EdgeTable& edges, const std::array<int, 3>& triple,
+PairProjections ProjectOnPairs(const EdgeTable& edges, const EdgeTriple& triple,
                                const ParallelComponent& component) {
   PairProjections projections;
   for (int k = 0; k < 3; ++k) {
@@ -262,7 +261,7 @@ PairProjections ProjectOnPairs(const EdgeTable& edges, const std::array<int, 3>&
 }
 
 /// Joins the sets of single centres that share grasps.
-std::vector<ParallelComponent> JoinMeeting(const EdgeTable& edges, const std::array<int, 3>& triple,
+std::vector<ParallelComponent> JoinMeeting(const EdgeTable& edges, const EdgeTriple& triple,
                                            const std::vector<ParallelComponent>& single) {
   std::vector<ParallelComponent> joined;
   for (const ParallelComponent& next : single) {
@@ -291,7 +290,7 @@ std::vector<ParallelComponent> JoinMeeting(const EdgeTable& edges, const std::ar
 
 std::vector<ParallelComponent> FindParallelSets(const EdgeTable& edges,
                                                 const ParallelCandidate& candidate) {
-  const std::array<int, 3>& triple = candidate.edges;
+  const EdgeTriple& triple = candidate.edges;
   std::vector<ParallelComponent> components;
   for (const int centre : candidate.centres) {
     const bool empty = DecideFiltered(
@@ -301,7 +300,7 @@ std::vector<ParallelComponent> FindParallelSets(const EdgeTable& edges,
   return components.size() < 2 ? components : JoinMeeting(edges, triple, components);
 }
 
-FilteredRange ParallelContactRange(const EdgeTable& edges, const std::array<int, 3>& triple,
+FilteredRange ParallelContactRange(const EdgeTable& edges, const EdgeTriple& triple,
                                    const ParallelComponent& component, int k) {
   return FilteredRange([&edges, triple, centres = component.centres, k](auto zero) {
     using NT = decltype(zero);
@@ -314,15 +313,14 @@ FilteredRange ParallelContactRange(const EdgeTable& edges, const std::array<int,
   });
 }
 
-std::vector<FilteredRegion> ParallelContactPairs(const EdgeTable& edges,
-                                                 const std::array<int, 3>& triple,
+std::vector<FilteredRegion> ParallelContactPairs(const EdgeTable& edges, const EdgeTriple& triple,
                                                  const ParallelComponent& component, int k, int l) {
   std::vector<FilteredRegion> pairs;
   for (const int centre : component.centres) AddContactPairs(edges, triple, centre, k, l, pairs);
   return pairs;
 }
 
-bool SharesGrasps(const EdgeTable& edges, const std::array<int, 3>& triple, int centre,
+bool SharesGrasps(const EdgeTable& edges, const EdgeTriple& triple, int centre,
                   const PairProjections& other) {
   for (const int sign : {1, -1}) {
     bool inside_corner = true;

@@ -38,14 +38,13 @@ struct ParallelComponent {
                                                               const ParallelCandidate& candidate);
 
 /// The contacts on the k-th edge. `edges` must outlive the result, as in the next.
-[[nodiscard]] FilteredRange ParallelContactRange(const EdgeTable& edges,
-                                                 const std::array<int, 3>& triple,
+[[nodiscard]] FilteredRange ParallelContactRange(const EdgeTable& edges, const EdgeTriple& triple,
                                                  const ParallelComponent& component, int k);
 
 /// The pairs of contacts on the k-th and l-th edge (k < l), as a union of convex regions of [0,
 /// 1]².
 [[nodiscard]] std::vector<FilteredRegion> ParallelContactPairs(const EdgeTable& edges,
-                                                               const std::array<int, 3>& triple,
+                                                               const EdgeTriple& triple,
                                                                const ParallelComponent& component,
                                                                int k, int l);
 
@@ -55,7 +54,7 @@ using PairProjections = std::array<std::array<std::vector<FilteredRegion>, 3>, 3
 
 /// True iff a connected set of grasps of the same three edges, given by its projections, has grasps
 /// in common with the parallel ones of this centre.
-[[nodiscard]] bool SharesGrasps(const EdgeTable& edges, const std::array<int, 3>& triple,
-                                int centre, const PairProjections& other);
+[[nodiscard]] bool SharesGrasps(const EdgeTable& edges, const EdgeTriple& triple, int centre,
+                                const PairProjections& other);
 
 }  // namespace regrasp::polygon

@@ -10,6 +10,9 @@
 
 namespace regrasp::polygon {
 
+using sets::SetIndex;
+using sets::SetPair;
+
 namespace {
 
 bool Overlap(const std::vector<FilteredRegion>& a, const std::vector<FilteredRegion>& b) {
@@ -72,7 +75,7 @@ class SwitchFinder {
         pairs_(first_parallel_ + vertices.parallel.size()) {}
 
   /// All but those between two-finger vertices.
-  std::vector<std::array<int, 2>> Find() {
+  std::vector<SetPair> Find() {
     ListByEdges();
     JoinByPairs();
     JoinTwoFinger();
@@ -82,16 +85,18 @@ class SwitchFinder {
 
  private:
   [[nodiscard]] int count() const { return static_cast<int>(pairs_.size()); }
-  [[nodiscard]] bool IsConcurrent(int vertex) const { return vertex < first_two_finger_; }
-  [[nodiscard]] bool IsParallel(int vertex) const { return vertex >= first_parallel_; }
-  [[nodiscard]] const auto& Concurrent(int vertex) const { return vertices_.concurrent[vertex]; }
-  [[nodiscard]] const auto& TwoFinger(int vertex) const {
+  [[nodiscard]] bool IsConcurrent(SetIndex vertex) const { return vertex < first_two_finger_; }
+  [[nodiscard]] bool IsParallel(SetIndex vertex) const { return vertex >= first_parallel_; }
+  [[nodiscard]] const auto& Concurrent(SetIndex vertex) const {
+    return vertices_.concurrent[vertex];
+  }
+  [[nodiscard]] const auto& TwoFinger(SetIndex vertex) const {
     return vertices_.two_finger[vertex - first_two_finger_];
   }
-  [[nodiscard]] const auto& Parallel(int vertex) const {
+  [[nodiscard]] const auto& Parallel(SetIndex vertex) const {
     return vertices_.parallel[vertex - first_parallel_];
   }
-  [[nodiscard]] std::span<const int> EdgesOf(int vertex) const {
+  [[nodiscard]] std::span<const FaceIndex> EdgesOf(SetIndex vertex) const {
     if (IsConcurrent(vertex)) return Concurrent(vertex).candidate.edges;
     if (IsParallel(vertex)) return Parallel(vertex).candidate.edges;
     return TwoFinger(vertex).candidate;
@@ -102,9 +107,9 @@ class SwitchFinder {
     const int n = edges_.size();
     by_pair_.resize(static_cast<std::size_t>(n) * n);
     by_edge_.resize(n);
-    for (int v = 0; v < count(); ++v) {
+    for (SetIndex v{0}; v < count(); ++v) {
       deadline_.Check();
-      const std::span<const int> on = EdgesOf(v);
+      const std::span<const FaceIndex> on = EdgesOf(v);
       for (std::size_t k = 0; k < on.size(); ++k) {
         by_edge_[on[k]].push_back({v, RangeOf(v, static_cast<int>(k))});
         for (std::size_t l = k + 1; l < on.size() && on.size() == 3; ++l) {
@@ -114,7 +119,7 @@ class SwitchFinder {
     }
   }
 
-  [[nodiscard]] FilteredRange RangeOf(int v, int k) const {
+  [[nodiscard]] FilteredRange RangeOf(SetIndex v, int k) const {
     if (IsConcurrent(v)) {
       return FocusContactRange(edges_, Concurrent(v).candidate, Concurrent(v).component, k);
     }
@@ -124,7 +129,7 @@ class SwitchFinder {
     return TwoFingerContactRange(TwoFinger(v).component, k);
   }
 
-  const std::vector<FilteredRegion>& PairsOf(int v, int k, int l) {
+  const std::vector<FilteredRegion>& PairsOf(SetIndex v, int k, int l) {
     return pairs_[v].Get(k, l, [&](int i, int j) {
       return IsConcurrent(v)
                  ? FocusContactPairs(edges_, Concurrent(v).candidate, Concurrent(v).component, i, j)
@@ -134,7 +139,7 @@ class SwitchFinder {
   }
 
   void JoinByPairs() {
-    for (const std::vector<int>& vertices : by_pair_) {
+    for (const std::vector<SetIndex>& vertices : by_pair_) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
         deadline_.Check();
         for (std::size_t j = i + 1; j < vertices.size(); ++j) {
@@ -145,7 +150,7 @@ class SwitchFinder {
   }
 
   /// Whether two three-finger vertices with two edges in common, or more, can switch over them.
-  bool CanSwitch(int v, int w) {
+  bool CanSwitch(SetIndex v, SetIndex w) {
     if (IsConcurrent(v) != IsConcurrent(w) && spanning_ == planning::Spanning::kUniform)
       return false;
     const CommonEdges common = FindCommonEdges(EdgesOf(v), EdgesOf(w));
@@ -159,10 +164,10 @@ class SwitchFinder {
   }
 
   void JoinTwoFinger() {
-    for (int v = first_two_finger_; v < first_parallel_; ++v) {
+    for (SetIndex v = first_two_finger_; v < first_parallel_; ++v) {
       deadline_.Check();
-      std::vector<int> joined;
-      for (const int edge : EdgesOf(v)) {
+      std::vector<SetIndex> joined;
+      for (const FaceIndex edge : EdgesOf(v)) {
         const std::vector<Listed>& listed = by_edge_[edge];
         const auto own = std::find_if(listed.begin(), listed.end(),
                                       [&](const Listed& l) { return l.vertex == v; });
@@ -175,18 +180,18 @@ class SwitchFinder {
       }
       std::sort(joined.begin(), joined.end());
       joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
-      for (const int other : joined) joins_.push_back({v, other});
+      for (const SetIndex other : joined) joins_.push_back({v, other});
     }
   }
 
   /// Concurrent and parallel grasps of the same three edges.
   void JoinSameTriples() {
-    int first = first_parallel_;
-    for (int v = 0; v < first_two_finger_; ++v) {
+    SetIndex first = first_parallel_;
+    for (SetIndex v{0}; v < first_two_finger_; ++v) {
       deadline_.Check();
-      const std::array<int, 3>& triple = Concurrent(v).candidate.edges;
+      const EdgeTriple& triple = Concurrent(v).candidate.edges;
       while (first < count() && Parallel(first).candidate.edges < triple) ++first;
-      for (int w = first; w < count() && Parallel(w).candidate.edges == triple; ++w) {
+      for (SetIndex w = first; w < count() && Parallel(w).candidate.edges == triple; ++w) {
         PairProjections projections;
         for (int k = 0; k < 3; ++k) {
           for (int l = k + 1; l < 3; ++l) projections[k][l] = PairsOf(v, k, l);
@@ -200,7 +205,7 @@ class SwitchFinder {
   }
 
   struct Listed {
-    int vertex;
+    SetIndex vertex;
     FilteredRange range;
   };
 
@@ -208,12 +213,12 @@ class SwitchFinder {
   const EdgeTable& edges_;
   const Deadline& deadline_;
   const PolygonVertices& vertices_;
-  int first_two_finger_;
-  int first_parallel_;
-  std::vector<std::vector<int>> by_pair_;
+  SetIndex first_two_finger_;
+  SetIndex first_parallel_;
+  std::vector<std::vector<SetIndex>> by_pair_;
   std::vector<std::vector<Listed>> by_edge_;
   std::vector<PairCache> pairs_;
-  std::vector<std::array<int, 2>> joins_;
+  std::vector<SetPair> joins_;
 };
 
 }  // namespace
@@ -229,11 +234,11 @@ PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
   counts_ = vertices.counts;
   sets_ = MakeSets(vertices, tangent);
   EndVertices(static_cast<int>(sets_.size()));
-  std::vector<int> two_finger;
-  for (int v = 0; v < vertex_count(); ++v) {
+  std::vector<SetIndex> two_finger;
+  for (SetIndex v{0}; v < vertex_count(); ++v) {
     if (sets_[v].type == GraspType::kTwoFinger) two_finger.push_back(v);
   }
-  EndEdges(SwitchFinder(edges, vertices, spanning, deadline).Find(), std::move(two_finger));
+  EndEdges(SwitchFinder(edges, vertices, spanning, deadline).Find(), two_finger);
   for (int type = 0; type < kGraspTypes; ++type) {
     counts_[type].components = CountComponents(static_cast<GraspType>(type));
   }
@@ -253,20 +258,18 @@ std::int64_t PolygonGraph::edge_count(GraspType a, GraspType b) const {
 
 std::int64_t PolygonGraph::CountComponents(GraspType type) const {
   if (type == GraspType::kTwoFinger) return counts(type).vertices > 0 ? 1 : 0;
-  std::vector<std::array<int, 2>> inside;
+  std::vector<SetPair> inside;
   std::ranges::copy_if(switches(), std::back_inserter(inside), [&](const auto& pair) {
     return sets_[pair[0]].type == type && sets_[pair[1]].type == type;
   });
-  const search::Components all =
-      search::FindComponents(vertex_count(), static_cast<int>(inside.size()),
-                             [&](int group) { return std::span<const int>(inside[group]); });
+  const search::Components all = search::ComponentsOfEdges(vertex_count(), inside);
   // Vertices of other types are components of their own.
   return all.count() - (vertex_count() - counts(type).vertices);
 }
 
-std::vector<int> PolygonGraph::SetsOn(const std::vector<int>& edges) const {
-  std::vector<int> found;
-  for (int v = 0; v < vertex_count(); ++v) {
+std::vector<SetIndex> PolygonGraph::SetsOn(const std::vector<FaceIndex>& edges) const {
+  std::vector<SetIndex> found;
+  for (SetIndex v{0}; v < vertex_count(); ++v) {
     if (sets_[v].edges == edges) found.push_back(v);
   }
   return found;

@@ -11,9 +11,6 @@
 
 namespace regrasp::polygon {
 
-/// Fingers of the hand: at most three hold, and between 2-finger grasps two are placed at once.
-inline constexpr int kPolygonFingers = 4;
-
 /// The switching graph of a polygon (Phoka 2010, chapter III).
 ///
 /// Vertices are GraspSets; an edge is a switch between two of them:
@@ -47,7 +44,7 @@ class PolygonGraph final : public sets::SetGraph {
   /// Unordered pairs of joined vertices of these two types.
   [[nodiscard]] std::int64_t edge_count(GraspType a, GraspType b) const;
   /// The vertices on exactly these edges (ascending), of any type.
-  [[nodiscard]] std::vector<int> SetsOn(const std::vector<int>& edges) const;
+  [[nodiscard]] std::vector<sets::SetIndex> SetsOn(const std::vector<FaceIndex>& edges) const;
 
  private:
   [[nodiscard]] std::int64_t CountComponents(GraspType type) const;

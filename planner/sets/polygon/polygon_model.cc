@@ -32,25 +32,24 @@ std::optional<SwitchPoint> BestOf(std::vector<SwitchPoint> points, const SwitchS
 
 }  // namespace
 
-std::vector<sets::Attachment<PolygonPlace>> PolygonModel::Attach(
-    const grasp::Grasp& grasp, const criteria::GraspEvaluator& evaluator) {
+PolygonModel::Attachments PolygonModel::Attach(const grasp::Grasp& grasp) {
   using Scored = std::pair<double, sets::Attachment<Place>>;
   std::vector<Scored> scored;
-  const auto add = [&](std::vector<sets::Attachment<Place>> attachments) {
+  const auto add = [&](Attachments attachments) {
     for (sets::Attachment<Place>& a : attachments) {
       // The grasp itself is there anyway, good or not.
-      const double score = a.whole ? evaluator.half_angle() : evaluator.Score(GraspOf(a.place));
+      const double score = a.whole ? evaluator().half_angle() : evaluator().Score(GraspOf(a.place));
       scored.emplace_back(score, std::move(a));
     }
   };
   const auto is_good = [](const Scored& s) { return s.first >= 0; };
   add(cells_.FindAttachments(grasp));
-  if (std::ranges::none_of(scored, is_good)) add(cells_.FindSwitches(grasp, kPolygonFingers));
+  if (std::ranges::none_of(scored, is_good)) add(cells_.FindSwitches(grasp, hand::kFingersInPlane));
   if (std::ranges::any_of(scored, is_good)) {
     std::erase_if(scored, [&](const Scored& s) { return !is_good(s); });
   }
   std::ranges::stable_sort(scored, std::ranges::greater(), &Scored::first);
-  std::vector<sets::Attachment<Place>> attachments;
+  Attachments attachments;
   for (auto& [score, attachment] : scored) attachments.push_back(std::move(attachment));
   return attachments;
 }
@@ -68,23 +67,21 @@ std::string PolygonModel::WhyUnattached(const grasp::Grasp& grasp) const {
   return why;
 }
 
-std::optional<sets::SetSwitch<PolygonPlace>> PolygonModel::FindSwitch(
-    int from, int to, const sets::SwitchEnds<Place>& ends,
-    const criteria::GraspEvaluator& evaluator) {
-  const auto side = [&](int set, const Place* fixed) {
+std::optional<PolygonModel::Switch> PolygonModel::FindSwitch(const Ends& ends) {
+  const auto side = [&](sets::SetIndex set, const Place* fixed) {
     return SwitchSide{&graph_.sets()[set], &cells_.of(set),
                       fixed == nullptr ? std::nullopt : std::optional(fixed->parameters)};
   };
-  const SwitchSide a = side(from, ends.before);
-  const SwitchSide b = side(to, ends.after);
+  const SwitchSide a = side(ends.from, ends.before);
+  const SwitchSide b = side(ends.to, ends.after);
   const GraspScore score = [&](const GraspSet& set, const VectorXd& parameters) {
-    const int number = &set == a.set ? from : to;
-    return evaluator.Score(GraspOf({number, parameters}));
+    const sets::SetIndex number = &set == a.set ? ends.from : ends.to;
+    return evaluator().Score(GraspOf({number, parameters}));
   };
-  auto best = BestOf(FindSwitchPoints(a, b, kPolygonFingers), a, b, score);
+  auto best = BestOf(FindSwitchPoints(a, b, hand::kFingersInPlane), a, b, score);
   if (!best) return std::nullopt;
   if (!a.fixed && !b.fixed) best = ImproveSwitch(a, b, *best, score);
-  return sets::SetSwitch<Place>{{from, best->before}, {to, best->after}};
+  return Switch{{ends.from, best->before}, {ends.to, best->after}};
 }
 
 std::vector<PolygonPlace> PolygonModel::FindRoute(const Place& from, const Place& to) {

@@ -49,7 +49,8 @@ PolygonPlanner::PolygonPlanner()
     : planning::Planner(
           {.name = "polygon",
            .what = "concurrent, 2-finger and parallel grasps",
-           .in_plane = planning::PlannerScope{kPolygonFingers, {2, kPolygonFingers}, {2, 3}},
+           .in_plane =
+               planning::PlannerScope{hand::kFingersInPlane, {2, hand::kFingersInPlane}, {2, 3}},
            .options = {planning::PlanOption::kUniformSpanning}}) {}
 
 std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(
@@ -59,7 +60,7 @@ std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(
 
 planning::PlanResult PolygonPlanner::Plan(const planning::PlanRequest& request) const {
   const PolygonGraph graph = BuildGraph(request);
-  PolygonModel model(PolygonOf(request), graph, request.deadline);
+  PolygonModel model(PolygonOf(request), graph, request);
   return sets::PlanOverSets(model, request, name());
 }
 

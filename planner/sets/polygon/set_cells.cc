@@ -34,7 +34,7 @@ class CellMaker {
   CellMaker(const object::Polygon& polygon, const GraspSet& set) : set_(set) {
     const Vector2d centre = polygon.mass_properties().centroid.head<2>();
     const double d = polygon.diameter();
-    for (const int e : set.edges) {
+    for (const FaceIndex e : set.edges) {
       const auto [a, b] = polygon.edge(FaceIndex(e));
       Edge edge;
       edge.a = (a.head<2>() - centre) / d;
@@ -243,7 +243,7 @@ class CellMaker {
 SetCells::SetCells(const object::Polygon& polygon, const GraspSet& set)
     : polygon_(polygon), set_(set), cells_(CellMaker(polygon, set).Make()) {}
 
-std::optional<VectorXd> SetCells::Passage(int from, int to) const {
+std::optional<VectorXd> SetCells::Passage(sets::PieceIndex from, sets::PieceIndex to) const {
   const GraspCell& a = cells_[from];
   const GraspCell& b = cells_[to];
   const auto contacts = static_cast<Eigen::Index>(set_.edges.size());

@@ -7,6 +7,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/grasp/edge_contact.h"
 #include "planner/object/polygon.h"
+#include "planner/sets/passage_search.h"
 #include "planner/sets/polygon/grasp_set.h"
 #include "planner/sets/polygon/slack_program.h"
 
@@ -35,14 +36,15 @@ class SetCells {
   /// The grasp of largest slack where an align can pass from one cell to another: in what the cells
   /// have in common, or with the focus point on the edge that parts them.
   /// @returns its contacts' parameters; nullopt where the cells don't meet.
-  [[nodiscard]] std::optional<Eigen::VectorXd> Passage(int from, int to) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> Passage(sets::PieceIndex from,
+                                                       sets::PieceIndex to) const;
 
   /// The largest slack of a grasp in the set.
   [[nodiscard]] double width() const;
 
   /// The length of the set's k-th edge over D.
   [[nodiscard]] double edge_length(int k) const {
-    return polygon_.face_measure(FaceIndex(set_.edges[k])) / polygon_.diameter();
+    return polygon_.face_measure(set_.edges[k]) / polygon_.diameter();
   }
 
  private:

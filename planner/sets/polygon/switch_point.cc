@@ -74,7 +74,7 @@ std::vector<FreeContact> FindFreeContacts(const SwitchSide& from, const SwitchSi
     contacts.push_back({static_cast<Index>(k), -1, from.cells->edge_length(static_cast<int>(k))});
   }
   for (std::size_t k = 0; k < to.set->edges.size(); ++k) {
-    const int edge = to.set->edges[k];
+    const FaceIndex edge = to.set->edges[k];
     if (std::ranges::binary_search(point.kept, edge)) {
       const auto in_from = std::ranges::find(from.set->edges, edge) - from.set->edges.begin();
       contacts[in_from].in_to = static_cast<Index>(k);

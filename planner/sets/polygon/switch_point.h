@@ -18,10 +18,10 @@ struct SwitchSide {
 
 /// Two grasps that a hand can switch between: the contacts on `kept` edges are the same.
 struct SwitchPoint {
-  Eigen::VectorXd before;  ///< parameters of the first set's contacts
-  Eigen::VectorXd after;   ///< of the second's
-  std::vector<int> kept;   ///< edges of the polygon, ascending
-  double slack = 0;        ///< the smaller of both grasps', see GraspCell
+  Eigen::VectorXd before;       ///< parameters of the first set's contacts
+  Eigen::VectorXd after;        ///< of the second's
+  std::vector<FaceIndex> kept;  ///< edges, ascending
+  double slack = 0;             ///< the smaller of both grasps', see GraspCell
 };
 
 /// The switch of largest slack for every pair of cells and every choice of contacts that stay, as

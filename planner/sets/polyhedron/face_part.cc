@@ -23,7 +23,7 @@ constexpr double kStraight = 1e-9;
 /// The parts of one face as rings of vertices.
 class FaceSplitter {
  public:
-  FaceSplitter(const object::Polyhedron& solid, int face) : solid_(solid) {
+  FaceSplitter(const object::Polyhedron& solid, FaceIndex face) : solid_(solid) {
     const object::Polyhedron::Face& f = solid.faces()[face];
     frame_.face = face;
     frame_.origin = f.point;
@@ -44,8 +44,8 @@ class FaceSplitter {
     for (const auto& [side, owner] : sides) {
       const auto other = sides.find({side[1], side[0]});
       if (side[0] > side[1] || other == sides.end()) continue;
-      parts.joints.push_back(
-          {{first + owner, first + other->second}, MakePart({side[0], side[1]})});
+      parts.joints.push_back({{PartIndex(first + owner), PartIndex(first + other->second)},
+                              MakePart({side[0], side[1]})});
     }
     parts.hulls.push_back(rings_.size() == 1 ? parts.parts[first] : MakeHull());
   }
@@ -184,11 +184,11 @@ FacePart PointPart(const FacePart& part, const Vector3d& contact) {
 
 FaceParts SplitFaces(const object::Polyhedron& solid) {
   FaceParts parts;
-  for (int face = 0; face < solid.face_count(); ++face) {
-    parts.first.push_back(static_cast<int>(parts.parts.size()));
+  for (FaceIndex face{0}; face < solid.face_count(); ++face) {
+    parts.first.emplace_back(static_cast<int>(parts.parts.size()));
     FaceSplitter(solid, face).Split(parts);
   }
-  parts.first.push_back(static_cast<int>(parts.parts.size()));
+  parts.first.emplace_back(static_cast<int>(parts.parts.size()));
   return parts;
 }
 

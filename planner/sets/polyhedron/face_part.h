@@ -8,6 +8,9 @@
 
 namespace regrasp::polyhedron {
 
+/// A FacePart of a solid; its number in FaceParts::parts.
+using PartIndex = Index<struct PartTag>;
+
 /// A convex part of a face, in coordinates of the face's plane: x = origin + y_0 u + y_1 v.
 struct FacePart {
   struct Side {
@@ -17,7 +20,7 @@ struct FacePart {
     double length;
   };
 
-  int face = 0;
+  FaceIndex face;
   Eigen::Vector3d origin;
   Eigen::Vector3d normal;  ///< unit, into the object
   Eigen::Vector3d u;       ///< unit, with v and −normal a right-handed frame
@@ -45,14 +48,14 @@ struct FacePart {
 
 /// Where two parts of one face meet: a segment that borders both.
 struct PartJoint {
-  std::array<int, 2> parts;
+  std::array<PartIndex, 2> parts;
   FacePart segment;  ///< of two points
 };
 
 /// The faces of a solid as convex parts.
 struct FaceParts {
   std::vector<FacePart> parts;    ///< by faces
-  std::vector<int> first;         ///< parts of face f: first[f] to first[f + 1] − 1
+  std::vector<PartIndex> first;   ///< parts of face f: first[f] to first[f + 1] − 1
   std::vector<PartJoint> joints;  ///< by faces
   /// Of each face the smallest convex part that contains all of its parts; its corners are all that
   /// they have.

@@ -55,7 +55,7 @@ Cut LargestOnPart(std::span<const UnionVolume> volumes, const FacePart& part, co
 
 }  // namespace
 
-std::size_t PositionOf(const FocusCell& cell, int face) {
+std::size_t PositionOf(const FocusCell& cell, FaceIndex face) {
   return static_cast<std::size_t>(std::ranges::find(cell.faces, face) - cell.faces.begin());
 }
 
@@ -168,7 +168,7 @@ std::vector<FocusCell> FocusCellFinder::Find(const QuadrupleCandidate& candidate
 void FocusCellFinder::FindPieces(const QuadrupleCandidate& candidate, std::size_t depth,
                                  Halves& halves, std::vector<FocusPiece>& pieces) {
   if (depth < halves.size()) {
-    const int hull = static_cast<int>(parts_.parts.size()) + candidate.faces[depth];
+    const PartIndex hull(static_cast<int>(parts_.parts.size()) + candidate.faces[depth]);
     for (const HalfIndex half : {HalfOf(hull, true), HalfOf(hull, false)}) {
       const bool may = std::all_of(halves.begin(), halves.begin() + depth,
                                    [&](HalfIndex other) { return MayMeet(other, half); });
@@ -195,10 +195,10 @@ void FocusCellFinder::Refine(const QuadrupleCandidate& candidate, std::size_t po
     pieces.push_back(piece);
     return;
   }
-  const int face = candidate.faces[position];
-  const int first = parts_.first[face];
-  const int end = parts_.first[face + 1];
-  for (int part = first; part < end; ++part) {
+  const FaceIndex face = candidate.faces[position];
+  const PartIndex first = parts_.first[face];
+  const PartIndex end = parts_.first[face + 1];
+  for (PartIndex part = first; part < end; ++part) {
     FocusPiece finer = piece;
     finer.halves[position] = HalfOf(part, IsInner(piece.halves[position]));
     const UnionVolume volume = VolumeOf(finer.halves[position], candidate.tangent);

@@ -15,10 +15,10 @@ namespace regrasp::polyhedron {
 /// Half of the union volume of a convex part of a face, or of a face's hull: 2 · part, or
 /// 2 · part + 1 for the outer side. Hulls are numbered after all parts.
 using HalfIndex = Index<struct HalfTag>;
-[[nodiscard]] constexpr HalfIndex HalfOf(int part, bool inner) {
+[[nodiscard]] constexpr HalfIndex HalfOf(PartIndex part, bool inner) {
   return HalfIndex(2 * part + (inner ? 0 : 1));
 }
-[[nodiscard]] constexpr int PartNumber(HalfIndex half) { return half / 2; }
+[[nodiscard]] constexpr PartIndex PartNumber(HalfIndex half) { return PartIndex(half / 2); }
 [[nodiscard]] constexpr bool IsInner(HalfIndex half) { return half % 2 == 0; }
 
 /// One of each of four faces, in the faces' order.
@@ -35,13 +35,13 @@ struct FocusPiece {
 /// A vertex of the switching graph: a connected component of the focus points of four faces
 /// together with their contacts (Phoka 2010, definition 5.5).
 struct FocusCell {
-  std::array<int, 4> faces;  ///< ascending
-  double tangent = 0;        ///< tan φ
+  FaceQuadruple faces;
+  double tangent = 0;  ///< tan φ
   std::vector<FocusPiece> pieces;
 };
 
 /// The position of a face among a cell's, 4 where it has another.
-[[nodiscard]] std::size_t PositionOf(const FocusCell& cell, int face);
+[[nodiscard]] std::size_t PositionOf(const FocusCell& cell, FaceIndex face);
 /// That of the only face of a cell that the other one does not have.
 [[nodiscard]] std::size_t OwnPosition(const FocusCell& cell, const FocusCell& other);
 
@@ -117,7 +117,7 @@ class FocusCellFinder {
 
   /// A joint as one of its parts sees it.
   struct JoinedPart {
-    int other;  ///< part
+    PartIndex other;
     int joint;
   };
 

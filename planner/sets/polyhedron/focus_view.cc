@@ -78,7 +78,7 @@ std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid, const gr
   if (!view) return std::nullopt;
   for (const grasp::Contact& contact : grasp) {
     const auto& first = finder.parts().first;
-    for (int part = first[contact.face]; part < first[contact.face + 1]; ++part) {
+    for (PartIndex part = first[contact.face]; part < first[contact.face + 1]; ++part) {
       auto region = ContactRegion(finder.parts().parts[part], view->focus, tangent);
       if (!region.empty()) view->regions.push_back(std::move(region));
     }

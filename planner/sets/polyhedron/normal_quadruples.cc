@@ -104,12 +104,13 @@ class QuadrupleFinder {
         if (height <= least_) return;
       }
       for (; bits != 0; bits &= bits - 1) {
-        Add({a, b, c, static_cast<int>(64 * w) + std::countr_zero(bits)}, height);
+        const int d = static_cast<int>(64 * w) + std::countr_zero(bits);
+        Add({FaceIndex(a), FaceIndex(b), FaceIndex(c), FaceIndex(d)}, height);
       }
     }
   }
 
-  void Add(const std::array<int, 4>& faces, double height) {
+  void Add(const FaceQuadruple& faces, double height) {
     const Vector3d& d = normals_[faces[3]];
     for (int k = 0; k < 3; ++k) {
       const Vector3d& one = normals_[faces[k]];
@@ -141,7 +142,7 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const std::vector<Vector
 std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const object::Polyhedron& solid,
                                                         double tangent, planning::Spanning spanning,
                                                         const Deadline& deadline) {
-  std::vector<int> faces;
+  std::vector<FaceIndex> faces;
   std::vector<Vector3d> normals;
   for (FaceIndex face{0}; face < solid.face_count(); ++face) {
     if (solid.IsEnclosed(face)) continue;
@@ -151,7 +152,7 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const object::Polyhedron
   std::vector<QuadrupleCandidate> candidates =
       FindQuadrupleCandidates(normals, tangent, spanning, deadline);
   for (QuadrupleCandidate& candidate : candidates) {
-    for (int& face : candidate.faces) face = faces[face];
+    for (FaceIndex& face : candidate.faces) face = faces[face];
   }
   return candidates;
 }

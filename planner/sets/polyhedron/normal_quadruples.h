@@ -10,9 +10,12 @@
 
 namespace regrasp::polyhedron {
 
-/// Four faces, ascending, whose normals let them hold concurrent grasps.
+/// Four faces, ascending.
+using FaceQuadruple = std::array<FaceIndex, 4>;
+
+/// Four faces whose normals let them hold concurrent grasps.
 struct QuadrupleCandidate {
-  std::array<int, 4> faces;
+  FaceQuadruple faces;
   double tangent = 0;  ///< tan φ
 };
 
@@ -25,7 +28,8 @@ struct QuadrupleCandidate {
 /// is; the fourth normals of a triple are where three rows of bits agree (the trihedron of its
 /// opposites), so the time goes with the triples and with what is found.
 ///
-/// @param normals  unit. Normals that are coplanar up to rounding do not span.
+/// @param normals  of the faces 0, 1, …; unit. Normals that are coplanar up to rounding do not
+/// span.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<QuadrupleCandidate> FindQuadrupleCandidates(
     const std::vector<Eigen::Vector3d>& normals, double tangent, planning::Spanning spanning,

@@ -24,14 +24,14 @@ PolyhedronGraph::PolyhedronGraph(const object::Polyhedron& solid, double half_an
   EndEdges(FindSwitches(deadline));
 }
 
-std::vector<std::array<int, 2>> PolyhedronGraph::FindSwitches(const Deadline& deadline) {
-  std::vector<TripleOf> triples;
+std::vector<sets::SetPair> PolyhedronGraph::FindSwitches(const Deadline& deadline) {
+  std::vector<TripleOf<sets::SetIndex>> triples;
   triples.reserve(4 * cells_.size());
-  for (int cell = 0; cell < vertex_count(); ++cell) {
+  for (sets::SetIndex cell{0}; cell < vertex_count(); ++cell) {
     AddTriples(cells_[cell].faces, cell, triples);
   }
-  std::vector<std::array<int, 2>> switches;
-  ForEachCommonTriple(triples, [&](std::span<const TripleOf> common) {
+  std::vector<sets::SetPair> switches;
+  ForEachCommonTriple(triples, [&](const auto& common) {
     for (auto a = common.begin(); a != common.end(); ++a) {
       deadline.Check();
       for (auto b = a + 1; b != common.end(); ++b) {

@@ -11,9 +11,6 @@
 
 namespace regrasp::polyhedron {
 
-/// Fingers of the hand: four hold, the fifth switches.
-inline constexpr int kPolyhedronFingers = 5;
-
 /// The switching graph of the concurrent grasps of a solid (Phoka 2010, chapter V).
 ///
 /// A vertex is a FocusCell: a connected component of the focus points of four distinct faces, with
@@ -43,7 +40,7 @@ class PolyhedronGraph final : public sets::SetGraph {
   [[nodiscard]] std::int64_t unclear_count() const { return finder_.unclear_count(); }
 
  private:
-  [[nodiscard]] std::vector<std::array<int, 2>> FindSwitches(const Deadline& deadline);
+  [[nodiscard]] std::vector<sets::SetPair> FindSwitches(const Deadline& deadline);
 
   FocusCellFinder finder_;
   std::vector<FocusCell> cells_;

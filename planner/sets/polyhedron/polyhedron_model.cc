@@ -10,6 +10,9 @@ namespace regrasp::polyhedron {
 
 using Eigen::Vector3d;
 
+using sets::PieceIndex;
+using sets::SetIndex;
+
 namespace {
 
 /// A contact this far outside a part, over the diameter, is on it.
@@ -21,7 +24,7 @@ constexpr int kHalvings = 30;
 
 }  // namespace
 
-double PolyhedronModel::WidthOf(int cell) {
+double PolyhedronModel::WidthOf(SetIndex cell) {
   const auto [known, is_new] = widths_.try_emplace(cell, 0);
   if (!is_new) return known->second;
   const FocusCell& c = graph_.cells()[cell];
@@ -38,26 +41,25 @@ grasp::Grasp PolyhedronModel::GraspOf(const Place& place) const {
   const FocusCell& cell = graph_.cells()[place.cell];
   grasp::Grasp contacts;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
-    const FaceIndex face(cell.faces[k]);
+    const FaceIndex face = cell.faces[k];
     contacts.push_back({place.points[k], solid_.inward_normal(face), face});
   }
   return contacts;
 }
 
-std::vector<sets::Attachment<FocusGrasp>> PolyhedronModel::Attach(
-    const grasp::Grasp& grasp, const criteria::GraspEvaluator& /*evaluator*/) {
+PolyhedronModel::Attachments PolyhedronModel::Attach(const grasp::Grasp& grasp) {
   std::vector<grasp::Contact> sorted = grasp;
   std::ranges::sort(sorted, {}, &grasp::Contact::face);
-  std::array<int, 4> faces;
+  FaceQuadruple faces;
   GivenContacts contacts;
   for (std::size_t k = 0; k < faces.size(); ++k) {
     faces[k] = sorted[k].face;
     contacts[k] = sorted[k].p;
   }
-  std::vector<sets::Attachment<Place>> attachments;
+  Attachments attachments;
   const auto cells = std::ranges::equal_range(graph_.cells(), faces, {}, &FocusCell::faces);
   for (auto it = cells.begin(); it != cells.end(); ++it) {
-    const int cell = static_cast<int>(it - graph_.cells().begin());
+    const SetIndex cell(static_cast<int>(it - graph_.cells().begin()));
     if (const auto place = FindDeepest(cell, contacts)) attachments.push_back({cell, *place});
   }
   return attachments;
@@ -75,15 +77,16 @@ std::string PolyhedronModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const 
 
 /// The grasp of a cell with these contacts whose focus point is deepest inside their cones and the
 /// volumes of the other faces, which get contacts for that focus point.
-std::optional<FocusGrasp> PolyhedronModel::FindDeepest(int cell, const GivenContacts& contacts) {
+std::optional<FocusGrasp> PolyhedronModel::FindDeepest(SetIndex cell,
+                                                       const GivenContacts& contacts) {
   const FocusCell& c = graph_.cells()[cell];
   std::optional<Place> best;
   double least = 0;
-  for (std::size_t p = 0; p < c.pieces.size(); ++p) {
+  for (PieceIndex p{0}; p < std::ssize(c.pieces); ++p) {
     const auto deepest = FindDeepestFocus(c, c.pieces[p], contacts);
     if (!deepest || deepest->value >= least) continue;
     least = deepest->value;
-    best = {cell, static_cast<int>(p), deepest->point};
+    best = {cell, p, deepest->point};
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       best->points[k] = contacts[k] ? *contacts[k]
                                     : ContactFor(graph_.finder().PartOf(c.pieces[p].halves[k]),
@@ -114,19 +117,17 @@ std::optional<MinMaxResult> PolyhedronModel::FindDeepestFocus(const FocusCell& c
   return graph_.finder().FindDeepest(volumes);
 }
 
-std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindSwitch(
-    int from, int to, const sets::SwitchEnds<Place>& ends,
-    const criteria::GraspEvaluator& /*evaluator*/) {
-  if (ends.before == nullptr && ends.after == nullptr) return FindDeepestSwitch(from, to);
+std::optional<PolyhedronModel::Switch> PolyhedronModel::FindSwitch(const Ends& ends) {
+  if (ends.before == nullptr && ends.after == nullptr) return FindDeepestSwitch(ends.from, ends.to);
   if (ends.before != nullptr && ends.after != nullptr) {
     if (CountCommonContacts(*ends.before, *ends.after) != 3) return std::nullopt;
-    return sets::SetSwitch<Place>{*ends.before, *ends.after};
+    return Switch{*ends.before, *ends.after};
   }
   const auto other =
-      ends.before != nullptr ? Complete(*ends.before, to) : Complete(*ends.after, from);
+      ends.before != nullptr ? Complete(*ends.before, ends.to) : Complete(*ends.after, ends.from);
   if (!other) return std::nullopt;
-  if (ends.before != nullptr) return sets::SetSwitch<Place>{*ends.before, *other};
-  return sets::SetSwitch<Place>{*other, *ends.after};
+  if (ends.before != nullptr) return Switch{*ends.before, *other};
+  return Switch{*other, *ends.after};
 }
 
 int PolyhedronModel::CountCommonContacts(const Place& a, const Place& b) const {
@@ -141,7 +142,7 @@ int PolyhedronModel::CountCommonContacts(const Place& a, const Place& b) const {
 }
 
 /// A grasp of a cell that has the contacts of a given one on their common faces.
-std::optional<FocusGrasp> PolyhedronModel::Complete(const Place& given, int cell) {
+std::optional<FocusGrasp> PolyhedronModel::Complete(const Place& given, SetIndex cell) {
   const FocusCell& a = graph_.cells()[given.cell];
   const FocusCell& b = graph_.cells()[cell];
   const std::size_t own = OwnPosition(b, a);
@@ -152,7 +153,8 @@ std::optional<FocusGrasp> PolyhedronModel::Complete(const Place& given, int cell
   return FindDeepest(cell, contacts);
 }
 
-std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(int from, int to) {
+std::optional<PolyhedronModel::Switch> PolyhedronModel::FindDeepestSwitch(SetIndex from,
+                                                                          SetIndex to) {
   FocusCellFinder& finder = graph_.finder();
   const FocusCell& a = graph_.cells()[from];
   const FocusCell& b = graph_.cells()[to];
@@ -161,10 +163,10 @@ std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(in
   const double narrower = std::min(a.tangent, b.tangent);
   std::array<std::size_t, 4> in_b;
   for (std::size_t k = 0; k < in_b.size(); ++k) in_b[k] = PositionOf(b, a.faces[k]);
-  std::optional<sets::SetSwitch<Place>> best;
+  std::optional<Switch> best;
   double least = 0;
-  for (std::size_t p = 0; p < a.pieces.size(); ++p) {
-    for (std::size_t q = 0; q < b.pieces.size(); ++q) {
+  for (PieceIndex p{0}; p < std::ssize(a.pieces); ++p) {
+    for (PieceIndex q{0}; q < std::ssize(b.pieces); ++q) {
       const auto& of_a = a.pieces[p].halves;
       const auto& of_b = b.pieces[q].halves;
       std::vector<UnionVolume> volumes = {finder.VolumeOf(of_a[own_a], a.tangent),
@@ -179,8 +181,7 @@ std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(in
       const auto deepest = finder.FindDeepest(volumes, &known);
       if (!deepest || deepest->value >= least) continue;
       least = deepest->value;
-      best = {{from, static_cast<int>(p), deepest->point},
-              {to, static_cast<int>(q), deepest->point}};
+      best = {{from, p, deepest->point}, {to, q, deepest->point}};
     }
   }
   if (best) PlaceContacts(*best);
@@ -188,7 +189,7 @@ std::optional<sets::SetSwitch<FocusGrasp>> PolyhedronModel::FindDeepestSwitch(in
 }
 
 /// Those for its focus point; on common faces inside the cones of both cells.
-void PolyhedronModel::PlaceContacts(sets::SetSwitch<Place>& change) const {
+void PolyhedronModel::PlaceContacts(Switch& change) const {
   const FocusCell& a = graph_.cells()[change.before.cell];
   const FocusCell& b = graph_.cells()[change.after.cell];
   const auto contact = [&](const FocusCell& cell, const Place& place, std::size_t k,
@@ -211,8 +212,8 @@ std::vector<FocusGrasp> PolyhedronModel::FindRoute(const Place& from, const Plac
   std::vector<bool> starts(cell.pieces.size()), goals(cell.pieces.size());
   starts[from.piece] = true;
   goals[to.piece] = true;
-  const auto junctions =
-      sets::FindPassages<Place>(starts, goals, [&](int piece, int next) -> std::optional<Place> {
+  const auto junctions = sets::FindPassages<Place>(
+      starts, goals, [&](PieceIndex piece, PieceIndex next) -> std::optional<Place> {
         const auto junction =
             graph_.finder().FindJunction(cell.tangent, cell.pieces[piece], cell.pieces[next]);
         if (!junction) return std::nullopt;
@@ -232,9 +233,9 @@ std::vector<FocusGrasp> PolyhedronModel::FindRoute(const Place& from, const Plac
   return route;
 }
 
-std::optional<FocusGrasp> PolyhedronModel::Draw(int cell, RandomStream& random) {
+std::optional<FocusGrasp> PolyhedronModel::Draw(SetIndex cell, RandomStream& random) {
   const FocusCell& c = graph_.cells()[cell];
-  const int piece = static_cast<int>(random.Index(c.pieces.size()));
+  const PieceIndex piece(static_cast<int>(random.Index(c.pieces.size())));
   Place place = {cell, piece, DrawFocus(c, c.pieces[piece], random)};
   for (std::size_t k = 0; k < place.points.size(); ++k) {
     const FacePart& part = graph_.finder().PartOf(c.pieces[piece].halves[k]);

@@ -45,7 +45,7 @@ planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
 PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
     : planning::Planner({.name = "polyhedron",
                          .what = "concurrent grasps of four faces",
-                         .in_space = planning::PlannerScope{kPolyhedronFingers, {4, 4}, {4, 4}},
+                         .in_space = planning::PlannerScope{hand::kFingersInSpace, {4, 4}, {4, 4}},
                          .options = {planning::PlanOption::kUniformSpanning,
                                      planning::PlanOption::kFocusPoints}}),
       graph_(graph) {}
@@ -65,7 +65,7 @@ PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& reques
 
 planning::PlanResult PolyhedronPlanner::Plan(const planning::PlanRequest& request) const {
   std::optional<PolyhedronGraph> own;
-  PolyhedronModel model(SolidOf(request), GraphFor(request, own));
+  PolyhedronModel model(SolidOf(request), GraphFor(request, own), request);
   return sets::PlanOverSets(model, request, name());
 }
 

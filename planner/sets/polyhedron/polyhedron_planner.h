@@ -6,8 +6,8 @@
 namespace regrasp::polyhedron {
 
 /// Plans between concurrent grasps of four fingers on four faces of a solid, on its switching graph
-/// (Phoka 2010, chapter V), with a hand of kPolyhedronFingers fingers: of these grasps it knows
-/// every set and every switch, but for what is too close to call.
+/// (Phoka 2010, chapter V), with a hand of five, of which one switches: of these grasps it
+/// knows every set and every switch, but for what is too close to call.
 class PolyhedronPlanner final : public planning::Planner {
  public:
   /// @param graph  that is built already, with the half-angle and the spanning of all requests that

@@ -58,6 +58,9 @@ class RegionGrower {
   std::vector<UnionVolume> volumes_;
 };
 
+/// A QuadrupleCandidate, seen by points or not.
+using CandidateIndex = Index<struct CandidateTag>;
+
 /// The quadruples that points see, with the halves of faces that they see them from.
 class Sampler {
  public:
@@ -68,7 +71,7 @@ class Sampler {
     found_.assign(candidates_.size(), 0);
     seen_.assign(solid.face_count(), 0);
     const HalfIndex end(2 * static_cast<int>(finder_.parts().parts.size()));
-    for (HalfIndex half(0); half < end; ++half) {
+    for (HalfIndex half{0}; half < end; ++half) {
       volumes_.push_back(finder_.VolumeOf(half, tangent_));
     }
   }
@@ -81,12 +84,13 @@ class Sampler {
     triples_.clear();
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const QuadrupleCandidate& candidate = candidates_[c];
-      const bool sees = std::ranges::all_of(candidate.faces, [&](int f) { return seen_[f] != 0; });
+      const bool sees =
+          std::ranges::all_of(candidate.faces, [&](FaceIndex f) { return seen_[f] != 0; });
       if (!sees || !SeesNarrowly(candidate, x)) continue;
       found_[c] = 1;
-      AddTriples(candidate.faces, static_cast<int>(c), triples_);
+      AddTriples(candidate.faces, CandidateIndex(static_cast<int>(c)), triples_);
     }
-    ForEachCommonTriple(triples_, [&](std::span<const TripleOf> common) {
+    ForEachCommonTriple(triples_, [&](const auto& common) {
       for (auto a = common.begin(); a != common.end(); ++a) {
         for (auto b = a + 1; b != common.end(); ++b) {
           links_.insert(static_cast<std::uint64_t>(a->quadruple) << 32 |
@@ -98,10 +102,10 @@ class Sampler {
 
   [[nodiscard]] SampledGraph Result() const {
     SampledGraph graph;
-    std::vector<int> number(candidates_.size(), -1);
+    std::vector<QuadrupleIndex> number(candidates_.size());
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       if (found_[c] == 0) continue;
-      number[c] = static_cast<int>(graph.quadruples.size());
+      number[c] = QuadrupleIndex(static_cast<int>(graph.quadruples.size()));
       graph.quadruples.push_back(candidates_[c].faces);
     }
     for (const std::uint64_t link : links_) {
@@ -109,10 +113,7 @@ class Sampler {
     }
     std::ranges::sort(graph.links);
     graph.components =
-        search::FindComponents(static_cast<int>(graph.quadruples.size()),
-                               static_cast<int>(graph.links.size()),
-                               [&](int i) { return std::span<const int>(graph.links[i]); })
-            .count();
+        search::ComponentsOfEdges(static_cast<int>(graph.quadruples.size()), graph.links).count();
     return graph;
   }
 
@@ -120,7 +121,7 @@ class Sampler {
   /// Cones of the candidate's own half-angle may be narrower than those of the friction.
   [[nodiscard]] bool SeesNarrowly(const QuadrupleCandidate& candidate, const Vector3d& x) const {
     if (candidate.tangent == tangent_) return true;
-    return std::ranges::all_of(candidate.faces, [&](int face) {
+    return std::ranges::all_of(candidate.faces, [&](FaceIndex face) {
       const auto& first = finder_.parts().first;
       for (HalfIndex half(2 * first[face]); half < 2 * first[face + 1]; ++half) {
         if (finder_.VolumeOf(half, candidate.tangent).At(x) < 0) return true;
@@ -134,8 +135,8 @@ class Sampler {
   std::vector<QuadrupleCandidate> candidates_;
   std::vector<char> found_;
   std::vector<UnionVolume> volumes_;
-  std::vector<char> seen_;                   ///< faces that the point at hand sees
-  std::vector<TripleOf> triples_;            ///< that the point at hand sees
+  std::vector<char> seen_;                         ///< faces that the point at hand sees
+  std::vector<TripleOf<CandidateIndex>> triples_;  ///< that the point at hand sees
   std::unordered_set<std::uint64_t> links_;  ///< two candidates, the lower one in the upper half
 };
 
@@ -167,10 +168,9 @@ SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle
 }
 
 planning::SamplingShare CompareSampling(const SampledGraph& sampled, const PolyhedronGraph& graph) {
-  using Quadruple = std::array<int, 4>;
-  std::set<Quadruple> quadruples;
+  std::set<FaceQuadruple> quadruples;
   for (const FocusCell& cell : graph.cells()) quadruples.insert(cell.faces);
-  std::set<std::array<Quadruple, 2>> links;
+  std::set<std::array<FaceQuadruple, 2>> links;
   for (const auto& [a, b] : graph.switches()) {
     links.insert({graph.cells()[a].faces, graph.cells()[b].faces});
   }
@@ -178,7 +178,7 @@ planning::SamplingShare CompareSampling(const SampledGraph& sampled, const Polyh
   share.quadruples = std::ssize(quadruples);
   share.links = std::ssize(links);
   share.found_quadruples = std::ranges::count_if(
-      sampled.quadruples, [&](const Quadruple& q) { return quadruples.contains(q); });
+      sampled.quadruples, [&](const FaceQuadruple& q) { return quadruples.contains(q); });
   share.found_links = std::ranges::count_if(sampled.links, [&](const auto& link) {
     return links.contains({sampled.quadruples[link[0]], sampled.quadruples[link[1]]});
   });

@@ -19,14 +19,17 @@ namespace regrasp::polyhedron {
                                                      PolyhedronGraph& graph,
                                                      const Deadline& deadline = {});
 
+/// A quadruple of a SampledGraph.
+using QuadrupleIndex = Index<struct QuadrupleTag>;
+
 /// What random focus points find of the switching graph (Phoka 2010, section 5.3.4.2): a quadruple
 /// of faces where a point sees all four, and a link where it sees two quadruples with three common
 /// faces: the contacts on these belong to both. Where the cell of a quadruple falls apart, points
 /// do not tell its components from each other, and the quadruple is one vertex with the links of
 /// all.
 struct SampledGraph {
-  std::vector<std::array<int, 4>> quadruples;  ///< ascending
-  std::vector<std::array<int, 2>> links;       ///< ascending, of quadruples
+  std::vector<FaceQuadruple> quadruples;             ///< ascending
+  std::vector<std::array<QuadrupleIndex, 2>> links;  ///< ascending
   int components = 0;
 };
 

@@ -8,6 +8,8 @@
 namespace regrasp::render {
 namespace {
 
+constexpr contour::RingIndex kOuter(0);
+
 using testing::ElementsAre;
 using testing::SizeIs;
 
@@ -21,7 +23,7 @@ std::vector<std::string> LabelsOf(const std::vector<AxisTick>& ticks) {
 
 TEST(ContactSpaceAxisTest, FewVerticesHaveTheirLengths) {
   const object::Polygon square = MakeSquare();
-  const std::vector<AxisTick> ticks = MakeTicks(contour::Boundary(square), 0, {0, 8}, 25, 28);
+  const std::vector<AxisTick> ticks = MakeTicks(contour::Boundary(square), kOuter, {0, 8}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "2", "4", "6", "8"));
   EXPECT_THAT(ticks, SizeIs(5));
 }
@@ -29,8 +31,8 @@ TEST(ContactSpaceAxisTest, FewVerticesHaveTheirLengths) {
 TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
   const object::Polygon disc = MakeDisc(60);
   const contour::Boundary boundary(disc);
-  const double perimeter = boundary.perimeter(0);  // 6.28
-  const auto ticks = MakeTicks(boundary, 0, {0, perimeter}, 200 / perimeter, 28);
+  const double perimeter = boundary.perimeter(kOuter);  // 6.28
+  const auto ticks = MakeTicks(boundary, kOuter, {0, perimeter}, 200 / perimeter, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("0", "1", "2", "3", "4", "5", "6.28"));
   EXPECT_THAT(ticks, SizeIs(61 + 5));
 }
@@ -38,12 +40,12 @@ TEST(ContactSpaceAxisTest, ManyVerticesHaveTicksAndRoundLengthsHaveLabels) {
 TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
   const object::Polygon disc = MakeDisc(300);
   const contour::Boundary boundary(disc);
-  const double perimeter = boundary.perimeter(0);
+  const double perimeter = boundary.perimeter(kOuter);
   const double points_per_unit = 200 / perimeter;
   double last = -1;
   int checked = 0;
   for (const AxisTick& tick :
-       MakeTicks(boundary, 0, {0, perimeter}, points_per_unit, 1000)) {  // no round labels
+       MakeTicks(boundary, kOuter, {0, perimeter}, points_per_unit, 1000)) {  // no round labels
     EXPECT_GE((tick.place - last) * points_per_unit, kTickGap * (1 - 1e-9));
     last = tick.place;
     ++checked;
@@ -55,7 +57,7 @@ TEST(ContactSpaceAxisTest, VerticesThatPrintDoesNotKeepApartAreThinned) {
 
 TEST(ContactSpaceAxisTest, BeyondTheEndTheRingBeginsAgain) {
   const object::Polygon square = MakeSquare();
-  const auto ticks = MakeTicks(contour::Boundary(square), 0, {-3, 3}, 25, 28);
+  const auto ticks = MakeTicks(contour::Boundary(square), kOuter, {-3, 3}, 25, 28);
   EXPECT_THAT(LabelsOf(ticks), ElementsAre("6", "0", "2"));
   EXPECT_EQ(ticks.front().place, -2);
 }
@@ -63,7 +65,7 @@ TEST(ContactSpaceAxisTest, BeyondTheEndTheRingBeginsAgain) {
 TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
   const object::Polygon disc = MakeDisc(60);
   const contour::Boundary boundary(disc);
-  const double perimeter = boundary.perimeter(0);
+  const double perimeter = boundary.perimeter(kOuter);
   int checked = 0;
   for (const double width : {0.002, 0.03, 0.5, 1.0}) {
     for (const double from : {-0.3, 0.2, 0.9}) {
@@ -71,7 +73,7 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
       const double points_per_unit = 300 / (width * perimeter);
       double last = -std::numeric_limits<double>::infinity();
       std::string last_label;
-      for (const AxisTick& tick : MakeTicks(boundary, 0, shown, points_per_unit, 28)) {
+      for (const AxisTick& tick : MakeTicks(boundary, kOuter, shown, points_per_unit, 28)) {
         EXPECT_GE(tick.place, shown.low - 1e-8);
         EXPECT_LE(tick.place, shown.high + 1e-8);
         if (tick.label.empty()) continue;
@@ -88,10 +90,10 @@ TEST(ContactSpaceAxisTest, LabelsKeepTheirDistanceAndDiffer) {
 
 TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
   const object::Polygon square = MakeSquare();
-  EXPECT_EQ(AxisTitle(contour::Boundary(square), "u", 0), "u");
+  EXPECT_EQ(AxisTitle(contour::Boundary(square), "u", kOuter), "u");
   const object::Polygon ring = MakeRing(8);
-  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 0), "u, outer ring");
-  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", 1), "u, hole 1");
+  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", kOuter), "u, outer ring");
+  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", contour::RingIndex(1)), "u, hole 1");
 }
 
 TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {

@@ -45,7 +45,9 @@ TEST(ContactSpaceFigureTest, TheSetsOfThePlanHaveTheirTints) {
   const std::string overview = fork.figures.DrawOverview(FigureFormat::kSvg);
   for (const int name : {0, 1, 2}) EXPECT_EQ(Count(overview, "fill", PlanSetTint(name)), 1) << name;
   EXPECT_EQ(Count(overview, "fill", PlanSetTint(3)), 0);
-  EXPECT_GT(Count(overview, "fill", OtherSetTint(0)) + Count(overview, "fill", OtherSetTint(1)), 0);
+  EXPECT_GT(Count(overview, "fill", OtherSetTint(sets::SetIndex(0))) +
+                Count(overview, "fill", OtherSetTint(sets::SetIndex(1))),
+            0);
 }
 
 TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBars) {

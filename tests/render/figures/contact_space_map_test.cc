@@ -117,9 +117,11 @@ TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
     ASSERT_THAT(set.label_places, SizeIs(2));
     const contour::RegionMetric& metric = fork.geometry.MetricOf(set.set);
     const double best = metric.SizeAt(set.label_places[0].places);
-    std::uniform_real_distribution<double> place(0, fork.graph.boundary().perimeter(0));
+    std::uniform_real_distribution<double> place(
+        0, fork.graph.boundary().perimeter(contour::RingIndex(0)));
     for (int i = 0; i < 20000; ++i) {
-      const SpacePoint p = {{0, 0}, {place(engine), place(engine)}};
+      const SpacePoint p = {{contour::RingIndex(0), contour::RingIndex(0)},
+                            {place(engine), place(engine)}};
       if (p.places.x() > p.places.y() || !IsInside(set, p)) continue;
       EXPECT_LE(metric.SizeAt(p.places), best + 1e-9);
       ++checked;
@@ -134,7 +136,7 @@ TEST(ContactSpaceMapTest, TheNameStandsAtTheCentreOfTheLargestSquare) {
 TEST(ContactSpaceMapTest, AWayBreaksWhereTheRingBeginsAgain) {
   const object::Polygon disc = MakeDisc(12);
   const Scene scene(disc, MakeDiscPlan(disc));
-  const double perimeter = scene.graph.boundary().perimeter(0);
+  const double perimeter = scene.graph.boundary().perimeter(contour::RingIndex(0));
   ASSERT_THAT(scene.map.paths, SizeIs(2));
   // The contact on the lower edge, here the other one, is across.
   EXPECT_NEAR(scene.map.paths[0].points.back().y(), perimeter, 1e-12);
@@ -160,10 +162,10 @@ TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
   // The wall between the outer ring and the hole, near the first vertex; holes run clockwise.
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 23, 0.5)};
   const auto located = [&](const plan::Plan& p) { return Scene(ring, p); };
-  EXPECT_THAT(located(plan).map.rings, ElementsAre(0, 1));
+  EXPECT_THAT(located(plan).map.rings, ElementsAre(contour::RingIndex(0), contour::RingIndex(1)));
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 6, 0.5)};
   const Scene outer = located(plan);
-  EXPECT_THAT(outer.map.rings, ElementsAre(0));
+  EXPECT_THAT(outer.map.rings, ElementsAre(contour::RingIndex(0)));
   EXPECT_LT(static_cast<int>(outer.map.sets.size()), outer.map.set_count);
 }
 

@@ -33,8 +33,8 @@ std::vector<Case> Cases() {
 }
 
 /// Any grasp of a set, and the set unfolded from there.
-UnfoldedSet Unfold(contour::SetGeometry& geometry, int set, int upright) {
-  const int piece = geometry.graph().pieces_of(set).front();
+UnfoldedSet Unfold(contour::SetGeometry& geometry, sets::SetIndex set, int upright) {
+  const contour::PieceIndex piece = geometry.graph().pieces_of(set).front();
   const std::vector<Vector2d>& outline = geometry.OutlineOf(piece);
   const Vector2d sum = std::accumulate(outline.begin(), outline.end(), Vector2d(0, 0));
   const Vector2d middle = sum / static_cast<double>(outline.size());
@@ -82,7 +82,7 @@ TEST(ContactSpaceUnfoldingTest, ASideOfAPieceIsBorderOrAnotherPieceFollows) {
     for (const double degrees : {12.0, 31.0}) {
       const contour::ContourGraph graph(c.polygon, Radians(degrees));
       contour::SetGeometry geometry(graph);
-      for (int set = 0; set < graph.vertex_count(); ++set) {
+      for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
         const Sides sides = CountOpenSides(Unfold(geometry, set, set % 2));
         EXPECT_EQ(sides.open, 0) << c.name << " " << degrees << "°, set " << set;
         checked += sides.checked;
@@ -98,8 +98,9 @@ TEST(ContactSpaceUnfoldingTest, WithoutUnfoldingASetEndsAtTheFrameWhereItHasNoBo
   contour::SetGeometry geometry(graph);
   ASSERT_EQ(graph.vertex_count(), 1);
   UnfoldedSet raw;
-  for (const int piece : graph.pieces_of(0)) raw.pieces.push_back(geometry.OutlineOf(piece));
-  for (const contour::BorderSegment& part : contour::SetBorder(graph, 0))
+  for (const contour::PieceIndex piece : graph.pieces_of(sets::SetIndex(0)))
+    raw.pieces.push_back(geometry.OutlineOf(piece));
+  for (const contour::BorderSegment& part : contour::SetBorder(graph, sets::SetIndex(0)))
     raw.border.push_back({part.from, part.to});
   EXPECT_GT(CountOpenSides(raw).open, 0);
 }
@@ -109,7 +110,7 @@ TEST(ContactSpaceUnfoldingTest, BorderHasTheSetOnOneSideOnly) {
   for (const Case& c : Cases()) {
     const contour::ContourGraph graph(c.polygon, Radians(20));
     contour::SetGeometry geometry(graph);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
+    for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
       const UnfoldedSet unfolded = Unfold(geometry, set, 1);
       for (const Segment& segment : unfolded.border) {
         const Vector2d side = segment[1] - segment[0];
@@ -132,10 +133,11 @@ TEST(ContactSpaceUnfoldingTest, PiecesKeepTheirAreaAndDoNotOverlap) {
   for (const Case& c : Cases()) {
     const contour::ContourGraph graph(c.polygon, Radians(25));
     contour::SetGeometry geometry(graph);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
+    for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
       const UnfoldedSet unfolded = Unfold(geometry, set, 0);
       std::vector<Outline> listed;
-      for (const int piece : graph.pieces_of(set)) listed.push_back(geometry.OutlineOf(piece));
+      for (const contour::PieceIndex piece : graph.pieces_of(set))
+        listed.push_back(geometry.OutlineOf(piece));
       EXPECT_NEAR(AreaOf(unfolded.pieces), AreaOf(listed), 1e-9 * AreaOf(listed)) << c.name;
       for (const Outline& outline : unfolded.pieces) {
         const Vector2d sum = std::accumulate(outline.begin(), outline.end(), Vector2d(0, 0));
@@ -152,8 +154,8 @@ TEST(ContactSpaceUnfoldingTest, TheFirstGraspStaysWhereItIs) {
   const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph graph(disc, Radians(20));
   contour::SetGeometry geometry(graph);
-  const int piece = graph.PiecesOn(3, 15).front();
-  const double edge = graph.boundary().end(0);
+  const contour::PieceIndex piece = graph.PiecesOn(FaceIndex(3), FaceIndex(15)).front();
+  const double edge = graph.boundary().end(FaceIndex(0));
   const contour::PlacedGrasp grasp = {piece, {3.5 * edge, 15.5 * edge}};
   EXPECT_EQ(CountContaining(UnfoldSet(geometry, grasp, 1).pieces, grasp.places), 1);
   const Vector2d swapped(grasp.places.y(), grasp.places.x());
@@ -166,7 +168,7 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
   const contour::ContourGraph simple(square, Radians(20));
   contour::SetGeometry simple_geometry(simple);
   ASSERT_EQ(simple.vertex_count(), 2);
-  for (const int set : {0, 1}) {
+  for (const sets::SetIndex set : {sets::SetIndex(0), sets::SetIndex(1)}) {
     const UnfoldedSet unfolded = Unfold(simple_geometry, set, 1);
     EXPECT_THAT(unfolded.cuts, IsEmpty());
     EXPECT_THAT(unfolded.pieces, SizeIs(1));
@@ -174,7 +176,7 @@ TEST(ContactSpaceUnfoldingTest, OnlyASetThatComesBackToItselfIsCut) {
   const object::Polygon disc = MakeDisc(24);
   const contour::ContourGraph round(disc, Radians(20));
   contour::SetGeometry round_geometry(round);
-  const UnfoldedSet unfolded = Unfold(round_geometry, 0, 1);
+  const UnfoldedSet unfolded = Unfold(round_geometry, sets::SetIndex(0), 1);
   EXPECT_THAT(unfolded.cuts, Not(IsEmpty()));
   for (const Segment& cut : unfolded.cuts) {
     const Vector2d side = cut[1] - cut[0];
@@ -192,7 +194,7 @@ TEST(ContactSpaceUnfoldingTest, TheDiagramIsInsideTheSet) {
   const contour::ContourGraph graph(fork, Radians(20));
   contour::SetGeometry geometry(graph);
   int checked = 0;
-  for (int set = 0; set < graph.vertex_count(); ++set) {
+  for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
     const UnfoldedSet unfolded = Unfold(geometry, set, 1);
     for (const Segment& edge : unfolded.diagram) {
       const Vector2d middle = (edge[0] + edge[1]) / 2;

@@ -31,7 +31,8 @@ FacetMesh Square(double h, double z) {
   return mesh;
 }
 
-Image DrawOnce(const std::vector<FacetMesh>& meshes, const Drawing& drawing, int supersampling = 1) {
+Image DrawOnce(const std::vector<FacetMesh>& meshes, const Drawing& drawing,
+               int supersampling = 1) {
   Canvas canvas(meshes, kSide, kSide, supersampling);
   return canvas.Draw(FromAbove(), drawing);
 }

@@ -31,7 +31,8 @@ TEST(ViewpointTest, ADirectionIsAzimuthAboutZAndElevationAboveThePlane) {
 TEST(ViewpointTest, StandsOnTheSideOfTheFingers) {
   const BodyShape cube = MakeBodyShape(MakeCube(0.03));
   const double half = 0.5 / std::sqrt(3.0);
-  for (const Vector3d& side : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)}) {
+  for (const Vector3d& side :
+       {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)}) {
     const Vector3d back = ChooseViewpoint(cube, false, {{MakeGlyph(0, side, half)}});
     EXPECT_GT(back.dot(side), 0.1);
     EXPECT_LT(back.dot(side), 0.9) << "along the stem";

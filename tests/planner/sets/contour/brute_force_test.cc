@@ -72,7 +72,7 @@ class Witness {
   Witness(const object::Polygon& polygon, const ContourGraph& graph, double half_angle)
       : polygon_(polygon), graph_(graph), half_angle_(half_angle) {}
 
-  [[nodiscard]] bool Confirms(const std::array<int, 2>& edges, const Vector2d& places,
+  [[nodiscard]] bool Confirms(const std::array<FaceIndex, 2>& edges, const Vector2d& places,
                               bool stretching) const {
     const Boundary& boundary = graph_.boundary();
     const Sense sense = SenseOf(polygon_, half_angle_, boundary.ContactAt(edges[0], places.x()),
@@ -80,7 +80,7 @@ class Witness {
     return sense == (stretching ? Sense::kStretching : Sense::kSqueezing);
   }
 
-  [[nodiscard]] bool ConfirmsPiece(int piece) const {
+  [[nodiscard]] bool ConfirmsPiece(PieceIndex piece) const {
     const std::vector<Vector2d> outline = PieceOutline(graph_, piece);
     if (outline.empty()) return false;
     Vector2d centre = Vector2d::Zero();
@@ -93,16 +93,16 @@ class Witness {
     const PlaceRange range = PassageRange(graph_, passage);
     const Boundary& boundary = graph_.boundary();
     const double at = (range.low + range.high) / 2;
-    const int next = boundary.next(passage.edge);
+    const FaceIndex next = boundary.next(passage.edge);
     const bool stretching = graph_.pieces()[passage.pieces[0]].stretching;
     return Confirms({passage.edge, passage.other}, {boundary.end(passage.edge), at}, stretching) &&
            Confirms({next, passage.other}, {boundary.begin(next), at}, stretching);
   }
 
   /// Two pieces of the sets share a contact: in the middle of where their outlines overlap.
-  [[nodiscard]] bool ConfirmsSwitch(int v, int w) const {
-    for (const int p : graph_.pieces_of(v)) {
-      for (const int q : graph_.pieces_of(w)) {
+  [[nodiscard]] bool ConfirmsSwitch(sets::SetIndex v, sets::SetIndex w) const {
+    for (const PieceIndex p : graph_.pieces_of(v)) {
+      for (const PieceIndex q : graph_.pieces_of(w)) {
         for (const int k : {0, 1}) {
           for (const int l : {0, 1}) {
             if (ShareContact(p, k, q, l)) return true;
@@ -114,7 +114,7 @@ class Witness {
   }
 
  private:
-  [[nodiscard]] bool ShareContact(int p, int k, int q, int l) const {
+  [[nodiscard]] bool ShareContact(PieceIndex p, int k, PieceIndex q, int l) const {
     if (graph_.pieces()[p].edges[k] != graph_.pieces()[q].edges[l]) return false;
     const std::vector<Vector2d> a = PieceOutline(graph_, p);
     const std::vector<Vector2d> b = PieceOutline(graph_, q);
@@ -136,7 +136,7 @@ class Witness {
   }
 
   /// The middle of the outline at a place of the k-th contact is a grasp.
-  [[nodiscard]] bool HasGraspAt(int piece, const std::vector<Vector2d>& outline, int k,
+  [[nodiscard]] bool HasGraspAt(PieceIndex piece, const std::vector<Vector2d>& outline, int k,
                                 double at) const {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -171,7 +171,7 @@ TEST(ContourBruteForce, EveryPieceEveryPassageAndEverySwitchHasAWitness) {
       SCOPED_TRACE(name + " " + std::to_string(degrees));
       const ContourGraph graph(polygon, Radians(degrees));
       const Witness witness(polygon, graph, Radians(degrees));
-      for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p, ++pieces) {
+      for (PieceIndex p{0}; p < std::ssize(graph.pieces()); ++p, ++pieces) {
         EXPECT_TRUE(witness.ConfirmsPiece(p)) << "piece " << p;
       }
       for (const PiecePassage& passage : graph.passages()) {
@@ -196,7 +196,7 @@ TEST(ContourBruteForce, WitnessesRefuseLessFriction) {
   const Witness witness(blob, graph, Radians(2));
   int confirmed = 0;
   const int pieces = static_cast<int>(graph.pieces().size());
-  for (int p = 0; p < pieces; ++p) confirmed += witness.ConfirmsPiece(p) ? 1 : 0;
+  for (PieceIndex p{0}; p < pieces; ++p) confirmed += witness.ConfirmsPiece(p) ? 1 : 0;
   EXPECT_GT(pieces, 0);
   EXPECT_LT(confirmed, pieces);
 }

@@ -115,9 +115,7 @@ void ContactGrid::JoinCells() {
       if (before == s && after == s) joined.push_back({cell, k * n + j});
     }
   }
-  const search::Components components =
-      search::FindComponents(n * n, static_cast<int>(joined.size()),
-                             [&](int group) { return std::span<const int>(joined[group]); });
+  const search::Components components = search::ComponentsOfEdges(n * n, joined);
   component_.assign(components.of_vertex.size(), -1);
   std::vector<int> number(components.count(), -1);
   for (int cell = 0; cell < n * n; ++cell) {
@@ -134,7 +132,7 @@ GridComparison CompareWithGrid(const object::Polygon& polygon, const ContourGrap
   const double rounding = kOutlineRounding * polygon.diameter();
   const Boundary& boundary = graph.boundary();
   std::vector<std::vector<Vector2d>> outlines;
-  for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p) {
+  for (PieceIndex p{0}; p < std::ssize(graph.pieces()); ++p) {
     outlines.push_back(PieceOutline(graph, p));
   }
   std::vector<int> set_of(grid.component_count(), -1);
@@ -160,9 +158,9 @@ GridComparison CompareWithGrid(const object::Polygon& polygon, const ContourGrap
       }
       // Lines are in the order of the edges.
       const Vector2d place(boundary.PlaceOf(a), boundary.PlaceOf(b));
-      std::vector<int> in;
+      std::vector<PieceIndex> in;
       bool deep = false;
-      for (const int piece : graph.PiecesOn(a.face, b.face)) {
+      for (const PieceIndex piece : graph.PiecesOn(a.face, b.face)) {
         const double depth = DepthIn(outlines[piece], place, rounding);
         if (depth >= -rounding) in.push_back(piece);
         deep = deep || depth > rounding;

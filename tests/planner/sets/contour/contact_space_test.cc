@@ -23,12 +23,13 @@ TEST(Boundary, PlacesRunAlongEveryRingAndComeBack) {
     ASSERT_EQ(boundary.edge_count(), polygon.face_count());
     ASSERT_EQ(boundary.ring_count(), std::ssize(polygon.rings()));
     for (FaceIndex e{0}; e < polygon.face_count(); ++e, ++edges) {
-      const int ring = boundary.ring_of(e);
+      const RingIndex ring = boundary.ring_of(e);
       EXPECT_LE(boundary.first_edge(ring), e);
-      EXPECT_LT(e, boundary.first_edge(ring + 1));
-      EXPECT_EQ(polygon.edge(FaceIndex(e)).second, polygon.edge(FaceIndex(boundary.next(e))).first);
+      EXPECT_LT(e, boundary.end_edge(ring));
+      EXPECT_EQ(polygon.edge(e).second, polygon.edge(boundary.next(e)).first);
       const bool last = boundary.next(e) < e;
-      EXPECT_EQ(boundary.end(e), last ? boundary.perimeter(ring) : boundary.begin(e + 1));
+      EXPECT_EQ(boundary.end(e),
+                last ? boundary.perimeter(ring) : boundary.begin(FaceIndex(e + 1)));
       for (const double share : {0.0, 0.3, 1.0}) {
         const double place = (1 - share) * boundary.begin(e) + share * boundary.end(e);
         const grasp::Contact contact = boundary.ContactAt(e, place);
@@ -59,7 +60,7 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     const double tolerance = SizeToleranceOf(polygon);
     const Boundary& boundary = graph.boundary();
-    for (int p = 0; p < static_cast<int>(graph.pieces().size()); ++p) {
+    for (PieceIndex p{0}; p < std::ssize(graph.pieces()); ++p) {
       const GraspPiece& piece = graph.pieces()[p];
       const std::vector<Vector2d> outline = PieceOutline(graph, p);
       if (outline.empty()) continue;  // too thin for doubles
@@ -93,7 +94,7 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
 /// A contact at a vertex with either normal, and the other contact: both are grasps of a sense.
 bool IsPassage(const object::Polygon& polygon, const Boundary& boundary, double half_angle,
                const PiecePassage& passage, Sense sense, double place) {
-  const int next = boundary.next(passage.edge);
+  const FaceIndex next = boundary.next(passage.edge);
   const grasp::Contact other = boundary.ContactAt(passage.other, place);
   const grasp::Contact before = boundary.ContactAt(passage.edge, boundary.end(passage.edge));
   const grasp::Contact after = boundary.ContactAt(next, boundary.begin(next));
@@ -142,7 +143,7 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
       [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
         const Boundary& boundary = graph.boundary();
         const double step = SizeToleranceOf(polygon);
-        for (int set = 0; set < graph.vertex_count(); ++set) {
+        for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
           for (const BorderSegment& segment : SetBorder(graph, set)) {
             EXPECT_EQ(graph.set_of(segment.piece), set);
             const Vector2d along = segment.to - segment.from;

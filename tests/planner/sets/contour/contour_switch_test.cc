@@ -16,10 +16,10 @@ using Eigen::Vector2d;
 
 /// The largest half-width of a square centred in a set with the contact on an edge held at a place,
 /// by trying many places of the other contact.
-double LargestAt(SetGeometry& geometry, int set, int edge, double place) {
+double LargestAt(SetGeometry& geometry, sets::SetIndex set, FaceIndex edge, double place) {
   constexpr int kTries = 200;
   double largest = 0;
-  for (const int piece : geometry.graph().pieces_of(set)) {
+  for (const PieceIndex piece : geometry.graph().pieces_of(set)) {
     const auto& edges = geometry.graph().pieces()[piece].edges;
     for (int k = 0; k < 2; ++k) {
       if (edges[k] != edge) continue;
@@ -37,11 +37,11 @@ double LargestAt(SetGeometry& geometry, int set, int edge, double place) {
 }
 
 /// The largest smaller half-width of all switches whose common contact is at one of many places.
-double LargestSwitchByTrying(SetGeometry& geometry, int from, int to) {
+double LargestSwitchByTrying(SetGeometry& geometry, sets::SetIndex from, sets::SetIndex to) {
   constexpr int kTries = 60;
   const Boundary& boundary = geometry.graph().boundary();
   double largest = 0;
-  for (int edge = 0; edge < boundary.edge_count(); ++edge) {
+  for (FaceIndex edge{0}; edge < boundary.edge_count(); ++edge) {
     for (int i = 0; i <= kTries; ++i) {
       const double place =
           boundary.begin(edge) + (boundary.end(edge) - boundary.begin(edge)) * i / kTries;
@@ -53,7 +53,8 @@ double LargestSwitchByTrying(SetGeometry& geometry, int from, int to) {
   return largest;
 }
 
-void ExpectCommonContact(SetGeometry& geometry, const ContourSwitch& found, int from, int to) {
+void ExpectCommonContact(SetGeometry& geometry, const ContourSwitch& found, sets::SetIndex from,
+                         sets::SetIndex to) {
   const ContourGraph& graph = geometry.graph();
   EXPECT_EQ(graph.set_of(found.before.piece), from);
   EXPECT_EQ(graph.set_of(found.after.piece), to);
@@ -102,8 +103,8 @@ TEST(ContourSwitch, AWideOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
     const ContourGraph graph(polygon, Radians(15));
     SetGeometry geometry(graph);
     const PlacedScore size = [&](const PlacedGrasp& grasp) { return geometry.SizeAt(grasp); };
-    for (int a = 0; a < graph.vertex_count(); ++a) {
-      for (int b = a + 1; b < graph.vertex_count(); ++b) {
+    for (sets::SetIndex a{0}; a < graph.vertex_count(); ++a) {
+      for (sets::SetIndex b(a + 1); b < graph.vertex_count(); ++b) {
         SCOPED_TRACE(name + ", sets " + std::to_string(a) + " and " + std::to_string(b));
         const bool is_joined = std::ranges::binary_search(graph.switches(), std::array{a, b});
         const auto found = FindMaxMarginSwitch(geometry, a, b, size);
@@ -172,7 +173,7 @@ TEST(AlignRoute, StaysInTheSetAndTurnsOneCornerAtATime) {
     const ContourGraph graph(polygon, Radians(20));
     SetGeometry geometry(graph);
     RandomStream random(11, RandomUse::kStart);
-    for (int set = 0; set < graph.vertex_count(); ++set) {
+    for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
       for (int i = 0; i < 3; ++i) {
         const auto from = geometry.Draw(set, random);
         const auto to = geometry.Draw(set, random);
@@ -198,13 +199,11 @@ TEST(AlignRoute, TakesTheShortPathAroundADisc) {
   const ContourGraph graph(disc, Radians(15));
   SetGeometry geometry(graph);
   const Boundary& boundary = graph.boundary();
+  const auto middle = [&](FaceIndex edge) {
+    return boundary.ContactAt(edge, (boundary.begin(edge) + boundary.end(edge)) / 2);
+  };
   const auto opposite = [&](int edge) {
-    const grasp::Grasp grasp = {
-        boundary.ContactAt(edge, (boundary.begin(edge) + boundary.end(edge)) / 2),
-        boundary.ContactAt(
-            (edge + 12) % 24,
-            (boundary.begin((edge + 12) % 24) + boundary.end((edge + 12) % 24)) / 2)};
-    return *geometry.Locate(grasp);
+    return *geometry.Locate({middle(FaceIndex(edge)), middle(FaceIndex((edge + 12) % 24))});
   };
   // Two edges on for both fingers, or the same two fingers the other way round ten edges on.
   const auto route = FindAlignRoute(geometry, opposite(11), opposite(1));

@@ -34,9 +34,11 @@ TEST(ContourDeadline, EveryStageOfTheGraphLooksAtItForEachThingThatItGoesThrough
   static_cast<void>(FindPassages(edges, boundary, pieces, of_passages.deadline()));
   EXPECT_EQ(of_passages.looks(), std::ssize(pieces));
   const int count = static_cast<int>(pieces.size());
-  std::vector<int> numbers(pieces.size());
-  for (int i = 0; i < count; ++i) numbers[i] = i;
-  const auto one_by_one = [&](int set) { return std::span<const int>(&numbers[set], 1); };
+  std::vector<PieceIndex> numbers(pieces.size());
+  for (PieceIndex i{0}; i < count; ++i) numbers[i] = i;
+  const auto one_by_one = [&](sets::SetIndex set) {
+    return std::span<const PieceIndex>(&numbers[set], 1);
+  };
   static_cast<void>(
       FindOverlaps(edges, boundary, pieces, count, one_by_one, of_overlaps.deadline()));
   // Each projects on both of its edges, which begins and ends.

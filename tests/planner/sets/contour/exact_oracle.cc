@@ -46,7 +46,7 @@ bool Overlap(const Range& a, const Range& b) {
 }
 
 struct Piece {
-  std::array<int, 2> edges;
+  std::array<FaceIndex, 2> edges;
   bool stretching = false;
   bool covers = false;           ///< closed, it is the whole rectangle
   bool touches_a_line = false;   ///< a corner of the rectangle is on a cone's border, in doubles
@@ -55,7 +55,7 @@ struct Piece {
 };
 
 Piece MakePiece(int e, int f, bool stretching, const Edge& a, const Edge& b, const Region& region) {
-  Piece piece = {{e, f}, stretching, false, false, {}, {}};
+  Piece piece = {{FaceIndex(e), FaceIndex(f)}, stretching, false, false, {}, {}};
   for (const exact::Corner<Number>& corner : region) {
     for (int k = 0; k < 2; ++k) {
       piece.contact[k].Include(corner[k]);
@@ -248,9 +248,9 @@ OracleCounts CompareWithRationals(const object::Polygon& polygon, const ContourG
     }
     CompareSets("passages", passages, oracle.passages, out);
     std::vector<int> first(graph.vertex_count(), -1);
-    for (int p = counts.pieces - 1; p >= 0; --p) first[graph.set_of(p)] = p;
+    for (int p = counts.pieces - 1; p >= 0; --p) first[graph.set_of(PieceIndex(p))] = p;
     for (int p = 0; p < counts.pieces; ++p) {
-      if (first[graph.set_of(p)] != oracle.root[p]) {
+      if (first[graph.set_of(PieceIndex(p))] != oracle.root[p]) {
         out << "piece " << Text(oracle.pieces[p]) << " is in another set\n";
       }
     }

@@ -11,8 +11,9 @@ namespace {
 
 /// Calls work(piece, k) for the pieces of a set whose k-th edge is `edge`.
 template <class Work>
-void ForEachPieceOn(const ContourGraph& graph, int set, int edge, const Work& work) {
-  for (const int piece : graph.pieces_of(set)) {
+void ForEachPieceOn(const ContourGraph& graph, sets::SetIndex set, FaceIndex edge,
+                    const Work& work) {
+  for (const PieceIndex piece : graph.pieces_of(set)) {
     for (const int k : {0, 1}) {
       if (graph.pieces()[piece].edges[k] == edge) work(piece, k);
     }
@@ -41,7 +42,7 @@ double SizeOn(const DiagramEdge& edge, double share) {
 
 HeldContact::Sampled HeldContact::Sample(int samples) const {
   Sampled sampled;
-  ForEachPieceOn(geometry_.graph(), set_, edge_, [&](int piece, int k) {
+  ForEachPieceOn(geometry_.graph(), set_, edge_, [&](PieceIndex piece, int k) {
     const auto section = SectionOf(geometry_.OutlineOf(piece), k, at_);
     if (!section) return;
     const double step = (section->high - section->low) / samples;
@@ -59,7 +60,7 @@ HeldContact::Sampled HeldContact::Sample(int samples) const {
 double HeldContact::ByDiagram() const {
   double best = 0;
   const std::vector<DiagramEdge>& diagram = geometry_.DiagramOf(set_);
-  ForEachPieceOn(geometry_.graph(), set_, edge_, [&](int piece, int k) {
+  ForEachPieceOn(geometry_.graph(), set_, edge_, [&](PieceIndex piece, int k) {
     for (const DiagramEdge& edge : diagram) {
       if (edge.piece != piece) continue;
       const auto [low, high] = std::minmax(edge.from[k], edge.to[k]);

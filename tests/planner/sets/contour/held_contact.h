@@ -23,7 +23,7 @@ struct Section {
 class HeldContact {
  public:
   /// `geometry` must outlive this object.
-  HeldContact(SetGeometry& geometry, int set, int edge, double at)
+  HeldContact(SetGeometry& geometry, sets::SetIndex set, FaceIndex edge, double at)
       : geometry_(geometry), set_(set), edge_(edge), at_(at) {}
 
   /// The largest half-width of samples of every piece, and how far apart these are: sizes change by
@@ -39,8 +39,8 @@ class HeldContact {
 
  private:
   SetGeometry& geometry_;
-  int set_;
-  int edge_;
+  sets::SetIndex set_;
+  FaceIndex edge_;
   double at_;
 };
 

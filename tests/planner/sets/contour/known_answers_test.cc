@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double LargestSize(const ContourGraph& graph, int set) {
+double LargestSize(const ContourGraph& graph, sets::SetIndex set) {
   double largest = 0;
   for (const DiagramEdge& edge : RegionMetric(graph, set).MakeDiagram()) {
     largest = std::max({largest, edge.from_size, edge.to_size});
@@ -90,7 +90,7 @@ TEST(ContourKnownAnswers, TheLargestSquareBetweenParallelSides) {
   const double tangent = std::tan(Radians(10));
   ASSERT_EQ(graph.vertex_count(), 2);
   constexpr double kTolerance = 1e-10;  // lengths of the diagram are rounded to 1e-12 perimeters
-  for (int set = 0; set < 2; ++set) {
+  for (sets::SetIndex set{0}; set < 2; ++set) {
     EXPECT_NEAR(LargestSize(graph, set), 2 * tangent, kTolerance);
     const GraspPiece& piece = graph.pieces()[graph.pieces_of(set).front()];
     const Vector2d origin(graph.boundary().begin(piece.edges[0]),
@@ -104,7 +104,7 @@ TEST(ContourKnownAnswers, TheLargestSquareBetweenParallelSides) {
 
 /// Of ends of border segments: one point modulo the periods and the symmetry of contact space.
 bool SamePlace(const Boundary& boundary, Vector2d a, Vector2d b) {
-  const double period = boundary.perimeter(0);
+  const double period = boundary.perimeter(RingIndex(0));
   const auto near = [&](double x, double y) {
     constexpr double kTolerance = 1e-9;
     return std::abs(std::remainder(x - y, period)) < kTolerance * period;
@@ -113,7 +113,7 @@ bool SamePlace(const Boundary& boundary, Vector2d a, Vector2d b) {
 }
 
 /// The closed curves that bound a set of a polygon without holes.
-int CurvesOf(const ContourGraph& graph, int set) {
+int CurvesOf(const ContourGraph& graph, sets::SetIndex set) {
   const std::vector<BorderSegment> border = SetBorder(graph, set);
   const int count = static_cast<int>(border.size());
   std::vector<std::array<int, 2>> joined;
@@ -128,9 +128,7 @@ int CurvesOf(const ContourGraph& graph, int set) {
       }
     }
   }
-  return search::FindComponents(count, static_cast<int>(joined.size()),
-                                [&](int group) { return std::span<const int>(joined[group]); })
-      .count();
+  return search::ComponentsOfEdges(count, joined).count();
 }
 
 TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
@@ -143,9 +141,10 @@ TEST(ContourKnownAnswers, ADiscIsOneMoebiusBandWhoseWidthIsTheFrictionAngle) {
     EXPECT_EQ(std::ssize(graph.switches()), 0);
     EXPECT_EQ(graph.components().count(), 1);
     // A band that closes with a half turn has one border; an ordinary one would have two.
-    EXPECT_EQ(CurvesOf(graph, 0), 1);
+    EXPECT_EQ(CurvesOf(graph, sets::SetIndex(0)), 1);
     // On a circle of radius R: |y − x − πR| < 2 R θ.
-    EXPECT_NEAR(LargestSize(graph, 0), Radians(degrees), disc.face_measure(FaceIndex(0)));
+    EXPECT_NEAR(LargestSize(graph, sets::SetIndex(0)), Radians(degrees),
+                disc.face_measure(FaceIndex(0)));
   }
 }
 
@@ -164,7 +163,7 @@ TEST(ContourKnownAnswers, AnAnnulusIsSqueezedAcrossItsRingAndStretchedInsideItsH
     // From the sine rule in the triangle of the centre and the two contacts.
     const double turn = angle - std::asin(kInner * std::sin(angle) / kOuter);
     std::set<std::tuple<int, int, bool>> kinds;
-    for (int set = 0; set < 3; ++set) {
+    for (sets::SetIndex set{0}; set < 3; ++set) {
       const GraspPiece& piece = graph.pieces()[graph.pieces_of(set).front()];
       const int a = graph.boundary().ring_of(piece.edges[0]);
       const int b = graph.boundary().ring_of(piece.edges[1]);

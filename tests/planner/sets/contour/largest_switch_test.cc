@@ -14,11 +14,11 @@ namespace regrasp::contour {
 namespace {
 
 /// The largest smaller size of a switch between two sets, by samples along all edges.
-double SampledSwitchSize(SetGeometry& geometry, int v, int w, int samples_of_edge,
-                         int samples_of_section) {
+double SampledSwitchSize(SetGeometry& geometry, sets::SetIndex v, sets::SetIndex w,
+                         int samples_of_edge, int samples_of_section) {
   const Boundary& boundary = geometry.graph().boundary();
   double best = 0;
-  for (int edge = 0; edge < boundary.edge_count(); ++edge) {
+  for (FaceIndex edge{0}; edge < boundary.edge_count(); ++edge) {
     for (int i = 0; i < samples_of_edge; ++i) {
       const double share = (i + 0.5) / samples_of_edge;
       const double at = (1 - share) * boundary.begin(edge) + share * boundary.end(edge);

@@ -128,10 +128,10 @@ TEST(ContourLaws, NoGraspIsLostWithMoreFrictionAndSetsOnlyMerge) {
       const ContourGraph less(polygon, Radians(kAngles[k]));
       const ContourGraph more(polygon, Radians(kAngles[k + 1]));
       std::map<int, int> merged;
-      for (int p = 0; p < static_cast<int>(less.pieces().size()); ++p) {
+      for (PieceIndex p{0}; p < std::ssize(less.pieces()); ++p) {
         const GraspPiece& piece = less.pieces()[p];
         int found = -1;
-        for (const int q : more.PiecesOn(piece.edges[1], piece.edges[0])) {
+        for (const PieceIndex q : more.PiecesOn(piece.edges[1], piece.edges[0])) {
           if (more.pieces()[q].stretching == piece.stretching) found = more.set_of(q);
         }
         ASSERT_GE(found, 0) << "piece " << p << " is lost";
@@ -167,7 +167,7 @@ TEST(ContourLaws, NeighboursAreMutualSortedAndThoseOfTheSwitches) {
       EXPECT_TRUE(std::is_sorted(graph.switches().begin(), graph.switches().end()));
       std::set<std::array<int, 2>> found;
       std::vector<int> neighbours;
-      for (int v = 0; v < graph.vertex_count(); ++v) {
+      for (sets::SetIndex v{0}; v < graph.vertex_count(); ++v) {
         graph.GetNeighbours(v, neighbours);
         EXPECT_TRUE(std::is_sorted(neighbours.begin(), neighbours.end()));
         for (const int w : neighbours) {
@@ -190,9 +190,9 @@ TEST(ContourLaws, PiecesAreFoundInAnyOrderOfTheirEdges) {
   const object::Polygon& blob = TwelveEdgePolygons()[4].polygon;
   const ContourGraph graph(blob, Radians(50));
   int found = 0;
-  for (int a = 0; a < blob.face_count(); ++a) {
+  for (FaceIndex a{0}; a < blob.face_count(); ++a) {
     EXPECT_TRUE(graph.PiecesOn(a, a).empty());
-    for (int b = 0; b < a; ++b) {
+    for (FaceIndex b{0}; b < a; ++b) {
       EXPECT_EQ(graph.PiecesOn(a, b), graph.PiecesOn(b, a));
       found += static_cast<int>(graph.PiecesOn(a, b).size());
     }

@@ -74,10 +74,10 @@ std::vector<std::array<grasp::Grasp, 2>> SwitchGrasps(const plan::Plan& plan) {
 }
 
 /// The sets that a plan passes.
-std::vector<int> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) {
+std::vector<sets::SetIndex> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) {
   const ContourGraph graph(polygon, plan.half_angle);
   const SetGeometry geometry(graph);
-  std::vector<int> sets;
+  std::vector<sets::SetIndex> sets;
   for (const auto& grasps : SwitchGrasps(plan)) {
     for (const grasp::Grasp& grasp : grasps) {
       sets.push_back(graph.set_of(geometry.Locate(grasp)->piece));
@@ -88,11 +88,11 @@ std::vector<int> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) 
 
 /// The contact a length along the boundary farther.
 grasp::Contact Moved(const Boundary& boundary, const grasp::Contact& contact, double by) {
-  const int ring = boundary.ring_of(contact.face);
+  const RingIndex ring = boundary.ring_of(contact.face);
   double place = std::fmod(boundary.PlaceOf(contact) + by, boundary.perimeter(ring));
   if (place < 0) place += boundary.perimeter(ring);
-  int edge = boundary.first_edge(ring);
-  while (edge + 1 < boundary.first_edge(ring + 1) && place > boundary.end(edge)) ++edge;
+  FaceIndex edge = boundary.first_edge(ring);
+  while (edge + 1 < boundary.end_edge(ring) && place > boundary.end(edge)) ++edge;
   return boundary.ContactAt(edge, place);
 }
 
@@ -224,8 +224,8 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
       SetGeometry geometry(graph);
       const search::Components components = graph.components();
       RandomStream random(3, RandomUse::kGoal);
-      for (int a = 0; a < graph.vertex_count(); ++a) {
-        for (int b = 0; b < std::min(graph.vertex_count(), 6); ++b) {
+      for (sets::SetIndex a{0}; a < graph.vertex_count(); ++a) {
+        for (sets::SetIndex b{0}; b < std::min(graph.vertex_count(), 6); ++b) {
           const auto start = geometry.Draw(a, random);
           const auto goal = geometry.Draw(b, random);
           if (!start || !goal) continue;

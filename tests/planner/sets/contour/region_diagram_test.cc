@@ -43,9 +43,9 @@ TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
       [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
         const SquareOracle oracle(polygon, half_angle);
         const double tolerance = SizeToleranceOf(polygon);
-        for (int set = 0; set < graph.vertex_count(); ++set) {
+        for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
           const RegionMetric metric(graph, set);
-          for (const int piece : graph.pieces_of(set)) {
+          for (const PieceIndex piece : graph.pieces_of(set)) {
             const std::vector<Vector2d> outline = PieceOutline(graph, piece);
             ASSERT_FALSE(outline.empty());
             for (int k = 0; k < kPoints; ++k, ++points) {
@@ -54,7 +54,7 @@ TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
               EXPECT_NEAR(size, oracle.SizeAt(graph, piece, p), tolerance)
                   << "piece " << piece << " at " << p.transpose();
               const Boundary& boundary = graph.boundary();
-              const int edge = graph.pieces()[piece].edges[0];
+              const FaceIndex edge = graph.pieces()[piece].edges[0];
               if (p.x() + size > boundary.end(edge) || p.x() - size < boundary.begin(edge)) {
                 ++beyond_a_piece;
               }
@@ -82,7 +82,7 @@ TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
       [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
         const SquareOracle oracle(polygon, half_angle);
         const double tolerance = SizeToleranceOf(polygon);
-        for (int set = 0; set < graph.vertex_count(); ++set) {
+        for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
           const RegionMetric metric(graph, set);
           for (const DiagramEdge& edge : metric.MakeDiagram()) {
             EXPECT_EQ(graph.set_of(edge.piece), set);
@@ -108,7 +108,7 @@ TEST(RegionDiagram, HoldsTheBestGraspWithOneContactHeld) {
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
     SetGeometry geometry(graph);
     const double tolerance = SizeToleranceOf(polygon);
-    for (int piece = 0; piece < static_cast<int>(graph.pieces().size()); ++piece) {
+    for (PieceIndex piece{0}; piece < std::ssize(graph.pieces()); ++piece) {
       for (const int k : {0, 1}) {
         const auto range = geometry.RangeOf(piece, k);
         ASSERT_TRUE(range);
@@ -138,11 +138,11 @@ TEST(RegionDiagram, ItsLargestSquareIsThatOfAGridOfTheSet) {
   constexpr int kSteps = 16;  // on either axis of every piece
   int sets = 0;
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph, double) {
-    for (int set = 0; set < graph.vertex_count(); ++set, ++sets) {
+    for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set, ++sets) {
       const RegionMetric metric(graph, set);
       double best = 0;
       double spacing = 0;
-      for (const int piece : graph.pieces_of(set)) {
+      for (const PieceIndex piece : graph.pieces_of(set)) {
         const std::vector<Vector2d> outline = PieceOutline(graph, piece);
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
@@ -177,15 +177,16 @@ TEST(RegionDiagram, OfLessFrictionDoesNotHoldTheBestGrasp) {
   SetGeometry geometry_of_less(less);
   SetGeometry geometry_of_more(more);
   const double at = disc.face_measure(FaceIndex(0)) / 3;
-  EXPECT_LT(HeldContact(geometry_of_less, 0, 0, at).ByDiagram(),
-            HeldContact(geometry_of_more, 0, 0, at).Sample(kSamples).best);
+  EXPECT_LT(
+      HeldContact(geometry_of_less, sets::SetIndex(0), FaceIndex(0), at).ByDiagram(),
+      HeldContact(geometry_of_more, sets::SetIndex(0), FaceIndex(0), at).Sample(kSamples).best);
 }
 
 TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
   const auto largest_sizes = [](const object::Polygon& polygon, double half_angle) {
     const ContourGraph graph(polygon, half_angle);
     std::vector<double> sizes;
-    for (int set = 0; set < graph.vertex_count(); ++set) {
+    for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
       sizes.push_back(LargestSize(RegionMetric(graph, set).MakeDiagram()));
     }
     std::sort(sizes.begin(), sizes.end());

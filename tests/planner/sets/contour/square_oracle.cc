@@ -74,7 +74,7 @@ double SquareOracle::SizeAt(int ring_a, double x, int ring_b, double y) const {
   return low;
 }
 
-double SquareOracle::SizeAt(const ContourGraph& graph, int piece,
+double SquareOracle::SizeAt(const ContourGraph& graph, PieceIndex piece,
                             const Eigen::Vector2d& places) const {
   const auto& edges = graph.pieces()[piece].edges;
   return SizeAt(graph.boundary().ring_of(edges[0]), places.x(), graph.boundary().ring_of(edges[1]),

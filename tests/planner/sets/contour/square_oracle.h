@@ -22,7 +22,7 @@ class SquareOracle {
   [[nodiscard]] double SizeAt(int ring_a, double x, int ring_b, double y) const;
 
   /// The same about a point of a piece's rectangle.
-  [[nodiscard]] double SizeAt(const ContourGraph& graph, int piece,
+  [[nodiscard]] double SizeAt(const ContourGraph& graph, PieceIndex piece,
                               const Eigen::Vector2d& places) const;
 
  private:

@@ -14,9 +14,8 @@ namespace {
 grasp::Grasp GraspAt(const object::Polygon& polygon, const GraspSet& set,
                      const Eigen::VectorXd& parameters) {
   grasp::Grasp grasp;
-  for (const int edge : set.edges) {
-    grasp.push_back(
-        grasp::ContactAt(polygon, FaceIndex(edge), parameters[static_cast<int>(grasp.size())]));
+  for (const FaceIndex edge : set.edges) {
+    grasp.push_back(grasp::ContactAt(polygon, edge, parameters[static_cast<int>(grasp.size())]));
   }
   return grasp;
 }
@@ -49,7 +48,7 @@ void CheckAligns(const object::Polygon& polygon, double degrees, std::uint64_t s
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   RandomStream random(seed, RandomUse::kStart);
-  for (int vertex = 0; vertex < graph.vertex_count(); ++vertex) {
+  for (sets::SetIndex vertex{0}; vertex < graph.vertex_count(); ++vertex) {
     const GraspSet& set = graph.sets()[vertex];
     const grasp::Grasp from = cells.GraspOf(*cells.Draw(vertex, random));
     const grasp::Grasp to = cells.GraspOf(*cells.Draw(vertex, random));
@@ -86,7 +85,7 @@ TEST(AlignPath, KeepsForceClosureBetweenRandomGraspsOfASet) {
 TEST(AlignPath, LeadsNowhereFromAGraspOutsideTheSet) {
   const object::Polygon square = Square(1);
   const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
-  const GraspSet& set = graph.sets()[graph.SetsOn({0, 2}).front()];
+  const GraspSet& set = graph.sets()[graph.SetsOn(Edges({0, 2})).front()];
   const SetCells cells(square, set);
   // Edge 2 runs from the right to the left.
   const Eigen::Vector2d upright(0.5, 0.5);

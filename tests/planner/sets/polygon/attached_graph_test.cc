@@ -13,6 +13,10 @@
 namespace regrasp::polygon {
 namespace {
 
+sets::GraspEnds Ends(const std::vector<int>& of_itself, const std::vector<int>& by_switch) {
+  return {{of_itself.begin(), of_itself.end()}, {by_switch.begin(), by_switch.end()}};
+}
+
 std::vector<int> Neighbours(const search::SwitchingGraph& graph, int vertex) {
   std::vector<int> neighbours;
   graph.GetNeighbours(vertex, neighbours);
@@ -39,7 +43,7 @@ class AttachedBlob : public testing::Test {
 
 TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
   banned_ = {{0, Neighbours(graph_, 0).front()}};
-  const sets::AttachedGraph graph(graph_, {{0}, {1, 2}}, {{2, 3}, {}}, banned_);
+  const sets::AttachedGraph graph(graph_, Ends({0}, {1, 2}), Ends({2, 3}, {}), banned_);
   int edges = 0;
   for (int v = 0; v < graph.vertex_count(); ++v) {
     const std::vector<int> neighbours = Neighbours(graph, v);
@@ -61,27 +65,27 @@ TEST_F(AttachedBlob, NeighboursAreMutualAndDistinct) {
 }
 
 TEST_F(AttachedBlob, AGraspIsOneSwitchFartherFromSetsThatItHasToSwitchTo) {
-  EXPECT_EQ(Switches({{0}, {}}, {{0}, {}}), 2);
-  EXPECT_EQ(Switches({{}, {0}}, {{0}, {}}), 3);
-  EXPECT_EQ(Switches({{}, {0}}, {{}, {0}}), 4);
-  EXPECT_EQ(Switches({{0}, {0}}, {{0}, {}}), 2);
+  EXPECT_EQ(Switches(Ends({0}, {}), Ends({0}, {})), 2);
+  EXPECT_EQ(Switches(Ends({}, {0}), Ends({0}, {})), 3);
+  EXPECT_EQ(Switches(Ends({}, {0}), Ends({}, {0})), 4);
+  EXPECT_EQ(Switches(Ends({0}, {0}), Ends({0}, {})), 2);
 }
 
 TEST_F(AttachedBlob, BannedSwitchesAreNotTaken) {
   const int other = Neighbours(graph_, 0).front();
-  EXPECT_EQ(Switches({{0}, {}}, {{other}, {}}), 3);
+  EXPECT_EQ(Switches(Ends({0}, {}), Ends({other}, {})), 3);
   banned_ = {search::Unordered(other, 0)};
-  EXPECT_GT(Switches({{0}, {}}, {{other}, {}}), 3);
+  EXPECT_GT(Switches(Ends({0}, {}), Ends({other}, {})), 3);
   for (const int neighbour : Neighbours(graph_, 0)) banned_.insert(search::Unordered(0, neighbour));
-  EXPECT_FALSE(Switches({{0}, {}}, {{other}, {}}).has_value());
+  EXPECT_FALSE(Switches(Ends({0}, {}), Ends({other}, {})).has_value());
 }
 
 TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
   int longest = 0;
   for (int goal = 0; goal < graph_.vertex_count(); ++goal) {
-    const sets::AttachedGraph graph(graph_, {{0}, {}}, {{}, {goal}}, banned_);
+    const sets::AttachedGraph graph(graph_, Ends({0}, {}), Ends({}, {goal}), banned_);
     std::vector<int> path = sets::FindWidePath(graph, graph.start(), graph.goal(), [&](int vertex) {
-      return graph.IsSet(vertex) ? cells_.WidthOf(vertex) : 0;
+      return graph.IsSet(vertex) ? cells_.WidthOf(sets::SetIndex(vertex)) : 0;
     });
     std::erase_if(path, [&](int vertex) { return !graph.IsSet(vertex); });
     ASSERT_FALSE(path.empty());
@@ -97,7 +101,7 @@ TEST_F(AttachedBlob, PathsAreOfSetsThatAreJoined) {
 }
 
 TEST_F(AttachedBlob, ASetIsTheOnlyOneOfAnEndWhereNoOtherIsJoinedToIt) {
-  const sets::AttachedGraph graph(graph_, {{0}, {}}, {{1}, {2}}, banned_);
+  const sets::AttachedGraph graph(graph_, Ends({0}, {}), Ends({1}, {2}), banned_);
   EXPECT_TRUE(graph.IsOnlySetOfAnEnd(0));
   for (const int other : {1, 2, 3}) EXPECT_FALSE(graph.IsOnlySetOfAnEnd(other)) << other;
 }

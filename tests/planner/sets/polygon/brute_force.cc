@@ -156,8 +156,8 @@ void BruteForce::SearchMissing(int draws, int thirds) {
 }
 
 void BruteForce::DrawFor(int v, int w, int draws, int thirds) {
-  const std::vector<int>& a = graph_.sets()[v].edges;
-  const std::vector<int>& b = graph_.sets()[w].edges;
+  const std::vector<FaceIndex>& a = graph_.sets()[v].edges;
+  const std::vector<FaceIndex>& b = graph_.sets()[w].edges;
   std::vector<int> common;
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
   for (int s = 0; s < draws; ++s) {
@@ -165,7 +165,7 @@ void BruteForce::DrawFor(int v, int w, int draws, int thirds) {
       DrawThirds(Draw(common[0]), Draw(common[1]), thirds);
       continue;
     }
-    for (const std::vector<int>& edges : {a, b}) {
+    for (const auto& edges : {a, b}) {
       std::vector<Drawn> drawn;
       for (const int e : edges) drawn.push_back(Draw(e));
       Vertices(drawn);
@@ -242,7 +242,8 @@ void BruteForce::DrawFocusPoints(int points) {
 }
 
 void BruteForce::CheckFocusPoint(int vertex, const Eigen::Vector2d& x) {
-  const std::vector<int>& own = graph_.sets()[vertex].edges;
+  const std::vector<FaceIndex>& edges_of_set = graph_.sets()[vertex].edges;
+  const std::vector<int> own(edges_of_set.begin(), edges_of_set.end());
   std::vector<int> members;
   const auto add = [&](std::vector<int> edges) {
     std::sort(edges.begin(), edges.end());

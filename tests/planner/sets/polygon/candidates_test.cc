@@ -67,7 +67,7 @@ TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
       for (int i = 0; i < 17; ++i) {
         for (int j = i + 1; j < 17; ++j) {
           for (int k = j + 1; k < 17; ++k) {
-            const std::array<int, 3> triple = {i, j, k};
+            const EdgeTriple triple = {FaceIndex(i), FaceIndex(j), FaceIndex(k)};
             const double limit = SpanningLimit(
                 {NormalAngle(polygon, i), NormalAngle(polygon, j), NormalAngle(polygon, k)});
             const double needed = spanning == planning::Spanning::kUniform ? half_angle() : 0;
@@ -105,8 +105,9 @@ TEST_P(CandidatesTest, TwoFingerOnesAreThePairsOfNearlyOppositeNormals) {
       for (int j = i + 1; j < 23; ++j) {
         const double apart = Between(NormalAngle(polygon, i) + kPi, NormalAngle(polygon, j));
         if (std::abs(apart - 2 * half_angle()) < kTooClose) continue;
-        EXPECT_EQ(listed.contains({i, j}), apart < 2 * half_angle()) << i << ' ' << j;
-        found += listed.contains({i, j}) ? 1 : 0;
+        const TwoFingerCandidate pair = {FaceIndex(i), FaceIndex(j)};
+        EXPECT_EQ(listed.contains(pair), apart < 2 * half_angle()) << i << ' ' << j;
+        found += listed.contains(pair) ? 1 : 0;
       }
     }
   }
@@ -136,8 +137,8 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
     const object::Polygon polygon = Irregular(n, seed);
     const IntervalScope scope;
     const auto candidates = FindParallelCandidates(EdgeTable(polygon, std::tan(half_angle())));
-    std::set<std::array<int, 3>> triples;
-    std::set<std::pair<std::array<int, 3>, int>> listed;
+    std::set<EdgeTriple> triples;
+    std::set<std::pair<EdgeTriple, int>> listed;
     for (const ParallelCandidate& c : candidates) {
       EXPECT_TRUE(triples.insert(c.edges).second);
       for (const int centre : c.centres) EXPECT_TRUE(listed.insert({c.edges, centre}).second);
@@ -145,7 +146,7 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
         for (int k = j + 1; k < n; ++k) {
-          const std::array<int, 3> triple = {i, j, k};
+          const EdgeTriple triple = {FaceIndex(i), FaceIndex(j), FaceIndex(k)};
           for (int centre = 0; centre < 3; ++centre) {
             std::array<double, 3> axes;
             for (int m = 0; m < 3; ++m) {

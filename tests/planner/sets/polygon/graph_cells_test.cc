@@ -16,7 +16,7 @@ TEST(GraphCells, DrawsGraspsAllOverASet) {
   const object::Polygon square = Square(1);
   const PolygonGraph graph = MakeGraph(square, 40, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
-  const int vertex = graph.SetsOn({0, 2}).front();
+  const sets::SetIndex vertex = graph.SetsOn(Edges({0, 2})).front();
   RandomStream random(1, RandomUse::kStart);
   // Quarters of both edges that the contacts hit: all pairs but those that lean too far.
   std::set<std::pair<int, int>> hit;
@@ -36,7 +36,7 @@ TEST(GraphCells, DrawsTheSameGraspsFromTheSameSeed) {
   const auto draw = [&](std::uint64_t seed) {
     GraphCells cells(blob, graph);
     RandomStream random(seed, RandomUse::kStart);
-    return cells.GraspOf(*cells.Draw(0, random)).front().p;
+    return cells.GraspOf(*cells.Draw(sets::SetIndex(0), random)).front().p;
   };
   EXPECT_EQ(draw(1), draw(1));
   EXPECT_NE(draw(1), draw(2));
@@ -46,8 +46,8 @@ TEST(GraphCells, AttachWholeGraspsAndPartsOfThem) {
   const object::Polygon square = Square(1);
   const PolygonGraph graph = MakeGraph(square, 20, planning::Spanning::kAdaptive);
   GraphCells cells(square, graph);
-  const int upright = graph.SetsOn({0, 2}).front();
-  const int level = graph.SetsOn({1, 3}).front();
+  const sets::SetIndex upright = graph.SetsOn(Edges({0, 2})).front();
+  const sets::SetIndex level = graph.SetsOn(Edges({1, 3})).front();
   const auto attach = [&](const std::vector<std::pair<int, double>>& places) {
     return cells.FindAttachments(MakeGrasp(square, places));
   };
@@ -71,7 +71,7 @@ TEST(GraphCells, SwitchesOfItsOwnLeadAnyGraspThatAHandCanKeepToTheSets) {
   // Leans by 31°; another contact opposite either one makes a pair, or a new pair altogether.
   const grasp::Grasp leaning = MakeGrasp(square, {{0, 0.2}, {2, 0.2}});
   const std::vector<sets::Attachment<PolygonPlace>> found =
-      cells.FindSwitches(leaning, kPolygonFingers);
+      cells.FindSwitches(leaning, hand::kFingersInPlane);
   ASSERT_EQ(found.size(), 4U);
   std::set<int> vertices;
   for (const auto& attachment : found) {

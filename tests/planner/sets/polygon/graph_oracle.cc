@@ -74,12 +74,13 @@ bool ReachesEnd(const object::Polygon& polygon, const SetCell& cell) {
 }
 
 struct Vertex {
-  std::vector<int> edges;
+  std::vector<FaceIndex> edges;
   std::vector<int> parts;
   auto operator<=>(const Vertex&) const = default;
 };
 
-std::string Text(const std::vector<int>& values) {
+template <class Number>
+std::string Text(const std::vector<Number>& values) {
   std::ostringstream out;
   for (const int v : values) out << ' ' << v;
   return out.str();
@@ -106,7 +107,7 @@ OracleCount CompareWithSetOperations(const object::Polygon& polygon, const Polyg
   std::vector<SetCandidate> candidates = spanning == planning::Spanning::kUniform
                                              ? FindUniformCandidates(polygon, half_angle)
                                              : FindAdaptiveCandidates(polygon, half_angle);
-  std::map<std::vector<int>, double> tangents;
+  std::map<std::vector<FaceIndex>, double> tangents;
   for (const SetCandidate& c : candidates) tangents[{c.edges.begin(), c.edges.end()}] = c.tangent;
   for (const GraspSet& set : graph.sets()) {
     if (set.type != GraspType::kConcurrent || !tangents.contains(set.edges)) continue;
@@ -125,9 +126,9 @@ OracleCount CompareWithSetOperations(const object::Polygon& polygon, const Polyg
 
   const std::vector<SetCell> cells = FindSetCells(polygon, candidates, kFarthestReach);
   std::map<Vertex, int> cell_of;
-  std::map<std::vector<int>, int> components;
+  std::map<std::vector<FaceIndex>, int> components;
   for (const SetCell& cell : cells) {
-    const std::vector<int> edges(cell.edges.begin(), cell.edges.end());
+    const std::vector<FaceIndex> edges(cell.edges.begin(), cell.edges.end());
     cell_of[{edges, PartsOf(polygon, cell)}] = static_cast<int>(&cell - cells.data());
     if (++components[edges] == 2) ++count.several;
     if (ReachesEnd(polygon, cell)) {

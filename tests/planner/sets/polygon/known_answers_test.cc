@@ -204,7 +204,7 @@ TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
   const PolygonGraph graph = MakeGraph(fork, 10, planning::Spanning::kUniform);
   const auto parts = [&](int a, int b) {
     std::vector<int> found;
-    for (const int v : graph.SetsOn({a, b})) {
+    for (const sets::SetIndex v : graph.SetsOn(Edges({a, b}))) {
       for (const int part : graph.sets()[v].parts) found.push_back(part);
     }
     return found;
@@ -218,7 +218,7 @@ TEST(KnownAnswers, AForkIsSqueezedAndStretched) {
   EXPECT_EQ(parts(0, 6), std::vector<int>{0});
   EXPECT_EQ(graph.counts(kF).vertices, 7);
   // The right outer side and the slot's left one have the same normal.
-  EXPECT_TRUE(graph.SetsOn({1, 5}).empty());
+  EXPECT_TRUE(graph.SetsOn(Edges({1, 5})).empty());
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ TEST(GraphLaws, NothingIsLostWhenFrictionGrowsUnderAdaptiveSpanning) {
         const PolygonGraph more = MakeGraph(polygon, degrees + 7, spanning);
         for (const GraspSet& set : less.sets()) {
           for (const int part : set.parts) {
-            const std::vector<int> there = more.SetsOn(set.edges);
-            const bool kept = std::any_of(there.begin(), there.end(), [&](int v) {
+            const std::vector<sets::SetIndex> there = more.SetsOn(set.edges);
+            const bool kept = std::any_of(there.begin(), there.end(), [&](sets::SetIndex v) {
               const GraspSet& other = more.sets()[v];
               return other.type == set.type &&
                      std::count(other.parts.begin(), other.parts.end(), part) == 1;

@@ -13,7 +13,7 @@
 namespace regrasp::polygon {
 namespace {
 
-using Triple = std::array<int, 3>;
+using Triple = EdgeTriple;
 using Parameters = std::array<double, 3>;
 
 /// Whether three contacts on a triple of edges are parallel with a given centre, from the

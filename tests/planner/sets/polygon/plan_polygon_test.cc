@@ -28,8 +28,9 @@ std::map<GraspType, grasp::Grasp> DrawEveryType(const object::Polygon& polygon, 
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   RandomStream random(seed, RandomUse::kStart);
-  std::map<GraspType, std::vector<int>> vertices;
-  for (int v = 0; v < graph.vertex_count(); ++v) vertices[graph.sets()[v].type].push_back(v);
+  std::map<GraspType, std::vector<sets::SetIndex>> vertices;
+  for (sets::SetIndex v{0}; v < graph.vertex_count(); ++v)
+    vertices[graph.sets()[v].type].push_back(v);
   std::map<GraspType, grasp::Grasp> grasps;
   for (const auto& [type, all] : vertices) {
     // A set that is too thin for doubles gives no grasp.
@@ -228,17 +229,17 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
   GraphCells cells(polygon, graph);
   RandomStream random(1, RandomUse::kStart);
   int apart = 0;
-  for (int v = 0; v < graph.vertex_count(); ++v) {
+  for (sets::SetIndex v{0}; v < graph.vertex_count(); ++v) {
     if (components.of_vertex[v] == components.of_vertex[0]) continue;
     const grasp::Grasp start = cells.GraspOf(*cells.Draw(v, random));
-    const grasp::Grasp goal = cells.GraspOf(*cells.Draw(0, random));
+    const grasp::Grasp goal = cells.GraspOf(*cells.Draw(sets::SetIndex(0), random));
     if (AreJoined(polygon, kDegrees, start, goal)) continue;
     const planning::PlanResult result =
         PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), RequestAt(kDegrees));
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_FALSE(result.plan.has_value());
     EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns"));
-    for (const int vertex : {v, 0}) {
+    for (const sets::SetIndex vertex : {v, sets::SetIndex(0)}) {
       const int size = components.sizes[components.of_vertex[vertex]];
       EXPECT_THAT(result.message, HasSubstr(std::to_string(size)));
     }

@@ -41,7 +41,7 @@ struct Agreement {
 
 void Compare(const PolygonGraph& graph, const object::Polygon& polygon, const Draw& draw,
              const std::vector<DirectKind>& kinds, Agreement& count) {
-  for (const int vertex : graph.SetsOn(draw.edges)) {
+  for (const sets::SetIndex vertex : graph.SetsOn(Edges(draw.edges))) {
     const GraspSet& set = graph.sets()[vertex];
     std::vector<DirectKind> fitting = kinds;
     std::erase_if(fitting, [&](const DirectKind& kind) {
@@ -130,7 +130,7 @@ TEST(SetCells, MeasureSlackInDiametersAtAnyScale) {
   for (const double size : {1.0, 1000.0}) {
     const object::Polygon square = Square(size);
     const PolygonGraph graph = MakeGraph(square, 45, planning::Spanning::kAdaptive);
-    const std::vector<int> vertices = graph.SetsOn({0, 2});
+    const std::vector<sets::SetIndex> vertices = graph.SetsOn(Edges({0, 2}));
     ASSERT_EQ(vertices.size(), 1U);
     const SetCells cells(square, graph.sets()[vertices.front()]);
     ASSERT_EQ(cells.cells().size(), 1U);

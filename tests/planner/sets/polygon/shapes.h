@@ -11,6 +11,11 @@ inline PolygonGraph MakeGraph(const object::Polygon& polygon, double degrees,
   return PolygonGraph(polygon, Radians(degrees), spanning);
 }
 
+/// Edges of a polygon by their numbers.
+[[nodiscard]] inline std::vector<FaceIndex> Edges(const std::vector<int>& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
 [[nodiscard]] inline const char* Name(planning::Spanning spanning) {
   return spanning == planning::Spanning::kUniform ? "uniform" : "adaptive";
 }

@@ -13,8 +13,8 @@
 namespace regrasp::polygon {
 namespace {
 
-std::vector<int> CommonEdges(const GraspSet& a, const GraspSet& b) {
-  std::vector<int> common;
+std::vector<FaceIndex> CommonEdges(const GraspSet& a, const GraspSet& b) {
+  std::vector<FaceIndex> common;
   std::set_intersection(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
                         std::back_inserter(common));
   return common;
@@ -25,10 +25,10 @@ void ExpectFeasible(const SwitchSide& from, const SwitchSide& to, const SwitchPo
   EXPECT_TRUE(IsInSet(*from.cells, point.before));
   EXPECT_TRUE(IsInSet(*to.cells, point.after));
   EXPECT_LE(point.before.size() + point.after.size() - static_cast<int>(point.kept.size()),
-            kPolygonFingers);
-  for (const int edge : point.kept) {
+            hand::kFingersInPlane);
+  for (const FaceIndex edge : point.kept) {
     const auto parameter = [&](const SwitchSide& side, const Eigen::VectorXd& parameters) {
-      const std::vector<int>& edges = side.set->edges;
+      const std::vector<FaceIndex>& edges = side.set->edges;
       return parameters[std::find(edges.begin(), edges.end(), edge) - edges.begin()];
     };
     EXPECT_EQ(parameter(from, point.before), parameter(to, point.after));
@@ -54,16 +54,16 @@ void CheckSwitches(const object::Polygon& polygon, double degrees, SwitchCount& 
   const PolygonGraph graph = MakeGraph(polygon, degrees, planning::Spanning::kAdaptive);
   GraphCells cells(polygon, graph);
   std::vector<int> neighbours;
-  for (int v = 0; v < graph.vertex_count(); ++v) {
+  for (sets::SetIndex v{0}; v < graph.vertex_count(); ++v) {
     graph.GetNeighbours(v, neighbours);
     const std::set<int> joined(neighbours.begin(), neighbours.end());
-    for (int w = 0; w < graph.vertex_count(); ++w) {
+    for (sets::SetIndex w{0}; w < graph.vertex_count(); ++w) {
       const GraspSet& a = graph.sets()[v];
       const GraspSet& b = graph.sets()[w];
       if (v == w || (!joined.contains(w) && !GraphDecides(a, b))) continue;
       const SwitchSide from = {&a, &cells.of(v), std::nullopt};
       const SwitchSide to = {&b, &cells.of(w), std::nullopt};
-      const std::vector<SwitchPoint> points = FindSwitchPoints(from, to, kPolygonFingers);
+      const std::vector<SwitchPoint> points = FindSwitchPoints(from, to, hand::kFingersInPlane);
       EXPECT_EQ(!points.empty(), joined.contains(w)) << "vertices " << v << " and " << w;
       for (const SwitchPoint& point : points) ExpectFeasible(from, to, point);
       if (points.empty()) {
@@ -94,7 +94,7 @@ class AcrossTheSquare : public testing::Test {
       : graph_(MakeGraph(square_, 30, planning::Spanning::kAdaptive)), cells_(square_, graph_) {}
 
   SwitchSide Side(const std::vector<int>& edges) {
-    const int vertex = graph_.SetsOn(edges).front();
+    const sets::SetIndex vertex = graph_.SetsOn(Edges(edges)).front();
     return {&graph_.sets()[vertex], &cells_.of(vertex), std::nullopt};
   }
 
@@ -105,7 +105,7 @@ class AcrossTheSquare : public testing::Test {
 
 TEST_F(AcrossTheSquare, PlacesTwoFingersAndReleasesTwo) {
   const std::vector<SwitchPoint> points =
-      FindSwitchPoints(Side({0, 2}), Side({1, 3}), kPolygonFingers);
+      FindSwitchPoints(Side({0, 2}), Side({1, 3}), hand::kFingersInPlane);
   ASSERT_EQ(points.size(), 1U);
   EXPECT_TRUE(points.front().kept.empty());
   // With three fingers there is nothing to keep.
@@ -115,11 +115,12 @@ TEST_F(AcrossTheSquare, PlacesTwoFingersAndReleasesTwo) {
 TEST_F(AcrossTheSquare, StartsFromTheGraspAtHand) {
   SwitchSide from = Side({0, 2});
   from.fixed = Eigen::Vector2d(0.25, 0.7);
-  const std::vector<SwitchPoint> points = FindSwitchPoints(from, Side({1, 3}), kPolygonFingers);
+  const std::vector<SwitchPoint> points =
+      FindSwitchPoints(from, Side({1, 3}), hand::kFingersInPlane);
   ASSERT_EQ(points.size(), 1U);
   EXPECT_EQ(points.front().before, *from.fixed);
   from.fixed = Eigen::Vector2d(0.1, 0.1);  // leans by more than 30°
-  EXPECT_TRUE(FindSwitchPoints(from, Side({1, 3}), kPolygonFingers).empty());
+  EXPECT_TRUE(FindSwitchPoints(from, Side({1, 3}), hand::kFingersInPlane).empty());
 }
 
 /// The larger the farther the contacts are from the beginnings of their edges.
@@ -130,7 +131,7 @@ double ScoreByPosition(const GraspSet&, const Eigen::VectorXd& parameters) {
 TEST_F(AcrossTheSquare, ImprovingRaisesTheScoreInsideTheSets) {
   const SwitchSide from = Side({0, 2});
   const SwitchSide to = Side({1, 3});
-  const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+  const SwitchPoint point = FindSwitchPoints(from, to, hand::kFingersInPlane).front();
   const SwitchPoint better = ImproveSwitch(from, to, point, ScoreByPosition);
   ExpectFeasible(from, to, better);
   EXPECT_NEAR(ScoreOf(from, to, point, ScoreByPosition), 0.5, 1e-9);
@@ -154,9 +155,9 @@ TEST(ImproveSwitch, MovesKeptContactsTogether) {
   for (int v = 0; v < graph.vertex_count(); v += 5) {
     graph.GetNeighbours(v, neighbours);
     for (const int w : neighbours) {
-      const SwitchSide from = {&graph.sets()[v], &cells.of(v), std::nullopt};
-      const SwitchSide to = {&graph.sets()[w], &cells.of(w), std::nullopt};
-      const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+      const SwitchSide from = {&graph.sets()[v], &cells.of(sets::SetIndex(v)), std::nullopt};
+      const SwitchSide to = {&graph.sets()[w], &cells.of(sets::SetIndex(w)), std::nullopt};
+      const SwitchPoint point = FindSwitchPoints(from, to, hand::kFingersInPlane).front();
       const SwitchPoint better = ImproveSwitch(from, to, point, ScoreByPosition);
       ExpectFeasible(from, to, better);
       EXPECT_EQ(better.kept, point.kept);
@@ -174,7 +175,7 @@ TEST(ImproveSwitch, MovesKeptContactsTogether) {
 TEST_F(AcrossTheSquare, ImprovingNeverLowersTheScoreAndEnds) {
   const SwitchSide from = Side({0, 2});
   const SwitchSide to = Side({1, 3});
-  const SwitchPoint point = FindSwitchPoints(from, to, kPolygonFingers).front();
+  const SwitchPoint point = FindSwitchPoints(from, to, hand::kFingersInPlane).front();
   for (const double constant : {-0.5, 0.0, 0.5}) {
     const GraspScore score = [&](const GraspSet&, const Eigen::VectorXd&) { return constant; };
     EXPECT_EQ(ImproveSwitch(from, to, point, score).before, point.before);

@@ -27,7 +27,7 @@ double HalfAngle() {
 /// The one vertex of a type on these edges; −1 where there is none.
 int VertexOn(const PolygonGraph& graph, GraspType type, const std::vector<int>& edges) {
   int found = -1;
-  for (const int v : graph.SetsOn(edges)) {
+  for (const sets::SetIndex v : graph.SetsOn(Edges(edges))) {
     if (graph.sets()[v].type != type) continue;
     EXPECT_EQ(found, -1);
     found = v;

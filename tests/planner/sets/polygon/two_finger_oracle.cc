@@ -56,7 +56,7 @@ TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const Polygo
   for (int e = 0; e < n; ++e) edges.push_back(exact::MakeEdge<Number>(polygon, e, tangent));
 
   // Cells of triples that fall apart are left out: which one is which is decided elsewhere.
-  std::map<std::vector<int>, double> tangents;
+  std::map<std::vector<FaceIndex>, double> tangents;
   for (const GraspSet& set : graph.sets()) {
     if (set.type == GraspType::kConcurrent) tangents[set.edges] = set.tangent;
   }
@@ -73,7 +73,7 @@ TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const Polygo
       for (const int part : {0, 1}) {
         const Region region = exact::TwoFingerRegion(edges[a], edges[b], part == 0 ? 1 : -1);
         std::vector<int> found;
-        for (const int v : graph.SetsOn({a, b})) {
+        for (const sets::SetIndex v : graph.SetsOn({FaceIndex(a), FaceIndex(b)})) {
           if (graph.sets()[v].parts == std::vector<int>{part}) found.push_back(v);
         }
         const bool has_interior = exact::TwiceArea(region) != 0;
@@ -85,8 +85,8 @@ TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const Polygo
         ++count.sets;
         graph.GetNeighbours(found[0], neighbours);
         for (const SetCell& cell : cells) {
-          const std::vector<int> triple(cell.edges.begin(), cell.edges.end());
-          const std::vector<int> vertices = graph.SetsOn(triple);
+          const std::vector<FaceIndex> triple(cell.edges.begin(), cell.edges.end());
+          const std::vector<sets::SetIndex> vertices = graph.SetsOn(triple);
           std::vector<int> concurrent;
           for (const int v : vertices) {
             if (graph.sets()[v].type == GraspType::kConcurrent) concurrent.push_back(v);

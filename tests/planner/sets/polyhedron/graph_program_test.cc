@@ -83,11 +83,11 @@ class GraphOracle {
 
   /// Sampled pairs of cells with three common faces.
   void CheckLinks(Count& count) {
-    const std::set<std::array<int, 2>> links(graph_.switches().begin(), graph_.switches().end());
-    std::vector<std::array<int, 2>> pairs;
+    const std::set<sets::SetPair> links(graph_.switches().begin(), graph_.switches().end());
+    std::vector<sets::SetPair> pairs;
     const auto& cells = graph_.cells();
-    for (int a = 0; a < graph_.vertex_count(); ++a) {
-      for (int b = a + 1; b < graph_.vertex_count(); ++b) {
+    for (sets::SetIndex a{0}; a < graph_.vertex_count(); ++a) {
+      for (sets::SetIndex b(a + 1); b < graph_.vertex_count(); ++b) {
         if (CommonFaces(cells[a], cells[b]) == 3) pairs.push_back({a, b});
       }
     }
@@ -137,11 +137,11 @@ class GraphOracle {
   }
 
   /// The cell that has a piece, or −1.
-  [[nodiscard]] int FindCell(const std::array<int, 4>& faces, const Halves& halves) const {
+  [[nodiscard]] int FindCell(const FaceQuadruple& faces, const Halves& halves) const {
     const auto& cells = graph_.cells();
-    auto cell = std::lower_bound(
-        cells.begin(), cells.end(), faces,
-        [](const FocusCell& c, const std::array<int, 4>& f) { return c.faces < f; });
+    auto cell =
+        std::lower_bound(cells.begin(), cells.end(), faces,
+                         [](const FocusCell& c, const FaceQuadruple& f) { return c.faces < f; });
     for (; cell != cells.end() && cell->faces == faces; ++cell) {
       for (const FocusPiece& piece : cell->pieces) {
         if (piece.halves == halves) return static_cast<int>(cell - cells.begin());
@@ -204,8 +204,7 @@ class GraphOracle {
       }
     }
     const search::Components hang =
-        search::FindComponents(static_cast<int>(possible.size()), static_cast<int>(open.size()),
-                               [&](int i) { return std::span<const int>(open[i]); });
+        search::ComponentsOfEdges(static_cast<int>(possible.size()), open);
     for (std::size_t i = 1; i < possible.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (FindCell(candidate.faces, possible[i]) != FindCell(candidate.faces, possible[j])) {

@@ -31,7 +31,7 @@ TEST(PolyhedronGraph, OfARegularTetrahedronIsOneCellAboutItsCentre) {
     ASSERT_EQ(graph.vertex_count(), 1);
     EXPECT_TRUE(graph.switches().empty());
     const FocusCell& cell = graph.cells().front();
-    EXPECT_EQ(cell.faces, (std::array{0, 1, 2, 3}));
+    EXPECT_EQ(cell.faces, (FaceQuadruple{FaceIndex(0), FaceIndex(1), FaceIndex(2), FaceIndex(3)}));
     EXPECT_EQ(cell.tangent, std::tan(Radians(degrees)));
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
     // Inside, or outside one face: past an edge no foot is on its faces, as cot φ > tan 70.5°.
@@ -74,8 +74,8 @@ TEST(PolyhedronGraph, OfARegularOctahedronIsTwoTetrahedraOfFaces) {
   EXPECT_EQ(graph.components().count(), 2);
   for (const FocusCell& cell : graph.cells()) {
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
-    for (const int a : cell.faces) {
-      for (const int b : cell.faces) {
+    for (const FaceIndex a : cell.faces) {
+      for (const FaceIndex b : cell.faces) {
         if (a == b) continue;
         EXPECT_NEAR(body.inward_normal(FaceIndex(a)).dot(body.inward_normal(FaceIndex(b))),
                     -1.0 / 3, 1e-12);
@@ -97,7 +97,7 @@ TEST(PolyhedronGraph, OfATetrahedronWithoutItsTipHasNoGraspWithTheCut) {
   const PolyhedronGraph graph(body, Radians(10), planning::Spanning::kUniform);
   EXPECT_EQ(graph.candidate_count(), 1);
   ASSERT_EQ(graph.vertex_count(), 1);
-  for (const int face : graph.cells().front().faces) {
+  for (const FaceIndex face : graph.cells().front().faces) {
     EXPECT_GT(body.inward_normal(FaceIndex(face)).z(), -0.5);
   }
 }
@@ -132,9 +132,8 @@ TEST(PolyhedronGraph, OfATetrahedronCutAtAllCornersHasTheSmallFacesTetrahedronTo
   EXPECT_TRUE(graph.switches().empty());
   for (const FocusCell& cell : graph.cells()) {
     EXPECT_TRUE(Contains(graph, cell, Vector3d::Zero()));
-    for (const int f : cell.faces) {
-      EXPECT_NEAR(body.face_measure(FaceIndex(f)), body.face_measure(FaceIndex(cell.faces.front())),
-                  1e-12);
+    for (const FaceIndex f : cell.faces) {
+      EXPECT_NEAR(body.face_measure(f), body.face_measure(cell.faces.front()), 1e-12);
     }
   }
 }

@@ -154,10 +154,10 @@ TEST(PolyhedronLaws, UnderAdaptiveSpanningMoreFrictionKeepsPiecesComponentsAndLi
         EXPECT_GE(larger.tangent, less.cells()[cell].tangent);
         ++pieces;
       }
-      const std::set<std::array<int, 2>> more_links(more.switches().begin(), more.switches().end());
+      const std::set<sets::SetPair> more_links(more.switches().begin(), more.switches().end());
       for (const auto& [a, b] : less.switches()) {
-        EXPECT_TRUE(more_links.contains(
-            std::array{std::min(image[a], image[b]), std::max(image[a], image[b])}));
+        const auto [low, high] = std::minmax(image[a], image[b]);
+        EXPECT_TRUE(more_links.contains({sets::SetIndex(low), sets::SetIndex(high)}));
         ++links;
       }
       if (in_more.size() > in_less.size()) ++grown;

@@ -54,7 +54,7 @@ double LimitByDefinition(const std::array<Vector3d, 4>& n) {
 }
 
 struct Limited {
-  std::array<int, 4> faces;
+  FaceQuadruple faces;
   double limit;  ///< tan φ*
 };
 
@@ -67,7 +67,8 @@ std::vector<Limited> FindPlainly(const std::vector<Vector3d>& n) {
       for (int c = b + 1; c < count; ++c) {
         for (int d = c + 1; d < count; ++d) {
           const double limit = LimitByDefinition({n[a], n[b], n[c], n[d]});
-          if (limit > 0) spanning.push_back({{a, b, c, d}, limit});
+          const FaceQuadruple faces = {FaceIndex(a), FaceIndex(b), FaceIndex(c), FaceIndex(d)};
+          if (limit > 0) spanning.push_back({faces, limit});
         }
       }
     }

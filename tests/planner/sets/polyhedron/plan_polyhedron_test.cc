@@ -23,6 +23,12 @@ planning::PlanRequest Spanned(double degrees, std::uint64_t seed, planning::Span
   return request;
 }
 
+planning::PlanRequest RequestOn(const object::Polyhedron& body, double degrees) {
+  planning::PlanRequest request = RequestAt(degrees);
+  request.object = &body;
+  return request;
+}
+
 /// A plan that the checker passes, of switches of one finger.
 void ExpectGood(const object::Polyhedron& body, const planning::PlanResult& result) {
   ExpectGoodPlan(PolyhedronPlanner(), body, result);
@@ -64,12 +70,12 @@ TEST(PlanOnPolyhedron, SaysNoExactlyWhereTheCellsAreNotJoined) {
   int apart = 0;
   for (const auto& [name, body] : SmallBodies()) {
     PolyhedronGraph graph(body, Radians(14), planning::Spanning::kUniform);
-    PolyhedronModel model(body, graph);
+    PolyhedronModel model(body, graph, RequestOn(body, 14));
     const search::Components components = graph.components();
     RandomStream random(3, RandomUse::kGoal);
     for (int i = 0; i < 40 && graph.vertex_count() > 0; ++i) {
-      const int a = static_cast<int>(random.Index(graph.vertex_count()));
-      const int b = static_cast<int>(random.Index(graph.vertex_count()));
+      const sets::SetIndex a(static_cast<int>(random.Index(graph.vertex_count())));
+      const sets::SetIndex b(static_cast<int>(random.Index(graph.vertex_count())));
       const auto start = model.Draw(a, random);
       const auto goal = model.Draw(b, random);
       ASSERT_TRUE(start && goal);
@@ -96,16 +102,16 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
   for (const auto& [name, body] : SmallBodies()) {
     for (const double degrees : {8.0, 30.0}) {
       PolyhedronGraph graph(body, Radians(degrees), planning::Spanning::kAdaptive);
-      PolyhedronModel model(body, graph);
-      const criteria::GraspEvaluator evaluator(body, {.half_angle = Radians(degrees)});
+      PolyhedronModel model(body, graph, RequestOn(body, degrees));
       RandomStream random(5, RandomUse::kStart);
-      for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 40) {
+      for (int number = 0; number < graph.vertex_count(); number += 1 + graph.vertex_count() / 40) {
+        const sets::SetIndex cell(number);
         const auto grasp = model.Draw(cell, random);
         ASSERT_TRUE(grasp);
         EXPECT_TRUE(
             grasp::IsForceClosure(model.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
             << name << ", cell " << cell;
-        const auto located = model.Attach(model.GraspOf(*grasp), evaluator);
+        const auto located = model.Attach(model.GraspOf(*grasp));
         EXPECT_TRUE(std::ranges::any_of(located, [&](const auto& a) { return a.set == cell; }))
             << name << ", cell " << cell;
         ++drawn;
@@ -142,9 +148,10 @@ TEST(FocusView, SeesItsContactsInsideTheRegionsOfTheirFaces) {
   int seen = 0;
   for (const auto& [name, body] : SmallBodies()) {
     PolyhedronGraph graph(body, Radians(12), planning::Spanning::kAdaptive);
-    PolyhedronModel model(body, graph);
+    PolyhedronModel model(body, graph, RequestOn(body, 12));
     RandomStream random(9, RandomUse::kStart);
-    for (int cell = 0; cell < graph.vertex_count(); cell += 1 + graph.vertex_count() / 10) {
+    for (int number = 0; number < graph.vertex_count(); number += 1 + graph.vertex_count() / 10) {
+      const sets::SetIndex cell(number);
       const auto drawn = model.Draw(cell, random);
       ASSERT_TRUE(drawn);
       const auto view = DescribeFocus(body, model.GraspOf(*drawn), Radians(12));

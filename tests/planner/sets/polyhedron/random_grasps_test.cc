@@ -57,8 +57,8 @@ class GraspDraw {
     const Vector3d aside = std::cos(around) * u + std::sin(around) * n.cross(u);
     const Vector3d contact = focus - height * (n + slope * aside);
     if (!IsOnFace(face, contact)) return std::nullopt;
-    const int part = PartOf(face, contact);
-    if (part < 0) return std::nullopt;
+    const PartIndex part(PartOf(face, contact));
+    if (!part.valid()) return std::nullopt;
     return Seen{HalfOf(part, height > 0), slope, contact};
   }
 
@@ -109,7 +109,7 @@ class GraspDraw {
 };
 
 bool IsHeld(const object::Polyhedron& body, const std::array<Seen, 4>& grasp,
-            const std::array<int, 4>& faces, double half_angle) {
+            const FaceQuadruple& faces, double half_angle) {
   std::vector<grasp::Contact> contacts;
   for (std::size_t k = 0; k < grasp.size(); ++k) {
     contacts.push_back(
