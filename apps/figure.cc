@@ -1,7 +1,8 @@
-// figure: draws every step of a planar plan as a figure for a paper.
+// figure: draws every step of a plan as a figure for a paper.
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/view_options.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
@@ -24,6 +26,7 @@
 #include "render/figures/contact_space_figure.h"
 #include "render/figures/figure_mark.h"
 #include "render/figures/plan_figure.h"
+#include "render/figures/solid_figure.h"
 
 namespace {
 
@@ -57,6 +60,7 @@ struct FigureProgram {
   std::optional<double> scale;
   bool allow_object_change = false;
   bool contact_space = false;
+  render::SolidFigureOptions solid;
   bool quiet = false;
 
   void AddTo(CLI::App& app);
@@ -68,13 +72,17 @@ struct FigureProgram {
   [[nodiscard]] object::ObjectFile ReadTold() const;
   [[nodiscard]] plan::Plan Located(const plan::Plan& plan, const object::Object& object) const;
   void CheckHasContactSpace(const plan::Plan& plan) const;
-  void WriteFigures(const object::Polygon& polygon, const plan::Plan& plan) const;
+  [[nodiscard]] std::unique_ptr<render::FigurePanels> MakePanels(const object::Object& object,
+                                                                 const plan::Plan& plan) const;
+  void WriteFigures(const object::Object& object, const plan::Plan& plan) const;
   void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
-                         render::FigureFormat file_format, FigureFolder& folder) const;
+                         FigureFolder& folder) const;
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
-  app.add_option("--object", object_path, "Polygon file (WKT)")->required()->type_name("FILE");
+  app.add_option("--object", object_path, "Object file: a polygon (WKT) or a closed surface mesh")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
   app.add_option("--out", out, "Folder for the figures")->required()->type_name("DIR");
   app.add_option("--format", format, "svg, pdf or png (default svg)")
@@ -83,6 +91,8 @@ void FigureProgram::AddTo(CLI::App& app) {
   app.add_flag("--contact-space", contact_space,
                "Also draw the contact space, and each switch in it: contact_space.FORMAT, "
                "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
+  AddView(app, solid.view);
+  AddEdges(app, solid.body);
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
@@ -90,9 +100,11 @@ void FigureProgram::AddTo(CLI::App& app) {
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
-  if (object.object->dimension() != 2) {
-    throw InputError(object_path +
-                     ": a solid, but figure draws planar objects (validate draws solids)");
+  if (contact_space && object.object->dimension() != 2) {
+    throw InputError("--contact-space: " + object_path + " is a solid, not a planar object");
+  }
+  if (solid.view && object.object->dimension() == 2) {
+    throw InputError("--view: " + object_path + " is planar: it is drawn in its own plane");
   }
   apps::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
 }
@@ -117,6 +129,14 @@ bool IsFigureName(const std::string& name, const std::string& format) {
   }
   const std::string prefix = std::string(kContactSpace) + "_";
   return name.starts_with(prefix) && AfterEntryNumber(name.substr(prefix.size())) == "." + format;
+}
+
+render::FigureFormat FormatOf(const std::string& format) {
+  static const std::map<std::string, render::FigureFormat> kFormats = {
+      {"svg", render::FigureFormat::kSvg},
+      {"pdf", render::FigureFormat::kPdf},
+      {"png", render::FigureFormat::kPng}};
+  return kFormats.at(format);
 }
 
 std::string SheetName(const std::string& format) { return "sheet." + format; }
@@ -167,38 +187,46 @@ void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
 }
 
 void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
-                                      render::FigureFormat file_format,
                                       FigureFolder& folder) const {
   const int count = static_cast<int>(plan.steps.size());
   ProgressLine progress(quiet);
   progress.Report("contact space");
   render::ContactSpaceFigures figures(polygon, plan);
-  folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(file_format));
+  folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(FormatOf(format)));
   for (int step = 1; step <= count; ++step) {
     progress.Report("contact space, step " + std::to_string(step) + " of " + std::to_string(count));
-    const auto bytes = figures.DrawSwitch(step, file_format);
+    const auto bytes = figures.DrawSwitch(step, FormatOf(format));
     if (!bytes) continue;
     folder.Write(std::string(kContactSpace) + "_" + EntryNumber(step) + "." + format, *bytes);
   }
 }
 
-void FigureProgram::WriteFigures(const object::Polygon& polygon, const plan::Plan& plan) const {
-  static const std::map<std::string, render::FigureFormat> kFormats = {
-      {"svg", render::FigureFormat::kSvg},
-      {"pdf", render::FigureFormat::kPdf},
-      {"png", render::FigureFormat::kPng}};
-  const render::FigureFormat file_format = kFormats.at(format);
+std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Object& object,
+                                                                const plan::Plan& plan) const {
+  if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
+    return std::make_unique<render::PlanPanels>(*polygon, render::DescribePlan(*polygon, plan));
+  }
+  return std::make_unique<render::SolidPanels>(dynamic_cast<const object::Polyhedron&>(object),
+                                               plan, solid);
+}
+
+void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
   FigureFolder folder(out);
-  const std::vector<render::StepDiagram> diagrams = render::DescribePlan(polygon, plan);
-  const int count = static_cast<int>(diagrams.size());
   ProgressLine progress(quiet);
+  progress.Report("laying out the figures");
+  const std::unique_ptr<render::FigurePanels> panels = MakePanels(object, plan);
+  const int count = panels->count();
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
-    folder.Write(EntryFileName(i, diagrams[i].kind, format),
-                 render::DrawStepFigure(polygon, diagrams, i, file_format));
+    const std::string kind = i == 0 ? "hold" : plan::StepKind(plan.steps[i - 1]);
+    folder.Write(EntryFileName(i, kind, format),
+                 render::DrawStepFigure(*panels, i, FormatOf(format)));
   }
-  folder.Write(SheetName(format), render::DrawSheet(polygon, diagrams, file_format));
-  if (contact_space) WriteContactSpace(polygon, plan, file_format, folder);
+  progress.Report("the sheet of all figures");
+  folder.Write(SheetName(format), render::DrawSheet(*panels, FormatOf(format)));
+  if (contact_space) {
+    WriteContactSpace(dynamic_cast<const object::Polygon&>(object), plan, folder);
+  }
   folder.RemoveOthers(format);
 }
 
@@ -221,20 +249,17 @@ int FigureProgram::Run() {
   const object::ObjectFile object = ReadTold();
   const plan::Plan plan = plan::ReadPlan(plan_path);
   CheckPlanFits(plan, object);
-  // Planar objects are polygons: ReadObject makes no other.
-  const auto& polygon = dynamic_cast<const object::Polygon&>(*object.object);
-  const plan::Plan located = Located(plan, polygon);
+  const plan::Plan located = Located(plan, *object.object);
   if (contact_space) CheckHasContactSpace(located);
-  WriteFigures(polygon, located);
+  WriteFigures(*object.object, located);
   return kExitDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Draws every step of a planar regrasp plan as a figure for a paper, and a sheet of all.",
-      kProgram);
+  CLI::App app("Draws every step of a regrasp plan as a figure for a paper, and a sheet of all.",
+               kProgram);
   FigureProgram program;
   program.AddTo(app);
   return RunProgram(app, argc, argv, [&] { return program.Run(); });

@@ -183,7 +183,7 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
                "Frames of a plan over clustered contact points show the clusters on the surface, "
                "and their representatives as dots");
   AddSize(app, "--size", options.frame.width, options.frame.height, "Size of the frames");
-  AddView(app, options.frame);
+  AddFrameView(app, options.frame);
   CLI::Option* moving =
       app.add_flag("--animate", options.animate,
                    "Also write the whole replay as a moving picture, replay.webp, slowed down")

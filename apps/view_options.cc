@@ -22,36 +22,42 @@ render::ViewDirection ParseView(const std::string& name, const std::string& text
 
 }  // namespace
 
-void AddView(CLI::App& app, render::FrameOptions& frame) {
+void AddView(CLI::App& app, std::optional<render::ViewDirection>& view) {
   app.add_option_function<std::string>(
-         "--view",
-         [&frame](const std::string& text) { frame.view.direction = ParseView("--view", text); },
-         "Where frames are taken from, degrees: azimuth about z from the x axis, elevation above "
-         "the plane of x and y (default: where most of the fingers is seen; a planar object "
-         "from above, 270,90)")
+         "--view", [&view](const std::string& text) { view = ParseView("--view", text); },
+         "Where pictures are taken from, degrees: azimuth about z from the x axis, elevation above "
+         "the plane of x and y (default: where most of the fingers is seen; a planar object from "
+         "above)")
       ->type_name("AZIMUTH,ELEVATION");
-  AddNumber(app, "--zoom", frame.view.zoom, NumberRange::Positive(),
-            "How much larger things are in frames than where all of them are "
-            "seen (default 1)");
-  app.add_flag_callback(
-      "--orthographic", [&frame] { frame.view.projection = render::Projection::kOrthographic; },
-      "Frames of a solid without perspective: parallel edges are parallel, and lengths across the "
-      "line of sight have one scale. Those of a planar object are so always");
+}
+
+void AddEdges(CLI::App& app, render::BodyOptions& body) {
   using render::EdgeStyle;
   AddChoice<EdgeStyle>(
-      app, "--edges", frame.body.edges,
+      app, "--edges", body.edges,
       {{"crease", EdgeStyle::kCrease}, {"all", EdgeStyle::kAll}, {"none", EdgeStyle::kNone}},
-      "Which edges of the object frames show: crease, where the surface turns by more than the "
-      "crease angle, and the outline; all, between all facets; none (default crease)");
+      "Which edges of a solid are drawn: crease, where the surface turns by more than the crease "
+      "angle, and the outline; all, between all facets; none (default crease)");
   constexpr double kHalfTurn = 180;
   app.add_option_function<std::string>(
          "--crease-angle",
-         [&frame](const std::string& text) {
-           frame.body.crease_angle =
+         [&body](const std::string& text) {
+           body.crease_angle =
                Radians(ParseNumber("--crease-angle", text, {.lower = 0, .upper = kHalfTurn}));
          },
          "Facets that meet at less than this are shown as one smooth surface, degrees (default 40)")
       ->type_name("DEG");
+}
+
+void AddFrameView(CLI::App& app, render::FrameOptions& frame) {
+  AddView(app, frame.view.direction);
+  AddNumber(app, "--zoom", frame.view.zoom, NumberRange::Positive(),
+            "How much larger things are in frames than where all of them are seen (default 1)");
+  app.add_flag_callback(
+      "--orthographic", [&frame] { frame.view.projection = render::Projection::kOrthographic; },
+      "Frames of a solid without perspective: parallel edges are parallel, and lengths across the "
+      "line of sight have one scale. Those of a planar object are so always");
+  AddEdges(app, frame.body);
 }
 
 }  // namespace regrasp::apps

@@ -38,16 +38,25 @@ void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centr
 }  // namespace
 
 void DrawFingerMarker(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre, double radius,
-                      bool outline) {
+                      MarkerStyle style) {
   const int count = static_cast<int>(kShapes.size());
   const MarkerShape& shape = kShapes[((finger % count) + count) % count];
   AddPath(cr, shape, centre, radius);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
-  if (outline) {
-    FillAndStroke(cr, kWhite, FingerColor(finger), kOutlineWidth);
+  const Color color = FingerColor(finger);
+  if (style == MarkerStyle::kHollow) {
+    FillAndStroke(cr, kWhite, color, kOutlineWidth);
   } else {
-    FillWithHalo(cr, FingerColor(finger), 2 * kWhiteRim);
+    const double share = style == MarkerStyle::kPale ? kBehindShare : 1;
+    FillWithHalo(cr, Paler(color, share), 2 * kWhiteRim);
   }
+}
+
+Color Paler(Color color, double share) {
+  const auto mix = [share](unsigned char c) {
+    return static_cast<unsigned char>(std::lround(255 - share * (255 - c)));
+  };
+  return {mix(color.r), mix(color.g), mix(color.b)};
 }
 
 }  // namespace regrasp::render

@@ -122,14 +122,15 @@ void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
       StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
     }
     DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
-                     /*outline=*/true);
+                     MarkerStyle::kHollow);
   }
   if (finger.role == plan::FingerRole::kPlaced) {
     SetCircle(cr, shape.contact, kRingRadius);
     Stroke(cr, color, kRingWidth);
   }
-  DrawFingerMarker(cr, finger.finger, shape.contact, kMarkerRadius,
-                   /*outline=*/finger.role == plan::FingerRole::kReleased);
+  DrawFingerMarker(
+      cr, finger.finger, shape.contact, kMarkerRadius,
+      finger.role == plan::FingerRole::kReleased ? MarkerStyle::kHollow : MarkerStyle::kFilled);
 }
 
 std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiagram& diagram,

@@ -32,6 +32,7 @@ inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},
                                                           {170, 220, 212},
                                                           {214, 200, 184}}};
 
+inline constexpr Color kMaterial = {234, 238, 243};  ///< of the object in figures
 inline constexpr Color kBodyOutside = {148, 184, 226};
 inline constexpr Color kBodyInside = {186, 208, 236};
 

@@ -1,4 +1,4 @@
-"""The program figure from the shell: pictures of planar plans, and bad input."""
+"""The program figure from the shell: pictures of plans, and bad input."""
 
 import copy
 import hashlib
@@ -238,6 +238,21 @@ class Figure(ProgramCase):
     def test_refuses_other_formats(self):
         self.refuse(["--format", "bmp"], format="bmp")
 
+    def test_draws_each_step_of_a_solid_in_every_format(self):
+        self.assert_done("--object", self.model("cube.obj"), "--start",
+                         self.model("cube.start.json"), "--goal", self.model("cube.goal.json"),
+                         "--friction-angle", "20", "--output", "plan.json", program="plan")
+        steps = json.loads(self.read("plan.json"))["steps"]
+        kinds = ["hold"] + [step["kind"] for step in steps]
+        for file_format in ("svg", "pdf", "png"):
+            names = [f"{i:03d}_{kind}.{file_format}" for i, kind in enumerate(kinds)]
+            self.assertEqual(self.draw(object=self.model("cube.obj"), format=file_format,
+                                       out=file_format), sorted(names + ["sheet." + file_format]))
+        usual = self.read("svg/000_hold.svg")
+        for options in (["--view", "30,20"], ["--edges", "none"]):
+            self.draw(*options, object=self.model("cube.obj"), out="other")
+            self.assertNotEqual(self.read("other/000_hold.svg"), usual)
+
     def test_help_names_the_formats(self):
         done = self.assert_done("--help")
         self.assertIn("svg, pdf or png", done.stdout)
@@ -248,8 +263,12 @@ class Figure(ProgramCase):
         self.refuse("nowhere.wkt", object="nowhere.wkt")
         self.refuse("nowhere.json", plan="nowhere.json")
 
-    def test_refuses_a_solid(self):
-        self.refuse(["cube.obj", "planar"], object=self.model("cube.obj"))
+    def test_refuses_for_solids_what_only_planar_objects_have_and_the_reverse(self):
+        self.write("plan.json", self.data("plan_good", "cube_no_steps.json"))
+        self.refuse(["--contact-space", "cube.obj", "solid"], "--contact-space",
+                    object=self.model("cube.obj"))
+        self.write_plan()
+        self.refuse(["--view", "square.wkt", "planar"], "--view", "30,20")
 
     def test_refuses_the_plan_of_a_solid(self):
         self.write("plan.json", self.data("plan_good", "cube_no_steps.json"))

@@ -28,8 +28,13 @@ constexpr FigureFormat kFormats[] = {FigureFormat::kSvg, FigureFormat::kPdf, Fig
 
 std::vector<StepDiagram> SquareDiagrams() { return DescribePlan(MakeSquare(), MakeSquarePlan()); }
 
+PlanPanels SquarePanels() {
+  static const object::Polygon square = MakeSquare();
+  return {square, SquareDiagrams()};
+}
+
 std::string Step(int index, FigureFormat format) {
-  return DrawStepFigure(MakeSquare(), SquareDiagrams(), index, format);
+  return DrawStepFigure(SquarePanels(), index, format);
 }
 
 int Count(const std::string& text, const std::regex& pattern) {
@@ -73,8 +78,7 @@ TEST(PlanFigureTest, TheSameFigureHasTheSameBytesAndAnotherHasOthers) {
   for (const FigureFormat format : kFormats) {
     EXPECT_TRUE(Step(1, format) == Step(1, format));
     EXPECT_FALSE(Step(1, format) == Step(2, format));
-    EXPECT_TRUE(DrawSheet(MakeSquare(), SquareDiagrams(), format) ==
-                DrawSheet(MakeSquare(), SquareDiagrams(), format));
+    EXPECT_TRUE(DrawSheet(SquarePanels(), format) == DrawSheet(SquarePanels(), format));
   }
 }
 
@@ -91,14 +95,14 @@ TEST(PlanFigureTest, EveryFingerThatHoldsHasAMarkerInItsColour) {
 TEST(PlanFigureTest, AStepIsAColumnWideAndASheetTwo) {
   // 300 dots per inch: 85 mm and 174 mm.
   EXPECT_EQ(PngSize(Step(0, FigureFormat::kPng)).width, 1004);
-  EXPECT_EQ(PngSize(DrawSheet(MakeSquare(), SquareDiagrams(), FigureFormat::kPng)).width, 2055);
+  EXPECT_EQ(PngSize(DrawSheet(SquarePanels(), FigureFormat::kPng)).width, 2055);
 }
 
 TEST(PlanFigureTest, ALongPlanMakesALargerSheetThatCanBeDrawn) {
   const object::Polygon square = MakeSquare();
   const StepDiagram hold = SquareDiagrams()[0];
   const std::vector<StepDiagram> many(150, hold);
-  const Size size = PngSize(DrawSheet(square, many, FigureFormat::kPng));
+  const Size size = PngSize(DrawSheet(PlanPanels(square, many), FigureFormat::kPng));
   EXPECT_GT(size.width, 2055);
   EXPECT_GT(size.height, 2055);
 }
@@ -109,7 +113,7 @@ TEST(PlanFigureTest, ALongObjectHasFewerPanelsInARow) {
     hold.grasp = {};
     hold.fingers.clear();
     const std::vector<StepDiagram> four(4, hold);
-    return PngSize(DrawSheet(polygon, four, FigureFormat::kPng)).height;
+    return PngSize(DrawSheet(PlanPanels(polygon, four), FigureFormat::kPng)).height;
   };
   const object::Polygon bar =
       object::Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");

@@ -1,0 +1,106 @@
+#include "render/figures/solid_figure.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "planner/base/angle.h"
+#include "planner/plan/locate.h"
+#include "render/figures/panel_view.h"
+#include "tests/fixtures/solids.h"
+
+namespace regrasp::render {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::Not;
+
+plan::FingerContact Hold(int finger, const Vector3d& p, const Vector3d& n) {
+  return {FingerIndex(finger), {p, n}};
+}
+
+/// Four fingers on a cube of 6 cm, one of which another one replaces.
+plan::Plan MakePlan(const object::Polyhedron& cube) {
+  plan::Plan plan;
+  plan.dimension = 3;
+  plan.half_angle = Radians(20);
+  plan.initial = {Hold(0, {0.03, 0, 0.01}, {-1, 0, 0}), Hold(1, {-0.03, 0, 0.01}, {1, 0, 0}),
+                  Hold(2, {0, 0.03, 0}, {0, -1, 0}), Hold(3, {0, -0.03, 0}, {0, 1, 0})};
+  plan::Switch change;
+  change.place = {Hold(4, {0.01, 0.03, 0.01}, {0, -1, 0})};
+  change.release = {FingerIndex(2)};
+  plan.steps = {change};
+  return plan::LocatePlan(cube, plan);
+}
+
+SolidPanels MakePanels(const SolidFigureOptions& options = {}) {
+  static const object::Polyhedron cube = MakeCube(0.03);
+  return {cube, MakePlan(cube), options};
+}
+
+int Count(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  return static_cast<int>(std::distance(std::sregex_iterator(text.begin(), text.end(), regex), {}));
+}
+
+TEST(SolidFigureTest, HasAPanelForEachStepWithItsCaption) {
+  const SolidPanels panels = MakePanels();
+  ASSERT_EQ(panels.count(), 2);
+  EXPECT_EQ(panels.caption(0), "(a) hold: fingers 0, 1, 2, 3");
+  EXPECT_EQ(panels.caption(1), "(b) switch: place 4, release 2");
+}
+
+TEST(SolidFigureTest, TheSameFigureHasTheSameBytesAndAnotherViewHasOthers) {
+  const std::string once = DrawSheet(MakePanels(), FigureFormat::kSvg);
+  EXPECT_EQ(once, DrawSheet(MakePanels(), FigureFormat::kSvg));
+  EXPECT_NE(once, DrawSheet(MakePanels({.view = ViewDirection{1, 0.2}}), FigureFormat::kSvg));
+}
+
+TEST(SolidFigureTest, HiddenEdgesAreDashed) {
+  const SolidFigureOptions view = {.view = ViewDirection{Radians(30), Radians(25)}};
+  SolidFigureOptions no_edges = view;
+  no_edges.body.edges = EdgeStyle::kNone;
+  const auto dashed = [](const SolidFigureOptions& options) {
+    return Count(DrawStepFigure(MakePanels(options), 0, FigureFormat::kSvg), "stroke-dasharray");
+  };
+  EXPECT_EQ(dashed(view), 3);  // the edges that meet at the corner that is not seen
+  EXPECT_EQ(dashed(no_edges), 0);
+}
+
+TEST(SolidFigureTest, AFingerBehindTheSolidIsPaleAndOneBeforeItIsNot) {
+  // Finger 0 is on the side of +x, finger 1 on that of −x.
+  const auto draw = [](double azimuth) {
+    const SolidFigureOptions options = {.view = ViewDirection{Radians(azimuth), Radians(20)}};
+    return DrawStepFigure(MakePanels(options), 0, FigureFormat::kSvg);
+  };
+  // Filled markers in the finger's own colour; a stem, which stands out, is stroked.
+  const std::string blue = "fill:rgb\\(0%,39.607843%,64.705882%\\);fill-opacity:1";
+  const std::string yellow = "fill:rgb\\(94.117647%,69.019608%,0%\\);fill-opacity:1";
+  const auto plain = [](std::string svg) {
+    std::erase(svg, ' ');
+    return svg;
+  };
+  EXPECT_EQ(Count(plain(draw(20)), blue), 1);
+  EXPECT_EQ(Count(plain(draw(20)), yellow), 0);
+  EXPECT_EQ(Count(plain(draw(200)), blue), 0);
+  EXPECT_EQ(Count(plain(draw(200)), yellow), 1);
+}
+
+TEST(SolidFigureTest, APanelIsAsHighAsItNeedsAndNoHigher) {
+  const auto height = [](const Vector3d& size) {
+    const object::Polyhedron box = MakeBox(size);
+    plan::Plan plan;
+    plan.dimension = 3;
+    plan.half_angle = Radians(20);
+    plan.initial = {Hold(0, {size.x() / 2, 0, 0}, {-1, 0, 0})};
+    const SolidFigureOptions view = {.view = ViewDirection{Radians(270), 0}};
+    return SolidPanels(box, plan::LocatePlan(box, plan), view).HeightFor(200);
+  };
+  EXPECT_LT(height({1, 0.1, 0.1}), height({1, 0.1, 0.5}));
+  EXPECT_DOUBLE_EQ(height({0.1, 0.1, 3}), 1.25 * 200);
+}
+
+}  // namespace
+}  // namespace regrasp::render
