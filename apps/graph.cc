@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/graph_text.h"
+#include "apps/help.h"
 #include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
@@ -48,6 +49,7 @@ struct GraphProgram {
 
 void GraphProgram::AddTo(CLI::App& app) {
   common.AddTo(app, "polygon in the plane, roadmap in space, unless an option asks for another");
+  BeginGroup(app, "What is counted and told");
   app.add_option("--json", json,
                  "Also writes the counts as JSON; - is standard output, instead "
                  "of the table")
@@ -63,6 +65,9 @@ void GraphProgram::AddTo(CLI::App& app) {
   app.add_flag("--no-lazy", no_lazy,
                "With --queries: no search among the grasps of all contact points where the "
                "representatives do not join start and goal");
+  app.footer(
+      "  graph --object polygon40.wkt --friction-angle 10 --spanning uniform\n"
+      "  graph --object part.obj --mu 0.3 --planner polyhedron --json graph.json\n");
 }
 
 void GraphProgram::CheckUsage() const {

@@ -1,9 +1,12 @@
 #include "apps/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "apps/help.h"
+#include "apps/nearest_word.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -63,13 +66,24 @@ template std::int64_t ParseInteger(const std::string&, const std::string&, std::
 template std::uint64_t ParseInteger(const std::string&, const std::string&, std::uint64_t,
                                     std::uint64_t);
 
+std::size_t FindChoice(const std::string& name, const std::string& given,
+                       const std::vector<std::string>& words) {
+  const auto found = std::ranges::find(words, given);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  std::string expected;
+  for (const std::string& word : words) expected += (expected.empty() ? "" : ", ") + word;
+  throw CLI::ValidationError(
+      name, "expected one of " + expected + ", found \"" + given + "\"" + DidYouMean(given, words));
+}
+
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& value, const std::string& description) {
   return AddInteger(app, "--seed", value, std::uint64_t{0},
                     std::numeric_limits<std::uint64_t>::max(), description);
 }
 
 CLI::Option* AddQuiet(CLI::App& app, bool& value) {
-  return app.add_flag("--quiet", value, "Print errors and warnings only");
+  return app.add_flag("--quiet", value, "Print only errors, warnings and why something failed")
+      ->group(kGeneralGroup);
 }
 
 void FrictionOptions::AddTo(CLI::App& app) {

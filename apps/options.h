@@ -55,6 +55,11 @@ CLI::Option* AddInteger(CLI::App& app, const std::string& name, Value& value, In
   return app.add_option_function<std::string>(name, parse, description)->type_name("N");
 }
 
+/// The place of a word among those that an option takes.
+/// @throws CLI::ValidationError  it is none of them; names the one that was probably meant.
+[[nodiscard]] std::size_t FindChoice(const std::string& name, const std::string& given,
+                                     const std::vector<std::string>& words);
+
 /// Adds an option that takes one of some words, each of which stands for a value.
 template <class Value>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value& value,
@@ -66,14 +71,10 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value& value,
     words.push_back(word);
     type += (type.empty() ? "" : "|") + word;
   }
-  const auto choose = [choices, &value](const std::string& given) {
-    for (const auto& [word, meant] : choices) {
-      if (word == given) value = meant;
-    }
+  const auto choose = [name, words, choices, &value](const std::string& given) {
+    value = choices[FindChoice(name, given, words)].second;
   };
-  return app.add_option_function<std::string>(name, choose, description)
-      ->check(CLI::IsMember(words))
-      ->type_name(type);
+  return app.add_option_function<std::string>(name, choose, description)->type_name(type);
 }
 
 /// Adds `--seed N`, any number of 64 bits.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
+#include "apps/help.h"
+#include "apps/nearest_word.h"
 #include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
@@ -84,7 +87,9 @@ struct PlanProgram {
 
 void PlanProgram::AddTo(CLI::App& app) {
   common.AddTo(app, "general, unless an option asks for what only another has");
+  BeginGroup(app, "Start, goal and result");
   AddEnds(app);
+  BeginGroup(app, "What the sequence is like");
   AddNumber(app, "--min-quality", min_quality, NumberRange::NotNegative(),
             "Quality that random grasps have at least; the sequence prefers such grasps and a "
             "warning says where it must go below: the largest ball of wrenches resisted, normal "
@@ -95,6 +100,11 @@ void PlanProgram::AddTo(CLI::App& app) {
             "overlap, are avoided (default: fingers are points)",
             "R");
   AddSearch(app);
+  app.footer(
+      "  plan --object cube.obj --friction-angle 20 --start start.json --goal goal.json \\\n"
+      "       --output plan.json\n"
+      "  plan --object part.stl --scale 0.001 --mu 0.5 --start random --goal random --seed 7 \\\n"
+      "       --output - | validate --object part.stl --plan -\n");
 }
 
 void PlanProgram::AddEnds(CLI::App& app) {
@@ -138,6 +148,11 @@ void PlanProgram::AddSearch(CLI::App& app) {
 planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
                                           const object::Object& object) const {
   using Kind = planning::GraspChoice::Kind;
+  // No such file, and nearly one of the words.
+  if (!IsRandom(value) && !std::filesystem::exists(value)) {
+    const std::string meant = DidYouMean(value, {kRandom, kRandomAny});
+    if (!meant.empty()) throw InputError(option + ": there is no file " + value + meant);
+  }
   if (!IsRandom(value)) return {Kind::kGiven, plan::ReadGrasp(value, object), value};
   const bool any = value == kRandomAny || common.planner == "auto";
   return {any ? Kind::kRandomAny : Kind::kRandom, {}, option + " " + value};
@@ -185,7 +200,7 @@ int PlanProgram::Run() const {
   const std::vector<std::string> doubts = {object::SizeWarning(body), common.friction.warning()};
   planning::PlanResult result = Find(object);
   if (!result.plan) {
-    PrintMessage(kProgram, result.message);
+    PrintError(kProgram, result.message);
     return kExitNegative;
   }
   result.plan->object_file = object.file;

@@ -1,5 +1,9 @@
 #include "apps/planner_options.h"
 
+#include <algorithm>
+
+#include "apps/help.h"
+#include "apps/nearest_word.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
@@ -11,11 +15,18 @@ namespace regrasp::apps {
 
 namespace {
 
+std::vector<std::string> NamesForUsers() {
+  std::vector<std::string> names = {"auto"};
+  for (const planning::Planner* planner : registry::AllPlanners()) names.push_back(planner->name());
+  return names;
+}
+
 /// Spelled out rather than left to CLI11, so that the message says why a known name is refused.
 std::string CheckPlanner(const std::string& name) {
-  if (name == "auto" || registry::FindPlanner(name) != nullptr) return {};
+  const std::vector<std::string> names = NamesForUsers();
+  if (std::ranges::find(names, name) != names.end()) return {};
   return "the planner \"" + name + "\" does not exist in this version; there are " +
-         registry::PlannerNames();
+         registry::PlannerNames() + DidYouMean(name, names);
 }
 
 /// The planners, each with what it plans.
@@ -30,13 +41,18 @@ std::string PlannersText() {
 }  // namespace
 
 void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
+  BeginGroup(app, "Object and friction");
   app.add_option("--object", object,
                  "The object: a polygon (WKT) or a closed surface mesh (OBJ, OFF, PLY, STL, …)")
       ->type_name("FILE")
       ->required();
+  AddScale(app, scale);
   friction.AddTo(app);
+  BeginGroup(app, "Planner");
+  std::string type;
+  for (const std::string& name : NamesForUsers()) type += (type.empty() ? "" : "|") + name;
   app.add_option("--planner", planner, PlannersText() + " (default auto: " + automatic + ")")
-      ->type_name("NAME")
+      ->type_name(type)
       ->check(CheckPlanner);
   AddChoice<planning::Spanning>(
       app, "--spanning", spanning,
@@ -59,7 +75,6 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
             "Seconds from the program's start after which reading, planning and building a graph "
             "give up; a plan then depends on the machine",
             "S");
-  AddScale(app, scale);
   AddQuiet(app, quiet);
 }
 

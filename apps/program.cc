@@ -3,11 +3,16 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
 
+#include "apps/colour.h"
+#include "apps/help.h"
+#include "apps/nearest_word.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/text_table.h"
@@ -43,17 +48,48 @@ int FlushResults(const std::string& program, int exit_code) {
   return kExitEnvironment;
 }
 
+/// What the build makes manual pages and completions with.
+constexpr char kHelpAs[] = "--help-as";
+
+/// What is mistyped is told before what is missing.
+/// @throws InputError  there is no such option.
+void CheckKnown(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> names;
+  for (const HelpGroup& group : HelpGroups(app)) {
+    for (const OptionHelp& option : group.options) names.push_back(option.name);
+  }
+  for (int i = 1; i < argc; ++i) {
+    const std::string given = argv[i];
+    if (given == "--") return;
+    const std::string name = given.substr(0, given.find('='));
+    const bool is_option =
+        name.starts_with("-") && name.size() > 1 &&
+        (name[1] == '-' || std::isalpha(static_cast<unsigned char>(name[1])) != 0);
+    if (!is_option || name == "-h" || name == kHelpAs) continue;
+    if (std::ranges::find(names, name) != names.end()) continue;
+    // "-object" is taken for "--object".
+    const std::string meant = name[1] == '-' ? name : "-" + name;
+    throw InputError("unknown option " + name + DidYouMean(meant, names) + " (" + app.get_name() +
+                     " --help lists all)");
+  }
+}
+
 int Run(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  CheckKnown(app, argc, argv);
+  if (argc == 3 && argv[1] == std::string(kHelpAs)) {
+    std::cout << FormatHelpAs(argv[2], app);
+    return kExitDone;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
+    std::cout << HelpText(app, HelpWidth());
     return kExitDone;
   } catch (const CLI::CallForVersion& version) {
     std::cout << version.what() << '\n';
     return kExitDone;
   } catch (const CLI::ParseError& error) {
-    throw InputError(error.what());
+    throw InputError(std::string(error.what()) + " (" + app.get_name() + " --help lists all)");
   }
   return run();
 }
@@ -61,26 +97,43 @@ int Run(CLI::App& app, int argc, const char* const* argv, const std::function<in
 }  // namespace
 
 void PrintMessage(const std::string& program, std::string_view message) {
-  std::cerr << program + ": " + OneLine(message) + "\n";
+  std::string line = OneLine(message);
+  const std::string warning = "warning:";
+  if (line.starts_with(warning) && TakesColour(STDERR_FILENO)) {
+    line = Paint(warning, Ink::kYellow) + line.substr(warning.size());
+  }
+  std::cerr << program + ": " + line + "\n";
+}
+
+void PrintError(const std::string& program, std::string_view message) {
+  const std::string line = OneLine(message);
+  std::cerr << program + ": " + (TakesColour(STDERR_FILENO) ? Paint(line, Ink::kRed) : line) + "\n";
+}
+
+void PrintTable(const std::string& table, const std::string& files) {
+  // Scripts take the last line, which says how it went.
+  std::string text = table;
+  text.insert(text.rfind('\n', text.size() - 2) + 1, OneLine("files: " + files) + "\n");
+  std::cout << (TakesColour(STDOUT_FILENO) ? PaintVerdicts(text) : text);
 }
 
 int RunGuarded(const std::string& program, const std::function<int()>& run) {
   try {
     return FlushResults(program, run());
   } catch (const InputError& error) {
-    PrintMessage(program, error.what());
+    PrintError(program, error.what());
     return kExitBadInput;
   } catch (const TimeUp& time_up) {
-    PrintMessage(program, time_up.what());
+    PrintError(program, time_up.what());
     return kExitNegative;
   } catch (const EnvironmentError& error) {
-    PrintMessage(program, error.what());
+    PrintError(program, error.what());
     return kExitEnvironment;
   } catch (const std::bad_alloc&) {
-    PrintMessage(program, "not enough memory");
+    PrintError(program, "not enough memory");
     return kExitEnvironment;
   } catch (const std::exception& error) {
-    PrintMessage(program, std::string("internal error: ") + error.what());
+    PrintError(program, std::string("internal error: ") + error.what());
     return kExitEnvironment;
   }
 }
@@ -89,7 +142,8 @@ std::string ProgramVersion() { return REGRASP_VERSION; }
 
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
   const std::string program = app.get_name();
-  app.set_version_flag("--version", program + " " + ProgramVersion(), "Print the version and exit");
+  app.set_version_flag("--version", program + " " + ProgramVersion(), "Print the version and exit")
+      ->group(kGeneralGroup);
   app.get_help_ptr()->description("Print this text and exit");
   return RunGuarded(program, [&] {
     PrepareProcess();

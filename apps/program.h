@@ -20,8 +20,11 @@ enum ExitCode : int {
 ///
 /// Bad usage and InputError give 2. EnvironmentError, exhausted memory and a standard output that
 /// cannot be written give 3, and so does an error that nobody foresaw, which is ours. --help and
-/// --version print to standard output and give 0. Closed standard streams are taken, so that no
-/// file gets their place; SIGXFSZ is ignored, so that a file that may not grow is an error.
+/// --version print to standard output and give 0, and so does `--help-as man|bash|zsh|fish`, alone
+/// on the command line: what the build makes the manual page and completions with. An option that
+/// there is not is told before all else, with the one that was probably meant. Closed standard
+/// streams are taken, so that no file gets their place; SIGXFSZ is ignored, so that a file that may
+/// not grow is an error.
 /// @param app  with all its options; its name is the program's. --version is added here.
 /// @param run  called after parsing; returns the exit code.
 int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
@@ -34,6 +37,14 @@ int RunGuarded(const std::string& program, const std::function<int()>& run);
 [[nodiscard]] std::string ProgramVersion();
 
 /// Prints "name: message" as exactly one line on standard error, whatever bytes the message has.
+/// On a terminal a warning is coloured.
 void PrintMessage(const std::string& program, std::string_view message);
+
+/// The same for what went wrong: on a terminal the message is red.
+void PrintError(const std::string& program, std::string_view message);
+
+/// Prints a table with verdicts on standard output, on a terminal with colours (colour.h), and
+/// before its last line where its files are.
+void PrintTable(const std::string& table, const std::string& files);
 
 }  // namespace regrasp::apps

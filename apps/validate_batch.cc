@@ -139,7 +139,10 @@ class Batch {
     ExpectResults();
     WriteFile(folder_.path() / kSummaryName, FormatSummaryJson(summary_));
     if (!options_.junit.empty()) WriteFile(options_.junit, FormatSummaryJunit(summary_));
-    if (!options_.quiet) std::cout << FormatSummaryTable(summary_);
+    if (!options_.quiet) {
+      PrintTable(FormatSummaryTable(summary_), (folder_.path() / kSummaryName).string() +
+                                                   ", and a folder for each plan beside it");
+    }
     return static_cast<int>(summary_.verdict());
   }
 

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "apps/help.h"
 #include "apps/view_options.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -81,7 +82,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
                "The report also holds, for every grasp and all along every align, contact forces "
                "that prove force closure, or a twist that refutes it");
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
-  add("--export-mjcf", options.mjcf, "Write the scene of the replay as MJCF for any MuJoCo");
+  add("--export-mjcf", options.mjcf,
+      "Write the scene of the replay as MJCF, without what versions of MuJoCo name differently");
   add("--trajectory", options.trajectory,
       "Write time (s), place (m) and force (N) of every finger during the replay as CSV");
 }
@@ -202,8 +204,7 @@ constexpr char kSinglePlan[] = "goes with a single plan or grasp";
 
 void AddBatch(CLI::App& app, ValidateOptions& options) {
   AddInteger(app, "--jobs", options.jobs, 1, kMostJobs,
-             "How many of several plans are validated at a time (default: one a processor, here " +
-                 std::to_string(options.jobs) + ")");
+             "How many of several plans are validated at a time (default: one a processor)");
   AddNumber(app, "--time-limit", options.time_limit_s,
             {.lower = 0, .upper = kLongestTime_s, .lower_included = false},
             "Longest time that one of several plans may take, seconds; it is then stopped and "
@@ -232,19 +233,30 @@ ValidateOptions::ValidateOptions()
     : jobs(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostJobs)) {}
 
 void ValidateOptions::AddTo(CLI::App& app) {
+  BeginGroup(app, "Object, and what is validated");
   AddInputs(app, *this);
+  BeginGroup(app, "Results");
   AddOutputs(app, *this);
+  BeginGroup(app, "Friction, body and fingers");
   AddBodies(app, *this);
+  BeginGroup(app, "Replay");
   AddReplay(app, *this);
+  BeginGroup(app, "Trials with noise");
   AddTrials(app, *this);
+  BeginGroup(app, "Pictures");
   AddPictures(app, *this);
+  BeginGroup(app, "Several plans");
   AddBatch(app, *this);
+  BeginGroup(app, "What is let pass");
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   app.add_flag("--allow-undecided", allow_undecided,
                "Pass aligns of which up to a thousandth of a segment between two waypoints is "
                "neither proved nor refuted; otherwise they fail as not-proved");
   AddQuiet(app, quiet);
+  app.footer(
+      "  validate --object cube.obj --plan plan.json\n"
+      "  validate --object models --plan plans --out out/plans --no-frames --junit junit.xml\n");
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {

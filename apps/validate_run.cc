@@ -282,6 +282,14 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   WriteFile(folder.path() / kReportName, report::FormatReportJson(report));
 }
 
+/// "out/plan/report.html, report.json and 3 more".
+std::string FilesText(const std::filesystem::path& folder, const report::Report& report) {
+  // The page and the report; the report lists all but itself.
+  const std::size_t others = report.run->files.size() - 1;
+  return (folder / kPageName).string() + ", " + kReportName +
+         (others > 0 ? " and " + std::to_string(others) + " more" : "");
+}
+
 }  // namespace
 
 int RunValidation(const ValidateOptions& options) {
@@ -315,10 +323,10 @@ int RunValidation(const ValidateOptions& options) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
   if (!options.quiet) {
-    std::cout << report::FormatReportTable(report);
+    PrintTable(report::FormatReportTable(report), FilesText(folder.path(), report));
   } else if (const auto failure = report::DescribeFailure(report)) {
-    PrintMessage(kValidateName,
-                 failure->what + ": " + failure->why + "; what would mend it: " + failure->mend);
+    PrintError(kValidateName,
+               failure->what + ": " + failure->why + "; what would mend it: " + failure->mend);
   }
   return report.passed() ? kExitDone : kExitNegative;
 }

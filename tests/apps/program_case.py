@@ -66,13 +66,16 @@ class ProgramCase(unittest.TestCase):
             env={name: value for name, value in dict(os.environ, **(environment or {})).items()
                  if value is not None})
 
-    def run_on_terminal(self, *arguments):
+    def run_on_terminal(self, *arguments, environment=None):
         """Standard error is a terminal; returns what ran and what was shown there."""
+        without_no_color = {name: value for name, value in os.environ.items()
+                            if name not in ("NO_COLOR", "TERM")}
         master, terminal = os.openpty()
         self.addCleanup(os.close, master)
         command = [os.path.join(ARGUMENTS.programs, self.program), *arguments]
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS, check=False)
+                              stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS, check=False,
+                              env={"TERM": "xterm", **without_no_color, **(environment or {})})
         os.close(terminal)
         os.set_blocking(master, False)
         try:

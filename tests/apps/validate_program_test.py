@@ -173,7 +173,8 @@ class Validate(ProgramCase):
                                    protocol="fixed", shake="0.06")
         self.assertEqual(set(failed["steps"][first]["protocols"]), {"fixed"})
         self.assertNotIn("fixed_squeeze", self.assert_passes("--no-frames")[0].stdout)
-        self.refuse("--protocol: loose", protocol="loose")
+        self.refuse('--protocol: expected one of adapted, fixed, both, found "loose"',
+                    protocol="loose")
 
     def test_stress_finds_the_largest_push_by_two_routes(self):
         done, report = self.assert_passes("--no-frames", "--stress")
@@ -207,6 +208,7 @@ class Validate(ProgramCase):
                                   r"surface, 0\.03849 of the object's diameter")
         self.assertRegex(said[2], r"^  what would mend it: .*surface")
         self.assertEqual(said[-1], "verdict: fail, " + said[0])
+        self.assertEqual(said[-2], "files: result/report.html, report.json")
         self.assertNotIn("weakest", done.stdout)
         quiet = self.run_program(*self.arguments("--no-frames", "--quiet"))
         self.assertEqual((quiet.returncode, quiet.stdout), (1, ""))

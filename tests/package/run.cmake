@@ -20,6 +20,12 @@ run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${MODEL})
 foreach(program plan validate graph figure)
   run(${prefix}/bin/${program} --version)
+  foreach(text man/man1/${program}.1 bash-completion/completions/${program}
+          zsh/site-functions/_${program} fish/vendor_completions.d/${program}.fish)
+    if(NOT EXISTS ${prefix}/share/${text})
+      message(FATAL_ERROR "share/${text} is not installed")
+    endif()
+  endforeach()
 endforeach()
 
 # What the headers and the consumer include, down to the system's headers.

@@ -1,0 +1,81 @@
+// The manual page of a program, from what its --help says.
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "apps/help.h"
+#include "apps/program.h"
+#include "planner/base/utf8.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+/// Text as troff takes it (groff_char(7), groff_man(7)): a hyphen that is a minus, a backslash that
+/// is one, no line that is a request, and all but ASCII by code point.
+std::string Escape(const std::string& text) {
+  std::string escaped;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte < 0x80) {
+      if (text[i] == '\\') {
+        escaped += "\\e";
+      } else if (text[i] == '-') {
+        escaped += "\\-";
+      } else {
+        escaped += text[i];
+      }
+      ++i;
+      continue;
+    }
+    const int length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
+    char32_t code = byte & (0xFF >> (length + 1));
+    for (int k = 1; k < length; ++k) code = code << 6 | (text[i + k] & 0x3F);
+    char name[sizeof "\\[u10FFFF]"];
+    std::snprintf(name, sizeof name, "\\[u%04X]", static_cast<unsigned>(code));
+    escaped += name;
+    i += length;
+  }
+  const bool request = escaped.starts_with('.') || escaped.starts_with('\'');
+  return (request ? "\\&" : "") + escaped;
+}
+
+std::string Upper(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+std::string OptionText(const OptionHelp& option) {
+  return ".TP\n.B " + Escape(option.name) +
+         (option.type.empty() ? "" : " \\fI" + Escape(option.type) + "\\fR") + "\n" +
+         Escape(option.text + (option.required ? " (required)" : "")) + "\n";
+}
+
+constexpr char kExitStatus[] =
+    ".SH EXIT STATUS\n"
+    ".TP\n.B 0\ndone; of\n.BR validate (1):\npass\n"
+    ".TP\n.B 1\na negative answer: no sequence, the plan failed, or the time was up\n"
+    ".TP\n.B 2\nbad usage or bad input: one line that names the file, the element and what is "
+    "wrong\n"
+    ".TP\n.B 3\nthe environment failed\n";
+
+}  // namespace
+
+std::string ManPage(const CLI::App& app) {
+  std::string page = ".TH " + Upper(app.get_name()) + " 1 \"\" \"regrasp " + ProgramVersion() +
+                     "\" \"regrasp\"\n.SH NAME\n" + app.get_name() + " \\- " +
+                     Escape(app.get_description()) + "\n.SH SYNOPSIS\n" + Escape(UsageText(app)) +
+                     "\n.SH OPTIONS\n";
+  for (const HelpGroup& group : HelpGroups(app)) {
+    page += ".SS " + Escape(group.name) + "\n";
+    for (const OptionHelp& option : group.options) page += OptionText(option);
+  }
+  page += kExitStatus;
+  if (!app.get_footer().empty()) {
+    page += ".SH EXAMPLES\n.nf\n" + Escape(app.get_footer()) + ".fi\n";
+  }
+  return page;
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,121 @@
+"""What all programs say of their options: --help, manual page, completions, and mistyped ones."""
+
+import re
+import shutil
+import subprocess
+
+import program_case
+from program_case import ProgramCase
+
+PROGRAMS = ("plan", "validate", "graph", "figure")
+
+
+def options_in(text):
+    """The options that --help lists: each begins a line, indented by two."""
+    return re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)
+
+
+class Help(ProgramCase):
+    def help(self, program, **environment):
+        return self.assert_done("--help", program=program,
+                                environment={"COLUMNS": None, **environment}).stdout
+
+    def help_as(self, kind, program):
+        return self.assert_done("--help-as", kind, program=program).stdout
+
+    def test_help_has_every_option_in_a_group_and_fits_into_the_line(self):
+        for program in PROGRAMS:
+            texts = {width: self.help(program, COLUMNS=str(width)) for width in (60, 80, 100)}
+            self.assertEqual(self.help(program), texts[80])
+            for width, text in texts.items():
+                lines = text.split("Examples:")[0].splitlines()
+                longest = max(map(len, lines))
+                self.assertLessEqual(longest, width, [line for line in lines if len(line) > width])
+                self.assertGreater(longest, width - 20)
+                self.assertEqual(options_in(text), options_in(texts[80]))
+            self.assertIn("--quiet", options_in(texts[80]))
+            self.assertRegex(texts[80], r"\nGeneral:\n")
+        for program in ("plan", "validate", "graph"):
+            text = self.help(program)
+            self.assertEqual(text.split("Examples:\n")[1].count("  " + program + " --"), 2)
+
+    def test_a_mistyped_option_is_told_before_a_missing_one(self):
+        for self.program in PROGRAMS:
+            self.assert_refused(2, "unknown option --objct; did you mean --object? (",
+                                "--objct", "x")
+            self.assert_refused(2, "unknown option --objct; did you mean --object? (",
+                                "--objct=x")
+            self.assert_refused(2, "unknown option -object; did you mean --object? (",
+                                "-object", "x")
+            self.assert_refused(2, "unknown option --frobnicate (", "--frobnicate")
+            # The right one is asked for where it is missing, and not complained of.
+            self.assert_refused(2, f"--object is required ({self.program} --help lists all)")
+
+    def test_a_mistyped_word_is_told_with_the_one_that_was_meant(self):
+        ends = ["--start", "random", "--goal", "random", "--output", "plan.json", "--mu", "0.3",
+                "--object", self.model("cube.obj")]
+        for program, words, more in (
+                ("plan", "did you mean uniform?", ["--spanning", "unifrom", *ends]),
+                ("plan", "did you mean margin?", ["--optimize", "marign", *ends]),
+                ("plan", "did you mean roadmap?", ["--planner", "raodmap", *ends]),
+                ("plan", "did you mean random?", [*ends[2:], "--start", "randm"]),
+                ("graph", "did you mean adaptive?", ["--spanning", "adaptiv", *ends[6:]]),
+                ("validate", "did you mean slide?",
+                 ["--align", "slid", "--plan", "plan.json", *ends[8:]])):
+            self.program = program
+            self.assert_refused(2, words, *more)
+
+    def test_completions_have_every_option(self):
+        for program in PROGRAMS:
+            options = options_in(self.help(program))
+            self.assertGreater(len(options), 5)
+            for kind in ("bash", "zsh", "fish"):
+                text = self.help_as(kind, program)
+                for option in options:
+                    word = "-l " + option[2:] + " " if kind == "fish" else option
+                    self.assertIn(word, text, kind)
+
+    def test_bash_completes_options_and_their_words(self):
+        def complete(program, *words):
+            script = self.help_as("bash", program) + (
+                f"COMP_WORDS=({' '.join((program, *words))}); COMP_CWORD={len(words)}\n"
+                f"_regrasp_{program}\nprintf '%s\\n' \"${{COMPREPLY[@]}}\"\n")
+            done = subprocess.run(["bash", "-c", script], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True, cwd=self.folder, check=True)
+            self.assertEqual(done.stderr, "")
+            return done.stdout.split()
+        self.write("some plan.json", "")
+        self.assertEqual(complete("plan", "--spann"), ["--spanning"])
+        self.assertEqual(complete("plan", "--spanning", "u"), ["uniform"])
+        self.assertEqual(complete("validate", "--plan", "so"), ["some", "plan.json"])
+        self.assertEqual(complete("validate", "--mass", ""), [])
+
+    def test_the_manual_page_is_rendered_without_a_warning_and_has_every_option(self):
+        self.assertIsNotNone(shutil.which("groff"), "groff is not installed: run scripts/setup")
+        for program in PROGRAMS:
+            page = self.help_as("man", program)
+            done = subprocess.run(["groff", "-ww", "-man", "-Tutf8", "-P-cbou"], input=page,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                  check=True)
+            self.assertEqual(done.stderr, "")
+            for option in options_in(self.help(program)):
+                self.assertRegex(done.stdout, r"(?m)^ +" + option + r"\b")
+            self.assertIn("EXIT STATUS", done.stdout)
+        # Characters beyond ASCII arrive as they are.
+        self.assertIn("kg/m^3", self.help_as("man", "validate"))
+
+    def test_another_kind_of_help_is_bad_usage(self):
+        for self.program in PROGRAMS:
+            self.assert_refused(2, "man, bash, zsh or fish", "--help-as", "html")
+
+    def test_errors_and_warnings_have_colour_on_a_terminal_alone(self):
+        self.program = "plan"
+        red = "\x1b[31m"
+        self.assertIn(red, self.run_on_terminal("--objct")[1])
+        self.assertNotIn(red, self.run_on_terminal("--objct", environment={"NO_COLOR": "1"})[1])
+        self.assertNotIn(red, self.run_on_terminal("--objct", environment={"TERM": "dumb"})[1])
+        self.assertNotIn("\x1b", self.run_program("--objct").stderr)
+
+
+if __name__ == "__main__":
+    program_case.main()
