@@ -166,6 +166,21 @@ std::string Fill(const std::map<std::string, std::string>& values) {
   }
 }
 
+/// Of this version of the engine; later ones call them ccd_… and refuse these names.
+std::string CollisionOptions(double tolerance_m) {
+  return " mpr_iterations=\"500\" mpr_tolerance=\"" + FormatDouble(tolerance_m) + "\"";
+}
+
+/// What a scene that any version loads leaves out.
+std::string CollisionRemark(const std::string& options) {
+  return "Where a patch of contact is a mesh, not a box, the default collision tolerance misses "
+         "most contacts 1e-7 m deep: add" +
+         options + " to the option, from MuJoCo 3.2.3 on with ccd_ instead of mpr_.";
+}
+
+/// Enough for all that fingers touch; later versions size themselves.
+constexpr char kEngineSize[] = "  <size njmax=\"400\" nconmax=\"100\"/>\n";
+
 }  // namespace
 
 std::string FormatScene(const Scene& scene, const object::Object& body,
@@ -178,9 +193,12 @@ std::string FormatScene(const Scene& scene, const object::Object& body,
     AddFinger(scene, f, parts);
   }
   const Eigen::Matrix3d& I = scene.inertia;
+  const std::string collision = CollisionOptions(kCollisionTolerance * s.diameter_m);
   return Fill({{"timestep", FormatDouble(s.timestep_s)},
                {"gravity", FormatDouble(0 - s.gravity_m_s2)},
-               {"mpr_tolerance", FormatDouble(kCollisionTolerance * s.diameter_m)},
+               {"collision", surface ? "" : collision},
+               {"collision_remark", surface ? CollisionRemark(collision) : ""},
+               {"size", surface ? "" : kEngineSize},
                {"diameter", FormatDouble(s.diameter_m)},
                {"light", FormatDouble(s.diameter_m)},
                {"mu", FormatDouble(s.friction_factor * s.mu)},

@@ -93,6 +93,29 @@ Scene CubeScene(const CubeCase& cube) {
                    0, {});
 }
 
+/// MJCF without what is said in it for people.
+std::string WithoutComments(std::string mjcf) {
+  for (std::size_t begin; (begin = mjcf.find("<!--")) != std::string::npos;) {
+    mjcf.erase(begin, mjcf.find("-->", begin) + 3 - begin);
+  }
+  return mjcf;
+}
+
+TEST(SceneMjcfTest, LeavesOutWhatLaterVersionsOfMujocoRenamed) {
+  const CubeCase cube;
+  const std::string mjcf = SceneMjcf(cube.object, MakePlan(cube.Start(), 25), {});
+  const std::string read = WithoutComments(mjcf);
+  for (const char* renamed : {"mpr_", "ccd_", "njmax", "nconmax", "directional"}) {
+    EXPECT_EQ(read.find(renamed), std::string::npos) << renamed;
+  }
+  // Who wants the collision tolerance of the replay is told how to ask for it.
+  EXPECT_NE(mjcf.find("mpr_iterations=\"500\""), std::string::npos);
+  EXPECT_EQ(mjcf.find("brace"), std::string::npos);
+  // The replay itself asks for it.
+  EXPECT_NE(WithoutComments(FormatScene(CubeScene(cube), cube.object, {}, false)).find("mpr_"),
+            std::string::npos);
+}
+
 TEST(EngineTest, AnErrorOfTheEngineBecomesAnException) {
   const CubeCase cube;
   const Engine engine(
