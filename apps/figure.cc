@@ -27,6 +27,7 @@
 #include "render/figures/figure_mark.h"
 #include "render/figures/plan_figure.h"
 #include "render/figures/solid_figure.h"
+#include "render/frames/step_scene.h"
 
 namespace {
 
@@ -37,6 +38,8 @@ constexpr char kProgram[] = "figure";
 
 /// The beginning of the names of figures of contact space.
 constexpr char kContactSpace[] = "contact_space";
+
+constexpr char kSceneEnding[] = "glb";
 
 /// The folder of the figures.
 class FigureFolder {
@@ -60,6 +63,7 @@ struct FigureProgram {
   std::optional<double> scale;
   bool allow_object_change = false;
   bool contact_space = false;
+  bool gltf = false;
   render::SolidFigureOptions solid;
   bool quiet = false;
 
@@ -93,6 +97,9 @@ void FigureProgram::AddTo(CLI::App& app) {
                "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
   AddView(app, solid.view);
   AddEdges(app, solid.body);
+  app.add_flag("--export-gltf", gltf,
+               "Also write each step as a scene to turn around, in binary glTF 2.0: 000_hold.glb, "
+               "001_switch.glb …, metres");
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
@@ -122,9 +129,10 @@ plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& 
 }
 
 /// True iff an earlier run may have written this: 000_hold.svg, 001_switch.svg, …,
-/// contact_space.svg, contact_space_001.svg, … in this format.
+/// contact_space.svg, contact_space_001.svg, … in this format, or a scene, 000_hold.glb.
 bool IsFigureName(const std::string& name, const std::string& format) {
-  if (IsEntryFileName(name, format) || name == std::string(kContactSpace) + "." + format) {
+  if (IsEntryFileName(name, format) || IsEntryFileName(name, kSceneEnding) ||
+      name == std::string(kContactSpace) + "." + format) {
     return true;
   }
   const std::string prefix = std::string(kContactSpace) + "_";
@@ -201,6 +209,10 @@ void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan
   }
 }
 
+std::string KindOf(const plan::Plan& plan, int entry) {
+  return entry == 0 ? "hold" : plan::StepKind(plan.steps[entry - 1]);
+}
+
 std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Object& object,
                                                                 const plan::Plan& plan) const {
   if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
@@ -218,9 +230,14 @@ void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan&
   const int count = panels->count();
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
-    const std::string kind = i == 0 ? "hold" : plan::StepKind(plan.steps[i - 1]);
-    folder.Write(EntryFileName(i, kind, format),
+    folder.Write(EntryFileName(i, KindOf(plan, i), format),
                  render::DrawStepFigure(*panels, i, FormatOf(format)));
+  }
+  for (int i = 0; gltf && i < count; ++i) {
+    progress.Report("scene " + std::to_string(i + 1) + " of " + std::to_string(count));
+    folder.Write(EntryFileName(i, KindOf(plan, i), kSceneEnding),
+                 render::EncodeGlb(render::kFigureMaker,
+                                   render::MakeStepScene(object, plan, i, solid.body)));
   }
   progress.Report("the sheet of all figures");
   folder.Write(SheetName(format), render::DrawSheet(*panels, FormatOf(format)));

@@ -60,7 +60,8 @@ bool IsMarkedFigure(const std::string& bytes) {
     return bytes.starts_with(beginning) && bytes.find(mark) != std::string::npos;
   };
   return holds("<?xml"sv, SvgMark()) || holds("%PDF-"sv, PdfMark()) ||
-         holds("\x89PNG"sv, PngMark());
+         holds("\x89PNG"sv, PngMark()) ||
+         holds("glTF"sv, "\"name\":\"" + std::string(kFigureMaker) + "\"");
 }
 
 }  // namespace regrasp::render

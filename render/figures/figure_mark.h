@@ -6,7 +6,8 @@
 
 namespace regrasp::render {
 
-/// Who made a figure, as its file says: the creator of a PDF, the software of a PNG.
+/// Who made a figure, as its file says: the creator of a PDF, the software of a PNG, the name of
+/// the root of a glTF scene.
 inline constexpr char kFigureMaker[] = "regrasp figure";
 
 /// Writes the maker into the bytes of an SVG or a PNG, where their programs look for it: a comment

@@ -71,13 +71,14 @@ class SolidPainter {
       : cr_(cr), body_(body), camera_(camera) {}
 
   void DrawBody() {
+    // The triangles that face the eye turn the same way: together they are one area.
+    cairo_new_path(cr_);
+    cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
     for (const auto& [a, b, c] : body_.surface.triangles) {
       if ((b - a).cross(c - a).dot(camera_.back()) <= 0) continue;
-      const std::array<Vector2d, 3> corners = {camera_(a), camera_(b), camera_(c)};
-      cairo_new_path(cr_);
-      AddOutline(cr_, corners);
-      FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
+      AddOutline(cr_, std::array<Vector2d, 3>{camera_(a), camera_(b), camera_(c)});
     }
+    FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
     std::vector<Segment> lines = body_.edges;
     for (const Segment& line :
          FindOutline(body_, [this](const Vector3d&) { return camera_.back(); })) {

@@ -253,6 +253,15 @@ class Figure(ProgramCase):
             self.draw(*options, object=self.model("cube.obj"), out="other")
             self.assertNotEqual(self.read("other/000_hold.svg"), usual)
 
+    def test_scenes_are_written_where_asked_and_do_not_stay(self):
+        scenes = [name[:-3] + "glb" for name in self.names("svg") if name[0] == "0"]
+        self.assertEqual(self.draw("--export-gltf"), sorted(self.names("svg") + scenes))
+        for name in scenes:
+            data = self.read("result/" + name)
+            self.assertEqual(struct.unpack("<4sII", data[:12]), (b"glTF", 2, len(data)))
+        self.write("result/003_switch.glb", b"glTF of somebody else")
+        self.assertEqual(self.draw(), sorted(self.names("svg") + ["003_switch.glb"]))
+
     def test_help_names_the_formats(self):
         done = self.assert_done("--help")
         self.assertIn("svg, pdf or png", done.stdout)
