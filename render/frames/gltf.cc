@@ -71,8 +71,7 @@ aiNode* MakeNode(const std::string& name, unsigned mesh) {
 }
 
 /// The scene owns, and deletes, all that it points to.
-std::unique_ptr<aiScene> MakeScene(const std::string& name,
-                                   const std::vector<ScenePart>& parts) {
+std::unique_ptr<aiScene> MakeScene(const std::string& name, const std::vector<ScenePart>& parts) {
   auto scene = std::make_unique<aiScene>();
   const auto count = static_cast<unsigned>(parts.size());
   scene->mMeshes = new aiMesh*[count]();

@@ -35,7 +35,8 @@ TEST(StepSceneTest, HasTheObjectAndEachFingerInMetresInTheObjectsFrame) {
   const std::vector<ScenePart> parts = MakeStepScene(cube, plan, 0);
   std::vector<std::string> names;
   for (const ScenePart& part : parts) names.push_back(part.name);
-  EXPECT_THAT(names, ElementsAre("object", "finger 0", "finger 0 cone", "finger 2", "finger 2 cone"));
+  EXPECT_THAT(names,
+              ElementsAre("object", "finger 0", "finger 0 cone", "finger 2", "finger 2 cone"));
   Eigen::AlignedBox3d box;
   for (const auto& corners : parts[0].mesh.triangles) {
     for (const Vector3d& p : corners) box.extend(p);
