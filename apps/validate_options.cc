@@ -50,10 +50,10 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   add("--object", options.object_path,
       "Object file; or a folder, in which each plan's object is the file that it names")
       ->required();
-  CLI::Option* plan =
-      add("--plan", options.plans,
-          "Plan file; or several, or a folder of plans (every *.json), each of which is "
-          "validated in a process of its own; or --grasp");
+  CLI::Option* plan = add("--plan", options.plans,
+                          "Plan file, - for standard input; or several, or a folder of plans "
+                          "(every *.json), each of which is "
+                          "validated in a process of its own; or --grasp");
   CLI::Option* grasp =
       add("--grasp", options.grasp_path,
           "Grasp file: asks for a single grasp, at the friction given here, whether it is force "
@@ -82,6 +82,8 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
                "The report also holds, for every grasp and all along every align, contact forces "
                "that prove force closure, or a twist that refutes it");
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
+  add("--json", options.json,
+      "Write the report here too; - is standard output, instead of the table");
   add("--export-mjcf", options.mjcf,
       "Write the scene of the replay as MJCF, without what versions of MuJoCo name differently");
   add("--trajectory", options.trajectory,
@@ -221,9 +223,9 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
 /// by what their files hold.
 bool ChangesResults(const std::string& name) {
   static const std::set<std::string> kOthers = {
-      "--help",  "--version",     "--object",     "--plan",  "--grasp", "--out",
-      "--junit", "--export-mjcf", "--trajectory", "--start", "--goal",  "--verify",
-      "--jobs",  "--fresh",       "--time-limit", "--quiet"};
+      "--help",   "--version", "--object",      "--plan",       "--grasp", "--out",
+      "--junit",  "--json",    "--export-mjcf", "--trajectory", "--start", "--goal",
+      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet"};
   return !kOthers.contains(name);
 }
 
@@ -270,7 +272,10 @@ void ValidateOptions::Finish(const CLI::App& app) {
     }
   };
   if (for_batch()) {
-    refuse({"--trajectory", "--export-mjcf", "--verify"}, kSinglePlan);
+    refuse({"--trajectory", "--export-mjcf", "--verify", "--json"}, kSinglePlan);
+    if (std::ranges::find(plans, kStandardStream) != plans.end()) {
+      throw InputError("--plan - " + std::string(kSinglePlan));
+    }
   } else {
     refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
     if (!for_grasp()) plan_path = plans.front();
@@ -297,6 +302,8 @@ std::filesystem::path ValidateOptions::Folder() const {
   if (!out.empty()) return out;
   const fs::path parent = "out";
   if (plan_path.empty() && plans.size() > 1) return parent / "batch";
+  // What comes by standard input has no name.
+  if (InputPath() == kStandardStream) return parent / "plan";
   if (!for_batch()) return parent / fs::path(InputPath()).stem();
   // "plans/" and "." have names too.
   const fs::path folder = fs::absolute(plans.front()).lexically_normal();

@@ -18,6 +18,9 @@ namespace regrasp::apps {
 /// The program's name, before its messages.
 inline constexpr char kValidateName[] = "validate";
 
+/// Of --plan and --json: standard input and output.
+inline constexpr char kStandardStream[] = "-";
+
 /// What the command line of `validate` asks for.
 struct ValidateOptions {
   std::string object_path;         ///< for plans also a folder, where each finds the file it names
@@ -26,6 +29,7 @@ struct ValidateOptions {
   std::string grasp_path;          ///< instead of a plan
   std::string out;
   std::string junit;
+  std::string json;
   std::string mjcf;
   std::string trajectory;
   std::string start;

@@ -53,6 +53,7 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   OutputFiles outputs;
   if (!options.verify.empty()) return outputs;
   outputs.Add("--junit", options.junit);
+  if (options.json != kStandardStream) outputs.Add("--json", options.json);
   outputs.Add("--trajectory", options.trajectory);
   outputs.Add("--export-mjcf", options.mjcf);
   outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
@@ -74,7 +75,8 @@ void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
   if (!named_by_plan) task.object = object::ReadObject(options.object_path, reading);
-  task.file_text = ReadFile(options.plan_path);
+  task.file_text =
+      options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
   task.plan = plan::ParsePlan(task.file_text, options.plan_path);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
   if (named_by_plan) {
@@ -279,7 +281,13 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   }
   CheckPictures(folder.path(), report);
   report.run->files = DigestFiles(folder.path(), names);
-  WriteFile(folder.path() / kReportName, report::FormatReportJson(report));
+  const std::string text = report::FormatReportJson(report);
+  WriteFile(folder.path() / kReportName, text);
+  if (options.json == kStandardStream) {
+    std::cout << text;
+  } else if (!options.json.empty()) {
+    WriteFile(options.json, text);
+  }
 }
 
 /// "out/plan/report.html, report.json and 3 more".
@@ -322,7 +330,7 @@ int RunValidation(const ValidateOptions& options) {
   for (const std::string& warning : report.warnings()) {
     PrintMessage(kValidateName, "warning: " + warning);
   }
-  if (!options.quiet) {
+  if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder.path(), report));
   } else if (const auto failure = report::DescribeFailure(report)) {
     PrintError(kValidateName,

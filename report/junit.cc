@@ -44,6 +44,10 @@ Element MakeSuite(const JunitSuite& suite) {
 
 }  // namespace
 
+std::string JunitText(const std::string& detail, const std::string& picture) {
+  return detail + (picture.empty() ? "" : "\npicture: " + picture);
+}
+
 JunitOutcome OutcomeOf(std::string_view verdict) {
   if (verdict == "pass") return JunitOutcome::kPassed;
   return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
@@ -54,7 +58,8 @@ JunitSuite MakeJunitSuite(const Report& report) {
   for (const ReportStep& step : report.steps) {
     suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
                            OutcomeOf(VerdictName(step.verdict())),
-                           std::string(plan::ReasonName(step.reason())), step.detail()});
+                           std::string(plan::ReasonName(step.reason())),
+                           JunitText(step.detail(), step.frame)});
   }
   return suite;
 }

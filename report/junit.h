@@ -23,6 +23,10 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
+/// What a case says for people: the detail, and the picture where there is one.
+/// @param picture  where the picture is; may be empty.
+[[nodiscard]] std::string JunitText(const std::string& detail, const std::string& picture);
+
 /// Of an entry's verdict, "pass", "fail" or "skipped".
 [[nodiscard]] JunitOutcome OutcomeOf(std::string_view verdict);
 

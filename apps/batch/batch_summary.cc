@@ -86,8 +86,10 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan) {
   }
   for (std::size_t i = 0; i < plan.report->entries.size(); ++i) {
     const ReportSummary::Entry& entry = plan.report->entries[i];
+    const std::string picture = entry.frame.empty() ? "" : plan.name + "/" + entry.frame;
     suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind,
-                           report::OutcomeOf(entry.verdict), entry.reason, entry.detail});
+                           report::OutcomeOf(entry.verdict), entry.reason,
+                           report::JunitText(entry.detail, picture)});
   }
   return suite;
 }

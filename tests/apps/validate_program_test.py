@@ -254,6 +254,25 @@ class Validate(ProgramCase):
             self.assertRegex(done.stderr, f"validate: warning: the object is {re.escape(size)}.*"
                                           "--scale")
 
+    def test_a_plan_comes_by_standard_input_and_the_report_goes_to_standard_output(self):
+        arguments = self.arguments("--no-frames", "--json", "-", plan="-", out=None)
+        done = subprocess.run(
+            [os.path.join(program_case.ARGUMENTS.programs, "validate"), *arguments],
+            input=json.dumps(self.plan), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            cwd=self.folder, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
+        self.assertEqual(done.stdout.encode(), self.read("out/plan/report.json"))
+        # No plan there, and two plans.
+        self.refuse("validate: -: not JSON", plan="-", out="none")
+        self.refuse("--plan - goes with a single plan", "--plan", "plan.json", plan="-")
+
+    def test_a_failed_plan_is_on_standard_output_too_and_json_goes_to_files(self):
+        done = self.run_program(*self.arguments("--no-frames", "--json", "-", friction_angle="1"))
+        self.assertEqual((done.returncode, json.loads(done.stdout)["verdict"]), (1, "fail"))
+        self.assert_passes("--no-frames", json="copy.json")
+        self.assertEqual(self.read("copy.json"), self.read("result/report.json"))
+
     def test_the_folder_is_named_after_the_plan_where_none_is_given(self):
         self.assert_done(*self.arguments("--no-frames", out=None))
         self.assertEqual(json.loads(self.read("out/plan/report.json"))["verdict"], "pass")

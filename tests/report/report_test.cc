@@ -151,7 +151,7 @@ TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
   const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport())});
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger 2 slid by 1 mm &lt;under&gt; "
-                             "&quot;shake&quot; &amp; push</failure>"));
+                             "&quot;shake&quot; &amp; push\npicture: frame1.png</failure>"));
   EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\"><skipped></skipped>"));
   EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport())}), Not(HasSubstr("<failure")));
 }
