@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -41,6 +42,9 @@ constexpr char kContactSpace[] = "contact_space";
 
 constexpr char kSceneEnding[] = "glb";
 
+constexpr NumberRange kWidths = {.lower = 20, .upper = 2000};
+constexpr NumberRange kFontSizes = {.lower = 2, .upper = 72};
+
 /// The folder of the figures.
 class FigureFolder {
  public:
@@ -60,6 +64,8 @@ struct FigureProgram {
   std::string plan_path;
   std::string out;
   std::string format = "svg";
+  render::FigureStyle style;
+  std::string panels;  ///< of the sheet; all where empty
   std::optional<double> scale;
   bool allow_object_change = false;
   bool contact_space = false;
@@ -92,6 +98,17 @@ void FigureProgram::AddTo(CLI::App& app) {
   app.add_option("--format", format, "svg, pdf or png (default svg)")
       ->check(CLI::IsMember({"svg", "pdf", "png"}))
       ->type_name("FORMAT");
+  AddNumber(app, "--width", style.width_mm, kWidths,
+            "Width of the figure of a step, millimetres (default 85, a column)", "MM");
+  AddNumber(app, "--sheet-width", style.sheet_width_mm, kWidths,
+            "Width of the sheet, millimetres (default 174, two columns)", "MM");
+  AddNumber(app, "--font-size", style.font_pt, kFontSizes,
+            "Size of captions and numbers, points; lines and markers are larger and smaller with "
+            "them (default 7.5)",
+            "PT");
+  app.add_option("--panels", panels,
+                 "Entries on the sheet, 0 the hold, k the k-th step: 0,2-4 (default all)")
+      ->type_name("LIST");
   app.add_flag("--contact-space", contact_space,
                "Also draw the contact space, and each switch in it: contact_space.FORMAT, "
                "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
@@ -209,6 +226,30 @@ void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan
   }
 }
 
+/// Reads "0,2-4"; all of `count` where the text is empty.
+/// @throws InputError  it is no such list, or names an entry that is not there.
+std::vector<int> ParsePanels(const std::string& text, int count) {
+  std::vector<int> entries;
+  if (text.empty()) {
+    for (int i = 0; i < count; ++i) entries.push_back(i);
+    return entries;
+  }
+  try {
+    std::istringstream parts(text + ",");  // so that an empty last part is one
+    for (std::string part; std::getline(parts, part, ',');) {
+      const std::size_t dash = part.find('-');
+      const int first = ParseInteger("--panels", part.substr(0, dash), 0, count - 1);
+      const int last = dash == std::string::npos
+                           ? first
+                           : ParseInteger("--panels", part.substr(dash + 1), first, count - 1);
+      for (int i = first; i <= last; ++i) entries.push_back(i);
+    }
+  } catch (const CLI::ValidationError& error) {
+    throw InputError(error.what());
+  }
+  return entries;
+}
+
 std::string KindOf(const plan::Plan& plan, int entry) {
   return entry == 0 ? "hold" : plan::StepKind(plan.steps[entry - 1]);
 }
@@ -223,15 +264,18 @@ std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Ob
 }
 
 void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
+  const std::vector<int> on_sheet = ParsePanels(panels, static_cast<int>(plan.steps.size()) + 1);
   FigureFolder folder(out);
   ProgressLine progress(quiet);
   progress.Report("laying out the figures");
-  const std::unique_ptr<render::FigurePanels> panels = MakePanels(object, plan);
-  const int count = panels->count();
+  const std::unique_ptr<render::FigurePanels> drawn = MakePanels(object, plan);
+  const int count = drawn->count();
+  render::FigureStyle printed = style;
+  printed.format = FormatOf(format);
   for (int i = 0; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
     folder.Write(EntryFileName(i, KindOf(plan, i), format),
-                 render::DrawStepFigure(*panels, i, FormatOf(format)));
+                 render::DrawStepFigure(*drawn, i, printed));
   }
   for (int i = 0; gltf && i < count; ++i) {
     progress.Report("scene " + std::to_string(i + 1) + " of " + std::to_string(count));
@@ -240,7 +284,7 @@ void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan&
                                    render::MakeStepScene(object, plan, i, solid.body)));
   }
   progress.Report("the sheet of all figures");
-  folder.Write(SheetName(format), render::DrawSheet(*panels, FormatOf(format)));
+  folder.Write(SheetName(format), render::DrawSheet(*drawn, on_sheet, printed));
   if (contact_space) {
     WriteContactSpace(dynamic_cast<const object::Polygon&>(object), plan, folder);
   }

@@ -72,14 +72,14 @@ cairo_surface_t* FigurePage::MakeSurface(double width, double height) {
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels(width), pixels(height));
 }
 
-FigurePage::FigurePage(FigureFormat format, double width, double height)
+FigurePage::FigurePage(FigureFormat format, double width, double height, double magnification)
     : format_(format),
       bytes_(std::make_unique<std::string>()),
-      surface_(MakeSurface(width, height)),
+      surface_(MakeSurface(magnification * width, magnification * height)),
       context_(cairo_create(surface_.get())) {
   cairo_t* cr = context_.get();
   Demand(cairo_status(cr));
-  cairo_scale(cr, scale_, scale_);
+  cairo_scale(cr, scale_ * magnification, scale_ * magnification);
   cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_paint(cr);
 }

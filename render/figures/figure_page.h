@@ -18,8 +18,9 @@ class FigurePage {
  public:
   /// @param width, height  points; positive. A PNG has 300 dots per inch, fewer where a side would
   ///                       be longer than Cairo can draw.
+  /// @param magnification  how much larger everything is in the file, text and lines too.
   /// @throws EnvironmentError  Cairo cannot make the page.
-  FigurePage(FigureFormat format, double width, double height);
+  FigurePage(FigureFormat format, double width, double height, double magnification = 1);
 
   [[nodiscard]] cairo_t* context() const { return context_.get(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "render/figures/figure_page.h"
@@ -19,6 +20,13 @@ constexpr int kUsualColumns = 4;
 /// has fewer columns if it is no taller than a page.
 constexpr double kLowPanel = 0.6;
 constexpr double kTallestSheet = 235 * kPointsPerMillimetre;
+
+double MagnificationOf(const FigureStyle& style) { return style.font_pt / kCaptionFont; }
+
+/// What is laid out at the usual size of text for a width in print.
+double LayoutWidth(double width_mm, const FigureStyle& style) {
+  return width_mm * kPointsPerMillimetre / MagnificationOf(style);
+}
 
 using Lines = std::vector<std::string>;
 
@@ -50,28 +58,30 @@ struct SheetLayout {
   }
 };
 
-SheetLayout LayOutIn(int columns, const FigurePanels& panels) {
+SheetLayout LayOutIn(int columns, const FigurePanels& panels, std::span<const int> indices,
+                     const FigureStyle& style) {
   SheetLayout layout;
   layout.columns = columns;
   const int on_page = std::min(columns, kUsualColumns);
-  const double width = (kTwoColumnWidth - (on_page - 1) * kGap) / on_page;
-  layout.panel_width = std::min(width, kColumnWidth);
+  const double width = (LayoutWidth(style.sheet_width_mm, style) - (on_page - 1) * kGap) / on_page;
+  layout.panel_width = std::min(width, LayoutWidth(style.width_mm, style));
   layout.panel_height = panels.HeightFor(layout.panel_width);
-  for (int i = 0; i < panels.count(); ++i) {
-    layout.captions.push_back(WrapCaption(panels.caption(i), layout.panel_width));
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    layout.captions.push_back(WrapCaption(panels.caption(indices[i]), layout.panel_width));
     if (i % columns == 0) layout.most_lines.push_back(0);
     layout.most_lines.back() = std::max(layout.most_lines.back(), layout.captions.back().size());
   }
   return layout;
 }
 
-SheetLayout LayOut(const FigurePanels& panels) {
-  const int columns = SheetColumns(panels.count());
-  SheetLayout usual = LayOutIn(columns, panels);
+SheetLayout LayOut(const FigurePanels& panels, std::span<const int> indices,
+                   const FigureStyle& style) {
+  const int columns = SheetColumns(static_cast<int>(indices.size()));
+  SheetLayout usual = LayOutIn(columns, panels, indices, style);
   const bool low = usual.panel_height < kLowPanel * usual.panel_width;
   for (int fewer = 2; low && fewer < std::min(columns, kUsualColumns); ++fewer) {
-    SheetLayout layout = LayOutIn(fewer, panels);
-    if (layout.height() <= kTallestSheet) return layout;
+    SheetLayout layout = LayOutIn(fewer, panels, indices, style);
+    if (layout.height() * MagnificationOf(style) <= kTallestSheet) return layout;
   }
   return usual;
 }
@@ -85,26 +95,34 @@ int SheetColumns(int count) {
   return static_cast<int>(std::ceil(std::sqrt(count)));
 }
 
-std::string DrawStepFigure(const FigurePanels& panels, int index, FigureFormat format) {
-  const double height = panels.HeightFor(kColumnWidth);
-  return DrawWithCaption(format, {kColumnWidth, height}, panels.caption(index),
-                         [&](cairo_t* cr) { DrawPanel(cr, panels, index, kColumnWidth, 0, 0); });
+std::string DrawStepFigure(const FigurePanels& panels, int index, const FigureStyle& style) {
+  const double width = LayoutWidth(style.width_mm, style);
+  const auto draw = [&](cairo_t* cr) { DrawPanel(cr, panels, index, width, 0, 0); };
+  return DrawWithCaption(style.format, {width, panels.HeightFor(width)}, panels.caption(index),
+                         draw, MagnificationOf(style));
 }
 
-std::string DrawSheet(const FigurePanels& panels, FigureFormat format) {
-  const SheetLayout layout = LayOut(panels);
-  FigurePage page(format, layout.width(), layout.height());
+std::string DrawSheet(const FigurePanels& panels, std::span<const int> indices,
+                      const FigureStyle& style) {
+  const SheetLayout layout = LayOut(panels, indices, style);
+  FigurePage page(style.format, layout.width(), layout.height(), MagnificationOf(style));
   double top = 0;
-  for (int i = 0; i < panels.count(); ++i) {
-    const int column = i % layout.columns;
-    const int row = i / layout.columns;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::size_t column = i % layout.columns;
+    const std::size_t row = i / layout.columns;
     if (row > 0 && column == 0) top += layout.RowHeight(row - 1);
-    const double left = column * (layout.panel_width + kGap);
-    DrawPanel(page.context(), panels, i, layout.panel_width, left, top);
+    const double left = static_cast<double>(column) * (layout.panel_width + kGap);
+    DrawPanel(page.context(), panels, indices[i], layout.panel_width, left, top);
     DrawCaption(page.context(), layout.captions[i], left + layout.panel_width / 2,
                 top + layout.panel_height);
   }
   return page.Finish();
+}
+
+std::string DrawSheet(const FigurePanels& panels, const FigureStyle& style) {
+  std::vector<int> all(panels.count());
+  std::iota(all.begin(), all.end(), 0);
+  return DrawSheet(panels, all, style);
 }
 
 }  // namespace regrasp::render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "render/figures/figure_format.h"
@@ -28,15 +29,27 @@ class FigurePanels {
   FigurePanels& operator=(const FigurePanels&) = default;
 };
 
-/// A panel with its caption below, as wide as a column (85 mm), as a file's bytes.
+/// How a figure is printed. Markers, lines and arrows are as large beside the text as they are by
+/// default.
+struct FigureStyle {
+  FigureFormat format = FigureFormat::kSvg;
+  double width_mm = 85;         ///< of the figure of one step: a column of a journal
+  double sheet_width_mm = 174;  ///< two columns
+  double font_pt = 7.5;         ///< of captions and numbers
+};
+
+/// A panel with its caption below, as a file's bytes.
 /// @throws EnvironmentError  Cairo failed.
 [[nodiscard]] std::string DrawStepFigure(const FigurePanels& panels, int index,
-                                         FigureFormat format);
+                                         const FigureStyle& style);
 
-/// A sheet of all panels as wide as two columns (174 mm), in rows. Low panels stand fewer in a row;
-/// more than 24 make the sheet wider, not the panels smaller.
+/// A sheet of panels in rows, in the order of `indices`. Low panels stand fewer in a row; more than
+/// 24 make the sheet wider, not the panels smaller.
 /// @throws EnvironmentError  Cairo failed.
-[[nodiscard]] std::string DrawSheet(const FigurePanels& panels, FigureFormat format);
+[[nodiscard]] std::string DrawSheet(const FigurePanels& panels, std::span<const int> indices,
+                                    const FigureStyle& style);
+/// Of all panels.
+[[nodiscard]] std::string DrawSheet(const FigurePanels& panels, const FigureStyle& style);
 
 /// Panels in a row of a sheet of `count` (> 0), where they are not low.
 [[nodiscard]] int SheetColumns(int count);

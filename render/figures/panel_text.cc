@@ -93,9 +93,10 @@ void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, d
 }
 
 std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
-                            const std::string& caption, const std::function<void(cairo_t*)>& draw) {
+                            const std::string& caption, const std::function<void(cairo_t*)>& draw,
+                            double magnification) {
   const std::vector<std::string> lines = WrapCaption(caption, size.x());
-  FigurePage page(format, size.x(), size.y() + CaptionHeight(lines.size()));
+  FigurePage page(format, size.x(), size.y() + CaptionHeight(lines.size()), magnification);
   draw(page.context());
   DrawCaption(page.context(), lines, size.x() / 2, size.y());
   return page.Finish();

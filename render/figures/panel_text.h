@@ -31,9 +31,11 @@ void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, d
 
 /// A figure with a caption below it, as a file's bytes.
 /// @param size  of what is drawn, points.
+/// @param magnification  of the page (render/figures/figure_page.h).
 [[nodiscard]] std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
                                           const std::string& caption,
-                                          const std::function<void(cairo_t*)>& draw);
+                                          const std::function<void(cairo_t*)>& draw,
+                                          double magnification = 1);
 
 /// Where a line of text lies from the point that it is written at.
 enum class TextAlign { kLeft, kCentre, kRight };

@@ -262,6 +262,23 @@ class Figure(ProgramCase):
         self.write("result/003_switch.glb", b"glTF of somebody else")
         self.assertEqual(self.draw(), sorted(self.names("svg") + ["003_switch.glb"]))
 
+    def test_widths_text_and_panels_are_as_asked(self):
+        self.draw(format="png", out="usual")
+        self.draw("--width", "42.5", "--font-size", "5", "--panels", "0,2-3", format="png",
+                  out="other")
+        size = {name: struct.unpack(">II", self.read(name)[16:24])
+                for name in ("usual/000_hold.png", "other/000_hold.png", "usual/sheet.png",
+                             "other/sheet.png")}
+        self.assertAlmostEqual(size["usual/000_hold.png"][0], 2 * size["other/000_hold.png"][0],
+                               delta=2)
+        self.assertLess(size["other/sheet.png"][0], size["usual/sheet.png"][0])
+
+    def test_refuses_panels_and_sizes_that_are_none(self):
+        for options in (["--panels", "5"], ["--panels", "3-1"], ["--panels", "a"],
+                        ["--panels", "1,"], ["--width", "1"], ["--font-size", "0"]):
+            with self.subTest(options=options):
+                self.refuse(options[0], *options)
+
     def test_help_names_the_formats(self):
         done = self.assert_done("--help")
         self.assertIn("svg, pdf or png", done.stdout)

@@ -34,7 +34,7 @@ PlanPanels SquarePanels() {
 }
 
 std::string Step(int index, FigureFormat format) {
-  return DrawStepFigure(SquarePanels(), index, format);
+  return DrawStepFigure(SquarePanels(), index, {.format = format});
 }
 
 int Count(const std::string& text, const std::regex& pattern) {
@@ -78,7 +78,8 @@ TEST(PlanFigureTest, TheSameFigureHasTheSameBytesAndAnotherHasOthers) {
   for (const FigureFormat format : kFormats) {
     EXPECT_TRUE(Step(1, format) == Step(1, format));
     EXPECT_FALSE(Step(1, format) == Step(2, format));
-    EXPECT_TRUE(DrawSheet(SquarePanels(), format) == DrawSheet(SquarePanels(), format));
+    EXPECT_TRUE(DrawSheet(SquarePanels(), {.format = format}) ==
+                DrawSheet(SquarePanels(), {.format = format}));
   }
 }
 
@@ -95,14 +96,14 @@ TEST(PlanFigureTest, EveryFingerThatHoldsHasAMarkerInItsColour) {
 TEST(PlanFigureTest, AStepIsAColumnWideAndASheetTwo) {
   // 300 dots per inch: 85 mm and 174 mm.
   EXPECT_EQ(PngSize(Step(0, FigureFormat::kPng)).width, 1004);
-  EXPECT_EQ(PngSize(DrawSheet(SquarePanels(), FigureFormat::kPng)).width, 2055);
+  EXPECT_EQ(PngSize(DrawSheet(SquarePanels(), {.format = FigureFormat::kPng})).width, 2055);
 }
 
 TEST(PlanFigureTest, ALongPlanMakesALargerSheetThatCanBeDrawn) {
   const object::Polygon square = MakeSquare();
   const StepDiagram hold = SquareDiagrams()[0];
   const std::vector<StepDiagram> many(150, hold);
-  const Size size = PngSize(DrawSheet(PlanPanels(square, many), FigureFormat::kPng));
+  const Size size = PngSize(DrawSheet(PlanPanels(square, many), {.format = FigureFormat::kPng}));
   EXPECT_GT(size.width, 2055);
   EXPECT_GT(size.height, 2055);
 }
@@ -113,7 +114,7 @@ TEST(PlanFigureTest, ALongObjectHasFewerPanelsInARow) {
     hold.grasp = {};
     hold.fingers.clear();
     const std::vector<StepDiagram> four(4, hold);
-    return PngSize(DrawSheet(PlanPanels(polygon, four), FigureFormat::kPng)).height;
+    return PngSize(DrawSheet(PlanPanels(polygon, four), {.format = FigureFormat::kPng})).height;
   };
   const object::Polygon bar =
       object::Polygon::FromRings({{{-1, -0.1}, {1, -0.1}, {1, 0.1}, {-1, 0.1}}}, "bar");
@@ -198,6 +199,37 @@ TEST(PanelTextTest, ACaptionBreaksAfterItsClausesAndBetweenWordsWhereItMust) {
               ElementsAre("(c) switch: place 3,", "release 0, 2; 2-finger grasp"));
   EXPECT_THAT(WrapCaption(caption, 1), SizeIs(5));
   EXPECT_THAT(WrapCaption("", 100), SizeIs(0));
+}
+
+TEST(PlanFigureTest, AFigureIsAsWideAsAskedWithTextAsLargeAsAsked) {
+  const auto width = [](const FigureStyle& style) {
+    return PngSize(DrawStepFigure(SquarePanels(), 0, style)).width;
+  };
+  constexpr double kDotsPerMillimetre = 300 / 25.4;
+  for (const double millimetres : {60.0, 120.0}) {
+    for (const double points : {6.0, 9.0}) {
+      EXPECT_NEAR(width({.format = FigureFormat::kPng, .width_mm = millimetres, .font_pt = points}),
+                  millimetres * kDotsPerMillimetre, 1);
+    }
+  }
+  // Larger text in the same width: another layout, the same file but for its scale is not enough.
+  const auto svg = [](double points) {
+    return DrawStepFigure(SquarePanels(), 0, {.format = FigureFormat::kSvg, .font_pt = points});
+  };
+  EXPECT_NE(svg(7.5), svg(9));
+}
+
+TEST(PlanFigureTest, ASheetHasThePanelsThatAreChosenInTheirOrder) {
+  const FigureStyle png = {.format = FigureFormat::kPng};
+  const PlanPanels panels = SquarePanels();
+  const int all = panels.count();
+  ASSERT_GT(all, 2);
+  const std::vector<int> one = {1}, two = {1, 0}, turned = {0, 1};
+  EXPECT_LT(PngSize(DrawSheet(panels, one, png)).width, PngSize(DrawSheet(panels, two, png)).width);
+  EXPECT_NE(DrawSheet(panels, two, png), DrawSheet(panels, turned, png));
+  std::vector<int> every;
+  for (int i = 0; i < all; ++i) every.push_back(i);
+  EXPECT_EQ(DrawSheet(panels, every, png), DrawSheet(panels, png));
 }
 
 }  // namespace

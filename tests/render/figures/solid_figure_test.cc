@@ -53,9 +53,10 @@ TEST(SolidFigureTest, HasAPanelForEachStepWithItsCaption) {
 }
 
 TEST(SolidFigureTest, TheSameFigureHasTheSameBytesAndAnotherViewHasOthers) {
-  const std::string once = DrawSheet(MakePanels(), FigureFormat::kSvg);
-  EXPECT_EQ(once, DrawSheet(MakePanels(), FigureFormat::kSvg));
-  EXPECT_NE(once, DrawSheet(MakePanels({.view = ViewDirection{1, 0.2}}), FigureFormat::kSvg));
+  const std::string once = DrawSheet(MakePanels(), {.format = FigureFormat::kSvg});
+  EXPECT_EQ(once, DrawSheet(MakePanels(), {.format = FigureFormat::kSvg}));
+  EXPECT_NE(once,
+            DrawSheet(MakePanels({.view = ViewDirection{1, 0.2}}), {.format = FigureFormat::kSvg}));
 }
 
 TEST(SolidFigureTest, HiddenEdgesAreDashed) {
@@ -63,7 +64,8 @@ TEST(SolidFigureTest, HiddenEdgesAreDashed) {
   SolidFigureOptions no_edges = view;
   no_edges.body.edges = EdgeStyle::kNone;
   const auto dashed = [](const SolidFigureOptions& options) {
-    return Count(DrawStepFigure(MakePanels(options), 0, FigureFormat::kSvg), "stroke-dasharray");
+    return Count(DrawStepFigure(MakePanels(options), 0, {.format = FigureFormat::kSvg}),
+                 "stroke-dasharray");
   };
   EXPECT_EQ(dashed(view), 3);  // the edges that meet at the corner that is not seen
   EXPECT_EQ(dashed(no_edges), 0);
@@ -73,7 +75,7 @@ TEST(SolidFigureTest, AFingerBehindTheSolidIsPaleAndOneBeforeItIsNot) {
   // Finger 0 is on the side of +x, finger 1 on that of −x.
   const auto draw = [](double azimuth) {
     const SolidFigureOptions options = {.view = ViewDirection{Radians(azimuth), Radians(20)}};
-    return DrawStepFigure(MakePanels(options), 0, FigureFormat::kSvg);
+    return DrawStepFigure(MakePanels(options), 0, {.format = FigureFormat::kSvg});
   };
   // Filled markers in the finger's own colour; a stem, which stands out, is stroked.
   const std::string blue = "fill:rgb\\(0%,39.607843%,64.705882%\\);fill-opacity:1";
