@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/entry_names.h"
+#include "apps/help.h"
 #include "apps/options.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
@@ -90,14 +91,15 @@ struct FigureProgram {
 };
 
 void FigureProgram::AddTo(CLI::App& app) {
+  BeginGroup(app, "Object, plan and figures");
   app.add_option("--object", object_path, "Object file: a polygon (WKT) or a closed surface mesh")
       ->required()
       ->type_name("FILE");
   app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
   app.add_option("--out", out, "Folder for the figures")->required()->type_name("DIR");
-  app.add_option("--format", format, "svg, pdf or png (default svg)")
-      ->check(CLI::IsMember({"svg", "pdf", "png"}))
-      ->type_name("FORMAT");
+  AddChoice<std::string>(app, "--format", format, {{"svg", "svg"}, {"pdf", "pdf"}, {"png", "png"}},
+                         "Of the figures (default svg)");
+  BeginGroup(app, "Size and choice");
   AddNumber(app, "--width", style.width_mm, kWidths,
             "Width of the figure of a step, millimetres (default 85, a column)", "MM");
   AddNumber(app, "--sheet-width", style.sheet_width_mm, kWidths,
@@ -112,15 +114,20 @@ void FigureProgram::AddTo(CLI::App& app) {
   app.add_flag("--contact-space", contact_space,
                "Also draw the contact space, and each switch in it: contact_space.FORMAT, "
                "contact_space_001.FORMAT …; needs a plan of 2-finger grasps");
+  BeginGroup(app, "Solids");
   AddView(app, solid.view);
   AddEdges(app, solid.body);
   app.add_flag("--export-gltf", gltf,
                "Also write each step as a scene to turn around, in binary glTF 2.0: 000_hold.glb, "
                "001_switch.glb …, metres");
+  BeginGroup(app, "What is let pass");
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   AddScale(app, scale, "Metres per unit of length of the object file; must be the plan's");
   AddQuiet(app, quiet);
+  app.footer(
+      "  figure --object polygon15.wkt --plan plan.json --out figures --format pdf\n"
+      "  figure --object cube.obj --plan plan.json --out figures --view 30,20\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {

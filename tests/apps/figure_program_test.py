@@ -281,7 +281,7 @@ class Figure(ProgramCase):
 
     def test_help_names_the_formats(self):
         done = self.assert_done("--help")
-        self.assertIn("svg, pdf or png", done.stdout)
+        self.assertIn("svg|pdf|png", done.stdout)
 
     # Bad input.
 
