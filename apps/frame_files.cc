@@ -1,12 +1,18 @@
 #include "apps/frame_files.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/entry_names.h"
 #include "planner/base/file.h"
+#include "planner/plan/locate.h"
+#include "planner/plan/planned_snapshot.h"
 #include "render/frames/contact_sheet.h"
 #include "render/picture/caption.h"
+#include "render/picture/fault_text.h"
 #include "render/picture/webp.h"
 
 namespace regrasp::apps {
@@ -15,20 +21,49 @@ namespace {
 
 constexpr char kFrameEnding[] = "png";
 
+constexpr render::Color kGood = {29, 107, 60};
+constexpr render::Color kBad = {179, 38, 30};
+constexpr render::Color kSkipped = {112, 120, 134};
+
+/// So many steps after a failure have a cell of their own in the contact sheet.
+constexpr int kMostSkipped = 24;
+
+bool Failed(const report::ReportStep& step) { return step.verdict() == report::Verdict::kFail; }
+
 std::string Caption(const plan::Plan& plan, const report::ReportStep& step) {
   const std::string caption = render::FrameCaption(plan, step.check.index);
-  const bool failed = step.verdict() == report::Verdict::kFail;
-  return failed ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
+  return Failed(step) ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
 }
 
 render::SheetLabel MakeLabel(const report::ReportStep& step) {
-  constexpr render::Color kGood = {29, 107, 60};
-  constexpr render::Color kBad = {179, 38, 30};
-  const bool failed = step.verdict() == report::Verdict::kFail;
+  const bool failed = Failed(step);
   const std::string verdict(failed ? plan::ReasonName(step.reason())
                                    : report::VerdictName(step.verdict()));
   return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
-          failed ? kBad : kGood};
+          failed         ? kBad
+          : step.skipped ? kSkipped
+                         : kGood,
+          failed};
+}
+
+std::string FailureText(const report::ReportStep& step, const report::Report& report) {
+  return render::FaultText(step.reason(), step.fault(), step.detail(), report.scale);
+}
+
+/// The verdict in a line.
+render::SheetLabel MakeHeading(const report::Report& report) {
+  const auto failed = std::ranges::find_if(report.steps, Failed);
+  if (failed == report.steps.end()) {
+    const auto steps = report.steps.size() - 1;
+    if (steps == 0) return {"PASS: the hold stands", "", kGood};
+    return {"PASS: the hold and " +
+                (steps == 1 ? "the step" : "all " + std::to_string(steps) + " steps") + " stand",
+            "", kGood};
+  }
+  const int index = failed->check.index;
+  return {"FAIL at " + (index == 0 ? "the hold" : "step " + std::to_string(index)) + ": " +
+              FailureText(*failed, report),
+          "", kBad};
 }
 
 std::vector<plan::Snapshot> RestsOf(const report::Report& report) {
@@ -37,6 +72,53 @@ std::vector<plan::Snapshot> RestsOf(const report::Report& report) {
     if (step.replay) rests.push_back(step.replay->snapshot);
   }
   return rests;
+}
+
+/// An entry that has a frame: what it shows, and what is wrong where it failed.
+struct Shown {
+  report::ReportStep* step;
+  plan::Snapshot snapshot;
+  std::optional<render::FaultMarks> marks = std::nullopt;
+};
+
+/// What the replay saw at the failure; what is planned where it did not come to it.
+Shown ShowFailure(const object::Object& object, const plan::Plan& plan, report::ReportStep& step,
+                  const report::Report& report) {
+  const plan::Reason reason = step.reason();
+  const bool seen = step.replay && !step.replay->snapshot.fingers.empty() &&
+                    reason != plan::Reason::kUnreachable &&
+                    reason != plan::Reason::kSimulationUnstable;
+  const double radius = report.settings ? report.settings->fingertip_radius_m : 0;
+  render::FaultPicture picture = render::MakeFaultPicture(
+      object, report.scale, reason, step.fault(),
+      seen ? step.replay->snapshot
+           : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan), step.check.index,
+                                       step.fault(), radius),
+      FailureText(step, report));
+  return {&step, std::move(picture.snapshot), std::move(picture.marks)};
+}
+
+std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& plan,
+                               report::Report& report) {
+  std::vector<Shown> shown;
+  for (report::ReportStep& step : report.steps) {
+    if (step.skipped) continue;
+    shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report)
+                                 : Shown{&step, step.replay->snapshot});
+  }
+  return shown;
+}
+
+/// Grey cells for the steps after a failure; the last one stands for all that have no room.
+void AddSkipped(const report::Report& report, int cells, render::ContactSheet& sheet) {
+  const auto first = std::ranges::find_if(report.steps, &report::ReportStep::skipped);
+  const auto skipped = static_cast<int>(report.steps.end() - first);
+  for (int i = 0; i < cells; ++i) {
+    const bool more = i + 1 == cells && skipped > cells;
+    sheet.AddEmpty(
+        MakeLabel(first[i]),
+        more ? "not replayed, and " + std::to_string(skipped - cells) + " more" : "not replayed");
+  }
 }
 
 double RelativeThickness(const report::Report& report) {
@@ -72,23 +154,26 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
                                              const std::filesystem::path& folder,
                                              report::Report& report) {
   std::vector<report::PagePicture> pictures(report.steps.size());
-  const std::vector<plan::Snapshot> snapshots = RestsOf(report);
-  if (snapshots.empty()) return pictures;
+  const std::vector<Shown> shown = ShowEntries(object, plan, report);
+  std::vector<plan::Snapshot> snapshots;
+  for (const Shown& entry : shown) snapshots.push_back(entry.snapshot);
   render::FrameOptions frame = options;
-  if (object.dimension() == 2) frame.body.thickness = RelativeThickness(report);
+  if (object.dimension() == 2 && report.settings) frame.body.thickness = RelativeThickness(report);
   frame.finger_radius = report.finger_radius;
   render::FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
-  const auto count = static_cast<int>(snapshots.size());
-  render::ContactSheet sheet(count, frame.width, frame.height);
-  for (report::ReportStep& step : report.steps) {
-    if (!step.replay) continue;
-    const std::string name = EntryFileName(step.check.index, step.check.kind, kFrameEnding);
-    const render::Image image = renderer.Render(step.replay->snapshot, Caption(plan, step));
+  const auto count = static_cast<int>(shown.size());
+  const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
+  render::ContactSheet sheet(count + skipped, frame.width, frame.height, MakeHeading(report));
+  for (const auto& [step, snapshot, marks] : shown) {
+    const std::string name = EntryFileName(step->check.index, step->check.kind, kFrameEnding);
+    const render::Image image =
+        renderer.Render(snapshot, Caption(plan, *step), marks ? &*marks : nullptr);
     render::WritePng(folder / name, image);
-    step.frame = name;
-    pictures[step.check.index] = MakePicture(image, report::PagePictureWidth(count));
-    sheet.Add(image, MakeLabel(step));
+    step->frame = name;
+    pictures[step->check.index] = MakePicture(image, report::PagePictureWidth(count));
+    sheet.Add(image, MakeLabel(*step));
   }
+  AddSkipped(report, skipped, sheet);
   render::WritePng(folder / kOverviewName, sheet.ToImage());
   return pictures;
 }

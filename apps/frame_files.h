@@ -28,9 +28,10 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// report, page, contact sheet, moving picture, or the frame of an entry.
 [[nodiscard]] bool IsValidationFile(const std::string& name);
 
-/// Draws a frame of every replayed step into `folder` and names it in the report, and all of them,
-/// small, into the contact sheet overview.png. The frame of a step that failed in the replay shows
-/// what the replay saw at its end.
+/// Draws a frame of every step up to the one that failed into `folder` and names it in the report,
+/// and all of them, small, into the contact sheet overview.png, with the verdict in words. The
+/// frame of the step that failed shows what the replay saw, or what is planned where it was not
+/// replayed, with what is wrong; the sheet has grey cells for those after it.
 /// @returns the same pictures, smaller, one for each entry of the report.
 /// @throws EnvironmentError  no rendering context, or the folder cannot be written.
 [[nodiscard]] std::vector<report::PagePicture> WriteFrames(const object::Object& object,

@@ -114,6 +114,10 @@ const std::string& ReportStep::detail() const {
   return replay && check.reason == plan::Reason::kNone ? replay->detail : check.detail;
 }
 
+const plan::Fault& ReportStep::fault() const {
+  return replay && check.reason == plan::Reason::kNone ? replay->fault : check.fault;
+}
+
 Verdict ReportStep::verdict() const {
   if (skipped) return Verdict::kSkipped;
   return reason() == plan::Reason::kNone ? Verdict::kPass : Verdict::kFail;

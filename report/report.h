@@ -45,6 +45,7 @@ struct ReportStep {
   /// The analytic reason, or else that of the replay; kNone for a skipped step.
   [[nodiscard]] plan::Reason reason() const;
   [[nodiscard]] const std::string& detail() const;
+  [[nodiscard]] const plan::Fault& fault() const;  ///< the detail, for a picture
   [[nodiscard]] Verdict verdict() const;
 };
 

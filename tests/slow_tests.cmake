@@ -4,6 +4,7 @@
 set(regrasp_slow_tests
   apps.batch
   apps.endurance
+  apps.failing_frames
   apps.frames
   apps.general
   apps.meshes

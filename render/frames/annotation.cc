@@ -46,9 +46,8 @@ constexpr double kConeStrip = 0.3;
 /// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
 constexpr double kShade = 0.82;
 
-Color NumberColor(FingerIndex finger) {
+Color NumberColor(Color color) {
   const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
-  const Color color = FingerColor(finger);
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
@@ -66,7 +65,7 @@ void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, doubl
   const double radius = glyph.ball_radius * camera.PixelsPerUnit(glyph.ball) + kRingGap * font;
   for (const bool white : {true, false}) {
     SetCircle(cr, centre, radius);
-    Stroke(cr, white ? kWhite : NumberColor(glyph.finger), (white ? 2.2 : 1) * kRingWidth * font);
+    Stroke(cr, white ? kWhite : NumberColor(glyph.color), (white ? 2.2 : 1) * kRingWidth * font);
   }
 }
 
@@ -101,7 +100,7 @@ void DrawLeader(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, con
   for (const bool white : {true, false}) {
     cairo_move_to(cr, from.x(), from.y());
     cairo_line_to(cr, ball.x(), ball.y());
-    Stroke(cr, white ? kWhite : NumberColor(glyph.finger), (white ? 2.4 : 1) * kLeaderWidth * font);
+    Stroke(cr, white ? kWhite : NumberColor(glyph.color), (white ? 2.4 : 1) * kLeaderWidth * font);
   }
 }
 
@@ -121,7 +120,7 @@ void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph>
     DrawLeader(cr, camera, fingers[i], centres[i], font);
   }
   for (std::size_t i = 0; i < fingers.size(); ++i) {
-    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].finger),
+    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].color),
                 kHalo * font);
   }
 }

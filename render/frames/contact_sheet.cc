@@ -24,10 +24,29 @@ constexpr double kFontSize = 0.05;
 constexpr double kBaseLine = 0.72;  ///< of a label's height
 constexpr double kRule = 1;         ///< pixels, around each picture
 constexpr Color kRuleColor = {213, 218, 227};
+constexpr double kThickRule = 0.012;  ///< widths of a picture, around one that is framed
+constexpr Color kEmpty = {238, 240, 244};
+constexpr Color kEmptyText = {112, 120, 134};
+
+/// The heading, in label heights: the line and its font at most.
+constexpr double kHeadingHeight = 1.7;
+constexpr double kHeadingFont = 1.1;
+constexpr double kSmallestShare = 0.6;  ///< of the font, for a heading that is too wide
+
+/// The text, cut off where it is wider than `most`.
+std::string Elide(cairo_t* cr, std::string text, double most) {
+  if (TextWidth(cr, text) <= most) return text;
+  const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80; };
+  while (!text.empty() && TextWidth(cr, text + "…") > most) {
+    while (text.size() > 1 && continues()) text.pop_back();
+    text.pop_back();
+  }
+  return text + "…";
+}
 
 }  // namespace
 
-SheetGrid::SheetGrid(int count, int picture_width, int picture_height) {
+SheetGrid::SheetGrid(int count, int picture_width, int picture_height, bool has_heading) {
   if (count < 1 || picture_width < 1 || picture_height < 1) {
     throw std::invalid_argument("ContactSheet: a number is not positive");
   }
@@ -40,33 +59,65 @@ SheetGrid::SheetGrid(int count, int picture_width, int picture_height) {
   height = scaled(static_cast<double>(picture_height) / picture_width);
   gap = scaled(kGap);
   label = scaled(kLabelHeight);
+  if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
 }
 
-ContactSheet::ContactSheet(int count, int width, int height)
+ContactSheet::ContactSheet(int count, int width, int height, const SheetLabel& heading)
     : count_(count),
       width_(width),
       height_(height),
-      grid_(count, width, height),
-      sheet_(std::make_unique<CairoImage>(MakeImage(grid_.sheet_width(), grid_.sheet_height()))) {}
+      grid_(count, width, height, !heading.title.empty()),
+      sheet_(std::make_unique<CairoImage>(MakeImage(grid_.sheet_width(), grid_.sheet_height()))) {
+  DrawHeading(heading);
+}
 
 ContactSheet::~ContactSheet() = default;
 
 Image ContactSheet::ToImage() const { return sheet_->ToImage(); }
 
 void ContactSheet::Add(const Image& picture, const SheetLabel& label) {
-  if (picture.width != width_ || picture.height != height_ || added_ == count_) {
-    throw std::invalid_argument("ContactSheet: a picture that was not announced");
+  if (picture.width != width_ || picture.height != height_) {
+    throw std::invalid_argument("ContactSheet: a picture of another size");
   }
-  const int x = grid_.gap + added_ % grid_.columns * (grid_.width + grid_.gap);
-  const int y = grid_.gap + added_ / grid_.columns * (grid_.label + grid_.height + grid_.gap);
-  DrawLabel(x, y, label);
-  DrawPicture(x, y + grid_.label, picture);
-  ++added_;
+  const int cell = TakeCell(label);
+  DrawPicture(grid_.x(cell), grid_.y(cell) + grid_.label, picture, label);
 }
 
-void ContactSheet::DrawLabel(int x, int y, const SheetLabel& label) {
+void ContactSheet::AddEmpty(const SheetLabel& label, const std::string& text) {
+  const int cell = TakeCell(label);
+  const Eigen::Vector2d corner(grid_.x(cell), grid_.y(cell) + grid_.label);
+  const Eigen::Vector2d size(grid_.width, grid_.height);
   cairo_t* cr = sheet_->context();
-  const double base = y + kBaseLine * grid_.label;
+  SetBox(cr, corner, size);
+  Fill(cr, kEmpty);
+  SelectFont(cr, kFontSize * grid_.width, /*bold=*/false);
+  const Eigen::Vector2d begin = CentredText(cr, text, corner + size / 2);
+  SetColor(cr, kEmptyText);
+  cairo_move_to(cr, begin.x(), begin.y());
+  cairo_show_text(cr, text.c_str());
+}
+
+void ContactSheet::DrawHeading(const SheetLabel& heading) {
+  if (heading.title.empty()) return;
+  cairo_t* cr = sheet_->context();
+  const double most = grid_.sheet_width() - 2 * grid_.gap;
+  const double font = kHeadingFont * kFontSize / kLabelHeight * grid_.label;
+  SelectFont(cr, font, /*bold=*/true);
+  const double fits = std::max(kSmallestShare, most / TextWidth(cr, heading.title));
+  if (fits < 1) SelectFont(cr, fits * font, /*bold=*/true);
+  const std::string title = Elide(cr, heading.title, most);
+  SetColor(cr, heading.color);
+  cairo_move_to(cr, grid_.gap, kBaseLine * (grid_.heading + grid_.gap));
+  cairo_show_text(cr, title.c_str());
+}
+
+int ContactSheet::TakeCell(const SheetLabel& label) {
+  if (added_ == count_) {
+    throw std::invalid_argument("ContactSheet: a picture that was not announced");
+  }
+  const int x = grid_.x(added_);
+  cairo_t* cr = sheet_->context();
+  const double base = grid_.y(added_) + kBaseLine * grid_.label;
   SelectFont(cr, kFontSize * grid_.width, /*bold=*/true);
   SetColor(cr, kInk);
   cairo_move_to(cr, x, base);
@@ -74,9 +125,10 @@ void ContactSheet::DrawLabel(int x, int y, const SheetLabel& label) {
   SetColor(cr, label.color);
   cairo_move_to(cr, x + grid_.width - TextWidth(cr, label.verdict), base);
   cairo_show_text(cr, label.verdict.c_str());
+  return added_++;
 }
 
-void ContactSheet::DrawPicture(int x, int y, const Image& picture) {
+void ContactSheet::DrawPicture(int x, int y, const Image& picture, const SheetLabel& label) {
   cairo_t* cr = sheet_->context();
   const CairoImage image(picture);
   cairo_save(cr);
@@ -91,10 +143,9 @@ void ContactSheet::DrawPicture(int x, int y, const Image& picture) {
   cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
   cairo_paint(cr);
   cairo_restore(cr);
-  cairo_rectangle(cr, x + kRule / 2, y + kRule / 2, grid_.width - kRule, grid_.height - kRule);
-  cairo_set_line_width(cr, kRule);
-  SetColor(cr, kRuleColor);
-  cairo_stroke(cr);
+  const double rule = label.framed ? std::max(2.0, kThickRule * grid_.width) : kRule;
+  cairo_rectangle(cr, x + rule / 2, y + rule / 2, grid_.width - rule, grid_.height - rule);
+  Stroke(cr, label.framed ? label.color : kRuleColor, rule);
 }
 
 }  // namespace regrasp::render

@@ -121,6 +121,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     FingerGlyph glyph;
     glyph.finger = state.finger;
     glyph.role = state.role;
+    glyph.color = FingerColor(state.finger);
     glyph.contact = frame.FromWorld(state.contact_W);
     for (const Vector3d& p_W : state.path_W) glyph.path.push_back(frame.FromWorld(p_W));
     glyph.outward = -state.normal_W.normalized();
@@ -151,7 +152,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
 
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes) {
-  const Color color = FingerColor(glyph.finger);
+  const Color color = glyph.color;
   const bool ghost = glyph.role == plan::FingerRole::kReleased;
   const double opacity = ghost ? kGhostOpacity : 1;
   shapes.push_back({Ball{glyph.ball, glyph.ball_radius}, color, opacity});

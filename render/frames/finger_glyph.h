@@ -27,6 +27,7 @@ struct PictureFrame {
 struct FingerGlyph {
   FingerIndex finger = {};
   plan::FingerRole role = plan::FingerRole::kHolding;
+  Color color = kInk;
   Eigen::Vector3d contact;
   Eigen::Vector3d outward;  ///< unit, against the contact's normal
   Eigen::Vector3d ball;

@@ -10,6 +10,7 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
+#include "render/frames/fault_overlay.h"
 #include "render/frames/finger_glyph.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/palette.h"
@@ -136,6 +137,12 @@ class Extent {
   std::vector<Vector3d> points_;
 };
 
+void PaintRed(const std::vector<FingerIndex>& at_fault, std::vector<FingerGlyph>& fingers) {
+  for (FingerGlyph& glyph : fingers) {
+    if (std::ranges::find(at_fault, glyph.finger) != at_fault.end()) glyph.color = kFaultRed;
+  }
+}
+
 bool IsNear(const Eigen::Isometry3d& pose) {
   return pose.translation().allFinite() && pose.translation().norm() < kFarAway;
 }
@@ -158,8 +165,10 @@ class FrameRenderer::Impl {
         camera_(MakeCamera(snapshots)),
         canvas_(meshes_, options.width, options.height, options.supersampling) {}
 
-  Image Render(const plan::Snapshot& snapshot, const std::string& caption) {
-    const std::vector<FingerGlyph> fingers = GlyphsOf(snapshot);
+  Image Render(const plan::Snapshot& snapshot, const std::string& caption,
+               const FaultMarks* fault) {
+    std::vector<FingerGlyph> fingers = GlyphsOf(snapshot);
+    if (fault != nullptr) PaintRed(fault->fingers, fingers);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing;
     drawing.shapes = FingerShapes(fingers);
@@ -174,7 +183,10 @@ class FrameRenderer::Impl {
                            return pose.linear().transpose() * camera_.ToEye(pose * p);
                          }),
              pose, drawing.outline);
-    return Annotate(canvas_.Draw(camera_, drawing), camera_, fingers, caption, frame_.diameter_m);
+    const Image image =
+        Annotate(canvas_.Draw(camera_, drawing), camera_, fingers, caption, frame_.diameter_m);
+    if (fault == nullptr) return image;
+    return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault);
   }
 
  private:
@@ -333,8 +345,9 @@ FrameRenderer::FrameRenderer(const object::Object& object, double scale, double 
 }
 FrameRenderer::~FrameRenderer() = default;
 
-Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption) {
-  return impl_->Render(snapshot, caption);
+Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption,
+                            const FaultMarks* fault) {
+  return impl_->Render(snapshot, caption, fault);
 }
 
 }  // namespace regrasp::render

@@ -9,6 +9,7 @@
 #include "planner/plan/snapshot.h"
 #include "planner/roadmap/cluster_view.h"
 #include "render/frames/body_shape.h"
+#include "render/frames/fault_picture.h"
 #include "render/frames/finger_glyph.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/image.h"
@@ -60,7 +61,9 @@ class FrameRenderer {
   ~FrameRenderer();
 
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.
-  [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "");
+  /// @param fault    of a failed step: its fingers are red, and what is wrong is drawn.
+  [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "",
+                             const FaultMarks* fault = nullptr);
 
  private:
   class Impl;

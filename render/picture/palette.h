@@ -20,7 +20,10 @@ struct Color {
 /// apart in grey too.
 [[nodiscard]] Color FingerColor(FingerIndex finger);
 
-inline constexpr Color kInk = {34, 40, 52};       ///< edges of the object, text
+inline constexpr Color kInk = {34, 40, 52};  ///< edges of the object, text
+/// What is wrong, and what it should be, in pictures of a failure.
+inline constexpr Color kFaultRed = {214, 16, 32};
+inline constexpr Color kExpected = {0, 122, 61};
 inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows
 /// Clusters of contact points: pale, so that fingers stand out on them.
 inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},

@@ -80,6 +80,8 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   if (monitor.reason() == plan::Reason::kObjectMoved) {
     const Eigen::Translation3d p_WS(scale * centroid);
     fault.X_WO_before = p_WS * monitor.start() * p_WS.inverse();
+    fault.moved_m = monitor.displacement_m();
+    fault.turned = monitor.rotation_rad();
   }
   const FingerIndex f = monitor.finger();
   if (!f.valid()) return fault;

@@ -45,6 +45,33 @@ TEST(ContactSheetTest, LabelsAreWrittenInTheirColour) {
   EXPECT_GT(Count(labelled.ToImage(), kInk.r, kInk.g, kInk.b), 20);
 }
 
+TEST(ContactSheetTest, AFailureIsFramedAndWhatComesAfterItIsGrey) {
+  const Color red = {179, 38, 30};
+  const auto draw = [&](bool failed) {
+    ContactSheet sheet(2, 320, 240);
+    sheet.Add(MakeImage(320, 240, 255), {"", "", red, failed});
+    if (failed) sheet.AddEmpty({"", "", kInk}, "not replayed");
+    return sheet.ToImage();
+  };
+  EXPECT_EQ(Count(draw(false), red.r, red.g, red.b), 0);
+  EXPECT_GT(Count(draw(true), red.r, red.g, red.b), 2 * 2 * (480 + 360));
+  EXPECT_GT(Count(draw(true), 238, 240, 244), 480 * 360 * 9 / 10);
+}
+
+TEST(ContactSheetTest, TheHeadingStandsAboveAllPictures) {
+  const Color green = {29, 107, 60};
+  const Image plain = ContactSheet(4, 320, 240).ToImage();
+  const Image headed = ContactSheet(4, 320, 240, {"PASS", "", green}).ToImage();
+  EXPECT_EQ(headed.width, plain.width);
+  EXPECT_GT(headed.height, plain.height);
+  EXPECT_GT(Count(headed, green.r, green.g, green.b), 20);
+  // However long, it is not cut off: no ink at the right border.
+  const Image longer = ContactSheet(1, 320, 240, {std::string(300, 'm'), "", kInk}).ToImage();
+  for (int y = 0; y < longer.height; ++y) {
+    EXPECT_EQ(longer.rgb[3 * (std::size_t(y + 1) * longer.width - 1)], 255);
+  }
+}
+
 TEST(ContactSheetTest, ManyPicturesAreSmallSoThatTheSheetCanBeOpened) {
   const Image image = ContactSheet(1000, 1280, 960).ToImage();
   EXPECT_LT(image.width, 6000);

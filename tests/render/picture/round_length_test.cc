@@ -33,6 +33,7 @@ TEST(RoundLength, NeverExceedsTheLimitAndIsMoreThanTwoFifthsOfIt) {
 }
 
 TEST(FormatLength, TakesTheUnitThatSuits) {
+  EXPECT_EQ(FormatLength(4100), "4.1 km");
   EXPECT_EQ(FormatLength(2), "2 m");
   EXPECT_EQ(FormatLength(1), "1 m");
   EXPECT_EQ(FormatLength(0.5), "50 cm");
@@ -42,6 +43,7 @@ TEST(FormatLength, TakesTheUnitThatSuits) {
   EXPECT_EQ(FormatLength(5e-4), "500 µm");
   EXPECT_EQ(FormatLength(2e-6), "2 µm");
   EXPECT_EQ(FormatLength(5e-9), "5e-09 m");
+  EXPECT_EQ(FormatLength(0.00412345, 3), "4.12 mm");
 }
 
 TEST(FormatLength, OfEveryRoundLengthIsARoundNumber) {

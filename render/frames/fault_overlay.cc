@@ -1,0 +1,367 @@
+#include "render/frames/fault_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "render/picture/cairo_image.h"
+#include "render/picture/cairo_paint.h"
+#include "render/picture/fault_text.h"
+
+namespace regrasp::render {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Shares of the image's height.
+constexpr double kFontSize = 0.024;
+constexpr double kMargin = 0.032;
+constexpr double kSmallestFont = 7;  ///< pixels
+
+// In font sizes.
+constexpr double kLineWidth = 0.11;
+constexpr double kTick = 0.42;
+constexpr double kHalo = 0.32;
+constexpr double kDash = 0.35;
+constexpr double kLeader = 1.6;  ///< a text farther than this from what it tells has a line to it
+
+// In diameters of the object.
+constexpr double kNormalLength = 0.2;
+constexpr double kPushLength = 0.30;
+constexpr double kTwistRadius = 0.16;
+
+constexpr Color kGhost = {110, 118, 132};
+constexpr Color kPush = {118, 42, 151};
+
+constexpr int kRimPoints = 72;
+
+/// Two unit vectors across `axis` and each other.
+std::pair<Vector3d, Vector3d> Across(const Vector3d& axis) {
+  const Vector3d u = axis.unitOrthogonal();
+  return {u, axis.cross(u)};
+}
+
+struct Box {
+  Vector2d low, high;
+  [[nodiscard]] bool Contains(const Vector2d& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+};
+
+class Overlay {
+ public:
+  Overlay(const Image& image, const Camera& camera, const PictureFrame& frame)
+      : page_(image),
+        cr_(page_.context()),
+        camera_(camera),
+        frame_(frame),
+        font_(std::max(kSmallestFont, kFontSize * image.height)) {
+    cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr_, CAIRO_LINE_CAP_ROUND);
+  }
+
+  void Avoid(std::span<const FingerGlyph> fingers) {
+    for (const FingerGlyph& glyph : fingers) {
+      for (int i = 0; i < 8; ++i) {
+        const double turn = std::numbers::pi * i / 4;
+        const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball);
+        busy_.push_back(camera_.Project(glyph.ball) +
+                        radius * Vector2d(std::cos(turn), std::sin(turn)));
+      }
+      for (const Vector3d& p :
+           {glyph.ball, glyph.contact, glyph.stem_end, glyph.end,
+            Vector3d(glyph.end + 0.05 * glyph.outward), Vector3d(glyph.end + 0.025 * glyph.outward),
+            Vector3d((glyph.ball + glyph.stem_end) / 2)}) {
+        busy_.push_back(camera_.Project(p));
+      }
+    }
+  }
+
+  void DrawGhost(const BodyShape& body, const Eigen::Isometry3d& X_WO, const std::string& text) {
+    const Eigen::Isometry3d pose = frame_.BodyPose(X_WO);
+    Vector2d highest(0, std::numeric_limits<double>::infinity());
+    for (const auto& [a, b] : body.edges) {
+      const Vector2d p = camera_.Project(pose * a);
+      const Vector2d q = camera_.Project(pose * b);
+      for (const Vector2d& end : {p, q}) {
+        if (end.y() < highest.y()) highest = end;
+      }
+      Dash(p, q, kGhost, 0.8);
+    }
+    if (!body.edges.empty()) Label(highest, text, kGhost);
+  }
+
+  void Draw(const FaultMarks::Dimension& dimension) {
+    const Vector2d a = Project(dimension.from);
+    const Vector2d b = Project(dimension.to);
+    const Vector2d along = (b - a).stableNormalized();
+    const Vector2d across(-along.y(), along.x());
+    for (const bool halo : {true, false}) {
+      Line(a, b, halo);
+      for (const Vector2d& end : {a, b}) {
+        Line(end - kTick * font_ * across, end + kTick * font_ * across, halo);
+      }
+    }
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) busy_.push_back(a + t * (b - a));
+    Label((a + b) / 2, dimension.text, kFaultRed);
+  }
+
+  void Draw(const FaultMarks::Normal& normal) {
+    const Color color = normal.expected ? kExpected : kFaultRed;
+    const Vector2d from = Project(normal.at);
+    const Vector2d to = Project(normal.at + kNormalLength * frame_.diameter_m * normal.along);
+    DrawArrow(from, to, color, 2.2);
+    Label(to, normal.text, color);
+  }
+
+  void Draw(const FaultMarks::Place& place) {
+    const Vector3d centre =
+        place.contact - kPlaceRadius * frame_.diameter_m * place.normal;
+    const Vector2d at = Project(centre);
+    const double radius = kPlaceRadius * camera_.PixelsPerUnit(frame_.FromWorld(centre));
+    SetCircle(cr_, at, radius);
+    Fill(cr_, kExpected, 0.18);
+    SetCircle(cr_, at, radius);
+    StrokeDashed(kExpected, 1.3);
+    Cross(Project(place.contact), kExpected);
+    busy_.push_back(at);
+    Label(at, place.text, kExpected, radius);
+  }
+
+  /// The rim of the cone and its two sides.
+  void Draw(const FaultMarks::Cone& cone) {
+    const auto [u, v] = Across(cone.axis);
+    const double length = kConeLength * frame_.diameter_m;
+    const Vector2d apex = Project(cone.apex);
+    std::vector<Vector2d> rim;
+    for (int i = 0; i < kRimPoints; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kRimPoints;
+      const Vector3d side = std::cos(turn) * u + std::sin(turn) * v;
+      rim.push_back(Project(cone.apex + length * (std::cos(cone.half_angle) * cone.axis +
+                                                  std::sin(cone.half_angle) * side)));
+    }
+    cairo_new_path(cr_);
+    AddOutline(cr_, rim);
+    StrokeDashed(kFaultRed, 1);
+    const Vector2d middle = Project(cone.apex + length * cone.axis) - apex;
+    const auto bearing = [&](const Vector2d& p) {
+      const Vector2d way = p - apex;
+      return std::atan2(middle.x() * way.y() - middle.y() * way.x(), middle.dot(way));
+    };
+    const auto [left, right] = std::ranges::minmax_element(rim, {}, bearing);
+    Dash(apex, *left, kFaultRed, 1);
+    Dash(apex, *right, kFaultRed, 1);
+  }
+
+  void Draw(const FaultMarks::Tip& tip) {
+    const Vector3d at = frame_.FromWorld(tip.centre);
+    SetCircle(cr_, camera_.Project(at), tip.radius / frame_.diameter_m * camera_.PixelsPerUnit(at));
+    Fill(cr_, kFaultRed, 0.10);
+    SetCircle(cr_, camera_.Project(at), tip.radius / frame_.diameter_m * camera_.PixelsPerUnit(at));
+    StrokeDashed(kFaultRed, 1.2);
+  }
+
+  void DrawPush(const plan::FaultPush& push, const Vector3d& centroid) {
+    const double D = frame_.diameter_m;
+    const Vector2d centre = Project(centroid);
+    if (push.force_N.norm() > 0) {
+      const Vector3d along = push.force_N.normalized();
+      const Vector2d tip = Project(centroid + kPushLength * D * along);
+      DrawArrow(centre, tip, kPush, 3);
+      Label(tip, PushText(push), kPush);
+      return;
+    }
+    if (!(push.torque_Nm.norm() > 0)) return;
+    const auto [u, v] = Across(push.torque_Nm.normalized());
+    std::vector<Vector2d> arc;
+    for (int i = 0; i <= kRimPoints * 3 / 4; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kRimPoints;
+      arc.push_back(Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
+    }
+    ArrowAlong(arc, kPush, 3);
+    Label(arc.front(), PushText(push), kPush);
+  }
+
+  /// At the top left, in as many lines as it takes.
+  void DrawHeading(const std::string& text) {
+    if (kFontSize * camera_.height < kSmallestFont) return;
+    const double margin = kMargin * camera_.height;
+    SelectFont(cr_, font_, /*bold=*/true);
+    double base = margin;
+    for (const std::string& line : Wrap(text, camera_.width - 2 * margin)) {
+      base += 0.8 * font_;
+      cairo_move_to(cr_, margin, base);
+      cairo_text_path(cr_, line.c_str());
+      FillWithHalo(cr_, kFaultRed, kHalo * font_);
+      base += 0.5 * font_;
+    }
+  }
+
+  /// Texts come last, over everything.
+  void DrawLabels() {
+    for (const auto& [at, text, color, gap] : labels_) PlaceLabel(at, text, color, gap);
+  }
+
+  [[nodiscard]] Image ToImage() const { return page_.ToImage(); }
+
+ private:
+  static constexpr double kPlaceRadius = 0.030;
+
+  struct Text {
+    Vector2d at;
+    std::string text;
+    Color color;
+    double gap;
+  };
+
+  /// Lines of words, no wider than `width` where a word is not.
+  [[nodiscard]] std::vector<std::string> Wrap(const std::string& text, double width) const {
+    std::vector<std::string> lines = {""};
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+      const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+      if (!lines.back().empty() && TextWidth(cr_, longer) > width) {
+        lines.push_back(word);
+      } else {
+        lines.back() = longer;
+      }
+    }
+    return lines;
+  }
+
+  [[nodiscard]] Vector2d Project(const Vector3d& p_W) const {
+    return camera_.Project(frame_.FromWorld(p_W));
+  }
+
+  void Label(const Vector2d& at, const std::string& text, Color color, double gap = 0) {
+    labels_.push_back({at, text, color, gap});
+  }
+
+  void Line(const Vector2d& a, const Vector2d& b, bool halo) {
+    SetColor(cr_, halo ? kWhite : kFaultRed);
+    StrokeLine(cr_, a, b, (halo ? 2.6 : 1.2) * kLineWidth * font_);
+  }
+
+  void StrokeDashed(Color color, double weight) {
+    const double dash = kDash * font_;
+    cairo_set_dash(cr_, &dash, 1, 0);
+    Stroke(cr_, color, weight * kLineWidth * font_);
+    cairo_set_dash(cr_, nullptr, 0, 0);
+  }
+
+  void Dash(const Vector2d& a, const Vector2d& b, Color color, double weight) {
+    cairo_new_path(cr_);
+    cairo_move_to(cr_, a.x(), a.y());
+    cairo_line_to(cr_, b.x(), b.y());
+    StrokeDashed(color, weight);
+  }
+
+  void Cross(const Vector2d& at, Color color) {
+    const double arm = 0.3 * font_;
+    SetColor(cr_, color);
+    for (const double side : {-1.0, 1.0}) {
+      const Vector2d way(arm, side * arm);
+      StrokeLine(cr_, at - way, at + way, 1.3 * kLineWidth * font_);
+    }
+  }
+
+  void DrawArrow(const Vector2d& from, const Vector2d& to, Color color, double weight) {
+    ArrowAlong({from, to}, color, weight);
+  }
+
+  void ArrowAlong(const std::vector<Vector2d>& path, Color color, double weight) {
+    for (const Vector2d& p : path) busy_.push_back(p);
+    // Arrowheads are of one size: the page is scaled instead.
+    const double scale = weight * kLineWidth * font_;
+    std::vector<Vector2d> scaled = path;
+    for (Vector2d& p : scaled) p /= scale;
+    cairo_save(cr_);
+    cairo_scale(cr_, scale, scale);
+    SetColor(cr_, kWhite);
+    StrokeArrow(cr_, scaled, 1.9);
+    SetColor(cr_, color);
+    StrokeArrow(cr_, scaled, 1);
+    cairo_restore(cr_);
+  }
+
+  /// Near `at` where it covers least, with a line to it where it is not beside it.
+  void PlaceLabel(const Vector2d& at, const std::string& text, Color color, double gap) {
+    SelectFont(cr_, font_, /*bold=*/true);
+    const Vector2d half(TextWidth(cr_, text) / 2, 0.6 * font_);
+    const Vector2d margin = half + Vector2d::Constant(0.4 * font_);
+    const Vector2d size(camera_.width, camera_.height);
+    double least = std::numeric_limits<double>::infinity();
+    Vector2d best = at;
+    for (const double distance : {0.9, 1.8, 3.0, 4.5, 6.5}) {
+      for (int i = 0; i < 16; ++i) {
+        const double turn = 2 * std::numbers::pi * i / 16;
+        const Vector2d way(std::cos(turn), std::sin(turn));
+        const double away = gap + distance * font_;
+        Vector2d centre = at + (away * way.array() + half.array() * way.array()).matrix();
+        centre = centre.cwiseMax(margin).cwiseMin(size - margin);
+        const double cost = Covered({centre - margin, centre + margin}) + distance / 4;
+        if (cost < least) {
+          least = cost;
+          best = centre;
+        }
+      }
+    }
+    const Vector2d near = at.cwiseMax(best - half).cwiseMin(best + half);
+    if ((near - at).norm() > gap + kLeader * font_) {
+      SetColor(cr_, color);
+      StrokeLine(cr_, near, at, 0.6 * kLineWidth * font_);
+    }
+    cairo_move_to(cr_, best.x() - half.x(), best.y() + 0.36 * font_);
+    cairo_text_path(cr_, text.c_str());
+    FillWithHalo(cr_, color, kHalo * font_);
+    taken_.push_back({best - half, best + half});
+  }
+
+  [[nodiscard]] double Covered(const Box& box) const {
+    constexpr double kText = 8;
+    double covered = 0;
+    for (const Vector2d& p : busy_) covered += box.Contains(p) ? 1 : 0;
+    for (const Box& other : taken_) {
+      const bool apart = (box.low.array() > other.high.array()).any() ||
+                         (other.low.array() > box.high.array()).any();
+      covered += apart ? 0 : kText;
+    }
+    return covered;
+  }
+
+  CairoImage page_;
+  cairo_t* cr_;
+  const Camera& camera_;
+  const PictureFrame& frame_;
+  double font_;
+  std::vector<Vector2d> busy_;  ///< what texts should not cover
+  std::vector<Box> taken_;      ///< by texts
+  std::vector<Text> labels_;
+};
+
+}  // namespace
+
+Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFrame& frame,
+                     const BodyShape& body, std::span<const FingerGlyph> fingers,
+                     const FaultMarks& marks) {
+  Overlay overlay(image, camera, frame);
+  overlay.Avoid(fingers);
+  if (marks.X_WO_before) overlay.DrawGhost(body, *marks.X_WO_before, marks.ghost_text);
+  for (const auto& tip : marks.tips) overlay.Draw(tip);
+  for (const auto& cone : marks.cones) overlay.Draw(cone);
+  for (const auto& place : marks.places) overlay.Draw(place);
+  for (const auto& dimension : marks.dimensions) overlay.Draw(dimension);
+  for (const auto& normal : marks.normals) overlay.Draw(normal);
+  if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
+  overlay.DrawLabels();
+  overlay.DrawHeading(marks.heading);
+  return overlay.ToImage();
+}
+
+}  // namespace regrasp::render

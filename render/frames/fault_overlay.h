@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "render/frames/body_shape.h"
+#include "render/frames/camera.h"
+#include "render/frames/fault_picture.h"
+#include "render/frames/finger_glyph.h"
+#include "render/picture/image.h"
+
+namespace regrasp::render {
+
+/// Draws what is wrong over the picture of a failed step: in red what is, in green what should be,
+/// with lengths and angles; the push and the object's ghost where a replay moved it; and what
+/// failed as a heading at the top left.
+/// @param fingers  as they are drawn: texts keep clear of them.
+[[nodiscard]] Image DrawFaultMarks(const Image& image, const Camera& camera,
+                                   const PictureFrame& frame, const BodyShape& body,
+                                   std::span<const FingerGlyph> fingers, const FaultMarks& marks);
+
+}  // namespace regrasp::render

@@ -1,0 +1,98 @@
+#include "render/frames/fault_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/base/angle.h"
+#include "render/frames/frame.h"
+#include "tests/fixtures/solids.h"
+#include "tests/render/frames/scenes.h"
+
+namespace regrasp::render {
+namespace {
+
+using Eigen::Vector3d;
+using plan::Fault;
+using plan::Reason;
+
+constexpr int kFinger = 2;
+
+/// A finger on the face +x of [−1, 1]³, `away` off it, and another one where it belongs.
+FaultPicture OffSurface(double away) {
+  plan::Snapshot snapshot;
+  snapshot.fingers = {
+      MakeFinger(kFinger, plan::FingerRole::kHolding, {1 + away, 0, 0}, {-1, 0, 0}),
+      MakeFinger(0, plan::FingerRole::kHolding, {-1, 0, 0}, {1, 0, 0})};
+  const Fault fault = {.fingers = {FingerIndex(kFinger)},
+                       .found = grasp::Contact{{1 + away, 0, 0}, {-1, 0, 0}},
+                       .expected = {{{1, 0, 0}, {-1, 0, 0}}}};
+  return MakeFaultPicture(MakeCube(), 1, Reason::kOffSurface, fault, snapshot, "what failed");
+}
+
+TEST(FaultPicture, ADistanceIsDrawnAsItIsWhereItCanBeSeen) {
+  const FaultPicture picture = OffSurface(0.5);
+  ASSERT_EQ(picture.marks.dimensions.size(), 1u);
+  EXPECT_EQ(picture.marks.dimensions[0].text, "50 cm");
+  EXPECT_LT((picture.marks.dimensions[0].from - Vector3d(1, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((picture.marks.dimensions[0].to - Vector3d(1.5, 0, 0)).norm(), 1e-9);
+  EXPECT_EQ(picture.marks.heading, "what failed");
+}
+
+TEST(FaultPicture, AFingerNearOrFarOffTheSurfaceIsDrawnBesideIt) {
+  const double D = MakeCube().diameter();
+  for (const double away : {0.01, 10.0, 4e3, 1e9, 1e200}) {
+    const FaultPicture picture = OffSurface(away);
+    ASSERT_EQ(picture.snapshot.fingers.size(), 2u) << away;
+    const double drawn = picture.snapshot.fingers[0].contact_W.x() - 1;
+    EXPECT_GT(drawn, 0.04 * D) << away;
+    EXPECT_LT(drawn, 0.4 * D) << away;
+    EXPECT_NE(picture.marks.dimensions.at(0).text.find("drawn"), std::string::npos) << away;
+    EXPECT_EQ(picture.snapshot.fingers[1].contact_W, Vector3d(-1, 0, 0));
+  }
+}
+
+TEST(FaultPicture, OtherFingersThatAreFarAwayAreLeftOut) {
+  plan::Snapshot snapshot;
+  for (const double x : {1.0, 1e6, 1e300}) {
+    snapshot.fingers.push_back(
+        MakeFinger(0, plan::FingerRole::kHolding, {x, 0, 0}, {-1, 0, 0}));
+  }
+  const FaultPicture picture =
+      MakeFaultPicture(MakeCube(), 1, Reason::kTooManyFingers, {}, snapshot, "");
+  EXPECT_EQ(picture.snapshot.fingers.size(), 1u);
+}
+
+TEST(FaultPicture, TheGhostOfAnObjectThatHardlyMovedIsFarEnoughBackToBeSeen) {
+  const object::Polyhedron cube = MakeCube();
+  plan::Snapshot snapshot;
+  snapshot.X_WO.translation().z() = -1e-2;
+  Fault fault;
+  fault.X_WO_before = Eigen::Isometry3d::Identity();
+  const FaultPicture picture =
+      MakeFaultPicture(cube, 1, Reason::kObjectMoved, fault, snapshot, "");
+  ASSERT_TRUE(picture.marks.X_WO_before.has_value());
+  const double back = picture.marks.X_WO_before->translation().z() + 1e-2;
+  EXPECT_NEAR(back, 0.05 * cube.diameter(), 1e-9);
+  EXPECT_NE(picture.marks.ghost_text.find("drawn × "), std::string::npos);
+}
+
+TEST(FaultPicture, MakesTheFrameRed) {
+  const object::Polyhedron cube = MakeCube();
+  const FaultPicture picture = OffSurface(0.3);
+  FrameRenderer renderer(cube, 1, Radians(20), {picture.snapshot}, {320, 240, 1});
+  const auto red = [&](const FaultMarks* marks) {
+    const Image image = renderer.Render(picture.snapshot, "", marks);
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+      const unsigned char* p = &image.rgb[i];
+      count += p[0] > 110 && p[1] < 0.22 * p[0] && p[2] < 0.35 * p[0];
+    }
+    return count;
+  };
+  EXPECT_EQ(red(nullptr), 0);
+  EXPECT_GT(red(&picture.marks), 100);
+}
+
+}  // namespace
+}  // namespace regrasp::render
