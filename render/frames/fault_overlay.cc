@@ -85,16 +85,18 @@ class Overlay {
 
   void DrawGhost(const BodyShape& body, const Eigen::Isometry3d& X_WO, const std::string& text) {
     const Eigen::Isometry3d pose = frame_.BodyPose(X_WO);
+    const auto to_eye = [&](const Vector3d& p) -> Vector3d {
+      return pose.linear().transpose() * camera_.ToEye(pose * p);
+    };
     Vector2d highest(0, std::numeric_limits<double>::infinity());
-    for (const auto& [a, b] : body.edges) {
-      const Vector2d p = camera_.Project(pose * a);
-      const Vector2d q = camera_.Project(pose * b);
-      for (const Vector2d& end : {p, q}) {
-        if (end.y() < highest.y()) highest = end;
+    for (const auto& edges : {body.edges, FindOutline(body, to_eye)}) {
+      for (const auto& [a, b] : edges) {
+        const Vector2d p = camera_.Project(pose * a);
+        if (p.y() < highest.y()) highest = p;
+        Dash(p, camera_.Project(pose * b), kGhost, 0.8);
       }
-      Dash(p, q, kGhost, 0.8);
     }
-    if (!body.edges.empty()) Label(highest, text, kGhost);
+    if (std::isfinite(highest.y())) Label(highest, text, kGhost);
   }
 
   void Draw(const FaultMarks::Dimension& dimension) {
@@ -121,8 +123,7 @@ class Overlay {
   }
 
   void Draw(const FaultMarks::Place& place) {
-    const Vector3d centre =
-        place.contact - kPlaceRadius * frame_.diameter_m * place.normal;
+    const Vector3d centre = place.contact - kPlaceRadius * frame_.diameter_m * place.normal;
     const Vector2d at = Project(centre);
     const double radius = kPlaceRadius * camera_.PixelsPerUnit(frame_.FromWorld(centre));
     SetCircle(cr_, at, radius);
@@ -182,7 +183,8 @@ class Overlay {
     std::vector<Vector2d> arc;
     for (int i = 0; i <= kRimPoints * 3 / 4; ++i) {
       const double turn = 2 * std::numbers::pi * i / kRimPoints;
-      arc.push_back(Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
+      arc.push_back(
+          Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
     }
     ArrowAlong(arc, kPush, 3);
     Label(arc.front(), PushText(push), kPush);

@@ -122,7 +122,8 @@ class FaultSketch {
     const bool off = IsOffSurface(reason_);
     const double most = reason_ == Reason::kOffSurface ? kMostSeen : kFarAway;
     const double stretch = StretchOf(distance / object_.diameter(), most);
-    const Vector3d leg = away.stableNormalized() * std::min(distance * stretch, 2 * object_.diameter());
+    const Vector3d leg =
+        away.stableNormalized() * std::min(distance * stretch, 2 * object_.diameter());
     const Vector3d found_O = off ? Vector3d(expected.p + leg) : found.p;
     const Vector3d expected_O = off ? expected.p : Vector3d(found.p - leg);
     if (stretch != 1 || distance / object_.diameter() >= kTooShort) {
@@ -145,7 +146,8 @@ class FaultSketch {
       // A finger may be named twice: the other one is where it is.
       const bool same = reason_ == Reason::kContactLost ||
                         (state.contact_W - Place(found.p)).stableNorm() <=
-                            object::kPointTolerance * diameter_m() || !IsNear(state.contact_W);
+                            object::kPointTolerance * diameter_m() ||
+                        !IsNear(state.contact_W);
       if (!same) continue;
       state.contact_W = Place(p_O);
       state.tip_W = state.contact_W - picture_.snapshot.fingertip_radius_m * state.normal_W;
@@ -157,9 +159,8 @@ class FaultSketch {
     if (reason_ == Reason::kOffSurface || !(angle > kSameNormal)) return;
     picture_.marks.normals.push_back(
         {Place(found.p), Direction(found.n), false, "given, " + FormatDegrees(angle) + " off"});
-    picture_.marks.normals.push_back(
-        {Place(expected.p), Direction(expected.n), true,
-         reason_ == Reason::kWrongNormal ? "true normal" : "was"});
+    picture_.marks.normals.push_back({Place(expected.p), Direction(expected.n), true,
+                                      reason_ == Reason::kWrongNormal ? "true normal" : "was"});
   }
 
   void AddCones() {
@@ -190,10 +191,8 @@ class FaultSketch {
     if (!std::isfinite(motion) || motion > kFarAway) return;
     const double stretch = StretchOf(motion, kFarAway);
     Isometry3d ghost = Isometry3d::Identity();
-    ghost.linear() =
-        Eigen::AngleAxisd(stretch * turn.angle(), turn.axis()).matrix() * now.linear();
-    ghost.translation() =
-        picture_.marks.centroid + stretch * back - ghost.linear() * Centroid();
+    ghost.linear() = Eigen::AngleAxisd(stretch * turn.angle(), turn.axis()).matrix() * now.linear();
+    ghost.translation() = picture_.marks.centroid + stretch * back - ghost.linear() * Centroid();
     picture_.marks.X_WO_before = ghost;
     picture_.marks.ghost_text = "was here" + StretchText(stretch);
   }

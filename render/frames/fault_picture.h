@@ -39,8 +39,8 @@ struct FaultMarks {
     Eigen::Vector3d centre;
     double radius;
   };
-  std::string heading;                ///< what failed, in a line
-  std::vector<FingerIndex> fingers;   ///< drawn in red
+  std::string heading;               ///< what failed, in a line
+  std::vector<FingerIndex> fingers;  ///< drawn in red
   std::vector<Dimension> dimensions = {};
   std::vector<Normal> normals = {};
   std::vector<Place> places = {};

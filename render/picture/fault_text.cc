@@ -32,8 +32,8 @@ std::string MisplacedText(Reason reason, const Fault& fault, const std::string& 
                           double metres_per_unit) {
   const std::string finger = "finger " + std::to_string(fault.fingers.front());
   const grasp::Contact& expected = fault.expected.front();
-  const std::string distance = FormatLength(
-      (fault.found->p - expected.p).stableNorm() * metres_per_unit, kLengthDigits);
+  const std::string distance =
+      FormatLength((fault.found->p - expected.p).stableNorm() * metres_per_unit, kLengthDigits);
   const double angle = grasp::AngleBetween(fault.found->n, expected.n);
   switch (reason) {
     case Reason::kOffSurface:
@@ -75,8 +75,8 @@ std::string FaultText(Reason reason, const Fault& fault, const std::string& deta
   if (IsPaired(fault)) return MisplacedText(reason, fault, detail, metres_per_unit);
   if (reason == Reason::kNotForceClosure) return ClosureText(fault);
   if (reason == Reason::kObjectMoved && fault.X_WO_before) {
-    return "the object moved by " + FormatLength(fault.moved_m, kLengthDigits) +
-           " and turned by " + FormatDegrees(fault.turned) + Under(fault);
+    return "the object moved by " + FormatLength(fault.moved_m, kLengthDigits) + " and turned by " +
+           FormatDegrees(fault.turned) + Under(fault);
   }
   return detail;
 }

@@ -6,8 +6,8 @@
 
 namespace regrasp::render {
 
-/// What failed in a line, with its number and unit: "finger 2 is 4.1 mm off the surface", "the grasp
-/// needs 7.34°, has 6.00°". Where the fault has no number it is the detail.
+/// What failed in a line, with its number and unit: "finger 2 is 4.1 mm off the surface", "the
+/// grasp needs 7.34°, has 6.00°". Where the fault has no number it is the detail.
 /// @param detail           of the check or the replay.
 /// @param metres_per_unit  of the object.
 [[nodiscard]] std::string FaultText(plan::Reason reason, const plan::Fault& fault,

@@ -21,9 +21,8 @@ constexpr int kFinger = 2;
 /// A finger on the face +x of [−1, 1]³, `away` off it, and another one where it belongs.
 FaultPicture OffSurface(double away) {
   plan::Snapshot snapshot;
-  snapshot.fingers = {
-      MakeFinger(kFinger, plan::FingerRole::kHolding, {1 + away, 0, 0}, {-1, 0, 0}),
-      MakeFinger(0, plan::FingerRole::kHolding, {-1, 0, 0}, {1, 0, 0})};
+  snapshot.fingers = {MakeFinger(kFinger, plan::FingerRole::kHolding, {1 + away, 0, 0}, {-1, 0, 0}),
+                      MakeFinger(0, plan::FingerRole::kHolding, {-1, 0, 0}, {1, 0, 0})};
   const Fault fault = {.fingers = {FingerIndex(kFinger)},
                        .found = grasp::Contact{{1 + away, 0, 0}, {-1, 0, 0}},
                        .expected = {{{1, 0, 0}, {-1, 0, 0}}}};
@@ -55,8 +54,7 @@ TEST(FaultPicture, AFingerNearOrFarOffTheSurfaceIsDrawnBesideIt) {
 TEST(FaultPicture, OtherFingersThatAreFarAwayAreLeftOut) {
   plan::Snapshot snapshot;
   for (const double x : {1.0, 1e6, 1e300}) {
-    snapshot.fingers.push_back(
-        MakeFinger(0, plan::FingerRole::kHolding, {x, 0, 0}, {-1, 0, 0}));
+    snapshot.fingers.push_back(MakeFinger(0, plan::FingerRole::kHolding, {x, 0, 0}, {-1, 0, 0}));
   }
   const FaultPicture picture =
       MakeFaultPicture(MakeCube(), 1, Reason::kTooManyFingers, {}, snapshot, "");
@@ -69,8 +67,7 @@ TEST(FaultPicture, TheGhostOfAnObjectThatHardlyMovedIsFarEnoughBackToBeSeen) {
   snapshot.X_WO.translation().z() = -1e-2;
   Fault fault;
   fault.X_WO_before = Eigen::Isometry3d::Identity();
-  const FaultPicture picture =
-      MakeFaultPicture(cube, 1, Reason::kObjectMoved, fault, snapshot, "");
+  const FaultPicture picture = MakeFaultPicture(cube, 1, Reason::kObjectMoved, fault, snapshot, "");
   ASSERT_TRUE(picture.marks.X_WO_before.has_value());
   const double back = picture.marks.X_WO_before->translation().z() + 1e-2;
   EXPECT_NEAR(back, 0.05 * cube.diameter(), 1e-9);

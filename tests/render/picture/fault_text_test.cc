@@ -22,15 +22,15 @@ TEST(FaultText, TellsANumberAndItsUnit) {
   const auto text = [](Reason reason, const Fault& fault) {
     return FaultText(reason, fault, "detail", 0.001);
   };
-  EXPECT_EQ(text(Reason::kOffSurface, Misplaced({4.1, 0, 0})), "finger 2 is 4.1 mm off the surface");
+  EXPECT_EQ(text(Reason::kOffSurface, Misplaced({4.1, 0, 0})),
+            "finger 2 is 4.1 mm off the surface");
   EXPECT_EQ(text(Reason::kOffSurface, Misplaced({4.1e6, 0, 0})),
             "finger 2 is 4.1 km off the surface");
   EXPECT_EQ(text(Reason::kWrongNormal, Misplaced({0, 0, 0}, Radians(23))),
             "the normal of finger 2 is off by 23.00°");
   EXPECT_EQ(text(Reason::kDiscontinuous, Misplaced({0, 3, 0}, Radians(90))),
             "finger 2 is 3 mm from where it was, turned by 90.00°");
-  EXPECT_EQ(text(Reason::kNotForceClosure,
-                 {.required = Radians(7.34), .half_angle = Radians(6)}),
+  EXPECT_EQ(text(Reason::kNotForceClosure, {.required = Radians(7.34), .half_angle = Radians(6)}),
             "the grasp needs 7.34°, has 6.00°");
   Fault slipped = Misplaced({0, 0.3, 0});
   slipped.push = plan::FaultPush{{0, 0, -5.25}, Vector3d::Zero()};
