@@ -160,6 +160,7 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
   render::FrameOptions frame = options;
   if (object.dimension() == 2 && report.settings) frame.body.thickness = RelativeThickness(report);
   frame.finger_radius = report.finger_radius;
+  frame.has_heading = !report.passed();
   render::FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);

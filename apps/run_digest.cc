@@ -33,6 +33,22 @@ std::string ObjectPathOf(const ValidateOptions& options, const std::string& name
                    "\" in " + options.object_path);
 }
 
+std::string CommandText(const ValidateOptions& options, const RunInputs& inputs) {
+  std::string text = std::string(kValidateName) + " --object " + inputs.object.name +
+                     (options.for_grasp() ? " --grasp " : " --plan ") + inputs.input.name;
+  // Their names change no result.
+  if (!options.start.empty()) text += " --start …";
+  if (!options.goal.empty()) text += " --goal …";
+  for (const auto& [name, values] : options.given) {
+    text += " " + name;
+    // A flag has a value too, which nobody types.
+    for (const std::string& value : values) {
+      if (!value.empty() && value != "true") text += " " + value;
+    }
+  }
+  return text;
+}
+
 std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
   const Json json = {{"version", ProgramVersion()},
                      {"build", BuildId()},

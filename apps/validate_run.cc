@@ -314,12 +314,14 @@ int RunValidation(const ValidateOptions& options) {
   report.object_sha256 = task.object.sha256;
   report.plan_file = std::filesystem::path(options.InputPath()).filename().string();
   report.plan_sha256 = Sha256(task.file_text);
-  report.run =
-      report::RunRecord{RunDigest(options, {{report.plan_file, report.plan_sha256},
-                                            {report.object_file, report.object_sha256},
-                                            options.start.empty() ? "" : Sha256(task.start_text),
-                                            options.goal.empty() ? "" : Sha256(task.goal_text)}),
-                        {}};
+  const RunInputs inputs = {{report.plan_file, report.plan_sha256},
+                            {report.object_file, report.object_sha256},
+                            options.start.empty() ? "" : Sha256(task.start_text),
+                            options.goal.empty() ? "" : Sha256(task.goal_text)};
+  report.run = report::RunRecord{RunDigest(options, inputs),
+                                 {},
+                                 std::string(kValidateName) + " " + ProgramVersion(),
+                                 CommandText(options, inputs)};
   AddTrials(options, task, report);
   if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);

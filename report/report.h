@@ -71,6 +71,8 @@ struct FileDigest {
 struct RunRecord {
   std::string sha256;             ///< of all that the report comes from
   std::vector<FileDigest> files;  ///< the other results of the same run
+  std::string program = {};       ///< and its version
+  std::string command = {};       ///< files and options that change the results
 };
 
 /// Everything that `validate` says of a plan; report.json is this.

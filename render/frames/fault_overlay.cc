@@ -29,6 +29,7 @@ constexpr double kLineWidth = 0.11;
 constexpr double kTick = 0.42;
 constexpr double kHalo = 0.32;
 constexpr double kDash = 0.35;
+constexpr double kRingGap = 0.3;
 constexpr double kLeader = 1.6;  ///< a text farther than this from what it tells has a line to it
 
 // In diameters of the object.
@@ -80,6 +81,15 @@ class Overlay {
             Vector3d((glyph.ball + glyph.stem_end) / 2)}) {
         busy_.push_back(camera_.Project(p));
       }
+    }
+  }
+
+  /// A ring around a finger at fault, which the body may hide.
+  void DrawRing(const FingerGlyph& glyph) {
+    const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kRingGap * font_;
+    for (const bool white : {true, false}) {
+      SetCircle(cr_, camera_.Project(glyph.ball), radius);
+      Stroke(cr_, white ? kWhite : kFaultRed, (white ? 2.6 : 1.4) * kLineWidth * font_);
     }
   }
 
@@ -136,8 +146,12 @@ class Overlay {
   }
 
   /// The rim of the cone and its two sides.
-  void Draw(const FaultMarks::Cone& cone) {
-    const auto [u, v] = Across(cone.axis);
+  void Draw(const FaultMarks::Cone& cone, bool planar) {
+    auto [u, v] = Across(cone.axis);
+    if (planar) {
+      u = Vector3d::UnitZ().cross(cone.axis);
+      v.setZero();
+    }
     const double length = kConeLength * frame_.diameter_m;
     const Vector2d apex = Project(cone.apex);
     std::vector<Vector2d> rim;
@@ -355,8 +369,13 @@ Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFram
   Overlay overlay(image, camera, frame);
   overlay.Avoid(fingers);
   if (marks.X_WO_before) overlay.DrawGhost(body, *marks.X_WO_before, marks.ghost_text);
+  for (const FingerGlyph& glyph : fingers) {
+    // One that is placed has its ring.
+    const bool at_fault = std::ranges::find(marks.fingers, glyph.finger) != marks.fingers.end();
+    if (at_fault && glyph.role != plan::FingerRole::kPlaced) overlay.DrawRing(glyph);
+  }
   for (const auto& tip : marks.tips) overlay.Draw(tip);
-  for (const auto& cone : marks.cones) overlay.Draw(cone);
+  for (const auto& cone : marks.cones) overlay.Draw(cone, marks.planar);
   for (const auto& place : marks.places) overlay.Draw(place);
   for (const auto& dimension : marks.dimensions) overlay.Draw(dimension);
   for (const auto& normal : marks.normals) overlay.Draw(normal);

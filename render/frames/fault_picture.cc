@@ -62,6 +62,7 @@ class FaultSketch {
     picture_.snapshot = snapshot;
     picture_.marks.heading = heading;
     picture_.marks.fingers = fault.fingers;
+    picture_.marks.planar = object.dimension() == 2;
     picture_.marks.centroid = snapshot.X_WO * Centroid();
   }
 
@@ -99,12 +100,18 @@ class FaultSketch {
     return "was here";
   }
 
+  /// Whether the finger is off the surface, or may be, as it is given.
+  [[nodiscard]] bool IsOff(FingerIndex finger) const {
+    if (reason_ == Reason::kOffSurface) return true;
+    return reason_ == Reason::kContactLost && finger == fault_.fingers.front();
+  }
+
   /// Contacts that slipped over an edge, or into the surface, are drawn on it: a ball inside would
   /// not be seen.
   void PutOnSurface() {
     const Isometry3d X_OW = picture_.snapshot.X_WO.inverse();
     for (plan::FingerState& state : picture_.snapshot.fingers) {
-      if (!IsNear(state.contact_W) || IsOffSurface(reason_)) continue;
+      if (!IsNear(state.contact_W) || IsOff(state.finger)) continue;
       const Vector3d p_O = X_OW * state.contact_W / scale_;
       const auto faces = object_.FacesNear(p_O, kTouches * object_.diameter());
       if (!faces.empty()) state.contact_W = Place(object_.ClosestPoint(faces.front(), p_O));
@@ -126,13 +133,14 @@ class FaultSketch {
         away.stableNormalized() * std::min(distance * stretch, 2 * object_.diameter());
     const Vector3d found_O = off ? Vector3d(expected.p + leg) : found.p;
     const Vector3d expected_O = off ? expected.p : Vector3d(found.p - leg);
-    if (stretch != 1 || distance / object_.diameter() >= kTooShort) {
+    const bool seen = stretch != 1 || distance / object_.diameter() >= kTooShort;
+    if (seen) {
       picture_.marks.dimensions.push_back(
           {Place(expected_O), Place(found_O),
            FormatLength(distance * scale_, kDigits) + StretchText(stretch)});
     }
     if (off) MoveFinger(found_O);
-    if (!off && reason_ != Reason::kWrongNormal) {
+    if (seen && !off && reason_ != Reason::kWrongNormal) {
       AddPlace({expected_O, expected.n}, reason_ == Reason::kFingerNotFree ? "holds" : "was here");
     }
     AddNormals({found_O, found.n}, {expected_O, expected.n});

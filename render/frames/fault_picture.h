@@ -41,6 +41,7 @@ struct FaultMarks {
   };
   std::string heading;               ///< what failed, in a line
   std::vector<FingerIndex> fingers;  ///< drawn in red
+  bool planar = false;               ///< cones are flat
   std::vector<Dimension> dimensions = {};
   std::vector<Normal> normals = {};
   std::vector<Place> places = {};

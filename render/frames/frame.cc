@@ -53,6 +53,9 @@ constexpr double kLabelSpace = 0.05;
 /// An object that moved farther than this (diameters) does not widen the picture.
 constexpr double kFarAway = 0.5;
 
+/// Above all that is drawn, of the image's height.
+constexpr double kHeadingMargin = 0.09;
+
 constexpr int kMaxSupersampling = 4;
 
 /// The clusters' meshes come last, one a colour.
@@ -306,8 +309,10 @@ class FrameRenderer::Impl {
       }
     }
     const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
+    Margins margins;
+    if (options_.has_heading) margins.top = kHeadingMargin;
     Camera camera = FitCamera(axes, view.projection.value_or(usual), options_.width,
-                              options_.height, Margins(), extent.points());
+                              options_.height, margins, extent.points());
     camera.half_height /= view.zoom;
     return camera;
   }

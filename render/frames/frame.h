@@ -30,6 +30,8 @@ struct FrameOptions {
   GapView gaps = GapView::kNone;
   /// Fingers are drawn as thick as they are, in the object's unit of length; otherwise as signs.
   std::optional<double> finger_radius = std::nullopt;
+  /// Leaves room at the top for the heading of a failed step.
+  bool has_heading = false;
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
   /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
   bool show_focus = false;

@@ -20,8 +20,8 @@ std::string FormatLength(double metres, int digits) {
     double metres;
     const char* name;
   };
-  static constexpr std::array<Unit, 5> kUnits = {
-      {{1e3, " km"}, {1, " m"}, {1e-2, " cm"}, {1e-3, " mm"}, {1e-6, " µm"}}};
+  static constexpr std::array<Unit, 6> kUnits = {
+      {{1e3, " km"}, {1, " m"}, {1e-2, " cm"}, {1e-3, " mm"}, {1e-6, " µm"}, {1e-9, " nm"}}};
   // A hair below one: 0.01 / 1e-2 may round down.
   constexpr double kOne = 1 - 1e-9;
   for (const auto& [size, name] : kUnits) {

@@ -22,6 +22,9 @@ class FactList {
   void AddDigest(std::string_view name, std::string_view digest) {
     Add(name, digest, {{"class", "digest"}});
   }
+  void AddCommand(std::string_view command) {
+    Add("Command, but for where results go", command, {{"class", "digest"}});
+  }
   [[nodiscard]] Element Make() const { return Element("dl", {{"class", "facts"}}, facts_); }
 
  private:
@@ -67,12 +70,16 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
                             " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
   if (report.grasp) AddGrasp(report, facts);
   const int weakest = report.weakest_step();
-  if (weakest >= 0 && !report.grasp) {
+  if (weakest >= 0 && !report.grasp && report.passed()) {
     facts.Add("Weakest", StepName(weakest) + ", " +
                              DegreesText(measures[weakest].margin_deg.value_or(0)) + " to spare");
   }
   if (report.trials) AddTrials(*report.trials, facts);
   if (report.settings) AddSettings(*report.settings, facts);
+  if (report.run && !report.run->program.empty()) {
+    facts.Add("Program", report.run->program);
+    facts.AddCommand(report.run->command);
+  }
   facts.AddDigest("Object, SHA-256", report.object_sha256);
   facts.AddDigest(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256);
   return facts.Make();

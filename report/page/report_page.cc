@@ -8,6 +8,7 @@
 #include "page_style.h"
 #include "planner/base/angle.h"
 #include "render/picture/caption.h"
+#include "render/picture/fault_text.h"
 #include "report/page/data_uri.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
@@ -57,8 +58,8 @@ class Page {
 
   [[nodiscard]] Element Main() const {
     Element main("main");
-    for (const Parts& parts : {Parts{Header(), MakeFacts(report_, measures_)}, Plots(),
-                               MakeStepTable(report_, plan_, measures_, Anchors()),
+    for (const Parts& parts : {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)},
+                               Plots(), MakeStepTable(report_, plan_, measures_, Anchors()),
                                MakeFingerTable(report_), MakeFindings(report_), Frames()}) {
       main.Add(parts);
     }
@@ -179,10 +180,18 @@ class Page {
     return anchors;
   }
 
+  /// The picture of what failed comes first, and large.
+  [[nodiscard]] Parts FailedFrame() const {
+    if (!failed_ || !HasPicture(*failed_)) return {};
+    return {Element("div", {{"class", "failure"}}, Parts{Frame(report_.steps[*failed_])})};
+  }
+
   [[nodiscard]] Parts Frames() const {
     Parts frames;
     for (const ReportStep& step : report_.steps) {
-      if (HasPicture(step.check.index)) frames.push_back(Frame(step));
+      if (HasPicture(step.check.index) && step.check.index != failed_) {
+        frames.push_back(Frame(step));
+      }
     }
     if (frames.empty()) return {};
     return {Element("h2", {}, "Frames"),
@@ -199,8 +208,12 @@ class Page {
     const std::string name =
         index == 0 ? StepTitle(plan_, 0)
                    : "Step " + std::to_string(index) + ", " + render::EntryTitle(plan_, index);
-    std::string text = VerdictText(step);
-    if (measures_[index].margin_deg) {
+    const bool failed = step.verdict() == Verdict::kFail;
+    std::string text =
+        failed ? std::string(plan::ReasonName(step.reason())) + ": " +
+                     render::FaultText(step.reason(), step.fault(), step.detail(), report_.scale)
+               : VerdictText(step);
+    if (!failed && measures_[index].margin_deg) {
       text += ", " + DegreesText(*measures_[index].margin_deg) + " of friction left";
     }
     const Element image("img", {{"alt", name},

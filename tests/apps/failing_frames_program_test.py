@@ -9,7 +9,7 @@ import zlib
 import program_case
 from program_case import ProgramCase
 
-SIZE = (240, 180)
+SIZE = (320, 240)
 EMPTY_CELL = (238, 240, 244)
 
 

@@ -42,7 +42,8 @@ TEST(FormatLength, TakesTheUnitThatSuits) {
   EXPECT_EQ(FormatLength(0.001), "1 mm");
   EXPECT_EQ(FormatLength(5e-4), "500 µm");
   EXPECT_EQ(FormatLength(2e-6), "2 µm");
-  EXPECT_EQ(FormatLength(5e-9), "5e-09 m");
+  EXPECT_EQ(FormatLength(5e-9), "5 nm");
+  EXPECT_EQ(FormatLength(5e-12), "5e-12 m");
   EXPECT_EQ(FormatLength(0.00412345, 3), "4.12 mm");
 }
 

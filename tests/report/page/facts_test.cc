@@ -37,6 +37,17 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
     step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   }
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° to spare</dd>"));
+  // Where something failed there is something weaker.
+  report.steps.emplace_back().check.reason = plan::Reason::kNotForceClosure;
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("to spare")));
+}
+
+TEST(FactsTest, TheProgramAndTheCommandAreTold) {
+  Report report;
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Command")));
+  report.run = RunRecord{"", {}, "validate 1.2", "validate --object <cube>.obj"};
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>validate 1.2</dd>"));
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>validate --object &lt;cube&gt;.obj</dd>"));
 }
 
 }  // namespace

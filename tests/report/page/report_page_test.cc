@@ -147,6 +147,19 @@ TEST(ReportPageTest, PicturesStandInThePage) {
   EXPECT_THAT(page, HasSubstr("id=\"frame1\" class=\"fail\""));
 }
 
+TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {
+  const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
+  const Scene failing(/*fails=*/true), passing(/*fails=*/false);
+  const std::string page = FormatReportHtml(failing.report, failing.plan, pictures);
+  EXPECT_EQ(Count(page, "class=\"failure\""), 1);
+  EXPECT_EQ(Count(page, "id=\"frame1\""), 1);
+  EXPECT_LT(page.find("id=\"frame1\""), page.find("class=\"facts\""));
+  EXPECT_GT(page.find("id=\"frame0\""), page.find("class=\"facts\""));
+  EXPECT_THAT(page, HasSubstr("Slipped: shake +x: finger 2 slipped"));
+  EXPECT_EQ(Count(FormatReportHtml(passing.report, passing.plan, pictures), "class=\"failure\""),
+            0);
+}
+
 TEST(ReportPageTest, ValuesThatAreNotFiniteBreakNothing) {
   Scene scene(/*fails=*/true);
   scene.report.steps[1].replay->reason = plan::Reason::kSimulationUnstable;
