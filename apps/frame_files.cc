@@ -181,13 +181,16 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
 
 void WriteAnimation(const object::Object& object, const plan::Plan& plan,
                     const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
-                    const std::filesystem::path& folder, const report::Report& report) {
+                    const std::filesystem::path& folder, const report::Report& report,
+                    const std::function<void(int done, int all)>& on_entry) {
   const std::vector<plan::Snapshot> rests = RestsOf(report);
   if (rests.empty()) return;
   if (object.dimension() == 2) options.thickness = RelativeThickness(report);
-  WriteFile(folder / kAnimationName,
-            render::RenderAnimation(object, plan, report.half_angle, samples, rests, options),
-            Durability::kCached);
+  WriteFile(
+      folder / kAnimationName,
+      render::RenderAnimation(object, plan, report.half_angle, samples, rests, options,
+                              [&](int done) { on_entry(done, static_cast<int>(rests.size())); }),
+      Durability::kCached);
 }
 
 }  // namespace regrasp::apps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,12 @@ inline constexpr char kAnimationName[] = "replay.webp";
 
 /// Writes what was replayed as the moving picture replay.webp into `folder`; nothing where nothing
 /// was replayed.
-/// @param samples  states during the replay, ascending in time.
+/// @param samples   states during the replay, ascending in time.
+/// @param on_entry  called with the number of entries drawn and of all, after each.
 /// @throws EnvironmentError  as WriteFrames.
 void WriteAnimation(const object::Object& object, const plan::Plan& plan,
                     const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
-                    const std::filesystem::path& folder, const report::Report& report);
+                    const std::filesystem::path& folder, const report::Report& report,
+                    const std::function<void(int done, int all)>& on_entry);
 
 }  // namespace regrasp::apps

@@ -231,7 +231,11 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   if (options.animate) {
     ProgressLine progress(options.quiet);
     progress.Report("drawing the moving picture");
-    WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report);
+    WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report,
+                   [&](int done, int all) {
+                     progress.Report("drawing the moving picture: " + std::to_string(done) +
+                                     " of " + std::to_string(all) + " steps");
+                   });
   }
   WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures));
 }

@@ -98,7 +98,8 @@ std::vector<int> ChooseInstants(const std::vector<double>& progress, double from
 std::string RenderAnimation(const object::Object& object, const plan::Plan& plan, double half_angle,
                             const std::vector<plan::Snapshot>& samples,
                             const std::vector<plan::Snapshot>& rests,
-                            const AnimationOptions& options) {
+                            const AnimationOptions& options,
+                            const std::function<void(int)>& on_entry) {
   if (rests.empty()) throw std::invalid_argument("RenderAnimation: nothing was replayed");
   FrameOptions frame;
   frame.width = options.width;
@@ -120,6 +121,7 @@ std::string RenderAnimation(const object::Object& object, const plan::Plan& plan
     }
     animation.Add(renderer.Render(rests[entry], caption), kRestTime_ms);
     from = at_rests[entry];
+    if (on_entry) on_entry(static_cast<int>(entry) + 1);
   }
   return animation.Finish();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,14 @@ inline constexpr int kMostPicturesInAll = 900;
 /// end. Deterministic.
 /// @param samples  states during the replay, ascending in time.
 /// @param rests    the state after each entry that was replayed, in the order of the plan, ≥ 1.
+/// @param on_entry  called with the number of entries drawn, after each.
 /// @throws EnvironmentError       no off-screen rendering context.
 /// @throws std::invalid_argument  a size that frames cannot have, or no rest.
 [[nodiscard]] std::string RenderAnimation(const object::Object& object, const plan::Plan& plan,
                                           double half_angle,
                                           const std::vector<plan::Snapshot>& samples,
                                           const std::vector<plan::Snapshot>& rests,
-                                          const AnimationOptions& options = {});
+                                          const AnimationOptions& options = {},
+                                          const std::function<void(int)>& on_entry = {});
 
 }  // namespace regrasp::render

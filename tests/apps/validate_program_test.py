@@ -612,6 +612,14 @@ class Validate(ProgramCase):
         self.refuse("--animate-size", animate_size="96x64")
         self.refuse("--animate-size", "--animate", animate_size="1x1")
 
+    def test_a_terminal_is_told_how_many_steps_the_animation_has(self):
+        steps = len(self.plan["steps"]) + 1
+        done, shown = self.run_on_terminal(*self.arguments("--animate", size="64x48",
+                                                           animate_size="64x48"))
+        self.assertEqual(done.returncode, 0, shown)
+        self.assert_stages(shown, "reading ", f"drawing the moving picture: 1 of {steps} steps",
+                           f"drawing the moving picture: {steps} of {steps} steps")
+
     def test_the_trajectory_is_the_same_with_an_animation(self):
         self.assert_passes("--no-frames", trajectory="alone.csv")
         self.assert_passes("--animate", size="64x48", animate_size="64x48",
