@@ -48,10 +48,10 @@ class SurfaceDraw {
  public:
   explicit SurfaceDraw(const object::Polyhedron& solid) : solid_(solid) {
     std::vector<double> areas;
-    for (const object::Polyhedron::Face& face : solid.faces()) {
-      areas.push_back(face.area);
+    for (FaceIndex face{0}; face < solid.face_count(); ++face) {
+      areas.push_back(solid.face_measure(face));
       std::vector<double> parts;
-      for (const int triangle : face.triangles) parts.push_back(Doubled(triangle).norm());
+      for (const int triangle : solid.TrianglesOf(face)) parts.push_back(Doubled(triangle).norm());
       triangles_.emplace_back(parts.begin(), parts.end());
     }
     faces_ = std::discrete_distribution<int>(areas.begin(), areas.end());
@@ -59,7 +59,7 @@ class SurfaceDraw {
 
   grasp::Contact Draw() { return DrawOn(FaceIndex(faces_(engine_))); }
   grasp::Contact DrawOn(FaceIndex face) {
-    const int triangle = solid_.faces()[face].triangles[triangles_[face](engine_)];
+    const int triangle = solid_.TrianglesOf(face)[triangles_[face](engine_)];
     std::uniform_real_distribution<double> uniform(0, 1);
     double a = uniform(engine_);
     double b = uniform(engine_);

@@ -210,25 +210,23 @@ bool FaceTree::Impl::Covers(FaceIndex face, const Vector3d& a, const Vector3d& b
   return CoverUnitInterval(std::move(near));
 }
 
-FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
-                   const std::vector<std::array<int, 3>>& triangles,
-                   const std::vector<Polyhedron::Face>& faces, double diameter) {
+FaceTree::FaceTree(const Polyhedron& solid) {
   auto impl = std::make_unique<Impl>();
-  impl->diameter = diameter;
+  impl->diameter = solid.diameter();
   double farthest = 0;
-  for (const Vector3d& vertex : vertices) farthest = std::max(farthest, vertex.norm());
-  impl->rounding = kRounding * diameter + kCoordinateRounding * farthest;
+  for (const Vector3d& vertex : solid.vertices()) farthest = std::max(farthest, vertex.norm());
+  impl->rounding = kRounding * impl->diameter + kCoordinateRounding * farthest;
   std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
-  for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
-    impl->normals.push_back(faces[f].inward_normal);
-    for (const TriangleIndex t : faces[f].triangles) {
-      const auto& [a, b, c] = triangles[t];
-      impl->triangles.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]),
-                                   ToPoint(vertices[c]));
+  for (FaceIndex f{0}; f < solid.face_count(); ++f) {
+    impl->normals.push_back(solid.inward_normal(f));
+    for (const TriangleIndex t : solid.TrianglesOf(f)) {
+      const auto& [a, b, c] = solid.triangles()[t];
+      impl->triangles.emplace_back(ToPoint(solid.vertices()[a]), ToPoint(solid.vertices()[b]),
+                                   ToPoint(solid.vertices()[c]));
       impl->face_of_triangle.push_back(f);
     }
-    for (const auto& [a, b] : faces[f].border) {
-      impl->segments.emplace_back(ToPoint(vertices[a]), ToPoint(vertices[b]));
+    for (const FaceBorder& border : solid.BordersOf(f)) {
+      impl->segments.emplace_back(ToPoint(border.a), ToPoint(border.b));
     }
     triangle_ends.push_back(std::ssize(impl->triangles));
     segment_ends.push_back(std::ssize(impl->segments));
@@ -236,7 +234,7 @@ FaceTree::FaceTree(const std::vector<Vector3d>& vertices,
   // Only now: the patches keep iterators.
   const auto first_triangle = impl->triangles.cbegin();
   const auto first_segment = impl->segments.cbegin();
-  for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
+  for (FaceIndex f{0}; f < solid.face_count(); ++f) {
     impl->surface.emplace_back(first_triangle + (f == 0 ? 0 : triangle_ends[f - 1]),
                                first_triangle + triangle_ends[f]);
     impl->border.emplace_back(first_segment + (f == 0 ? 0 : segment_ends[f - 1]),

@@ -14,9 +14,7 @@ namespace regrasp::object {
 /// Queries are const and safe from several threads.
 class FaceTree {
  public:
-  FaceTree(const std::vector<Eigen::Vector3d>& vertices,
-           const std::vector<std::array<int, 3>>& triangles,
-           const std::vector<Polyhedron::Face>& faces, double diameter);
+  explicit FaceTree(const Polyhedron& solid);
   ~FaceTree();
   FaceTree(const FaceTree&) = delete;
   FaceTree& operator=(const FaceTree&) = delete;

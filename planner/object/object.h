@@ -24,6 +24,16 @@ struct FaceBorder {
   bool convex = false;
 };
 
+/// A face: what is said of it alike in plane and space.
+struct Face {
+  Eigen::Vector3d inward_normal = Eigen::Vector3d::Zero();  ///< of length 1, into the material
+  double measure = 0;                                       ///< area of a face, length of an edge
+  /// All that it has with others. In space the outline and holes, a to b with the material of the
+  /// face on the left seen from outside; in the plane where the edge begins, then where it ends.
+  std::vector<FaceBorder> borders;
+  bool enclosed = false;  ///< as Object::IsEnclosed
+};
+
 /// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
 ///
 /// A *face* is a maximal set of coplanar neighbouring facets in space, an edge in the plane. Planar
@@ -35,16 +45,18 @@ class Object {
   virtual ~Object() = default;
 
   /// 2 for a polygon, 3 for a solid.
-  [[nodiscard]] virtual int dimension() const = 0;
+  [[nodiscard]] int dimension() const { return dimension_; }
 
   /// Faces of a solid, edges of a polygon (holes included).
-  [[nodiscard]] virtual int face_count() const = 0;
+  [[nodiscard]] int face_count() const { return static_cast<int>(faces_.size()); }
 
   /// The unit normal of a face, pointing into the material.
-  [[nodiscard]] virtual Eigen::Vector3d inward_normal(FaceIndex face) const = 0;
+  [[nodiscard]] const Eigen::Vector3d& inward_normal(FaceIndex face) const {
+    return faces_[face].inward_normal;
+  }
 
   /// Area of a face, length of an edge.
-  [[nodiscard]] virtual double face_measure(FaceIndex face) const = 0;
+  [[nodiscard]] double face_measure(FaceIndex face) const { return faces_[face].measure; }
 
   /// The point of the face nearest to `point`.
   [[nodiscard]] virtual Eigen::Vector3d ClosestPoint(FaceIndex face,
@@ -72,22 +84,24 @@ class Object {
                                              const Eigen::Vector3d& b, double tolerance) const = 0;
 
   /// All the borders of a face with others.
-  [[nodiscard]] virtual std::vector<FaceBorder> BordersOf(FaceIndex face) const = 0;
+  [[nodiscard]] const std::vector<FaceBorder>& BordersOf(FaceIndex face) const {
+    return faces_[face].borders;
+  }
 
   /// True iff two different faces have a border in common. Takes some nanoseconds where they have
   /// few borders.
-  [[nodiscard]] virtual bool AreNeighbours(FaceIndex face, FaceIndex other) const = 0;
+  [[nodiscard]] bool AreNeighbours(FaceIndex face, FaceIndex other) const;
 
   /// Points that two different faces have in common within `tolerance` of `point`: of each border
   /// of the two the nearest one, and the vertices at which they merely touch. Faces that are near
   /// each other, on the two sides of a thin wall, have none.
-  [[nodiscard]] virtual std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
-                                                                  const Eigen::Vector3d& point,
-                                                                  double tolerance) const = 0;
+  [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
+                                                          const Eigen::Vector3d& point,
+                                                          double tolerance) const;
 
   /// True iff the face is a wall of a sealed cavity: of a shell that the outside does not see. No
   /// finger comes there, however thin. Never in the plane, where a finger comes from above.
-  [[nodiscard]] virtual bool IsEnclosed(FaceIndex face) const = 0;
+  [[nodiscard]] bool IsEnclosed(FaceIndex face) const { return faces_[face].enclosed; }
 
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }
@@ -100,12 +114,19 @@ class Object {
   [[nodiscard]] const MassProperties& mass_properties() const { return mass_properties_; }
 
  protected:
-  Object(double diameter, MassProperties mass_properties)
-      : diameter_(diameter), mass_properties_(std::move(mass_properties)) {}
+  Object(int dimension, std::vector<Face> faces, double diameter, MassProperties mass_properties)
+      : dimension_(dimension),
+        faces_(std::move(faces)),
+        diameter_(diameter),
+        mass_properties_(std::move(mass_properties)) {}
   Object(const Object&) = default;
+  Object(Object&&) = default;
   Object& operator=(const Object&) = default;
+  Object& operator=(Object&&) = default;
 
  private:
+  int dimension_;
+  std::vector<Face> faces_;
   double diameter_;
   MassProperties mass_properties_;
 };

@@ -50,6 +50,34 @@ void CheckEdges(const PolygonRings& rings, double diameter, const std::string& n
   }
 }
 
+std::vector<Face> MakeFaces(const PolygonRings& rings) {
+  std::vector<Face> faces;
+  for (const auto& ring : rings) {
+    const int first = static_cast<int>(faces.size());
+    const int size = static_cast<int>(ring.size());
+    for (int i = 0; i < size; ++i) {
+      const int next = (i + 1) % size;
+      const Vector3d a = InSpace(ring[i]), b = InSpace(ring[next]);
+      const Vector2d along = (ring[next] - ring[i]).stableNormalized();
+      // Adding 0 turns −0 into +0: normals are printed.
+      faces.push_back(
+          {{-along.y() + 0.0, along.x() + 0.0, 0},
+           (ring[next] - ring[i]).stableNorm(),
+           {{a, a, FaceIndex(first + (i + size - 1) % size)}, {b, b, FaceIndex(first + next)}}});
+    }
+  }
+  // Seen from above the material is on the left of the edges: a convex vertex turns left.
+  const auto turns_left = [&](const Face& edge, const Face& next) {
+    return IsConvexTurn(edge.inward_normal, next.inward_normal, Vector3d::UnitZ());
+  };
+  for (Face& edge : faces) {
+    FaceBorder &start = edge.borders[0], &end = edge.borders[1];
+    start.convex = turns_left(faces[start.beyond], edge);
+    end.convex = turns_left(edge, faces[end.beyond]);
+  }
+  return faces;
+}
+
 }  // namespace
 
 Polygon Polygon::FromRings(PolygonRings rings, const std::string& name) {
@@ -70,30 +98,11 @@ Polygon Polygon::FromWkt(std::string_view text, const std::string& name) {
 }
 
 Polygon::Polygon(PolygonRings rings, double diameter, MassProperties mass_properties)
-    : Object(diameter, std::move(mass_properties)), rings_(std::move(rings)) {
-  for (const auto& ring : rings_) {
-    const int first = face_count();
-    const int size = static_cast<int>(ring.size());
-    for (int i = 0; i < size; ++i) {
-      edges_.emplace_back(ring[i], ring[(i + 1) % size]);
-      next_.emplace_back(first + (i + 1) % size);
-      previous_.emplace_back(first + (i + size - 1) % size);
-    }
+    : Object(2, MakeFaces(rings), diameter, std::move(mass_properties)), rings_(std::move(rings)) {
+  for (FaceIndex face{0}; face < face_count(); ++face) {
+    const std::vector<FaceBorder>& ends = BordersOf(face);
+    edges_.emplace_back(ends[0].a.head<2>(), ends[1].a.head<2>());
   }
-}
-
-std::pair<Vector3d, Vector3d> Polygon::edge(FaceIndex face) const {
-  return {InSpace(edges_[face].first), InSpace(edges_[face].second)};
-}
-
-Vector3d Polygon::inward_normal(FaceIndex face) const {
-  const Vector2d along = (edges_[face].second - edges_[face].first).stableNormalized();
-  // Adding 0 turns −0 into +0: normals are printed.
-  return {-along.y() + 0.0, along.x() + 0.0, 0};
-}
-
-double Polygon::face_measure(FaceIndex face) const {
-  return (edges_[face].second - edges_[face].first).stableNorm();
 }
 
 Vector3d Polygon::ClosestPoint(FaceIndex face, const Vector3d& point) const {
@@ -141,32 +150,6 @@ bool Polygon::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d&
   // An edge is convex: what lies between two points near it is near it too.
   return (ClosestPoint(face, a) - a).norm() <= tolerance &&
          (ClosestPoint(face, b) - b).norm() <= tolerance;
-}
-
-std::vector<FaceBorder> Polygon::BordersOf(FaceIndex face) const {
-  // Seen from above the material is on the left of the edges: a convex vertex turns left.
-  const auto convex = [&](FaceIndex edge, FaceIndex next) {
-    return IsConvexTurn(inward_normal(edge), inward_normal(next), Vector3d::UnitZ());
-  };
-  const auto [a, b] = edge(face);
-  const FaceIndex before = previous_[face];
-  const FaceIndex after = next_[face];
-  return {{a, a, before, convex(before, face)}, {b, b, after, convex(face, after)}};
-}
-
-bool Polygon::AreNeighbours(FaceIndex face, FaceIndex other) const {
-  return other == next_[face] || other == previous_[face];
-}
-
-std::vector<Vector3d> Polygon::CommonPoints(FaceIndex face, FaceIndex other, const Vector3d& point,
-                                            double tolerance) const {
-  std::vector<Vector3d> points;
-  for (const FaceBorder& border : BordersOf(face)) {
-    if (border.beyond == other && (border.a - point).norm() <= tolerance) {
-      points.push_back(border.a);
-    }
-  }
-  return points;
 }
 
 }  // namespace regrasp::object

@@ -30,12 +30,10 @@ class Polygon final : public Object {
   /// The outer ring first.
   [[nodiscard]] const std::vector<std::vector<Eigen::Vector2d>>& rings() const { return rings_; }
   /// The two ends of an edge, material on the left.
-  [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> edge(FaceIndex face) const;
+  [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> edge(FaceIndex face) const {
+    return {BordersOf(face)[0].a, BordersOf(face)[1].a};
+  }
 
-  [[nodiscard]] int dimension() const override { return 2; }
-  [[nodiscard]] int face_count() const override { return static_cast<int>(edges_.size()); }
-  [[nodiscard]] Eigen::Vector3d inward_normal(FaceIndex face) const override;
-  [[nodiscard]] double face_measure(FaceIndex face) const override;
   [[nodiscard]] Eigen::Vector3d ClosestPoint(FaceIndex face,
                                              const Eigen::Vector3d& point) const override;
   [[nodiscard]] std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
@@ -47,21 +45,14 @@ class Polygon final : public Object {
                                         const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
                                      const Eigen::Vector3d& b, double tolerance) const override;
-  [[nodiscard]] std::vector<FaceBorder> BordersOf(FaceIndex face) const override;
-  [[nodiscard]] bool AreNeighbours(FaceIndex face, FaceIndex other) const override;
-  [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
-                                                          const Eigen::Vector3d& point,
-                                                          double tolerance) const override;
-  [[nodiscard]] bool IsEnclosed(FaceIndex /*face*/) const override { return false; }
 
  private:
   Polygon(std::vector<std::vector<Eigen::Vector2d>> rings, double diameter,
           MassProperties mass_properties);
 
   std::vector<std::vector<Eigen::Vector2d>> rings_;
+  /// By edge, its ends: side by side in memory, as searches look at them all.
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
-  std::vector<FaceIndex> next_;      ///< by edge: the one that begins where it ends
-  std::vector<FaceIndex> previous_;  ///< by edge: the one that ends where it begins
 };
 
 }  // namespace regrasp::object

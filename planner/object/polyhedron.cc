@@ -3,10 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
-#include <set>
 #include <utility>
 
-#include "planner/object/closest_on_segment.h"
 #include "planner/object/diameter.h"
 #include "planner/object/face_joining.h"
 #include "planner/object/face_tree.h"
@@ -41,44 +39,49 @@ void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& na
   }
 }
 
-/// Areas and borders of the faces.
-/// @throws MeshError  kBadSize where a face has no normal.
-std::vector<Polyhedron::Face> CollectFaces(const TriangleMesh& mesh,
-                                           const SurfaceTopology& topology,
-                                           const std::vector<FaceIndex>& face_of_triangle,
-                                           const std::string& name) {
-  std::vector<Polyhedron::Face> faces(1 + *std::ranges::max_element(face_of_triangle));
-  std::vector<Vector3d> area_vectors(faces.size(), Vector3d::Zero());
-  for (auto& face : faces) {
-    face.point = Vector3d::Zero();
-    face.area = 0;
-  }
+/// Faces as the sums of their facets: the normals are not of length 1 yet.
+std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
+                            const std::vector<FaceIndex>& face_of_triangle, int outside) {
+  std::vector<Face> faces(1 + *std::ranges::max_element(face_of_triangle));
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
-    Polyhedron::Face& face = faces[face_of_triangle[t]];
-    face.triangles.push_back(t);
+    Face& face = faces[face_of_triangle[t]];
     const Vector3d vector = DoubleAreaVector(mesh, t) / 2;
-    const double area = vector.norm();
-    area_vectors[face_of_triangle[t]] += vector;
-    face.area += area;
+    face.inward_normal -= vector;
+    face.measure += vector.norm();
+    face.enclosed = topology.shell[t] != outside;
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-      face.point += area / 3 * mesh.vertices[from];
       const FaceIndex beyond = face_of_triangle[topology.neighbor[t][k]];
       if (beyond != face_of_triangle[t]) {
-        face.border.push_back({from, to});
-        face.beyond.push_back(beyond);
+        face.borders.push_back({mesh.vertices[from], mesh.vertices[to], beyond});
       }
     }
   }
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (!(area_vectors[f].stableNorm() > kLeastFlatness * faces[f].area)) {
-      throw MeshError(MeshDefect::kBadSize,
-                      name + ": " + FacetName(mesh, faces[f].triangles.front()) +
-                          ": too thin: it and its neighbours have no common normal");
+  return faces;
+}
+
+/// @param outside  the shell that is no cavity.
+/// @throws MeshError  kBadSize where a face has no normal.
+std::vector<Face> MakeFaces(const TriangleMesh& mesh, const SurfaceTopology& topology,
+                            const std::vector<FaceIndex>& face_of_triangle, int outside,
+                            const std::string& name) {
+  std::vector<Face> faces = AddFacets(mesh, topology, face_of_triangle, outside);
+  for (FaceIndex f{0}; f < std::ssize(faces); ++f) {
+    Vector3d& normal = faces[f].inward_normal;
+    if (!(normal.stableNorm() > kLeastFlatness * faces[f].measure)) {
+      const auto facet = std::ranges::find(face_of_triangle, f) - face_of_triangle.begin();
+      throw MeshError(MeshDefect::kBadSize, name + ": " + FacetName(mesh, TriangleIndex(facet)) +
+                                                ": too thin: it and its neighbours have no "
+                                                "common normal");
     }
-    faces[f].point /= faces[f].area;
     // Adding 0 turns −0 into +0: normals are printed.
-    faces[f].inward_normal = (-area_vectors[f].stableNormalized()).array() + 0.0;
+    normal = normal.stableNormalized().array() + 0.0;
+  }
+  for (Face& face : faces) {
+    for (FaceBorder& border : face.borders) {
+      border.convex = IsConvexTurn(face.inward_normal, faces[border.beyond].inward_normal,
+                                   (border.b - border.a).stableNormalized());
+    }
   }
   return faces;
 }
@@ -103,27 +106,34 @@ Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name
   reading.Begin("joining " + facets + " to faces");
   const int outside = OrientSolid(mesh, topology, name);
   std::vector<FaceIndex> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
-  std::vector<Face> faces = CollectFaces(mesh, topology, face_of_triangle, name);
-  for (Face& face : faces) face.enclosed = topology.shell[face.triangles.front()] != outside;
+  std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, outside, name);
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
-  const MassProperties mass = ComputeMassProperties(mesh.vertices, mesh.triangles);
-  return Polyhedron(std::move(mesh.vertices), std::move(mesh.triangles),
-                    std::move(face_of_triangle), std::move(faces), diameter, mass);
+  return Polyhedron(std::move(mesh), std::move(face_of_triangle), std::move(faces), diameter);
 }
 
-Polyhedron::Polyhedron(std::vector<Vector3d> vertices, std::vector<std::array<int, 3>> triangles,
-                       std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces,
-                       double diameter, MassProperties mass_properties)
-    : Object(diameter, std::move(mass_properties)),
-      vertices_(std::move(vertices)),
-      triangles_(std::move(triangles)),
+Polyhedron::Polyhedron(TriangleMesh mesh, std::vector<FaceIndex> face_of_triangle,
+                       std::vector<Face> faces, double diameter)
+    : Object(3, std::move(faces), diameter, ComputeMassProperties(mesh.vertices, mesh.triangles)),
+      vertices_(std::move(mesh.vertices)),
+      triangles_(std::move(mesh.triangles)),
       face_of_triangle_(std::move(face_of_triangle)),
-      faces_(std::move(faces)),
-      face_tree_(std::make_shared<FaceTree>(vertices_, triangles_, faces_, diameter)) {}
+      triangles_of_face_(face_count()) {
+  for (TriangleIndex t{0}; t < std::ssize(triangles_); ++t) {
+    triangles_of_face_[face_of_triangle_[t]].push_back(t);
+  }
+  face_tree_ = std::make_shared<FaceTree>(*this);
+}
 
-Vector3d Polyhedron::inward_normal(FaceIndex face) const { return faces_[face].inward_normal; }
-
-double Polyhedron::face_measure(FaceIndex face) const { return faces_[face].area; }
+Vector3d Polyhedron::CentroidOf(FaceIndex face) const {
+  Vector3d sum = Vector3d::Zero();
+  for (const TriangleIndex t : TrianglesOf(face)) {
+    const Vector3d &a = vertices_[triangles_[t][0]], &b = vertices_[triangles_[t][1]],
+                   &c = vertices_[triangles_[t][2]];
+    const double third = (b - a).cross(c - a).norm() / 2 / 3;
+    for (const Vector3d& corner : {a, b, c}) sum += third * corner;
+  }
+  return sum / face_measure(face);
+}
 
 Vector3d Polyhedron::ClosestPoint(FaceIndex face, const Vector3d& point) const {
   return face_tree_->ClosestPoint(face, point);
@@ -145,45 +155,6 @@ double Polyhedron::DistanceToBorder(FaceIndex face, const Vector3d& point) const
 bool Polyhedron::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
   return face_tree_->ContainsSegment(face, a, b, tolerance);
-}
-
-std::vector<FaceBorder> Polyhedron::BordersOf(FaceIndex face) const {
-  const Face& own = faces_[face];
-  std::vector<FaceBorder> borders;
-  borders.reserve(own.border.size());
-  for (std::size_t i = 0; i < own.border.size(); ++i) {
-    const Vector3d& a = vertices_[own.border[i][0]];
-    const Vector3d& b = vertices_[own.border[i][1]];
-    const Vector3d& normal = faces_[own.beyond[i]].inward_normal;
-    borders.push_back(
-        {a, b, own.beyond[i], IsConvexTurn(own.inward_normal, normal, (b - a).stableNormalized())});
-  }
-  return borders;
-}
-
-bool Polyhedron::AreNeighbours(FaceIndex face, FaceIndex other) const {
-  return std::ranges::find(faces_[face].beyond, other) != faces_[face].beyond.end();
-}
-
-std::vector<Vector3d> Polyhedron::CommonPoints(FaceIndex face, FaceIndex other,
-                                               const Vector3d& point, double tolerance) const {
-  std::vector<Vector3d> points;
-  const auto add = [&](const Vector3d& p) {
-    if ((p - point).norm() <= tolerance) points.push_back(p);
-  };
-  std::set<int> corners;
-  const Face& own = faces_[face];
-  for (std::size_t i = 0; i < own.border.size(); ++i) {
-    const Vector3d& a = vertices_[own.border[i][0]];
-    if (own.beyond[i] == other) add(ClosestOnSegment(a, vertices_[own.border[i][1]], point));
-    // Every corner of a border is where one of its segments begins.
-    if ((a - point).norm() <= tolerance) corners.insert(own.border[i][0]);
-  }
-  if (corners.empty()) return points;
-  for (const auto& [from, to] : faces_[other].border) {
-    if (corners.contains(from)) add(vertices_[from]);
-  }
-  return points;
 }
 
 }  // namespace regrasp::object

@@ -18,18 +18,6 @@ class FaceTree;
 /// A solid bounded by a closed triangle mesh whose coplanar neighbours are joined into faces.
 class Polyhedron final : public Object {
  public:
-  struct Face {
-    Eigen::Vector3d inward_normal;
-    Eigen::Vector3d point;  ///< a point of the face's plane, the area centroid
-    double area;
-    std::vector<TriangleIndex> triangles;
-    /// Directed border segments (vertex indices), outline and holes, material of the face on the
-    /// left seen from outside.
-    std::vector<std::array<int, 2>> border;
-    std::vector<FaceIndex> beyond;  ///< by border segment: the face across it
-    bool enclosed = false;          ///< of a cavity
-  };
-
   /// Checks, orients (a wholly inward mesh is turned) and joins a soup. Vertices with exactly equal
   /// coordinates are one; those that no facet uses are dropped.
   ///
@@ -44,15 +32,16 @@ class Polyhedron final : public Object {
   [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   /// Counter-clockwise from outside; polygons of the file are triangulated.
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
-  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] FaceIndex face_of_triangle(TriangleIndex triangle) const {
     return face_of_triangle_[triangle];
   }
+  /// Those of a face, by index.
+  [[nodiscard]] const std::vector<TriangleIndex>& TrianglesOf(FaceIndex face) const {
+    return triangles_of_face_[face];
+  }
+  /// The area centroid of a face, a point of its plane.
+  [[nodiscard]] Eigen::Vector3d CentroidOf(FaceIndex face) const;
 
-  [[nodiscard]] int dimension() const override { return 3; }
-  [[nodiscard]] int face_count() const override { return static_cast<int>(faces_.size()); }
-  [[nodiscard]] Eigen::Vector3d inward_normal(FaceIndex face) const override;
-  [[nodiscard]] double face_measure(FaceIndex face) const override;
   [[nodiscard]] Eigen::Vector3d ClosestPoint(FaceIndex face,
                                              const Eigen::Vector3d& point) const override;
   [[nodiscard]] std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
@@ -64,22 +53,15 @@ class Polyhedron final : public Object {
                                         const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
                                      const Eigen::Vector3d& b, double tolerance) const override;
-  [[nodiscard]] std::vector<FaceBorder> BordersOf(FaceIndex face) const override;
-  [[nodiscard]] bool AreNeighbours(FaceIndex face, FaceIndex other) const override;
-  [[nodiscard]] std::vector<Eigen::Vector3d> CommonPoints(FaceIndex face, FaceIndex other,
-                                                          const Eigen::Vector3d& point,
-                                                          double tolerance) const override;
-  [[nodiscard]] bool IsEnclosed(FaceIndex face) const override { return faces_[face].enclosed; }
 
  private:
-  Polyhedron(std::vector<Eigen::Vector3d> vertices, std::vector<std::array<int, 3>> triangles,
-             std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces, double diameter,
-             MassProperties mass_properties);
+  Polyhedron(TriangleMesh mesh, std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces,
+             double diameter);
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<FaceIndex> face_of_triangle_;
-  std::vector<Face> faces_;
+  std::vector<std::vector<TriangleIndex>> triangles_of_face_;
   /// Shared between copies: it does not change, and it is as large as the mesh.
   std::shared_ptr<const FaceTree> face_tree_;
 };

@@ -50,7 +50,7 @@ SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radiu
     if (solid_ == nullptr) {
       facets_.push_back(face);
     } else {
-      const auto& triangles = solid_->faces()[face].triangles;
+      const auto& triangles = solid_->TrianglesOf(face);
       facets_.insert(facets_.end(), triangles.begin(), triangles.end());
     }
   }

@@ -16,6 +16,8 @@
 #include <optional>
 #include <utility>
 
+#include "planner/object/closest_on_segment.h"
+
 namespace regrasp::sim {
 namespace {
 
@@ -66,14 +68,12 @@ Vector3d ChartAxis(const object::Polyhedron& body, const ContactSite& site) {
   if (path.norm() > object::kPointTolerance * body.diameter()) return path;
   Vector3d axis = Vector3d::Zero();
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b] : body.faces()[site.face].border) {
-    const Vector3d& start = body.vertices()[a];
-    const Vector3d along = body.vertices()[b] - start;
-    const double t = std::clamp((site.from - start).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    const double distance = (start + t * along - site.from).norm();
+  for (const object::FaceBorder& border : body.BordersOf(site.face)) {
+    const Vector3d nearest = object::ClosestOnSegment(border.a, border.b, site.from);
+    const double distance = (nearest - site.from).norm();
     if (distance < least) {
       least = distance;
-      axis = along;
+      axis = border.b - border.a;
     }
   }
   return axis;
@@ -100,7 +100,7 @@ void DropSlivers(std::vector<Ring>& pieces, double window_area) {
 std::vector<Ring> ClipTriangles(const object::Polyhedron& body, FaceIndex face, const Chart& chart,
                                 const Rectangle& window) {
   std::vector<Ring> pieces;
-  for (const object::TriangleIndex t : body.faces()[face].triangles) {
+  for (const object::TriangleIndex t : body.TrianglesOf(face)) {
     const auto& [a, b, c] = body.triangles()[t];
     const Kernel::Triangle_2 triangle(chart.Project(body.vertices()[a]),
                                       chart.Project(body.vertices()[b]),

@@ -24,13 +24,12 @@ constexpr double kStraight = 1e-9;
 class FaceSplitter {
  public:
   FaceSplitter(const object::Polyhedron& solid, FaceIndex face) : solid_(solid) {
-    const object::Polyhedron::Face& f = solid.faces()[face];
     frame_.face = face;
-    frame_.origin = f.point;
-    frame_.normal = f.inward_normal;
-    frame_.u = f.inward_normal.unitOrthogonal();
-    frame_.v = frame_.u.cross(f.inward_normal);
-    for (const object::TriangleIndex triangle : f.triangles) {
+    frame_.origin = solid.CentroidOf(face);
+    frame_.normal = solid.inward_normal(face);
+    frame_.u = frame_.normal.unitOrthogonal();
+    frame_.v = frame_.u.cross(frame_.normal);
+    for (const object::TriangleIndex triangle : solid.TrianglesOf(face)) {
       const auto& t = solid.triangles()[triangle];
       rings_.push_back({t[0], t[1], t[2]});
     }

@@ -279,7 +279,7 @@ TEST(MeshChecks, FacesDoNotDependOnHowFacetsAreCut) {
     EXPECT_NEAR(triangles.mass_properties().volume, whole.mass_properties().volume, 1e-12);
     for (FaceIndex f{0}; f < whole.face_count(); ++f) {
       const auto near = triangles.FacesNear(
-          whole.vertices()[whole.triangles()[whole.faces()[f].triangles[0]][0]], 1e-9);
+          whole.vertices()[whole.triangles()[whole.TrianglesOf(f)[0]][0]], 1e-9);
       const bool same = std::ranges::any_of(near, [&](FaceIndex g) {
         return (triangles.inward_normal(g) - whole.inward_normal(f)).norm() < 1e-12 &&
                std::abs(triangles.face_measure(g) - whole.face_measure(f)) < 1e-12;

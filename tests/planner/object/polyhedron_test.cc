@@ -37,9 +37,9 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
   EXPECT_NEAR(cube.diameter(), std::sqrt(3), kTight);
   for (FaceIndex f{0}; f < 6; ++f) {
     EXPECT_NEAR(cube.face_measure(f), 1, kTight);
-    EXPECT_NEAR(cube.inward_normal(f).dot(cube.faces()[f].point), -0.5, kTight);
-    EXPECT_EQ(cube.faces()[f].border.size(), 4u);
-    EXPECT_EQ(cube.faces()[f].triangles.size(), 2u);
+    EXPECT_NEAR(cube.inward_normal(f).dot(cube.CentroidOf(f)), -0.5, kTight);
+    EXPECT_EQ(cube.BordersOf(f).size(), 4u);
+    EXPECT_EQ(cube.TrianglesOf(f).size(), 2u);
   }
 }
 
@@ -47,9 +47,7 @@ TEST(Polyhedron, ACubeHasSixFacesWithInwardNormals) {
 int CheckBorders(const Polyhedron& body) {
   int concave = 0;
   for (FaceIndex face{0}; face < body.face_count(); ++face) {
-    const auto borders = body.BordersOf(face);
-    EXPECT_EQ(borders.size(), body.faces()[face].border.size());
-    for (const FaceBorder& border : borders) {
+    for (const FaceBorder& border : body.BordersOf(face)) {
       EXPECT_NE(border.beyond, face);
       EXPECT_TRUE(body.AreNeighbours(face, border.beyond));
       EXPECT_TRUE(body.AreNeighbours(border.beyond, face));
@@ -86,7 +84,7 @@ TEST(Polyhedron, AMeshThatIsWhollyInwardIsTurned) {
   EXPECT_NEAR(turned.mass_properties().volume, 8, kTight);
   for (FaceIndex f{0}; f < turned.face_count(); ++f) {
     EXPECT_NEAR((turned.inward_normal(f) - outward.inward_normal(f)).norm(), 0, kTight);
-    EXPECT_EQ(turned.faces()[f].border.size(), outward.faces()[f].border.size());
+    EXPECT_EQ(turned.BordersOf(f).size(), outward.BordersOf(f).size());
   }
 }
 
@@ -105,12 +103,11 @@ TEST(Polyhedron, FacesBorderOnTheirOutlineAndHoles) {
   ASSERT_EQ(block.face_count(), 10);
   const FaceIndex top = FaceTowards(block, {0, 0, 1});
   EXPECT_NEAR(block.face_measure(top), 8, kTight);
-  EXPECT_EQ(block.faces()[top].border.size(), 8u);
+  EXPECT_EQ(block.BordersOf(top).size(), 8u);
   // Material on the left, seen from outside.
-  for (const auto& [from, to] : block.faces()[top].border) {
-    const Vector3d a = block.vertices()[from], b = block.vertices()[to];
-    const Vector3d left = Vector3d::UnitZ().cross(b - a).normalized();
-    const Vector3d inside = (a + b) / 2 + 0.1 * left;
+  for (const FaceBorder& border : block.BordersOf(top)) {
+    const Vector3d left = Vector3d::UnitZ().cross(border.b - border.a).normalized();
+    const Vector3d inside = (border.a + border.b) / 2 + 0.1 * left;
     EXPECT_NEAR((block.ClosestPoint(top, inside) - inside).norm(), 0, kTight);
   }
 }
@@ -155,7 +152,7 @@ TEST(Polyhedron, ClosestPointsOnFacesWithSliversAreFinite) {
   for (const int arc : {5, 40}) {  // searched one by one, and in a tree
     const Polyhedron plate = Polyhedron::FromSoup(PlateWithASliver(arc), "plate");
     const FaceIndex top = FaceTowards(plate, {0, 0, 1});
-    ASSERT_EQ(plate.faces()[top].triangles.size(), static_cast<std::size_t>(arc - 1));
+    ASSERT_EQ(plate.TrianglesOf(top).size(), static_cast<std::size_t>(arc - 1));
     for (const Vector3d& over : {Vector3d(0, 0.3, 0), Vector3d(0, 0, 0), Vector3d(-0.5, 0, 0)}) {
       EXPECT_NEAR((plate.ClosestPoint(top, over + Vector3d(0, 0, 1)) - over).norm(), 0, kTight);
       EXPECT_NEAR(
@@ -232,7 +229,7 @@ TEST(Polyhedron, QueriesOnAFineFaceAgreeWithClosedForms) {
   ASSERT_EQ(block.face_count(), 10);
   EXPECT_NEAR(block.mass_properties().volume, 8, 1e-9);
   const FaceIndex top = FaceTowards(block, {0, 0, 1});
-  ASSERT_EQ(block.faces()[top].triangles.size(), 256u);
+  ASSERT_EQ(block.TrianglesOf(top).size(), 256u);
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(-0.5, 3.5);

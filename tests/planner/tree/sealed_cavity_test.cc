@@ -86,8 +86,8 @@ TEST(SealedCavityOfAMesh, HasNoContactPoints) {
   testing::Turn(cavity);
   const object::Polyhedron hollow =
       object::Polyhedron::FromSoup(testing::Join(cavity, outside), "hollow");
-  const auto enclosed = std::ranges::count_if(
-      hollow.faces(), [](const object::Polyhedron::Face& face) { return face.enclosed; });
+  int enclosed = 0;
+  for (FaceIndex face{0}; face < hollow.face_count(); ++face) enclosed += hollow.IsEnclosed(face);
   EXPECT_EQ(2 * enclosed, hollow.face_count());
   const std::vector<grasp::Contact> points =
       sampling::MeshContacts(hollow, static_cast<int>(hollow.triangles().size()), 1);

@@ -43,7 +43,7 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   std::vector<grasp::Contact> walls;
   for (FaceIndex f{0}; f < block.face_count(); ++f) {
     const Eigen::Vector3d inward = block.inward_normal(f);
-    const Eigen::Vector3d point = block.faces()[f].point;
+    const Eigen::Vector3d point = block.CentroidOf(f);
     const Eigen::Vector3d away = point - block.mass_properties().centroid;
     if (inward.dot(away) > 0) walls.push_back({point, inward, f});
   }
@@ -57,7 +57,7 @@ TEST(ReplayConcave, TouchesTheInsideOfAHole) {
   const Eigen::Vector3d centroid = block.mass_properties().centroid;
   for (FaceIndex f{0}; f < block.face_count() && grasp.size() < 4; ++f) {
     const Eigen::Vector3d n = block.inward_normal(f);
-    const bool wall = n.dot(block.faces()[f].point - centroid) > 0;
+    const bool wall = n.dot(block.CentroidOf(f) - centroid) > 0;
     if (!wall) grasp.push_back({FingerIndex(3), {block.ClosestPoint(f, centroid), n, f}});
   }
   plan::Plan plan = MakePlan(grasp, 50);
@@ -99,7 +99,7 @@ TEST(ContactPatches, CoverTheSurfaceInASharpCornerWithNoMore) {
   int checked = 0;
   for (FaceIndex face{0}; face < body.face_count(); ++face) {
     // No rectangle fits into an angle of 60° down to its corner.
-    const Eigen::Vector3d& apex = body.vertices()[body.faces()[face].border.front()[0]];
+    const Eigen::Vector3d& apex = body.BordersOf(face).front().a;
     const auto patches = MakeContactPatches(body, {face, apex, apex}, size);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_FALSE(patches[0].rectangle);

@@ -56,17 +56,19 @@ object::Polyhedron MakeBall(double finest, int sectors) {
 
 /// The face whose centre is nearest to a point.
 FaceIndex NearestFace(const object::Polyhedron& body, const Vector3d& near) {
-  const auto distance = [&](const object::Polyhedron::Face& face) {
-    return (face.point - near).norm();
-  };
-  return FaceIndex(std::ranges::min_element(body.faces(), {}, distance) - body.faces().begin());
+  FaceIndex nearest{0};
+  const auto distance = [&](FaceIndex face) { return (body.CentroidOf(face) - near).norm(); };
+  for (FaceIndex face{1}; face < body.face_count(); ++face) {
+    if (distance(face) < distance(nearest)) nearest = face;
+  }
+  return nearest;
 }
 
 /// A point drawn evenly over a triangle of the face, or over that part of it next to its first
 /// corner which is `share` as wide.
 grasp::Contact DrawOnFace(const object::Polyhedron& body, FaceIndex face, double share,
                           std::mt19937& random) {
-  const auto& [a, b, c] = body.triangles()[body.faces()[face].triangles.front()];
+  const auto& [a, b, c] = body.triangles()[body.TrianglesOf(face).front()];
   const auto& vertices = body.vertices();
   std::uniform_real_distribution<double> unit(0, 1);
   const double s = share * std::sqrt(unit(random)), v = unit(random);

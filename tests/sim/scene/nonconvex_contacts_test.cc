@@ -185,7 +185,7 @@ TEST(NonconvexContacts, EveryFaceHasAPatchHoweverSmallItIs) {
       const double D = MakePitted(0.01, 0.01).diameter();
       const object::Polyhedron body = MakePitted(width * D, sign * std::min(width, 0.1) * D);
       for (FaceIndex face{0}; face < body.face_count(); ++face) {
-        const Vector3d p = body.ClosestPoint(face, body.faces()[face].point);
+        const Vector3d p = body.ClosestPoint(face, body.CentroidOf(face));
         const auto patches = MakeContactPatches(body, {face, p, p}, kPatchSize * D);
         ASSERT_FALSE(patches.empty());
         for (const ContactPatch& patch : patches) {

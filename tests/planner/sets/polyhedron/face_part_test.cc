@@ -74,7 +74,7 @@ bool AreDisjoint(const FacePart& a, const FacePart& b) {
 
 /// Checks everything that holds of all bodies; how many parts they have in all.
 int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
-  EXPECT_EQ(split.first.size(), body.faces().size() + 1);
+  EXPECT_EQ(std::ssize(split.first), body.face_count() + 1);
   EXPECT_EQ(split.first.back(), static_cast<int>(split.parts.size()));
   const double small = kRounding * body.diameter() * body.diameter();
   for (FaceIndex face{0}; face < body.face_count(); ++face) {
@@ -82,7 +82,7 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
     for (int p = split.first[face]; p < split.first[face + 1]; ++p) {
       const FacePart& part = split.parts[p];
       EXPECT_EQ(part.face, face);
-      EXPECT_EQ(part.normal, body.faces()[face].inward_normal);
+      EXPECT_EQ(part.normal, body.inward_normal(face));
       EXPECT_NEAR(part.u.cross(part.v).dot(part.normal), -1, kRounding);
       ExpectConvexAndCounterClockwise(part);
       for (std::size_t i = 0; i < part.corners.size(); ++i) {
@@ -102,7 +102,7 @@ int CheckParts(const object::Polyhedron& body, const FaceParts& split) {
 /// The hull of a face contains its parts, touches them at all of its own corners, and is the part
 /// where there is one; how many faces have several.
 int CheckHulls(const object::Polyhedron& body, const FaceParts& split) {
-  EXPECT_EQ(split.hulls.size(), body.faces().size());
+  EXPECT_EQ(std::ssize(split.hulls), body.face_count());
   const double small = kRounding * body.diameter();
   int several = 0;
   for (FaceIndex face{0}; face < body.face_count(); ++face) {

@@ -50,7 +50,7 @@ class GraspDraw {
   /// The contact of a face in a random direction inside the double cone about a focus point.
   std::optional<Seen> See(int face, double tangent, const Vector3d& focus) {
     const Vector3d n = body_.inward_normal(FaceIndex(face));
-    const double height = n.dot(focus - body_.faces()[face].point);
+    const double height = n.dot(focus - body_.CentroidOf(FaceIndex(face)));
     const Vector3d u = n.unitOrthogonal();
     const double slope = tangent * std::sqrt(unit_(engine_)) * (1 - kAtBorder);
     const double around = 2 * M_PI * unit_(engine_);
@@ -73,9 +73,9 @@ class GraspDraw {
     const Vector3d u = n.unitOrthogonal();
     const Vector3d v = n.cross(u);
     bool inside = false;
-    for (const auto& [from, to] : body_.faces()[face].border) {
-      const Vector3d a = body_.vertices()[from] - contact;
-      const Vector3d b = body_.vertices()[to] - contact;
+    for (const object::FaceBorder& border : body_.BordersOf(FaceIndex(face))) {
+      const Vector3d a = border.a - contact;
+      const Vector3d b = border.b - contact;
       if ((v.dot(a) > 0) == (v.dot(b) > 0)) continue;
       const double share = v.dot(a) / (v.dot(a) - v.dot(b));
       if (u.dot(a) + share * (u.dot(b) - u.dot(a)) > 0) inside = !inside;
