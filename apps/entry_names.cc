@@ -10,7 +10,7 @@ constexpr std::size_t kDigits = 3;
 
 }  // namespace
 
-std::string EntryNumber(int index) {
+std::string EntryNumber(plan::EntryIndex index) {
   const std::string number = std::to_string(index);
   return std::string(kDigits - std::min(kDigits, number.size()), '0') + number;
 }
@@ -21,7 +21,8 @@ std::optional<std::string> AfterEntryNumber(const std::string& name) {
   return name.substr(digits);
 }
 
-std::string EntryFileName(int index, const std::string& kind, const std::string& ending) {
+std::string EntryFileName(plan::EntryIndex index, const std::string& kind,
+                          const std::string& ending) {
   return EntryNumber(index) + "_" + kind + "." + ending;
 }
 

@@ -225,7 +225,7 @@ void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan
   progress.Report("contact space");
   render::ContactSpaceFigures figures(polygon, plan);
   folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(FormatOf(format)));
-  for (int step = 1; step <= count; ++step) {
+  for (plan::EntryIndex step{1}; step <= count; ++step) {
     progress.Report("contact space, step " + std::to_string(step) + " of " + std::to_string(count));
     const auto bytes = figures.DrawSwitch(step, FormatOf(format));
     if (!bytes) continue;
@@ -257,8 +257,8 @@ std::vector<int> ParsePanels(const std::string& text, int count) {
   return entries;
 }
 
-std::string KindOf(const plan::Plan& plan, int entry) {
-  return entry == 0 ? "hold" : plan::StepKind(plan.steps[entry - 1]);
+std::string KindOf(const plan::Plan& plan, plan::EntryIndex entry) {
+  return entry == 0 ? "hold" : plan::StepKind(plan::StepOf(plan, entry));
 }
 
 std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Object& object,
@@ -279,12 +279,12 @@ void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan&
   const int count = drawn->count();
   render::FigureStyle printed = style;
   printed.format = FormatOf(format);
-  for (int i = 0; i < count; ++i) {
+  for (plan::EntryIndex i{0}; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
     folder.Write(EntryFileName(i, KindOf(plan, i), format),
                  render::DrawStepFigure(*drawn, i, printed));
   }
-  for (int i = 0; gltf && i < count; ++i) {
+  for (plan::EntryIndex i{0}; gltf && i < count; ++i) {
     progress.Report("scene " + std::to_string(i + 1) + " of " + std::to_string(count));
     folder.Write(EntryFileName(i, KindOf(plan, i), kSceneEnding),
                  render::EncodeGlb(render::kFigureMaker,

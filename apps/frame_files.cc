@@ -136,10 +136,10 @@ std::vector<std::string> ResultNames(const plan::Plan& plan, bool frames, bool a
   if (animation) names.emplace_back(kAnimationName);
   if (!frames) return names;
   names.emplace_back(kOverviewName);
-  names.push_back(EntryFileName(0, "hold", kFrameEnding));
+  names.push_back(EntryFileName(plan::EntryIndex(0), "hold", kFrameEnding));
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    names.push_back(
-        EntryFileName(static_cast<int>(i) + 1, plan::StepKind(plan.steps[i]), kFrameEnding));
+    names.push_back(EntryFileName(plan::EntryIndex(static_cast<int>(i) + 1),
+                                  plan::StepKind(plan.steps[i]), kFrameEnding));
   }
   return names;
 }

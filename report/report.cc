@@ -39,8 +39,8 @@ void MeasureRegions(const object::Object& object, const plan::Plan& located, int
   const auto* polygon = dynamic_cast<const object::Polygon*>(&object);
   if (polygon == nullptr) return;
   plan::FingerGrasp before = located.initial;
-  for (int index = 1; index < count; ++index) {
-    const plan::Step& step = located.steps[index - 1];
+  for (plan::EntryIndex index{1}; index < count; ++index) {
+    const plan::Step& step = plan::StepOf(located, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) {
       report.steps[index].region =
           plan::MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
@@ -51,8 +51,8 @@ void MeasureRegions(const object::Object& object, const plan::Plan& located, int
 
 /// Certificates are checked of aligns that are known to be right.
 void CheckCertificates(const plan::Plan& located, int count, Report& report) {
-  for (int index = 1; index < count; ++index) {
-    const auto* align = std::get_if<plan::Align>(&located.steps[index - 1]);
+  for (plan::EntryIndex index{1}; index < count; ++index) {
+    const auto* align = std::get_if<plan::Align>(&plan::StepOf(located, index));
     if (align == nullptr || !align->certificate) continue;
     report.steps[index].certificate = certificate::CheckAlignCertificate(
         *align, report.dimension, std::tan(report.half_angle), *align->certificate);
@@ -62,7 +62,7 @@ void CheckCertificates(const plan::Plan& located, int count, Report& report) {
 /// What each finger needs, and why examinations disagree, of the steps that pass the analysis.
 void ExamineSteps(const object::Object& object, const plan::Plan& located, int count,
                   Report& report) {
-  for (int index = 0; index < count; ++index) {
+  for (plan::EntryIndex index{0}; index < count; ++index) {
     ReportStep& step = report.steps[index];
     step.needs = sim::NeedsOfEntry(located, index, object.wrench_frame(), report.half_angle);
     if (!step.replay) continue;
@@ -128,7 +128,7 @@ bool Report::passed() const {
                      [](const ReportStep& step) { return step.verdict() == Verdict::kPass; });
 }
 
-int Report::weakest_step() const { return plan::WeakestStep(checks()); }
+plan::EntryIndex Report::weakest_step() const { return plan::WeakestStep(checks()); }
 
 std::vector<plan::StepCheck> Report::checks() const {
   std::vector<plan::StepCheck> checks;
@@ -139,9 +139,9 @@ std::vector<plan::StepCheck> Report::checks() const {
   return checks;
 }
 
-int Report::weakest_finger_step() const {
+plan::EntryIndex Report::weakest_finger_step() const {
   std::vector<grasp::FingerFriction> weakest;
-  std::vector<int> index;
+  std::vector<plan::EntryIndex> index;
   for (const ReportStep& step : steps) {
     const int need = step.skipped ? -1 : sim::WeakestOf(step.needs);
     if (need < 0) continue;
@@ -149,7 +149,7 @@ int Report::weakest_finger_step() const {
     index.push_back(step.check.index);
   }
   const int found = grasp::WeakestFinger(weakest);
-  return found < 0 ? -1 : index[found];
+  return found < 0 ? plan::EntryIndex() : index[found];
 }
 
 std::vector<std::string> Report::warnings() const {

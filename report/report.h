@@ -96,14 +96,14 @@ struct Report {
   std::optional<RunRecord> run = std::nullopt;  ///< none: not told
 
   [[nodiscard]] bool passed() const;
-  /// The step with the smallest margin to its required half-angle, the first of equal ones; −1
-  /// where no step has one.
-  [[nodiscard]] int weakest_step() const;
+  /// The step with the smallest margin to its required half-angle, the first of equal ones; not
+  /// valid where no step has one.
+  [[nodiscard]] plan::EntryIndex weakest_step() const;
   /// What the analytic check says of the steps; those after a failure of the replay are skipped.
   [[nodiscard]] std::vector<plan::StepCheck> checks() const;
   /// The step with the weakest finger of all (sim/measure/weakest_finger.h), the first of equal
-  /// ones; −1 where no step has one.
-  [[nodiscard]] int weakest_finger_step() const;
+  /// ones; not valid where no step has one.
+  [[nodiscard]] plan::EntryIndex weakest_finger_step() const;
   /// For people, without a verdict: each switch whose contact region is smaller than claimed, each
   /// align whose certificate does not hold.
   [[nodiscard]] std::vector<std::string> warnings() const;

@@ -56,19 +56,19 @@ Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
 /// What the plan takes as a whole: the least of every margin, and where.
 Json MakeMargins(const Report& report) {
   Json finger = nullptr;
-  if (const int step = report.weakest_finger_step(); step >= 0) {
+  if (const plan::EntryIndex step = report.weakest_finger_step(); step.valid()) {
     finger = MakeWeakestFinger(report.steps[step], report.half_angle);
-    finger["step"] = step;
+    finger["step"] = int{step};
   }
   Json required = nullptr;
-  if (const int step = report.weakest_step(); step >= 0) {
+  if (const plan::EntryIndex step = report.weakest_step(); step.valid()) {
     const double angle = report.steps[step].check.required->upper;
-    required = {{"step", step}, {"required_half_angle_deg", Degrees(angle)}};
+    required = {{"step", int{step}}, {"required_half_angle_deg", Degrees(angle)}};
   }
   Json stress = nullptr;
   if (const auto weakest = FindWeakestPush(report)) {
     stress = StressJson({weakest->stress})[0];
-    stress["step"] = weakest->step;
+    stress["step"] = int{weakest->step};
   }
   return {{"friction", required}, {"weakest_finger", finger}, {"stress", stress}};
 }
@@ -114,7 +114,7 @@ void AddReplay(const ReportStep& step, Json& json) {
 }
 
 Json MakeStep(const ReportStep& step, const Report& report) {
-  Json json = {{"index", step.check.index},
+  Json json = {{"index", int{step.check.index}},
                {"kind", step.check.kind},
                {"verdict", std::string(VerdictName(step.verdict()))},
                {"reason", TextOrNull(plan::ReasonName(step.reason()))},

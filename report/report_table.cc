@@ -98,8 +98,8 @@ std::string FormatCauses(const Report& report) {
 
 /// The weakest finger of the whole plan.
 std::string FormatWeakestFinger(const Report& report) {
-  const int index = report.weakest_finger_step();
-  if (index < 0 || report.grasp) return "";
+  const plan::EntryIndex index = report.weakest_finger_step();
+  if (!index.valid() || report.grasp) return "";
   const ReportStep& step = report.steps[index];
   const sim::NeedOfFinger& need = step.needs[sim::WeakestOf(step.needs)];
   return "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index) +

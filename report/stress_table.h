@@ -10,7 +10,7 @@ namespace regrasp::report {
 
 /// The direction of a report in which a rest resists least, by the replay.
 struct WeakestPush {
-  int step = 0;
+  plan::EntryIndex step{0};
   sim::DirectionStress stress;
 };
 

@@ -21,7 +21,7 @@ Json TrialsJson(const sim::TrialSummary& summary) {
   }
   Json steps = Json::array();
   for (const auto& [index, count] : summary.steps) {
-    steps.push_back({{"index", index}, {"failed", count}});
+    steps.push_back({{"index", int{index}}, {"failed", count}});
   }
   return {{"count", summary.options.count},
           {"seed", summary.options.seed},

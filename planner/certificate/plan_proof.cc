@@ -127,7 +127,7 @@ std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
   std::vector<EntryVerdict> verdicts;
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     const Entry& entry = entries[i];
-    EntryVerdict verdict{static_cast<int>(i), entry.kind, {}, {}};
+    EntryVerdict verdict{plan::EntryIndex(static_cast<int>(i)), entry.kind, {}, {}};
     verdict.rest = CheckGraspProof(entry.rest, located.dimension, mu, proofs[i].rest);
     for (std::size_t index = 0; index < entry.motions.size(); ++index) {
       const bool has = index < proofs[i].motions.size();

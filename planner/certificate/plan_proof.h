@@ -19,7 +19,7 @@ namespace regrasp::certificate {
 
 /// What exact arithmetic says of the proofs of one entry.
 struct EntryVerdict {
-  int index = 0;
+  plan::EntryIndex index{0};
   std::string kind;  ///< "hold", "switch" or "align"
   motion::ProofVerdict rest;
   std::vector<motion::ProofVerdict> motions;

@@ -69,7 +69,7 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   }
 }
 
-StepCheck Skipped(int index, const char* kind) {
+StepCheck Skipped(EntryIndex index, const char* kind) {
   StepCheck check;
   check.index = index;
   check.kind = kind;
@@ -95,18 +95,20 @@ motion::ProofBudget BudgetOf(const Plan& plan) {
 
 }  // namespace
 
-int WeakestStep(const std::vector<StepCheck>& steps) {
-  int weakest = -1;
+EntryIndex WeakestStep(const std::vector<StepCheck>& steps) {
+  EntryIndex weakest;
   for (const StepCheck& step : steps) {
     if (step.skipped || !step.required) continue;
-    if (weakest < 0 || step.required->upper > steps[weakest].required->upper) weakest = step.index;
+    if (!weakest.valid() || step.required->upper > steps[weakest].required->upper) {
+      weakest = step.index;
+    }
   }
   return weakest;
 }
 
 std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle) {
-  const int weakest = WeakestStep(steps);
-  if (weakest < 0) return "";
+  const EntryIndex weakest = WeakestStep(steps);
+  if (!weakest.valid()) return "";
   const auto degrees = [](double angle) { return FormatFixed(Degrees(angle), kAngleDecimals); };
   return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
          "), which needs a friction half-angle of " + degrees(steps[weakest].required->upper) +
@@ -138,7 +140,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
   CheckStart(context, options, result.steps.back());
   FingerGrasp holding = context.plan.initial;
   for (const Step& step : context.plan.steps) {
-    const int index = static_cast<int>(result.steps.size());
+    const EntryIndex index(static_cast<int>(result.steps.size()));
     if (!Passed(result.steps.back())) {
       result.steps.push_back(Skipped(index, StepKind(step)));
       continue;

@@ -14,7 +14,7 @@ namespace regrasp::plan {
 
 /// What the analytic check says of one entry of the report: the initial hold or a step.
 struct StepCheck {
-  int index = 0;     ///< 0 is the hold of the initial grasp, k the k-th step
+  EntryIndex index{0};
   std::string kind;  ///< "hold", "switch" or "align"
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
@@ -47,9 +47,9 @@ struct CheckOptions {
   bool allow_undecided = false;
 };
 
-/// The step that needs the largest half-angle, the first of equal ones; −1 where no step that is
-/// not skipped needs one.
-[[nodiscard]] int WeakestStep(const std::vector<StepCheck>& steps);
+/// The step that needs the largest half-angle, the first of equal ones; not valid where no step
+/// that is not skipped needs one.
+[[nodiscard]] EntryIndex WeakestStep(const std::vector<StepCheck>& steps);
 
 /// "step 1 (align), which needs a friction half-angle of 7.34 of 20.00 degrees", of WeakestStep;
 /// empty where there is none. All programs say it so.

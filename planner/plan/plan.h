@@ -70,6 +70,15 @@ struct Plan {
   grasp::Grasp goal;
 };
 
+/// An entry of a check, a replay or a report: 0 is the hold of the initial grasp, k the k-th step,
+/// which is Plan::steps[k − 1].
+using EntryIndex = Index<struct EntryTag>;
+
+/// The step of an entry that is not the hold.
+[[nodiscard]] inline const Step& StepOf(const Plan& plan, EntryIndex entry) {
+  return plan.steps[entry - 1];
+}
+
 /// "hold" for entry 0 of a report, "switch" or "align" for a step.
 [[nodiscard]] const char* StepKind(const Step& step);
 

@@ -183,9 +183,11 @@ std::optional<Obstacle> FindStepObstacle(const object::Object& object, const Fin
 std::optional<PlanObstacle> FindPlanObstacle(const object::Object& object,
                                              const FingerGrasp& initial,
                                              std::span<const Step> steps, double radius) {
-  if (auto found = FindRestObstacle(object, initial, radius)) return PlanObstacle{0, found->detail};
+  EntryIndex index{0};
+  if (auto found = FindRestObstacle(object, initial, radius)) {
+    return PlanObstacle{index, found->detail};
+  }
   FingerGrasp holding = initial;
-  int index = 0;
   for (const Step& step : steps) {
     ++index;
     if (auto found = FindStepObstacle(object, holding, step, radius)) {

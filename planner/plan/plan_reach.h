@@ -36,7 +36,7 @@ struct Obstacle {
 inline constexpr double kShortestReachInterval = 1e-3;
 
 struct PlanObstacle {
-  int index = 0;  ///< 0: the initial grasp, k: the k-th step
+  EntryIndex index{0};
   std::string detail;
 };
 

@@ -185,8 +185,8 @@ class TreeSearch {
     plan.initial = std::move(candidate.initial);
     plan.steps = std::move(candidate.steps);
     const plan::PlanCheck check = plan::CheckPlan(object_, plan);
-    const int weakest = plan::WeakestStep(check.steps);
-    return weakest < 0 ? half_angle_ : check.steps[weakest].required->upper;
+    const plan::EntryIndex weakest = plan::WeakestStep(check.steps);
+    return weakest.valid() ? check.steps[weakest].required->upper : half_angle_;
   }
 
   planning::PlanResult NoSequence(const grasp::Grasp& from, const grasp::Grasp& to) {

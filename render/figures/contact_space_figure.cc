@@ -52,7 +52,8 @@ std::string ContactSpaceFigures::DrawOverview(FigureFormat format) {
   return DrawContactSpace(graph_.boundary(), map, OverviewCaption(map, plan_.half_angle), format);
 }
 
-std::optional<std::string> ContactSpaceFigures::DrawSwitch(int entry, FigureFormat format) {
+std::optional<std::string> ContactSpaceFigures::DrawSwitch(plan::EntryIndex entry,
+                                                           FigureFormat format) {
   const auto step = DescribeContactSwitch(geometry_, track_, entry, names_);
   if (!step) return std::nullopt;
   const int axis = *track_[entry].shared_axis;

@@ -29,7 +29,7 @@ class ContactSpaceFigures {
   /// @param entry  k for step k.
   /// @returns nullopt where the step is not a switch that keeps a contact, or one of its grasps is
   ///          in no set: at the very border of force closure.
-  [[nodiscard]] std::optional<std::string> DrawSwitch(int entry, FigureFormat format);
+  [[nodiscard]] std::optional<std::string> DrawSwitch(plan::EntryIndex entry, FigureFormat format);
 
  private:
   const plan::Plan& plan_;

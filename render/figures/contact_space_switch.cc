@@ -40,7 +40,8 @@ std::optional<ContactSwitchSide> DescribeSide(contour::SetGeometry& geometry,
 }  // namespace
 
 std::optional<ContactSwitch> DescribeContactSwitch(contour::SetGeometry& geometry,
-                                                   const std::vector<TrackEntry>& track, int entry,
+                                                   const std::vector<TrackEntry>& track,
+                                                   plan::EntryIndex entry,
                                                    const std::map<sets::SetIndex, int>& names) {
   const auto axis = track[entry].shared_axis;
   if (!axis) return std::nullopt;
@@ -50,7 +51,7 @@ std::optional<ContactSwitch> DescribeContactSwitch(contour::SetGeometry& geometr
   for (int k = 0; k < 2; ++k) {
     auto side = DescribeSide(geometry, track[entry - 1 + k].grasp, *axis, names);
     if (!side) return std::nullopt;
-    side->grasp_entry = entry - 1 + k;
+    side->grasp_entry = plan::EntryIndex(entry - 1 + k);
     found.sides[k] = std::move(*side);
   }
   const contour::PlaceRange& before = found.sides[0].projection;

@@ -17,7 +17,7 @@ namespace regrasp::render {
 struct ContactSwitchSide {
   int name = 0;  ///< of the set (SetName)
   bool stretching = false;
-  int grasp_entry = 0;  ///< of the plan: the grasp after it
+  plan::EntryIndex grasp_entry{0};  ///< of the plan: the grasp after it
   contour::RingIndex other_ring;
   UnfoldedSet set;
   Eigen::Vector2d grasp = Eigen::Vector2d::Zero();
@@ -27,7 +27,7 @@ struct ContactSwitchSide {
 
 /// What the figure of a switch shows: both sets with that length in line.
 struct ContactSwitch {
-  int entry = 0;
+  plan::EntryIndex entry{0};
   contour::RingIndex shared_ring;
   std::array<ContactSwitchSide, 2> sides;  ///< before and after
   contour::PlaceRange overlap;             ///< of the two projections, about the contact that stays
@@ -37,7 +37,7 @@ struct ContactSwitch {
 /// @returns nullopt where no contact stays, or a grasp lies in no set: at the very border of force
 ///          closure.
 [[nodiscard]] std::optional<ContactSwitch> DescribeContactSwitch(
-    contour::SetGeometry& geometry, const std::vector<TrackEntry>& track, int entry,
+    contour::SetGeometry& geometry, const std::vector<TrackEntry>& track, plan::EntryIndex entry,
     const std::map<sets::SetIndex, int>& names);
 
 }  // namespace regrasp::render

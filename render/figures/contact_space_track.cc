@@ -39,11 +39,14 @@ void Follow(const plan::Switch& step, const AxisGrasp& before, TrackEntry& entry
 
 std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan) {
   plan::FingerGrasp grasp = plan.initial;
-  for (std::size_t entry = 0;; ++entry) {
-    if (grasp.size() != 2) return RestSize{static_cast<int>(entry), static_cast<int>(grasp.size())};
-    if (entry == plan.steps.size()) return std::nullopt;
-    grasp = plan::GraspAfter(grasp, plan.steps[entry]);
+  plan::EntryIndex entry{0};
+  for (const plan::Step& step : plan.steps) {
+    if (grasp.size() != 2) break;
+    grasp = plan::GraspAfter(grasp, step);
+    ++entry;
   }
+  if (grasp.size() == 2) return std::nullopt;
+  return RestSize{entry, static_cast<int>(grasp.size())};
 }
 
 std::vector<TrackEntry> TrackPlan(const plan::Plan& plan) {

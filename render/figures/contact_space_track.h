@@ -28,9 +28,9 @@ struct TrackEntry {
   std::optional<int> shared_axis;  ///< of a switch: where the contact is that stays, 0 or 1
 };
 
-/// A grasp at rest of a plan: 0 the initial one, k that after step k.
+/// A grasp at rest of a plan, that after an entry.
 struct RestSize {
-  int entry = 0;
+  plan::EntryIndex entry{0};
   int contacts = 0;
   friend bool operator==(const RestSize&, const RestSize&) = default;
 };

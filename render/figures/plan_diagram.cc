@@ -91,9 +91,9 @@ std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon, const plan
   std::vector<StepDiagram> diagrams;
   plan::FingerGrasp grasp = plan.initial;
   const int entries = static_cast<int>(plan.steps.size()) + 1;
-  for (int entry = 0; entry < entries; ++entry) {
+  for (plan::EntryIndex entry{0}; entry < entries; ++entry) {
     const plan::FingerGrasp before = grasp;
-    const plan::Step* step = entry > 0 ? &plan.steps[entry - 1] : nullptr;
+    const plan::Step* step = entry > 0 ? &plan::StepOf(plan, entry) : nullptr;
     if (step != nullptr) grasp = plan::GraspAfter(before, *step);
     StepDiagram diagram;
     diagram.kind = step != nullptr ? plan::StepKind(*step) : "hold";

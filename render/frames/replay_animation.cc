@@ -115,7 +115,7 @@ std::string RenderAnimation(const object::Object& object, const plan::Plan& plan
   const std::vector<int> counts = CountPictures(at_rests);
   double from = 0;
   for (std::size_t entry = 0; entry < rests.size(); ++entry) {
-    const std::string caption = FrameCaption(plan, static_cast<int>(entry));
+    const std::string caption = FrameCaption(plan, plan::EntryIndex(static_cast<int>(entry)));
     for (const int at : ChooseInstants(progress, from, at_rests[entry], counts[entry])) {
       animation.Add(renderer.Render(samples[at], caption), kPictureTime_ms);
     }

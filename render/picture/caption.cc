@@ -76,16 +76,16 @@ std::string DescribeTravel(const plan::Align& step, double scale) {
 
 }  // namespace
 
-std::string EntryTitle(const plan::Plan& plan, int entry) {
+std::string EntryTitle(const plan::Plan& plan, plan::EntryIndex entry) {
   if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial));
-  return std::visit([](const auto& kind) { return Describe(kind); }, plan.steps[entry - 1]);
+  return std::visit([](const auto& kind) { return Describe(kind); }, plan::StepOf(plan, entry));
 }
 
-std::string FrameCaption(const plan::Plan& plan, int entry) {
+std::string FrameCaption(const plan::Plan& plan, plan::EntryIndex entry) {
   if (entry == 0) return EntryTitle(plan, entry);
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
-  const auto* align = std::get_if<plan::Align>(&plan.steps[entry - 1]);
+  const auto* align = std::get_if<plan::Align>(&plan::StepOf(plan, entry));
   const std::string travel = align != nullptr ? DescribeTravel(*align, plan.scale) : "";
   return step + " · " + (travel.empty() ? EntryTitle(plan, entry) : "align: " + travel);
 }

@@ -69,8 +69,8 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   facts.Add("Friction", DegreesText(Degrees(report.half_angle)) +
                             " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
   if (report.grasp) AddGrasp(report, facts);
-  const int weakest = report.weakest_step();
-  if (weakest >= 0 && !report.grasp && report.passed()) {
+  const plan::EntryIndex weakest = report.weakest_step();
+  if (weakest.valid() && !report.grasp && report.passed()) {
     facts.Add("Weakest", StepName(weakest) + ", " +
                              DegreesText(measures[weakest].margin_deg.value_or(0)) + " to spare");
   }

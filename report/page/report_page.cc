@@ -168,10 +168,12 @@ class Page {
         "between a finger's force and its normal, at rest after the step in the replay.");
   }
 
-  [[nodiscard]] bool HasPicture(int index) const {
+  [[nodiscard]] bool HasPicture(plan::EntryIndex index) const {
     return !pictures_.empty() && !pictures_[index].webp.empty();
   }
-  [[nodiscard]] static std::string Anchor(int index) { return "frame" + std::to_string(index); }
+  [[nodiscard]] static std::string Anchor(plan::EntryIndex index) {
+    return "frame" + std::to_string(index);
+  }
   [[nodiscard]] std::vector<std::string> Anchors() const {
     std::vector<std::string> anchors;
     for (const ReportStep& step : report_.steps) {
@@ -203,10 +205,10 @@ class Page {
   }
 
   [[nodiscard]] Element Frame(const ReportStep& step) const {
-    const int index = step.check.index;
+    const plan::EntryIndex index = step.check.index;
     const PagePicture& picture = pictures_[index];
     const std::string name =
-        index == 0 ? StepTitle(plan_, 0)
+        index == 0 ? StepTitle(plan_, index)
                    : "Step " + std::to_string(index) + ", " + render::EntryTitle(plan_, index);
     const bool failed = step.verdict() == Verdict::kFail;
     std::string text =
@@ -228,7 +230,7 @@ class Page {
   const plan::Plan& plan_;
   const std::vector<PagePicture>& pictures_;
   std::vector<StepMeasures> measures_;
-  std::optional<int> failed_;
+  std::optional<plan::EntryIndex> failed_;
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
       HeadCell("Slip"),   HeadCell("Verdict", "")};
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {
-    const int index = step.check.index;
+    const plan::EntryIndex index = step.check.index;
     rows.push_back(StepRow(step, StepTitle(plan, index), measures[index], anchors[index]));
   }
   return {ScrolledTable(head, rows),

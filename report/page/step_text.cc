@@ -4,11 +4,11 @@
 
 namespace regrasp::report {
 
-std::string StepTitle(const plan::Plan& plan, int index) {
+std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index) {
   return Capitalized(render::EntryTitle(plan, index));
 }
 
-std::string StepName(int index) {
+std::string StepName(plan::EntryIndex index) {
   return index == 0 ? "the hold" : "step " + std::to_string(index);
 }
 

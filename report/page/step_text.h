@@ -7,10 +7,10 @@
 namespace regrasp::report {
 
 /// The title of an entry with an upper-case first letter: "Switch: place 4, release 0".
-[[nodiscard]] std::string StepTitle(const plan::Plan& plan, int index);
+[[nodiscard]] std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index);
 
 /// "the hold", "step 3".
-[[nodiscard]] std::string StepName(int index);
+[[nodiscard]] std::string StepName(plan::EntryIndex index);
 
 /// The text with an upper-case first letter, if that is an ASCII one.
 [[nodiscard]] std::string Capitalized(std::string text);

@@ -2,16 +2,18 @@
 
 namespace regrasp::sim {
 
-std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, int index) {
+std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, plan::EntryIndex index) {
   if (index == 0) return {located.initial};
   plan::FingerGrasp before = located.initial;
-  for (int i = 0; i + 1 < index; ++i) before = plan::GraspAfter(before, located.steps[i]);
-  const plan::Step& step = located.steps[index - 1];
+  for (plan::EntryIndex earlier{1}; earlier < index; ++earlier) {
+    before = plan::GraspAfter(before, plan::StepOf(located, earlier));
+  }
+  const plan::Step& step = plan::StepOf(located, index);
   if (const auto* align = std::get_if<plan::Align>(&step)) return align->waypoints;
   return {before, plan::GraspAfter(before, step)};
 }
 
-std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, int index,
+std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, plan::EntryIndex index,
                                        const object::WrenchFrame& frame, double half_angle) {
   std::vector<NeedOfFinger> needs;
   for (const plan::FingerGrasp& grasp : GraspsOfEntry(located, index)) {

@@ -12,8 +12,8 @@ namespace regrasp::sim {
 /// switch the grasps before and after it, of an align the grasps at its waypoints. A finger that
 /// holds in several of them has an element for each. Empty for an entry without contacts.
 /// @param located  contacts on the surface, in the unit of `frame`.
-/// @param index    0 is the hold, k the plan's k-th step.
-[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located, int index,
+[[nodiscard]] std::vector<NeedOfFinger> NeedsOfEntry(const plan::Plan& located,
+                                                     plan::EntryIndex index,
                                                      const object::WrenchFrame& frame,
                                                      double half_angle);
 
@@ -22,6 +22,7 @@ namespace regrasp::sim {
 [[nodiscard]] int WeakestOf(const std::vector<NeedOfFinger>& needs);
 
 /// The grasps of an entry, in the order of time (see NeedsOfEntry).
-[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located, int index);
+[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located,
+                                                           plan::EntryIndex index);
 
 }  // namespace regrasp::sim

@@ -26,13 +26,13 @@ void RestoreRoles(ReplayWorld& world) {
 }
 
 /// What entry `index` of the report does between two rests.
-void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan& plan, int index,
-             StepReplay& result) {
+void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan& plan,
+             plan::EntryIndex index, StepReplay& result) {
   if (index == 0) {
     TakeHold(world, ToScene(object, plan.scale, plan.initial));
     return;
   }
-  const plan::Step& step = plan.steps[index - 1];
+  const plan::Step& step = plan::StepOf(plan, index);
   if (const auto* change = std::get_if<plan::Switch>(&step)) {
     SwitchFingers(world, ToScene(object, plan.scale, change->place), change->release);
     return;
@@ -153,7 +153,7 @@ void ExamineRest(ReplayWorld& world, const object::Object& object, double scale,
 }
 
 StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const plan::Plan& plan,
-                      int index) {
+                      plan::EntryIndex index) {
   StepReplay result;
   result.index = index;
   if (const auto& obstacle = world.scene().entries[index].unreachable) {
@@ -208,7 +208,7 @@ ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
   ReplayWorld world(object, plan, MakeScene(object, plan, total - 1, options), observer);
   result.settings = world.settings();
   CheckShake(result.settings);
-  for (int index = 0; index < total; ++index) {
+  for (plan::EntryIndex index{0}; index < total; ++index) {
     result.steps.push_back(ReplayStep(world, object, plan, index));
     if (observer.on_progress) observer.on_progress(index + 1, total);
     if (result.steps.back().reason != plan::Reason::kNone) break;

@@ -35,7 +35,7 @@ struct StepMotion {
 /// What the replay says of entry k of the report; the numbers of StepMotion are those of the
 /// protocol that decides.
 struct StepReplay : StepMotion {
-  int index = 0;
+  plan::EntryIndex index{0};
   double drift_m = 0;  ///< |Δx| + R|Δrotation| at its end since the sequence began
   AlignMode align_mode = AlignMode::kNone;
   AlignShares align_shares;      ///< as it was meant to be carried out; zero for other steps

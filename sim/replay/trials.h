@@ -31,8 +31,8 @@ struct TrialOptions {
 struct TrialSummary {
   TrialOptions options;
   int passed = 0;
-  std::map<plan::Reason, int> reasons;  ///< how many trials failed for each reason
-  std::map<int, int> steps;             ///< how many failed in each entry, the first that fails
+  std::map<plan::Reason, int> reasons;    ///< how many trials failed for each reason
+  std::map<plan::EntryIndex, int> steps;  ///< how many failed in each entry, the first that fails
 
   [[nodiscard]] double share() const;
   /// Of the share, at kTrialConfidence.

@@ -94,9 +94,9 @@ struct Sequence {
   int steps;
 
   /// The contacts that entry `index` of the report names and where fingers come to rest.
-  [[nodiscard]] plan::FingerGrasp PlannedRests(int index) const {
+  [[nodiscard]] plan::FingerGrasp PlannedRests(plan::EntryIndex index) const {
     if (index == 0) return plan.initial;
-    const plan::Step& step = plan.steps[index - 1];
+    const plan::Step& step = plan::StepOf(plan, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) return change->place;
     const auto& waypoints = std::get<plan::Align>(step).waypoints;
     return waypoints.empty() ? plan::FingerGrasp() : waypoints.back();
@@ -104,7 +104,7 @@ struct Sequence {
 
   [[nodiscard]] int CountFingers() const {
     int fingers = plan.fingers;
-    for (int index = 0; index <= steps; ++index) {
+    for (plan::EntryIndex index{0}; index <= steps; ++index) {
       for (const plan::FingerContact& held : PlannedRests(index)) {
         fingers = std::max(fingers, held.finger + 1);
       }
@@ -121,11 +121,11 @@ struct Sequence {
       }
     };
     check(plan.initial);
-    for (int i = 0; i < steps; ++i) {
-      if (const auto* align = std::get_if<plan::Align>(&plan.steps[i])) {
+    for (plan::EntryIndex index{1}; index <= steps; ++index) {
+      if (const auto* align = std::get_if<plan::Align>(&plan::StepOf(plan, index))) {
         std::ranges::for_each(align->waypoints, check);
       } else {
-        check(PlannedRests(i + 1));
+        check(PlannedRests(index));
       }
     }
   }
@@ -151,15 +151,15 @@ std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, doub
                                      double wanted, AlignChoice choice) {
   const double D = sequence.object.diameter();
   double clearance = wanted;
-  for (int index = 0; index <= sequence.steps; ++index) {
+  for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
     clearance = SmallestClearance(sequence.object, sequence.PlannedRests(index), clearance);
   }
   AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
   std::vector<SceneEntry> entries(sequence.steps + 1);
   plan::FingerGrasp holding = sequence.plan.initial;
-  for (int index = 1; index <= sequence.steps; ++index) {
-    const plan::Step& step = sequence.plan.steps[index - 1];
+  for (plan::EntryIndex index{1}; index <= sequence.steps; ++index) {
+    const plan::Step& step = plan::StepOf(sequence.plan, index);
     if (const auto* align = std::get_if<plan::Align>(&step)) {
       limits.spare.clear();
       for (FingerIndex f{0}; f < fingers; ++f) {
@@ -214,7 +214,7 @@ std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
 }
 
 /// Everywhere that fingers come to rest in entry `index`.
-plan::FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, int index) {
+plan::FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, plan::EntryIndex index) {
   plan::FingerGrasp rests = sequence.PlannedRests(index);
   const std::optional<AlignScript>& script = scene_O.entries[index].script;
   if (!script) return rests;
@@ -314,7 +314,7 @@ void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene
       WriteScripts(sequence, fingers, half_angle, WantedClearance(object, options), options.align);
   SiteCollector collector{object, scale, scene,
                           object::kPointTolerance * object.diameter() * scale};
-  for (int index = 0; index <= sequence.steps; ++index) {
+  for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
     SceneEntry& entry = scene.entries[index];
     entry.unreachable = FindUnreachable(object, AllRests(sequence, scene, index));
     if (!entry.script) {

@@ -6,17 +6,18 @@ namespace regrasp::apps {
 namespace {
 
 TEST(EntryNames, SortAsTheirEntriesDo) {
-  EXPECT_EQ(EntryFileName(0, "hold", "png"), "000_hold.png");
-  EXPECT_EQ(EntryFileName(12, "align", "svg"), "012_align.svg");
-  EXPECT_EQ(EntryFileName(1234, "switch", "pdf"), "1234_switch.pdf");
-  EXPECT_LT(EntryFileName(9, "switch", "png"), EntryFileName(10, "align", "png"));
+  EXPECT_EQ(EntryFileName(plan::EntryIndex(0), "hold", "png"), "000_hold.png");
+  EXPECT_EQ(EntryFileName(plan::EntryIndex(12), "align", "svg"), "012_align.svg");
+  EXPECT_EQ(EntryFileName(plan::EntryIndex(1234), "switch", "pdf"), "1234_switch.pdf");
+  EXPECT_LT(EntryFileName(plan::EntryIndex(9), "switch", "png"),
+            EntryFileName(plan::EntryIndex(10), "align", "png"));
 }
 
 TEST(EntryNames, AreKnownByTheirNumberKindAndEnding) {
   int known = 0;
-  for (const int index : {0, 7, 99, 1000}) {
+  for (const int number : {0, 7, 99, 1000}) {
     for (const char* kind : {"hold", "switch", "align"}) {
-      known += IsEntryFileName(EntryFileName(index, kind, "png"), "png") ? 1 : 0;
+      known += IsEntryFileName(EntryFileName(plan::EntryIndex(number), kind, "png"), "png") ? 1 : 0;
     }
   }
   EXPECT_EQ(known, 12);

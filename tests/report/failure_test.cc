@@ -19,7 +19,7 @@ Report FailingFor(Reason reason, double required_deg) {
   report.steps.resize(2);
   report.steps[0].check.kind = "hold";
   report.steps[1].check.kind = "align";
-  report.steps[1].check.index = 1;
+  report.steps[1].check.index = plan::EntryIndex(1);
   report.steps[1].check.reason = reason;
   report.steps[1].check.detail = "so far off";
   report.steps[1].check.required =

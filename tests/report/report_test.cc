@@ -20,12 +20,12 @@ using testing::StartsWith;
 
 ReportStep MakeStep(int index, const std::string& kind, double required_deg) {
   ReportStep step;
-  step.check.index = index;
+  step.check.index = plan::EntryIndex(index);
   step.check.kind = kind;
   step.check.force_closure = true;
   step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   step.replay = sim::StepReplay();
-  step.replay->index = index;
+  step.replay->index = step.check.index;
   step.replay->displacement_m = 1e-6 * (index + 1);
   step.frame = "frame" + std::to_string(index) + ".png";
   return step;
@@ -80,7 +80,7 @@ TEST(ReportTest, TheWeakestStepNeedsTheLargestHalfAngle) {
   report.steps[1].check.required.reset();
   EXPECT_EQ(report.weakest_step(), 2);
   for (ReportStep& step : report.steps) step.check.required.reset();
-  EXPECT_EQ(report.weakest_step(), -1);
+  EXPECT_FALSE(report.weakest_step().valid());
 }
 
 TEST(ReportTest, JsonHasTheFieldsOfTheFormat) {

@@ -53,7 +53,7 @@ TEST(ContactSpaceFigureTest, TheSetsOfThePlanHaveTheirTints) {
 TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBars) {
   Fork fork;
   for (const int entry : {1, 2}) {
-    const auto svg = fork.figures.DrawSwitch(entry, FigureFormat::kSvg);
+    const auto svg = fork.figures.DrawSwitch(plan::EntryIndex(entry), FigureFormat::kSvg);
     ASSERT_TRUE(svg.has_value());
     for (const int name : {0, 1, 2}) {
       const bool shown = name == entry - 1 || name == entry;
@@ -65,21 +65,24 @@ TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBa
 TEST(ContactSpaceFigureTest, OnlyAStretchingSetIsHatched) {
   constexpr Color kPale = {252, 252, 252};
   Fork fork;
-  EXPECT_EQ(Count(*fork.figures.DrawSwitch(1, FigureFormat::kSvg), "stroke", kPale), 0);
-  EXPECT_EQ(Count(*fork.figures.DrawSwitch(2, FigureFormat::kSvg), "stroke", kPale), 1);
+  EXPECT_EQ(
+      Count(*fork.figures.DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg), "stroke", kPale), 0);
+  EXPECT_EQ(
+      Count(*fork.figures.DrawSwitch(plan::EntryIndex(2), FigureFormat::kSvg), "stroke", kPale), 1);
 }
 
 TEST(ContactSpaceFigureTest, OnlySwitchesThatKeepAContactHaveAFigure) {
   Fork fork;
-  EXPECT_EQ(fork.figures.DrawSwitch(0, FigureFormat::kSvg), std::nullopt);
+  EXPECT_EQ(fork.figures.DrawSwitch(plan::EntryIndex(0), FigureFormat::kSvg), std::nullopt);
   const object::Polygon square = MakeSquare();
   const plan::Plan exchange = MakeExchangePlan();
   ContactSpaceFigures exchanged(square, exchange);
-  EXPECT_EQ(exchanged.DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
+  EXPECT_EQ(exchanged.DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg), std::nullopt);
   EXPECT_FALSE(exchanged.DrawOverview(FigureFormat::kSvg).empty());
   const object::Polygon disc = MakeDisc(12);
   const plan::Plan align = MakeDiscPlan(disc);
-  EXPECT_EQ(ContactSpaceFigures(disc, align).DrawSwitch(1, FigureFormat::kSvg), std::nullopt);
+  EXPECT_EQ(ContactSpaceFigures(disc, align).DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg),
+            std::nullopt);
 }
 
 TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
@@ -87,15 +90,17 @@ TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
   for (const FigureFormat format : kFormats) {
     Fork first, second;
     EXPECT_TRUE(first.figures.DrawOverview(format) == second.figures.DrawOverview(format));
-    EXPECT_TRUE(first.figures.DrawSwitch(1, format) == second.figures.DrawSwitch(1, format));
-    EXPECT_FALSE(first.figures.DrawSwitch(1, format) == first.figures.DrawSwitch(2, format));
+    EXPECT_TRUE(first.figures.DrawSwitch(plan::EntryIndex(1), format) ==
+                second.figures.DrawSwitch(plan::EntryIndex(1), format));
+    EXPECT_FALSE(first.figures.DrawSwitch(plan::EntryIndex(1), format) ==
+                 first.figures.DrawSwitch(plan::EntryIndex(2), format));
   }
 }
 
 TEST(ContactSpaceFigureTest, AnOverviewIsAColumnWideOrTwoWhereThereIsMuchToShow) {
   Fork fork;
   EXPECT_EQ(PngWidth(fork.figures.DrawOverview(FigureFormat::kPng)), 1004);
-  EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(1, FigureFormat::kPng)), 2055);
+  EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(plan::EntryIndex(1), FigureFormat::kPng)), 2055);
   for (const int edges : {30, 100}) {
     const object::Polygon disc = MakeDisc(edges);
     const plan::Plan plan = MakeDiscPlan(disc);

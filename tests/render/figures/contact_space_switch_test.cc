@@ -21,7 +21,7 @@ std::vector<ContactSwitch> SwitchesOf(const object::Polygon& polygon, const plan
   contour::SetGeometry geometry(graph);
   const std::vector<TrackEntry> track = TrackPlan(plan);
   std::vector<ContactSwitch> switches;
-  for (int entry = 1; entry < static_cast<int>(track.size()); ++entry) {
+  for (plan::EntryIndex entry{1}; entry < std::ssize(track); ++entry) {
     auto found = DescribeContactSwitch(geometry, track, entry, NameSets(geometry, track));
     if (found) switches.push_back(std::move(*found));
   }

@@ -56,10 +56,10 @@ TEST(ContactSpaceTrackTest, WhereBothContactsAreExchangedNoneStays) {
 TEST(ContactSpaceTrackTest, FindsTheFirstGraspOfOtherThanTwoContacts) {
   EXPECT_EQ(FindOtherThanTwoFingers(MakeForkPlan()), std::nullopt);
   EXPECT_EQ(FindOtherThanTwoFingers(MakeExchangePlan()), std::nullopt);
-  EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), (RestSize{0, 3}));
+  EXPECT_EQ(FindOtherThanTwoFingers(MakeSquarePlan()), (RestSize{plan::EntryIndex(0), 3}));
   plan::Plan plan = MakeForkPlan();
   std::get<plan::Switch>(plan.steps[1]).release.clear();
-  EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{2, 3}));
+  EXPECT_EQ(FindOtherThanTwoFingers(plan), (RestSize{plan::EntryIndex(2), 3}));
 }
 
 }  // namespace

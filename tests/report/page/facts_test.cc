@@ -33,7 +33,7 @@ TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
   report.half_angle = Radians(20);
   for (const double required_deg : {12.0, 17.0}) {
     ReportStep& step = report.steps.emplace_back();
-    step.check.index = static_cast<int>(report.steps.size()) - 1;
+    step.check.index = plan::EntryIndex(static_cast<int>(report.steps.size()) - 1);
     step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
   }
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° to spare</dd>"));

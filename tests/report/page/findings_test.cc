@@ -19,7 +19,7 @@ Report MakeReport() {
   report.settings->shake = 0.01;
   for (int index : {0, 1}) {
     ReportStep& step = report.steps.emplace_back();
-    step.check.index = index;
+    step.check.index = plan::EntryIndex(index);
     step.needs = {{FingerIndex(3), {Radians(12), true, std::nullopt}}};
     step.replay.emplace();
     step.replay->adapted = sim::StepMotion();

@@ -50,12 +50,12 @@ struct Scene {
 
   void AddStep(int index) {
     ReportStep& step = report.steps.emplace_back();
-    step.check.index = index;
+    step.check.index = plan::EntryIndex(index);
     step.check.kind = index == 0 ? "hold" : "switch";
     step.check.force_closure = true;
     step.check.required = grasp::RequiredHalfAngle{Radians(12.4), Radians(12.5)};
     step.replay.emplace();
-    step.replay->index = index;
+    step.replay->index = step.check.index;
     step.replay->displacement_m = 4.14e-6;
     step.replay->rotation_deg = Degrees(1e-4);
     step.replay->moved_m = 6e-6;

@@ -13,8 +13,8 @@ TEST(StepTextTest, OnlyAnAsciiLetterIsCapitalized) {
 }
 
 TEST(StepTextTest, StepsCountFromTheHold) {
-  EXPECT_EQ(StepName(0), "the hold");
-  EXPECT_EQ(StepName(3), "step 3");
+  EXPECT_EQ(StepName(plan::EntryIndex(0)), "the hold");
+  EXPECT_EQ(StepName(plan::EntryIndex(3)), "step 3");
 }
 
 }  // namespace

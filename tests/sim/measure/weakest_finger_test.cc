@@ -15,9 +15,10 @@ TEST(WeakestFingerTest, ASwitchCountsTheGraspsBeforeAndAfterItByTheFingersOfTheH
   plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}},
                 plan::Align{{cube.Start(), cube.Start()}}};
   const object::WrenchFrame frame = cube.object.wrench_frame();
-  const auto fingers = [&](int index) {
+  const auto fingers = [&](int entry) {
     std::multiset<int> all;
-    for (const NeedOfFinger& need : NeedsOfEntry(plan, index, frame, Radians(25))) {
+    for (const NeedOfFinger& need :
+         NeedsOfEntry(plan, plan::EntryIndex(entry), frame, Radians(25))) {
       all.insert(need.finger);
     }
     return all;
@@ -38,9 +39,12 @@ TEST(WeakestFingerTest, TheWeakestHasTheLeastOfItsOwnFrictionToSpare) {
 
 TEST(WeakestFingerTest, AGraspThatIsNotForceClosureHasNone) {
   const CubeCase cube;
+  EXPECT_TRUE(NeedsOfEntry(MakePlan(cube.Start(), 4), plan::EntryIndex(0),
+                           cube.object.wrench_frame(), Radians(4))
+                  .empty());
   EXPECT_TRUE(
-      NeedsOfEntry(MakePlan(cube.Start(), 4), 0, cube.object.wrench_frame(), Radians(4)).empty());
-  EXPECT_TRUE(NeedsOfEntry(MakePlan({}, 4), 0, cube.object.wrench_frame(), Radians(4)).empty());
+      NeedsOfEntry(MakePlan({}, 4), plan::EntryIndex(0), cube.object.wrench_frame(), Radians(4))
+          .empty());
 }
 
 }  // namespace
