@@ -253,9 +253,9 @@ Vector3d PolyhedronModel::DrawFocus(const FocusCell& cell, const FocusPiece& pie
   };
   Vector3d focus = piece.point;
   for (int step = 0; step < kWalkSteps; ++step) {
-    const Vector3d direction =
-        Vector3d(sets::DrawNormal(random), sets::DrawNormal(random), sets::DrawNormal(random))
-            .normalized();
+    Vector3d direction;
+    for (const int axis : {2, 1, 0}) direction[axis] = sets::DrawNormal(random);
+    direction.normalize();
     const auto reach = [&](double sign) {
       double inside = 0, outside = solid_.diameter();
       for (int i = 0; i < kHalvings; ++i) {
