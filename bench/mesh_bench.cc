@@ -138,7 +138,7 @@ void BM_LargeRoadmap(benchmark::State& state) {
   for (auto _ : state) {
     const roadmap::ClusteredRoadmap roadmap(solid, Options(static_cast<int>(state.range(1))));
     state.counters["vertices"] = roadmap.roadmap.vertex_count();
-    state.counters["edges"] = static_cast<double>(roadmap.roadmap.edge_count());
+    state.counters["edges"] = static_cast<double>(roadmap.roadmap.CountEdges());
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -93,8 +93,8 @@ void BM_CountEdgesAndComponents(benchmark::State& state) {
   const planning::PlanRequest request = RequestFor(Model(state.range(0)), state.range(1));
   const roadmap::Roadmap roadmap = roadmap::BuildRoadmap(request, roadmap::SpreadContacts(request));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(roadmap.edge_count());
-    benchmark::DoNotOptimize(roadmap.components());
+    benchmark::DoNotOptimize(roadmap.CountEdges());
+    benchmark::DoNotOptimize(roadmap.FindComponents());
   }
   Describe(state, roadmap.candidate_count(), roadmap.vertex_count());
 }

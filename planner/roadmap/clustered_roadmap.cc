@@ -51,6 +51,6 @@ ClusteredRoadmap::ClusteredRoadmap(const object::Polyhedron& solid,
       frame(solid.wrench_frame()),
       clusters(ClusterContacts(solid, options)),
       roadmap(BuildRepresentativeRoadmap(solid, clusters, options)),
-      components(roadmap.components()) {}
+      components(roadmap.FindComponents(options.deadline)) {}
 
 }  // namespace regrasp::roadmap

@@ -101,7 +101,7 @@ class ContactPointSearch {
     std::vector<int> pool(roadmap_.vertex_count());
     std::iota(pool.begin(), pool.end(), 0);
     if (!start) return pool;
-    const search::Components components = roadmap_.components();
+    const search::Components components = roadmap_.FindComponents(request_.deadline);
     const int component = components.of_vertex[*start];
     if (components.sizes[component] == 1) return {*start};
     std::erase_if(pool, [&](int v) { return v == *start || components.of_vertex[v] != component; });

@@ -111,21 +111,27 @@ std::int64_t Roadmap::candidate_count() const {
   return Binomial<4>(static_cast<int>(points_.size()));
 }
 
-std::int64_t Roadmap::edge_count() const {
+std::int64_t Roadmap::CountEdges(const Deadline& deadline) const {
   std::int64_t count = 0;
-  for (int triple = 0; triple < triple_count(); ++triple) count += EdgesWith(triple);
+  for (int triple = 0; triple < triple_count(); ++triple) {
+    deadline.Check();
+    count += EdgesWith(triple);
+  }
   return count;
 }
 
-search::Components Roadmap::components() const {
+search::Components Roadmap::FindComponents(const Deadline& deadline) const {
   if (!any_excluded_) {
-    return search::FindComponents(vertex_count(), triple_count(),
-                                  [&](int triple) { return VerticesWith(triple); });
+    return search::FindComponents(vertex_count(), triple_count(), [&](int triple) {
+      deadline.Check();
+      return VerticesWith(triple);
+    });
   }
   // In a group with excluded pairs a vertex is joined to those that it finds among the ones left
   // over: a search of the group, which leaves a tree of edges.
   std::vector<std::array<int, 2>> edges;
   for (int triple = 0; triple < triple_count(); ++triple) {
+    deadline.Check();
     const std::span<const int> group = VerticesWith(triple);
     std::vector<int> left(group.begin(), group.end());
     std::vector<int> reached;
@@ -145,8 +151,10 @@ search::Components Roadmap::components() const {
       left.erase(joined, left.end());
     }
   }
-  return search::FindComponents(vertex_count(), static_cast<int>(edges.size()),
-                                [&](int edge) { return std::span<const int>(edges[edge]); });
+  return search::FindComponents(vertex_count(), static_cast<int>(edges.size()), [&](int edge) {
+    deadline.Check();
+    return std::span<const int>(edges[edge]);
+  });
 }
 
 int Roadmap::triple_count() const { return static_cast<int>(triple_begin_.size()) - 1; }

@@ -50,8 +50,10 @@ class Roadmap final : public search::SwitchingGraph {
   /// 4-subsets of the contact points, force closure or not.
   [[nodiscard]] std::int64_t candidate_count() const;
   /// Unordered pairs of vertices that share three contacts.
-  [[nodiscard]] std::int64_t edge_count() const;
-  [[nodiscard]] search::Components components() const;
+  /// @throws TimeUp  the deadline came.
+  [[nodiscard]] std::int64_t CountEdges(const Deadline& deadline = {}) const;
+  /// @throws TimeUp  the deadline came.
+  [[nodiscard]] search::Components FindComponents(const Deadline& deadline = {}) const;
 
  private:
   void ListByTriples();

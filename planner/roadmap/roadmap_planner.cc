@@ -28,12 +28,10 @@ planning::GraphSummary SummaryOf(const Roadmap& roadmap, const planning::PlanReq
   summary.face_name = "contact points";
   summary.vertex_seconds = stopwatch.Lap();
   request.progress("joining " + std::to_string(roadmap.vertex_count()) + " grasps");
-  request.deadline.Check();
   summary.faces = std::ssize(roadmap.points());
   summary.vertices = roadmap.vertex_count();
-  summary.edges = {{"representative-representative", roadmap.edge_count()}};
-  request.deadline.Check();
-  summary.components = roadmap.components().count();
+  summary.edges = {{"representative-representative", roadmap.CountEdges(request.deadline)}};
+  summary.components = roadmap.FindComponents(request.deadline).count();
   summary.types = {{"representative", roadmap.candidate_count(), summary.vertices, summary.vertices,
                     summary.components}};
   summary.edge_seconds = stopwatch.Lap();

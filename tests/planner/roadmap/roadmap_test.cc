@@ -65,14 +65,14 @@ TEST(Roadmap, JoinsGraspsThatShareThreeContacts) {
     edges += std::ssize(expected);
   }
   EXPECT_GT(edges, 100);
-  EXPECT_EQ(roadmap.edge_count(), edges / 2);
+  EXPECT_EQ(roadmap.CountEdges(), edges / 2);
 }
 
 TEST(Roadmap, ComponentsAreWhatASequenceCanReach) {
   int split = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Roadmap roadmap = MakeRoadmap(CubePoints(9, seed), 12);
-    const search::Components components = roadmap.components();
+    const search::Components components = roadmap.FindComponents();
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
       const auto reached = search::ReachableVertices(roadmap, v, [](int) { return true; });
       EXPECT_EQ(components.sizes[components.of_vertex[v]], std::ssize(reached));
@@ -117,7 +117,7 @@ TEST(Roadmap, NeverHasTwoFingersAtOnePoint) {
   }
   EXPECT_GT(with_twin, 0);
   EXPECT_EQ(roadmap.vertex_count(), plain.vertex_count() + with_twin);
-  EXPECT_EQ(roadmap.edge_count(), edges / 2);
+  EXPECT_EQ(roadmap.CountEdges(), edges / 2);
 }
 
 TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
@@ -137,7 +137,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
     EXPECT_EQ(roadmap.vertex_count(), kept);
     std::int64_t edges = 0;
     std::vector<int> neighbours;
-    const search::Components components = roadmap.components();
+    const search::Components components = roadmap.FindComponents();
     for (int v = 0; v < roadmap.vertex_count(); ++v) {
       roadmap.GetNeighbours(v, neighbours);
       std::int64_t expected = 0;
@@ -163,7 +163,7 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
       EXPECT_EQ(std::ssize(neighbours), expected);
       edges += expected;
     }
-    EXPECT_EQ(roadmap.edge_count(), edges / 2);
+    EXPECT_EQ(roadmap.CountEdges(), edges / 2);
     // Not fewer components than a search finds either.
     std::vector<bool> seen(roadmap.vertex_count(), false);
     int found = 0;
@@ -180,6 +180,39 @@ TEST(Roadmap, FingersOfARadiusNeverOverlapAndNothingElseIsLost) {
   EXPECT_GT(cut, 20);
 }
 
+/// Over after so many looks at it; counts them.
+Deadline AfterLooks(int looks, int& looked) {
+  const Deadline::Clock::time_point begin;
+  return {begin + Deadline::Clock::duration(looks),
+          [begin, &looked] { return begin + Deadline::Clock::duration(looked++); }};
+}
+
+TEST(Roadmap, CountsEdgesAndComponentsNoLongerThanItsDeadline) {
+  const std::vector<grasp::Contact> points = CubePoints(12);
+  constexpr int kTriples = 220;
+  for (const double radius : {0.0, 0.006}) {
+    const Roadmap roadmap(points, MakeBox({0.06, 0.06, 0.06}).wrench_frame(), Radians(30),
+                          kSamePoint, radius);
+    ASSERT_GT(roadmap.vertex_count(), 0);
+    int looked = 0;
+    EXPECT_EQ(roadmap.CountEdges(AfterLooks(100'000, looked)), roadmap.CountEdges());
+    EXPECT_GE(looked, kTriples);
+    looked = 0;
+    EXPECT_EQ(roadmap.FindComponents(AfterLooks(100'000, looked)).sizes,
+              roadmap.FindComponents().sizes);
+    const int all = looked;
+    EXPECT_GE(all, kTriples);
+    for (const int looks : {0, kTriples / 2, all - 1}) {
+      looked = 0;
+      EXPECT_THROW((void)roadmap.FindComponents(AfterLooks(looks, looked)), TimeUp);
+      EXPECT_EQ(looked, looks + 1) << "it went on";
+    }
+    looked = 0;
+    EXPECT_THROW((void)roadmap.CountEdges(AfterLooks(kTriples / 2, looked)), TimeUp);
+    EXPECT_EQ(looked, kTriples / 2 + 1) << "it went on";
+  }
+}
+
 TEST(Roadmap, IsEmptyWithoutForceClosure) {
   std::vector<grasp::Contact> one_face;
   for (const grasp::Contact& contact : CubePoints(60)) {
@@ -188,8 +221,8 @@ TEST(Roadmap, IsEmptyWithoutForceClosure) {
   ASSERT_GT(one_face.size(), 4u);
   const Roadmap roadmap = MakeRoadmap(one_face, 20);
   EXPECT_EQ(roadmap.vertex_count(), 0);
-  EXPECT_EQ(roadmap.edge_count(), 0);
-  EXPECT_EQ(roadmap.components().count(), 0);
+  EXPECT_EQ(roadmap.CountEdges(), 0);
+  EXPECT_EQ(roadmap.FindComponents().count(), 0);
 }
 
 TEST(Roadmap, FindsOnlyFours) {
