@@ -48,9 +48,9 @@ int NearestContact(const std::vector<grasp::Contact>& contacts, const grasp::Con
   return nearest;
 }
 
-std::vector<int> ClusterOfTriangles(const object::Polyhedron& solid,
-                                    const ContactClusters& clusters) {
-  std::vector<int> cluster_of;
+std::vector<ClusterIndex> ClusterOfTriangles(const object::Polyhedron& solid,
+                                             const ContactClusters& clusters) {
+  std::vector<ClusterIndex> cluster_of;
   for (object::TriangleIndex i{0}; i < std::ssize(solid.triangles()); ++i) {
     const auto& [a, b, c] = solid.triangles()[i];
     const auto& v = solid.vertices();
@@ -61,10 +61,11 @@ std::vector<int> ClusterOfTriangles(const object::Polyhedron& solid,
 }
 
 /// The clusters that each cluster meets along an edge of a triangle.
-std::vector<std::set<int>> Neighbours(const object::Polyhedron& solid,
-                                      const std::vector<int>& cluster_of, int cluster_count) {
-  std::map<std::pair<int, int>, int> cluster_at_edge;
-  std::vector<std::set<int>> neighbours(cluster_count);
+std::vector<std::set<ClusterIndex>> Neighbours(const object::Polyhedron& solid,
+                                               const std::vector<ClusterIndex>& cluster_of,
+                                               int cluster_count) {
+  std::map<std::pair<int, int>, ClusterIndex> cluster_at_edge;
+  std::vector<std::set<ClusterIndex>> neighbours(cluster_count);
   for (std::size_t i = 0; i < cluster_of.size(); ++i) {
     const auto& corners = solid.triangles()[i];
     for (int k = 0; k < 3; ++k) {
@@ -80,16 +81,17 @@ std::vector<std::set<int>> Neighbours(const object::Polyhedron& solid,
 
 /// Colours by the greedy rule, those with most neighbours first (Welsh and Powell 1967); where all
 /// colours are taken, the one that the fewest neighbours have.
-std::vector<int> ColorClusters(const std::vector<std::set<int>>& neighbours) {
-  std::vector<int> order(neighbours.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return neighbours[a].size() > neighbours[b].size(); });
+std::vector<int> ColorClusters(const std::vector<std::set<ClusterIndex>>& neighbours) {
+  std::vector<ClusterIndex> order;
+  for (ClusterIndex i{0}; i < std::ssize(neighbours); ++i) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](ClusterIndex a, ClusterIndex b) {
+    return neighbours[a].size() > neighbours[b].size();
+  });
   std::vector<int> color(neighbours.size(), -1);
   int turn = 0;
-  for (const int cluster : order) {
+  for (const ClusterIndex cluster : order) {
     std::array<int, kClusterColors> taken{};
-    for (const int other : neighbours[cluster]) {
+    for (const ClusterIndex other : neighbours[cluster]) {
       if (color[other] >= 0) ++taken[color[other]];
     }
     // Beginning at another colour each time, so that all are used alike.
@@ -110,10 +112,10 @@ ClusterView DescribeClusters(const object::Polyhedron& solid, double half_angle,
                              const plan::RoadmapNote& note) {
   const ContactClusters clusters = ClustersOf(solid, half_angle, note);
   ClusterView view;
-  view.color_of_triangle = ClusterOfTriangles(solid, clusters);
+  const std::vector<ClusterIndex> cluster_of = ClusterOfTriangles(solid, clusters);
   const std::vector<int> color =
-      ColorClusters(Neighbours(solid, view.color_of_triangle, clusters.cluster_count()));
-  for (int& cluster : view.color_of_triangle) cluster = color[cluster];
+      ColorClusters(Neighbours(solid, cluster_of, clusters.cluster_count()));
+  for (const ClusterIndex cluster : cluster_of) view.color_of_triangle.push_back(color[cluster]);
   for (const int contact : clusters.representatives()) {
     view.representatives.push_back(clusters.contacts()[contact].p);
   }

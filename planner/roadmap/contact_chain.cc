@@ -1,7 +1,6 @@
 #include "planner/roadmap/contact_chain.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "planner/roadmap/grasp_tree.h"
@@ -83,9 +82,8 @@ class ChainSearch {
   }
 
   int ComponentOf(const Quadruple& vertex) const {
-    std::array<int, 4> clusters;
-    for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(vertex[i]);
-    return roadmap_.components.of_vertex[*roadmap_.roadmap.Find(clusters)];
+    const FourClusters clusters = ClustersOf(clusters_, vertex);
+    return roadmap_.components.of_vertex[*FindVertex(roadmap_.roadmap, clusters)];
   }
 
   std::vector<Quadruple> JoinInRoadmap(const LocalPlanners::Path& from,

@@ -31,16 +31,15 @@ ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
   embedding_ = EmbedAffinity((-distances / affinity_scale_).array().exp(), clusters);
   deadline.Check();
   RandomStream random(seed, RandomUse::kClusters);
-  KMeansClusters found = KMeans(embedding_.rows, clusters, kRestarts, random);
+  const KMeansClusters found = KMeans(embedding_.rows, clusters, kRestarts, random);
   places_ = embedding_.rows.transpose();
   centers_ = found.centers.transpose();
-  cluster_of_ = std::move(found.cluster_of);
+  for (const int cluster : found.cluster_of) cluster_of_.emplace_back(cluster);
   members_.resize(clusters);
   for (int i = 0; i < clustered_count(); ++i) members_[cluster_of_[i]].push_back(i);
-  for (const std::vector<int>& members : members_) {
-    const int cluster = static_cast<int>(representatives_.size());
-    int nearest = members.front();
-    for (const int i : members) {
+  for (ClusterIndex cluster{0}; cluster < clusters; ++cluster) {
+    int nearest = members(cluster).front();
+    for (const int i : members(cluster)) {
       if (DistanceToCenter(i, cluster) < DistanceToCenter(nearest, cluster)) nearest = i;
     }
     representatives_.push_back(nearest);
@@ -58,8 +57,8 @@ int ContactClusters::Add(const grasp::Contact& contact) {
   contacts_.push_back(contact);
   places_.conservativeResize(Eigen::NoChange, added + 1);
   places_.col(added) = EmbedAnother(embedding_, affinity).transpose();
-  int nearest = 0;
-  for (int j = 1; j < cluster_count(); ++j) {
+  ClusterIndex nearest{0};
+  for (ClusterIndex j{1}; j < cluster_count(); ++j) {
     if (DistanceToCenter(added, j) < DistanceToCenter(added, nearest)) nearest = j;
   }
   cluster_of_.push_back(nearest);

@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "planner/base/deadline.h"
+#include "planner/base/index.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 #include "planner/roadmap/spectral_embedding.h"
 #include "planner/roadmap/wrench_affinity.h"
 
 namespace regrasp::roadmap {
+
+using ClusterIndex = Index<struct ClusterTag>;
 
 /// Contact points in clusters of those that act on the object alike (Phoka 2010, 6.2.2): affinities
 /// exp(−d / 2σ²) from WrenchDistance, σ the mean of all N² distances; the rows of their spectral
@@ -39,14 +42,16 @@ class ContactClusters {
   [[nodiscard]] int cluster_count() const { return static_cast<int>(representatives_.size()); }
 
   /// The cluster of a contact; of an added one, that with the nearest centre.
-  [[nodiscard]] int cluster_of(int contact) const { return cluster_of_[contact]; }
+  [[nodiscard]] ClusterIndex cluster_of(int contact) const { return cluster_of_[contact]; }
   /// The clustered contacts of a cluster, ascending.
-  [[nodiscard]] std::span<const int> members(int cluster) const { return members_[cluster]; }
-  [[nodiscard]] int representative(int cluster) const { return representatives_[cluster]; }
+  [[nodiscard]] std::span<const int> members(ClusterIndex cluster) const {
+    return members_[cluster];
+  }
+  [[nodiscard]] int representative(ClusterIndex cluster) const { return representatives_[cluster]; }
   [[nodiscard]] const std::vector<int>& representatives() const { return representatives_; }
 
   /// E.
-  [[nodiscard]] double DistanceToCenter(int contact, int cluster) const {
+  [[nodiscard]] double DistanceToCenter(int contact, ClusterIndex cluster) const {
     return (places_.col(contact) - centers_.col(cluster)).norm();
   }
   /// F.
@@ -66,7 +71,7 @@ class ContactClusters {
   SpectralEmbedding embedding_;
   Eigen::MatrixXd places_;   ///< k × all contacts: rows of the embedding, turned to columns
   Eigen::MatrixXd centers_;  ///< k × clusters
-  std::vector<int> cluster_of_;
+  std::vector<ClusterIndex> cluster_of_;
   std::vector<std::vector<int>> members_;
   std::vector<int> representatives_;
 };

@@ -16,6 +16,13 @@ Quadruple Sorted(Quadruple grasp) {
   return grasp;
 }
 
+/// In the order of the clusters.
+Quadruple RepresentativesOf(const ContactClusters& clusters, const FourClusters& of) {
+  Quadruple representatives;
+  for (int i = 0; i < 4; ++i) representatives[i] = clusters.representative(of[i]);
+  return representatives;
+}
+
 /// Contacts for each of the four of a grasp.
 using Sets = std::array<std::vector<int>, 4>;
 
@@ -62,6 +69,16 @@ Replacements OneOfEach(const Sets& sets, const Quadruple& grasp, int contact_cou
 
 }  // namespace
 
+FourClusters ClustersOf(const ContactClusters& clusters, const Quadruple& grasp) {
+  FourClusters of;
+  for (int i = 0; i < 4; ++i) of[i] = clusters.cluster_of(grasp[i]);
+  return of;
+}
+
+std::optional<int> FindVertex(const Roadmap& roadmap, const FourClusters& clusters) {
+  return roadmap.Find(Quadruple{clusters[0], clusters[1], clusters[2], clusters[3]});
+}
+
 const char* RoadmapLinkName(RoadmapLink link) {
   constexpr std::array kNames = {"none", "vertex", "algorithm-1", "algorithm-2", "algorithm-3"};
   return kNames[static_cast<int>(link)];
@@ -74,20 +91,14 @@ LocalPlanners::LocalPlanners(const ContactClusters& clusters, const Roadmap& roa
 }
 
 bool LocalPlanners::IsVertex(const Quadruple& grasp) {
-  std::array<int, 4> clusters;
-  for (int i = 0; i < 4; ++i) {
-    clusters[i] = clusters_.cluster_of(grasp[i]);
-    if (clusters_.representative(clusters[i]) != grasp[i]) return false;
-  }
-  return roadmap_.Find(clusters).has_value() && oracle_.Admits(grasp);
+  const FourClusters clusters = ClustersOf(clusters_, grasp);
+  return RepresentativesOf(clusters_, clusters) == grasp &&
+         FindVertex(roadmap_, clusters).has_value() && oracle_.Admits(grasp);
 }
 
 std::optional<Quadruple> LocalPlanners::OwnRepresentatives(const Quadruple& grasp) {
-  Quadruple representatives;
-  for (int i = 0; i < 4; ++i) {
-    representatives[i] = clusters_.representative(clusters_.cluster_of(grasp[i]));
-  }
-  representatives = Sorted(representatives);
+  const Quadruple representatives =
+      Sorted(RepresentativesOf(clusters_, ClustersOf(clusters_, grasp)));
   if (!IsVertex(representatives)) return std::nullopt;
   return representatives;
 }
@@ -100,16 +111,13 @@ std::optional<LocalPlanners::NearestCluster> LocalPlanners::FindNearestCluster(
   };
   std::vector<Candidate> candidates;
   for (int slot = 0; slot < 4; ++slot) {
-    std::array<int, 4> clusters;
-    for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
-    for (int cluster = 0; cluster < clusters_.cluster_count(); ++cluster) {
+    FourClusters clusters = ClustersOf(clusters_, grasp);
+    for (ClusterIndex cluster{0}; cluster < clusters_.cluster_count(); ++cluster) {
       if (cluster == clusters_.cluster_of(grasp[slot])) continue;
       clusters[slot] = cluster;
-      if (!roadmap_.Find(clusters)) continue;
-      Quadruple vertex;
-      for (int i = 0; i < 4; ++i) vertex[i] = clusters_.representative(clusters[i]);
-      candidates.push_back(
-          {clusters_.DistanceToCenter(grasp[slot], cluster), {Sorted(vertex), slot, cluster}});
+      if (!FindVertex(roadmap_, clusters)) continue;
+      candidates.push_back({clusters_.DistanceToCenter(grasp[slot], cluster),
+                            {Sorted(RepresentativesOf(clusters_, clusters)), slot, cluster}});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -120,7 +128,7 @@ std::optional<LocalPlanners::NearestCluster> LocalPlanners::FindNearestCluster(
   return std::nullopt;
 }
 
-std::vector<int> LocalPlanners::Between(int contact, int cluster) const {
+std::vector<int> LocalPlanners::Between(int contact, ClusterIndex cluster) const {
   const int representative = clusters_.representative(cluster);
   const double apart = clusters_.Distance(contact, representative);
   std::vector<int> between = {representative};
@@ -135,7 +143,7 @@ std::vector<int> LocalPlanners::Between(int contact, int cluster) const {
 }
 
 std::vector<Quadruple> LocalPlanners::JoinWithin(const Quadruple& grasp,
-                                                 const std::array<int, 4>& clusters,
+                                                 const FourClusters& clusters,
                                                  const Quadruple& goal) {
   Sets sets;
   for (int i = 0; i < 4; ++i) sets[i] = Between(grasp[i], clusters[i]);
@@ -148,16 +156,13 @@ std::vector<Quadruple> LocalPlanners::JoinWithin(const Quadruple& grasp,
 std::vector<Quadruple> LocalPlanners::RunAlgorithm1(const Quadruple& grasp) {
   const std::optional<Quadruple> goal = OwnRepresentatives(grasp);
   if (!goal) return {};
-  std::array<int, 4> clusters;
-  for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
-  return JoinWithin(grasp, clusters, *goal);
+  return JoinWithin(grasp, ClustersOf(clusters_, grasp), *goal);
 }
 
 std::vector<Quadruple> LocalPlanners::RunAlgorithm2(const Quadruple& grasp) {
   const std::optional<NearestCluster> nearest = FindNearestCluster(grasp);
   if (!nearest) return {};
-  std::array<int, 4> clusters;
-  for (int i = 0; i < 4; ++i) clusters[i] = clusters_.cluster_of(grasp[i]);
+  FourClusters clusters = ClustersOf(clusters_, grasp);
   clusters[nearest->slot] = nearest->cluster;
   return JoinWithin(grasp, clusters, nearest->vertex);
 }

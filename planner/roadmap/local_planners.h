@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,6 +10,14 @@
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp::roadmap {
+
+/// The clusters of a grasp's contacts. A roadmap of representatives numbers its points as their
+/// clusters are: its vertices are found by clusters, not by contacts.
+using FourClusters = std::array<ClusterIndex, 4>;
+[[nodiscard]] FourClusters ClustersOf(const ContactClusters& clusters, const Quadruple& grasp);
+
+/// The vertex of the representatives of four clusters.
+[[nodiscard]] std::optional<int> FindVertex(const Roadmap& roadmap, const FourClusters& clusters);
 
 /// How a grasp came to the representative roadmap.
 enum class RoadmapLink {
@@ -45,9 +54,9 @@ class LocalPlanners {
   /// the contact that moves there. nullopt where there is no such vertex (that is admitted).
   [[nodiscard]] std::optional<Quadruple> OwnRepresentatives(const Quadruple& grasp);
   struct NearestCluster {
-    Quadruple vertex;  ///< contacts
-    int slot = 0;      ///< of the grasp's contact that moves
-    int cluster = 0;   ///< to this one
+    Quadruple vertex;      ///< contacts
+    int slot = 0;          ///< of the grasp's contact that moves
+    ClusterIndex cluster;  ///< to this one
   };
   [[nodiscard]] std::optional<NearestCluster> FindNearestCluster(const Quadruple& grasp);
 
@@ -60,10 +69,10 @@ class LocalPlanners {
   /// The number of a roadmap's vertex, of contacts.
   [[nodiscard]] bool IsVertex(const Quadruple& grasp);
   /// Contacts near both `contact` and the representative of `cluster`, and both of them: S_i.
-  [[nodiscard]] std::vector<int> Between(int contact, int cluster) const;
+  [[nodiscard]] std::vector<int> Between(int contact, ClusterIndex cluster) const;
   /// A path by contacts of the sets between each contact of the grasp and its cluster.
   [[nodiscard]] std::vector<Quadruple> JoinWithin(const Quadruple& grasp,
-                                                  const std::array<int, 4>& clusters,
+                                                  const FourClusters& clusters,
                                                   const Quadruple& goal);
 
   const ContactClusters& clusters_;

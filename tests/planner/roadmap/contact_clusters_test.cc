@@ -19,7 +19,7 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, int clusters, std::u
 
 /// Clusters named by their first members, so that their numbers don't count.
 std::vector<int> Partition(const ContactClusters& clusters) {
-  std::map<int, int> first;
+  std::map<ClusterIndex, int> first;
   std::vector<int> names;
   for (int i = 0; i < clusters.clustered_count(); ++i) {
     names.push_back(first.try_emplace(clusters.cluster_of(i), i).first->second);
@@ -34,7 +34,7 @@ TEST(ContactClusters, PartitionTheContacts) {
   ASSERT_EQ(clusters.clustered_count(), 500);
   ASSERT_EQ(clusters.cluster_count(), 30);
   std::vector<int> seen(500, 0);
-  for (int j = 0; j < 30; ++j) {
+  for (ClusterIndex j{0}; j < 30; ++j) {
     EXPECT_FALSE(clusters.members(j).empty());
     EXPECT_TRUE(std::is_sorted(clusters.members(j).begin(), clusters.members(j).end()));
     for (const int i : clusters.members(j)) {
@@ -47,7 +47,7 @@ TEST(ContactClusters, PartitionTheContacts) {
 
 TEST(ContactClusters, RepresentativesAreTheContactsNearestTheCenters) {
   const ContactClusters clusters = ClustersOf(ReadMesh("duck500"), 30);
-  for (int j = 0; j < 30; ++j) {
+  for (ClusterIndex j{0}; j < 30; ++j) {
     const int representative = clusters.representative(j);
     EXPECT_EQ(clusters.cluster_of(representative), j);
     EXPECT_EQ(clusters.representatives()[j], representative);
@@ -68,7 +68,7 @@ TEST(ContactClusters, DistancesAreThoseOfOneSpace) {
       EXPECT_EQ(clusters.Distance(a, b), clusters.Distance(b, a));
       EXPECT_LE(clusters.Distance(a, b), 2 + 1e-12);  // of unit vectors
       if (clusters.Distance(a, b) > 0.1) ++apart;
-      for (int j = 0; j < 6; ++j) {
+      for (ClusterIndex j{0}; j < 6; ++j) {
         EXPECT_LE(clusters.DistanceToCenter(a, j),
                   clusters.Distance(a, b) + clusters.DistanceToCenter(b, j) + 1e-12);
       }
@@ -88,7 +88,7 @@ TEST(ContactClusters, ContactsOfAClusterActMoreAlikeThanOthers) {
   const Eigen::MatrixXd distances = WrenchDistances(pyramids);
   double within = 0;
   int pairs = 0;
-  for (int j = 0; j < 30; ++j) {
+  for (ClusterIndex j{0}; j < 30; ++j) {
     for (const int a : clusters.members(j)) {
       for (const int b : clusters.members(j)) {
         within += distances(a, b);
@@ -114,7 +114,7 @@ TEST(ContactClusters, PlaceAnAddedCopyWhereItsOriginalIs) {
   }
   EXPECT_EQ(clusters.clustered_count(), 500);
   EXPECT_EQ(Partition(clusters), before);
-  for (int j = 0; j < 30; ++j) {
+  for (ClusterIndex j{0}; j < 30; ++j) {
     for (const int i : clusters.members(j)) EXPECT_LT(i, 500);
   }
 }

@@ -50,12 +50,10 @@ struct Problem {
     return sample;
   }
 
-  [[nodiscard]] std::array<int, 4> ClustersOf(const Quadruple& grasp) const {
-    std::array<int, 4> of;
-    for (int i = 0; i < 4; ++i) of[i] = clusters.cluster_of(grasp[i]);
-    return of;
+  [[nodiscard]] FourClusters ClustersOf(const Quadruple& grasp) const {
+    return roadmap::ClustersOf(clusters, grasp);
   }
-  [[nodiscard]] Quadruple Representatives(const std::array<int, 4>& of) const {
+  [[nodiscard]] Quadruple Representatives(const FourClusters& of) const {
     Quadruple grasp;
     for (int i = 0; i < 4; ++i) grasp[i] = clusters.representative(of[i]);
     std::sort(grasp.begin(), grasp.end());
@@ -64,7 +62,7 @@ struct Problem {
 
   /// S_i as section 6.2.4 says: the contacts j of the cluster, the added one among them, with
   /// F_ij <= F_ii' and F_i'j <= F_ii'.
-  [[nodiscard]] std::vector<int> SetBetween(int contact, int cluster) const {
+  [[nodiscard]] std::vector<int> SetBetween(int contact, ClusterIndex cluster) const {
     const int representative = clusters.representative(cluster);
     const double apart = clusters.Distance(contact, representative);
     std::vector<int> set;
@@ -77,7 +75,7 @@ struct Problem {
     return set;
   }
   [[nodiscard]] std::array<std::vector<int>, 4> SetsBetween(const Quadruple& grasp,
-                                                            const std::array<int, 4>& of) const {
+                                                            const FourClusters& of) const {
     std::array<std::vector<int>, 4> sets;
     for (int i = 0; i < 4; ++i) sets[i] = SetBetween(grasp[i], of[i]);
     return sets;
@@ -159,7 +157,7 @@ TEST_P(LocalPlannersOn, Algorithm1FindsAPathWhereTheLocalRoadmapHasOne) {
 TEST_P(LocalPlannersOn, FindNearestClusterIsTheNearestOfAllVertices) {
   int found = 0;
   for (const Quadruple& grasp : sample_) {
-    const std::array<int, 4> own = problem_.ClustersOf(grasp);
+    const FourClusters own = problem_.ClustersOf(grasp);
     double least = std::numeric_limits<double>::infinity();
     for (int vertex = 0; vertex < problem_.roadmap.vertex_count(); ++vertex) {
       for (int slot = 0; slot < 4; ++slot) {
@@ -171,14 +169,15 @@ TEST_P(LocalPlannersOn, FindNearestClusterIsTheNearestOfAllVertices) {
           if (i != slot && place != rest.end()) rest.erase(place);
         }
         if (rest.size() != 1 || rest[0] == own[slot]) continue;
-        least = std::min(least, problem_.clusters.DistanceToCenter(grasp[slot], rest[0]));
+        least =
+            std::min(least, problem_.clusters.DistanceToCenter(grasp[slot], ClusterIndex(rest[0])));
       }
     }
     const auto nearest = problem_.local.FindNearestCluster(grasp);
     ASSERT_EQ(nearest.has_value(), least < std::numeric_limits<double>::infinity());
     if (!nearest) continue;
     EXPECT_EQ(problem_.clusters.DistanceToCenter(grasp[nearest->slot], nearest->cluster), least);
-    std::array<int, 4> moved = own;
+    FourClusters moved = own;
     moved[nearest->slot] = nearest->cluster;
     EXPECT_EQ(nearest->vertex, problem_.Representatives(moved));
     EXPECT_TRUE(problem_.vertices.contains(nearest->vertex));
@@ -197,7 +196,7 @@ TEST_P(LocalPlannersOn, Algorithm2FindsAPathWhereTheLocalRoadmapHasOne) {
       EXPECT_TRUE(path.empty());
       continue;
     }
-    std::array<int, 4> moved = problem_.ClustersOf(grasp);
+    FourClusters moved = problem_.ClustersOf(grasp);
     moved[nearest->slot] = nearest->cluster;
     const auto sets = problem_.SetsBetween(grasp, moved);
     const std::set<Quadruple> local = problem_.LocalGrasps(sets);
