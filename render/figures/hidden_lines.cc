@@ -31,7 +31,7 @@ class FlatBox {
 };
 
 /// The triangles that may stand before a line.
-FacetMesh TrianglesBefore(const FacetMesh& surface, const Segment& line,
+FacetMesh TrianglesBefore(const FacetMesh& surface, const LineSegment& line,
                           const Eigen::Matrix3d& axes) {
   FacetMesh before;
   const FlatBox here = FlatBox(axes).Extend(line[0]).Extend(line[1]);
@@ -45,7 +45,7 @@ FacetMesh TrianglesBefore(const FacetMesh& surface, const Segment& line,
 
 class LineSplitter {
  public:
-  LineSplitter(const FacetMesh& surface, const Segment& line, const Vector3d& back)
+  LineSplitter(const FacetMesh& surface, const LineSegment& line, const Vector3d& back)
       : surface_(surface), line_(line), back_(back) {}
 
   void Split(LineParts& parts) const {
@@ -84,7 +84,7 @@ class LineSplitter {
   }
 
   const FacetMesh& surface_;
-  const Segment& line_;
+  const LineSegment& line_;
   const Vector3d& back_;
 };
 
@@ -94,11 +94,11 @@ bool IsHidden(const FacetMesh& surface, const Vector3d& point, const Vector3d& b
   return std::isfinite(RayDistance(surface, point, back, kOnSurface));
 }
 
-LineParts SplitByVisibility(const FacetMesh& surface, std::span<const Segment> lines,
+LineParts SplitByVisibility(const FacetMesh& surface, std::span<const LineSegment> lines,
                             const Vector3d& back) {
   const Eigen::Matrix3d axes = CameraAxes(back);
   LineParts parts;
-  for (const Segment& line : lines) {
+  for (const LineSegment& line : lines) {
     LineSplitter(TrianglesBefore(surface, line, axes), line, back).Split(parts);
   }
   return parts;

@@ -9,12 +9,12 @@
 
 namespace regrasp::render {
 
-using Segment = std::array<Eigen::Vector3d, 2>;
+using LineSegment = std::array<Eigen::Vector3d, 2>;
 
 /// Parts of lines that a surface hides, and those that it does not.
 struct LineParts {
-  std::vector<Segment> visible;
-  std::vector<Segment> hidden;
+  std::vector<LineSegment> visible;
+  std::vector<LineSegment> hidden;
 };
 
 /// Cuts lines where they pass behind a surface, or come out, seen from far away.
@@ -23,7 +23,8 @@ struct LineParts {
 /// 1e-5 of that: what is hidden or seen for less than a step may be missed. A surface that a line
 /// lies on does not hide it. The surface is about 1 in size.
 /// @param back  unit, towards the eye.
-[[nodiscard]] LineParts SplitByVisibility(const FacetMesh& surface, std::span<const Segment> lines,
+[[nodiscard]] LineParts SplitByVisibility(const FacetMesh& surface,
+                                          std::span<const LineSegment> lines,
                                           const Eigen::Vector3d& back);
 
 inline constexpr double kVisibilityStep = 0.01;

@@ -79,8 +79,8 @@ class SolidPainter {
       AddOutline(cr_, std::array<Vector2d, 3>{camera_(a), camera_(b), camera_(c)});
     }
     FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
-    std::vector<Segment> lines = body_.edges;
-    for (const Segment& line :
+    std::vector<LineSegment> lines = body_.edges;
+    for (const LineSegment& line :
          FindOutline(body_, [this](const Vector3d&) { return camera_.back(); })) {
       lines.push_back(line);
     }
@@ -188,7 +188,7 @@ class SolidPainter {
   }
 
   /// Thin and dashed where it is hidden.
-  void DrawLine(const Segment& line, Color color, double width) {
+  void DrawLine(const LineSegment& line, Color color, double width) {
     const LineParts parts = SplitByVisibility(body_.surface, {&line, 1}, camera_.back());
     SetColor(cr_, Paler(color, kBehindShare));
     for (const auto& [a, b] : parts.hidden) StrokeLine(cr_, camera_(a), camera_(b), width / 2);
@@ -237,7 +237,7 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
       body_(MakeBodyShape(solid, options.body)),
       half_angle_(plan.half_angle) {
   const int entries = static_cast<int>(plan.steps.size()) + 1;
-  for (int entry = 0; entry < entries; ++entry) {
+  for (plan::EntryIndex entry{0}; entry < entries; ++entry) {
     const plan::Snapshot snapshot = plan::MakePlannedSnapshot(plan, entry, {}, 0);
     fingers_.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface));
     captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry));

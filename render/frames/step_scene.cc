@@ -74,7 +74,7 @@ void AddFinger(const FingerGlyph& glyph, const std::vector<FacetMesh>& meshes,
 }  // namespace
 
 std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::Plan& located,
-                                     int entry, const BodyOptions& options) {
+                                     plan::EntryIndex entry, const BodyOptions& options) {
   const BodyShape body = MakeBodyShape(object, options);
   const PictureFrame frame = {located.scale * object.diameter(),
                               located.scale * object.mass_properties().centroid};

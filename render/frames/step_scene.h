@@ -15,7 +15,8 @@ namespace regrasp::render {
 /// @param located  the plan on this object (LocatePlan).
 /// @param entry    0 the hold, k the k-th step.
 [[nodiscard]] std::vector<ScenePart> MakeStepScene(const object::Object& object,
-                                                   const plan::Plan& located, int entry,
+                                                   const plan::Plan& located,
+                                                   plan::EntryIndex entry,
                                                    const BodyOptions& options = {});
 
 }  // namespace regrasp::render

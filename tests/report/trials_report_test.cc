@@ -10,7 +10,7 @@ TEST(TrialsReportTest, TheJsonSaysWhatTheSummarySays) {
   summary.options.count = 12;
   summary.passed = 9;
   summary.reasons = {{plan::Reason::kSlipped, 2}, {plan::Reason::kContactLost, 1}};
-  summary.steps = {{1, 3}};
+  summary.steps = {{plan::EntryIndex(1), 3}};
   const Json json = TrialsJson(summary);
   EXPECT_EQ(json["count"], 12);
   EXPECT_EQ(json["passed"], 9);

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "planner/base/random.h"
@@ -10,11 +11,12 @@
 namespace regrasp::grasp {
 namespace {
 
-/// The corners of the cube of so many dimensions, half of whose side is 1, and its centre.
-Eigen::MatrixXd CubeAndCentre(int dimension) {
-  Eigen::MatrixXd points = Eigen::MatrixXd::Zero(dimension, (1 << dimension) + 1);
-  for (int corner = 0; corner < 1 << dimension; ++corner) {
-    for (int axis = 0; axis < dimension; ++axis) points(axis, corner) = corner >> axis & 1 ? 1 : -1;
+/// The corners of the cross-polytope of so many dimensions, one on each half-axis, and its centre.
+Eigen::MatrixXd CrossPolytopeAndCentre(int dimension) {
+  Eigen::MatrixXd points = Eigen::MatrixXd::Zero(dimension, 2 * dimension + 1);
+  for (int axis = 0; axis < dimension; ++axis) {
+    points(axis, 2 * axis) = 1;
+    points(axis, 2 * axis + 1) = -1;
   }
   return points;
 }
@@ -22,20 +24,23 @@ Eigen::MatrixXd CubeAndCentre(int dimension) {
 /// How far a point may lie beyond a facet: what the input was joggled by, both ways.
 double SlackOf(const ConvexHull& hull) { return 2 * hull.joggle + 1e-12; }
 
-TEST(ConvexHull, FacetsOfACubeAreItsSidesAndTheCentreIsOnNone) {
+TEST(ConvexHull, ACrossPolytopeHasAFacetInEachOrthant) {
   for (const int dimension : {2, 3, 6}) {
-    const ConvexHull hull = ComputeConvexHull(CubeAndCentre(dimension));
+    const ConvexHull hull = ComputeConvexHull(CrossPolytopeAndCentre(dimension));
     EXPECT_LT(hull.joggle, 1e-6);
-    ASSERT_GE(std::ssize(hull.facets), 2 * dimension);
-    std::vector<bool> seen(2 * dimension, false);
+    ASSERT_EQ(std::ssize(hull.facets), 1 << dimension);
+    std::set<int> orthants;
     for (const HullFacet& facet : hull.facets) {
       EXPECT_NEAR(facet.normal.norm(), 1, 1e-12);
-      EXPECT_NEAR(facet.offset, 1, 1e-6);
-      int axis = 0;
-      EXPECT_NEAR(facet.normal.cwiseAbs().maxCoeff(&axis), 1, 1e-6);
-      seen[2 * axis + (facet.normal[axis] > 0 ? 1 : 0)] = true;
+      EXPECT_NEAR(facet.offset, 1 / std::sqrt(dimension), 1e-6);
+      int orthant = 0;
+      for (int axis = 0; axis < dimension; ++axis) {
+        EXPECT_NEAR(std::abs(facet.normal[axis]), 1 / std::sqrt(dimension), 1e-6);
+        orthant = 2 * orthant + (facet.normal[axis] > 0 ? 1 : 0);
+      }
+      orthants.insert(orthant);
     }
-    EXPECT_EQ(std::ranges::count(seen, true), 2 * dimension);
+    EXPECT_EQ(std::ssize(orthants), 1 << dimension);
   }
 }
 

@@ -18,7 +18,18 @@ using ::testing::HasSubstr;
 const std::vector<std::vector<Eigen::Vector2d>> kOutlines = {
     {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
     {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
-    {{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}};
+    {{0, 0},
+     {5, 0},
+     {5, 3},
+     {4, 3},
+     {4, 1},
+     {3, 1},
+     {3, 3},
+     {2, 3},
+     {2, 1},
+     {1, 1},
+     {1, 3},
+     {0, 3}}};
 constexpr double kAreas[] = {1, 5, 11};
 
 /// Facets side by side, each with corners of its own, turned in space.
@@ -87,11 +98,13 @@ TEST(FacetTriangulation, RefusesFacetsWithoutAreaAndOutlinesThatMeetThemselves) 
   EXPECT_EQ(DefectOf(FacetsOf({{{0, 0}, {1, 1}, {3, 3}, {2, 2}}}), 5),
             MeshDefect::kDegenerateFacet);
   EXPECT_EQ(DefectOf(FacetsOf({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}), 5),
-            MeshDefect::kSelfIntersecting) << "a bow tie, whose area cancels";
+            MeshDefect::kSelfIntersecting)
+      << "a bow tie, whose area cancels";
   EXPECT_EQ(DefectOf(FacetsOf({{{0, 0}, {3, 0}, {3, 1}, {1, -1}, {0, 1}}}), 5),
             MeshDefect::kSelfIntersecting);
   EXPECT_EQ(DefectOf(FacetsOf({{{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}}}), 5),
-            MeshDefect::kSelfIntersecting) << "a corner on another side";
+            MeshDefect::kSelfIntersecting)
+      << "a corner on another side";
 }
 
 }  // namespace

@@ -23,13 +23,14 @@ FacetMesh Square(double z) {
   return mesh;
 }
 
-double LengthOf(const std::vector<Segment>& segments) {
-  return std::accumulate(segments.begin(), segments.end(), 0.0,
-                         [](double sum, const Segment& s) { return sum + (s[1] - s[0]).norm(); });
+double LengthOf(const std::vector<LineSegment>& segments) {
+  return std::accumulate(
+      segments.begin(), segments.end(), 0.0,
+      [](double sum, const LineSegment& s) { return sum + (s[1] - s[0]).norm(); });
 }
 
 TEST(HiddenLinesTest, ALineIsCutWhereItPassesBehindASurfaceAndWhereItComesOut) {
-  const Segment line = {Vector3d(-0.5, 0.03, 0), Vector3d(0.5, 0.03, 0)};
+  const LineSegment line = {Vector3d(-0.5, 0.03, 0), Vector3d(0.5, 0.03, 0)};
   const LineParts parts = SplitByVisibility(Square(0.3), {&line, 1}, kUp);
   ASSERT_EQ(parts.visible.size(), 2U);
   ASSERT_EQ(parts.hidden.size(), 1U);
@@ -39,14 +40,14 @@ TEST(HiddenLinesTest, ALineIsCutWhereItPassesBehindASurfaceAndWhereItComesOut) {
 }
 
 TEST(HiddenLinesTest, ASurfaceBehindALineOrBesideItHidesNothing) {
-  const Segment line = {Vector3d(-0.5, 0.03, 0), Vector3d(0.5, 0.03, 0)};
-  const Segment beside = {Vector3d(-0.5, 0.3, 0), Vector3d(0.5, 0.3, 0)};
+  const LineSegment line = {Vector3d(-0.5, 0.03, 0), Vector3d(0.5, 0.03, 0)};
+  const LineSegment beside = {Vector3d(-0.5, 0.3, 0), Vector3d(0.5, 0.3, 0)};
   EXPECT_TRUE(SplitByVisibility(Square(-0.3), {&line, 1}, kUp).hidden.empty());
   EXPECT_TRUE(SplitByVisibility(Square(0.3), {&beside, 1}, kUp).hidden.empty());
 }
 
 TEST(HiddenLinesTest, ALineOnASurfaceIsSeen) {
-  const Segment line = {Vector3d(-0.1, -0.1, 0), Vector3d(0.1, 0.1, 0)};
+  const LineSegment line = {Vector3d(-0.1, -0.1, 0), Vector3d(0.1, 0.1, 0)};
   EXPECT_TRUE(SplitByVisibility(Square(0), {&line, 1}, kUp).hidden.empty());
 }
 

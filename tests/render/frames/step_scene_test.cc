@@ -32,7 +32,7 @@ TEST(StepSceneTest, HasTheObjectAndEachFingerInMetresInTheObjectsFrame) {
   plan::Plan plan = HoldCube(cube, 0.01);
   plan.initial[0].contact.p.x() += 1;
   plan.initial[1].contact.p.x() += 1;
-  const std::vector<ScenePart> parts = MakeStepScene(cube, plan, 0);
+  const std::vector<ScenePart> parts = MakeStepScene(cube, plan, plan::EntryIndex(0));
   std::vector<std::string> names;
   for (const ScenePart& part : parts) names.push_back(part.name);
   EXPECT_THAT(names,
@@ -47,7 +47,8 @@ TEST(StepSceneTest, HasTheObjectAndEachFingerInMetresInTheObjectsFrame) {
 
 TEST(StepSceneTest, AGlbFileHasAllPartsForWhoeverReadsIt) {
   const object::Polyhedron cube = MakeCube(3);
-  const std::vector<ScenePart> parts = MakeStepScene(cube, HoldCube(cube, 0.01), 0);
+  const std::vector<ScenePart> parts =
+      MakeStepScene(cube, HoldCube(cube, 0.01), plan::EntryIndex(0));
   const std::string bytes = EncodeGlb("a scene", parts);
   EXPECT_EQ(bytes, EncodeGlb("a scene", parts));
   Assimp::Importer importer;
