@@ -1,7 +1,6 @@
 """What validate draws of a plan that fails: a frame for every reason, and the contact sheet."""
 
 import copy
-import json
 import os
 import struct
 import zlib
@@ -61,17 +60,10 @@ def is_red(pixel):
 
 class FailingFrames(ProgramCase):
     program = "validate"
-    good_plan = None
 
     def setUp(self):
         super().setUp()
-        if FailingFrames.good_plan is None:
-            self.assert_done(
-                "--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
-                "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--contacts",
-                "30", "--output", "plan.json", program="plan")
-            FailingFrames.good_plan = json.loads(self.read("plan.json"))
-        self.plan = copy.deepcopy(FailingFrames.good_plan)
+        self.plan = self.plan_of_cube()
 
     def arguments(self, *more):
         self.write_json("plan.json", self.plan)

@@ -5,6 +5,7 @@ project), then unittest's own arguments.
 """
 
 import argparse
+import copy
 import json
 import os
 import subprocess
@@ -24,6 +25,7 @@ class ProgramCase(unittest.TestCase):
     """A folder of its own for each test, and the program's promises as assertions."""
 
     program = ""
+    cube_plan = None
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -45,6 +47,17 @@ class ProgramCase(unittest.TestCase):
 
     def write_json(self, name, value):
         return self.write(name, json.dumps(value))
+
+    def plan_of_cube(self):
+        """A plan that passes: of models/cube.obj between its own grasps, at 20 degrees; planned
+        once."""
+        if ProgramCase.cube_plan is None:
+            self.assert_done(
+                "--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
+                "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--contacts",
+                "30", "--output", "plan.json", program="plan")
+            ProgramCase.cube_plan = json.loads(self.read("plan.json"))
+        return copy.deepcopy(ProgramCase.cube_plan)
 
     def read(self, name):
         with open(self.path(name), "rb") as file:

@@ -55,17 +55,10 @@ def inked_rows(data):
 
 class Validate(ProgramCase):
     program = "validate"
-    good_plan = None
 
     def setUp(self):
         super().setUp()
-        if Validate.good_plan is None:
-            self.assert_done(
-                "--object", self.model("cube.obj"), "--start", self.model("cube.start.json"),
-                "--goal", self.model("cube.goal.json"), "--friction-angle", "20", "--contacts",
-                "30", "--output", "plan.json", program="plan")
-            Validate.good_plan = json.loads(self.read("plan.json"))
-        self.plan = copy.deepcopy(Validate.good_plan)
+        self.plan = self.plan_of_cube()
         self.write_plan()
 
     def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
@@ -997,9 +990,9 @@ class Validate(ProgramCase):
 
     def test_refuses_plans_with_a_missing_member(self):
         checked = 0
-        for name in Validate.good_plan:
+        for name in self.plan_of_cube():
             with self.subTest(name):
-                self.plan = copy.deepcopy(Validate.good_plan)
+                self.plan = self.plan_of_cube()
                 del self.plan[name]
                 self.write_plan()
                 self.refuse(["plan.json"])

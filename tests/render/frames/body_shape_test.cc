@@ -15,12 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-double Volume(const FacetMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles) volume += a.dot(b.cross(c)) / 6;
-  return volume;
-}
-
 TEST(BodyShapeTest, IsTheRealSolidInUnitsOfItsDiameter) {
   const object::Polyhedron block = MakeThinLBlock();
   const BodyShape shape = MakeBodyShape(block);

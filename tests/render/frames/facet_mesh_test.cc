@@ -16,12 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-double Volume(const FacetMesh& mesh) {
-  double volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles) volume += a.dot(b.cross(c)) / 6;
-  return volume;
-}
-
 TEST(FacetMeshTest, TurnedInsideOutHasTheOppositeVolumeAndNormals) {
   const FacetMesh cube = MakeBodyShape(MakeCube(0.03)).surface;
   const FacetMesh turned = TurnInsideOut(cube);

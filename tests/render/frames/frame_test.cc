@@ -212,13 +212,17 @@ TEST(FrameTest, DrawsPolygonsAsPrismsOfTheThicknessAskedFor) {
   EXPECT_EQ(CountDifferent(b, Draw(polygon, {MakePlanarSnapshot()}, 0, usual)), 0);
 }
 
-/// Pixels that are not white within `margin` pixels of the border.
-int CountAtBorder(const Image& image, int margin) {
+/// Frames keep at least this free at their border, pixels: less than their margins are, and more
+/// than what a line of a mark is wide.
+constexpr int kFreeBorder = 5;
+
+/// Pixels that are not white within kFreeBorder of the border.
+int CountAtBorder(const Image& image) {
   int count = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const bool inside =
-          x >= margin && y >= margin && x < image.width - margin && y < image.height - margin;
+      const bool inside = x >= kFreeBorder && y >= kFreeBorder && x < image.width - kFreeBorder &&
+                          y < image.height - kFreeBorder;
       count += inside || IsWhite(PixelAt(image, x, y)) ? 0 : 1;
     }
   }
@@ -245,7 +249,7 @@ TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
         options.view.zoom = zoom;
         FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
         for (const plan::Snapshot& snapshot : snapshots) {
-          const int at_border = CountAtBorder(renderer.Render(snapshot, "caption"), 5);
+          const int at_border = CountAtBorder(renderer.Render(snapshot, "caption"));
           if (zoom == 1) {
             EXPECT_EQ(at_border, 0);
             ++drawn;
@@ -272,7 +276,7 @@ TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
   FrameOptions options = Medium();
   options.view.direction = ViewDirection{0, 0};
   FrameRenderer renderer(plate, 1, kHalfAngle, {snapshot}, options);
-  EXPECT_EQ(CountAtBorder(renderer.Render(snapshot), 5), 0);
+  EXPECT_EQ(CountAtBorder(renderer.Render(snapshot)), 0);
 }
 
 TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {

@@ -49,6 +49,12 @@ object::Polyhedron MakeHoledBlock() {
   return object::Polyhedron::FromSoup(soup, "holed block");
 }
 
+double Volume(const FacetMesh& mesh) {
+  double volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles) volume += a.dot(b.cross(c)) / 6;
+  return volume;
+}
+
 plan::FingerState MakeFinger(int finger, plan::FingerRole role, const Vector3d& contact,
                              const Vector3d& inward_normal) {
   constexpr double kForce = 2;

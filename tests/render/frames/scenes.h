@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "planner/plan/snapshot.h"
+#include "render/frames/facet_mesh.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
@@ -11,6 +12,9 @@ namespace regrasp::render {
 [[nodiscard]] object::Polyhedron MakeThinLBlock();  ///< 0.08 × 0.08 × 0.03, legs 0.035 wide
 [[nodiscard]] object::Polyhedron
 MakeHoledBlock();  ///< 0.08 × 0.06 × 0.03 with a square hole along z
+
+/// Of a closed mesh; negative where it is inside out.
+[[nodiscard]] double Volume(const FacetMesh& mesh);
 
 /// A finger at rest on a body in its first pose, pressing with 2 N at 8° to the normal.
 [[nodiscard]] plan::FingerState MakeFinger(int finger, plan::FingerRole role,
