@@ -70,16 +70,20 @@ std::vector<std::string> LinesWith(std::string_view mark, const std::string& tex
 Descriptor OpenRunFile(const fs::path& folder, const fs::path& file) {
   constexpr mode_t kMode = 0666;
   constexpr int kTries = 1000;
+  int failed = 0;
   for (int tries = 0; tries < kTries; ++tries) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) FailWith(folder, error.value());
+    // EEXIST is what the library says of a folder that went between its mkdir and its look at it.
+    failed = error.value();
+    if (failed == ENOENT || failed == EEXIST) continue;
+    if (failed != 0) FailWith(folder, failed);
     Descriptor opened(open(
         file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, kMode));
     if (opened.get() >= 0) return opened;
     if (errno != ENOENT) FailWith(file, errno);
   }
-  FailWith(file, ENOENT);
+  FailWith(folder, failed == 0 ? ENOENT : failed);
 }
 
 /// Whether the path still leads to the open file: it is removed with its lock held, so that one who

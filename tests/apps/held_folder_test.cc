@@ -139,7 +139,7 @@ TEST_F(HeldFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
 
 TEST_F(HeldFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
   constexpr int kProcesses = 4;
-  constexpr int kTurns = 50;
+  constexpr int kTurns = 200;
   const auto take_turns = [&] {
     int turns = 0;
     for (int i = 0; i < kTurns; ++i) {
@@ -188,6 +188,8 @@ TEST_F(HeldFolderTest, AFolderThatCannotBeMadeIsNamed) {
   WriteFile(folder_ / "file", "");
   EXPECT_THROW(HeldFolder(folder_ / "file" / "out", kAtOnce), EnvironmentError);
   EXPECT_THROW(HeldFolder(folder_ / "file", kAtOnce), EnvironmentError);
+  fs::create_symlink("nowhere", folder_ / "link");
+  EXPECT_THROW(HeldFolder(folder_ / "link", kAtOnce), EnvironmentError);
 }
 
 }  // namespace
