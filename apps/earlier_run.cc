@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/batch/plan_library.h"
 #include "apps/batch/report_summary.h"
 #include "apps/frame_files.h"
 #include "apps/run_digest.h"
@@ -109,9 +110,15 @@ std::set<std::string> OwnResults(const HeldFolder& folder) {
 }
 
 std::set<std::string> OwnSummary(const HeldFolder& folder) {
-  const bool ours = folder.left_behind().contains(kSummaryName) ||
-                    Holds(TextOf(folder.path() / kSummaryName), "regrasp-summary");
-  return ours ? std::set<std::string>{kSummaryName} : std::set<std::string>{};
+  std::set<std::string> own;
+  for (const char* name : {kSummaryName, kIndexName}) {
+    if (folder.left_behind().contains(name)) own.insert(name);
+  }
+  const std::string summary = TextOf(folder.path() / kSummaryName);
+  if (!Holds(summary, "regrasp-summary")) return own;
+  own.insert(kSummaryName);
+  if (Holds(summary, kIndexName)) own.insert(kIndexName);
+  return own;
 }
 
 void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,

@@ -9,9 +9,6 @@
 
 namespace regrasp::apps {
 
-/// The summary of a batch, beside the folders of its plans.
-inline constexpr char kSummaryName[] = "summary.json";
-
 /// Whether the folder of a plan holds the complete results of an earlier run that would come out
 /// the same: a report with this run's digest, and all files that it names, each of them and the
 /// report itself to the byte as they were written.
@@ -21,7 +18,7 @@ inline constexpr char kSummaryName[] = "summary.json";
 /// files that it names, and what a validation that was killed had announced.
 [[nodiscard]] std::set<std::string> OwnResults(const HeldFolder& folder);
 
-/// The same of a batch: its summary, or nothing.
+/// The same of a batch: its summary, and its page where the summary names one.
 [[nodiscard]] std::set<std::string> OwnSummary(const HeldFolder& folder);
 
 /// Makes sure that files can be written which may replace `own` ones and no others.

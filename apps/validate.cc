@@ -19,6 +19,6 @@ int main(int argc, char** argv) {
   options.AddTo(app);
   return RunProgram(app, argc, argv, [&] {
     options.Finish(app);
-    return options.for_batch() ? RunBatch(options) : RunValidation(options);
+    return options.for_batch() ? RunBatch(options) : RunValidation(options).exit_code;
   });
 }

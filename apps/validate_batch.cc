@@ -9,6 +9,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "apps/batch/batch_page.h"
 #include "apps/batch/batch_summary.h"
 #include "apps/batch/plan_library.h"
 #include "apps/batch/process_pool.h"
@@ -37,7 +38,7 @@ constexpr int kSignalled = 128;
 /// Of a child: the earlier run's report stays. Beyond every ExitCode.
 constexpr int kExitKept = 4;
 
-/// What a child does.
+/// What a child does; it prints how long each entry took.
 int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path& folder) {
   options.plan_path = plan.path.string();
   options.out = (folder / plan.name).string();
@@ -49,8 +50,18 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
       HeldFolder results(options.out);
       RemoveEarlierRun(results, OwnResults(results));
     }
-    return RunValidation(options);
+    const ValidationRun run = RunValidation(options);
+    for (const double seconds : run.entry_seconds) std::cout << seconds << ' ';
+    return run.exit_code;
   });
+}
+
+/// What a child printed: the times of the entries that it replayed.
+std::vector<double> TimesIn(const std::string& output) {
+  std::istringstream stream(output);
+  std::vector<double> times;
+  for (double seconds = 0; stream >> seconds;) times.push_back(seconds);
+  return times;
 }
 
 /// The lines that a child wrote, without the program's name.
@@ -95,8 +106,9 @@ PlanLibrary FindLibrary(const ValidateOptions& options) {
   const fs::path folder = options.Folder();
   OutputFiles outputs;
   outputs.Add("--junit", options.junit);
-  outputs.folders.push_back(
-      {"--out", folder, [](const std::string& name) { return name == kSummaryName; }});
+  outputs.folders.push_back({"--out", folder, [](const std::string& name) {
+                               return name == kSummaryName || name == kIndexName;
+                             }});
   for (const LibraryPlan& plan : library.plans) {
     outputs.folders.push_back({"--out", folder / plan.name, IsValidationFile});
   }
@@ -137,11 +149,13 @@ class Batch {
     progress_.Clear();
     if (stop_ != 0) return kSignalled + stop_;
     ExpectResults();
+    WriteFile(folder_.path() / kIndexName, FormatBatchPage(summary_));
     WriteFile(folder_.path() / kSummaryName, FormatSummaryJson(summary_));
     if (!options_.junit.empty()) WriteFile(options_.junit, FormatSummaryJunit(summary_));
     if (!options_.quiet) {
-      PrintTable(FormatSummaryTable(summary_), (folder_.path() / kSummaryName).string() +
-                                                   ", and a folder for each plan beside it");
+      PrintTable(FormatSummaryTable(summary_), (folder_.path() / kIndexName).string() + ", " +
+                                                   kSummaryName +
+                                                   ", and a folder for each plan beside them");
     }
     return static_cast<int>(summary_.verdict());
   }
@@ -153,9 +167,9 @@ class Batch {
   /// A summary never stands beside the results of another run.
   void PrepareFolder() {
     const std::set<std::string> own = OwnSummary(folder_);
-    ExpectFree(folder_, own, {kSummaryName});
+    ExpectFree(folder_, own, {kSummaryName, kIndexName});
     RemoveEarlierRun(folder_, own);
-    folder_.Announce({kSummaryName});
+    folder_.Announce({kSummaryName, kIndexName});
   }
 
   void ShowProgress() {
@@ -168,6 +182,8 @@ class Batch {
 
   void Take(int index, const ChildExit& exit) {
     PlanOutcome& outcome = summary_.plans[index];
+    outcome.seconds = exit.seconds;
+    outcome.entry_seconds = TimesIn(exit.output);
     std::vector<std::string> lines = LinesOf(exit.errors);
     for (const std::string& line : lines) {
       if (!line.starts_with(kWarning)) outcome.message = line;

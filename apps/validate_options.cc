@@ -76,7 +76,7 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
   };
   add("--out", options.out,
       "Folder for report and frames (default out/<plan or grasp name>); of several plans a folder "
-      "for each in it, and summary.json (default out/<folder name> or out/batch)")
+      "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
                "The report also holds, for every grasp and all along every align, contact forces "

@@ -17,6 +17,7 @@
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/stopwatch.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/reading.h"
 #include "planner/plan/plan_io.h"
@@ -43,8 +44,11 @@ struct Task {
   std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
 };
 
-/// States of the replay, as far as someone asked for them.
+/// What is kept of the replay while it runs; states as far as someone asked for them.
 struct Samples {
+  Stopwatch run;    ///< since the program began
+  Stopwatch entry;  ///< since the last entry was done
+  std::vector<double> entry_seconds;
   std::vector<plan::Snapshot> trajectory;
   std::vector<plan::Snapshot> animation;
 };
@@ -119,7 +123,8 @@ Task ReadTask(const ValidateOptions& options) {
 sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& progress,
                                  Samples& samples) {
   sim::ReplayObserver observer;
-  observer.on_progress = [&progress](int done, int total) {
+  observer.on_progress = [&progress, &samples](int done, int total) {
+    samples.entry_seconds.push_back(samples.entry.Lap());
     progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
   };
   const bool trajectory = !options.trajectory.empty();
@@ -265,15 +270,21 @@ std::vector<report::FileDigest> DigestFiles(const std::filesystem::path& folder,
   return files;
 }
 
+void WriteJunit(const ValidateOptions& options, const report::Report& report, Samples& samples) {
+  if (options.junit.empty()) return;
+  report::JunitSuite suite = report::MakeJunitSuite(report);
+  suite.seconds = samples.run.Lap();
+  report::SetCaseTimes(samples.entry_seconds, suite);
+  WriteFile(options.junit, report::FormatJunit({suite}));
+}
+
 void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
-                  const Task& task, const Samples& samples, HeldFolder& folder,
-                  report::Report& report) {
+                  const Task& task, Samples& samples, HeldFolder& folder, report::Report& report) {
   const std::vector<std::string> names = NamesOfResults(options, task);
   RemoveEarlierRun(folder, OwnResults(folder));
   folder.Announce(names);
   WritePictures(options, frame, task, samples, folder.path(), report);
-  if (!options.junit.empty())
-    WriteFile(options.junit, report::FormatJunit({report::MakeJunitSuite(report)}));
+  WriteJunit(options, report, samples);
   if (!options.trajectory.empty()) {
     WriteFile(options.trajectory, sim::FormatTrajectory(samples.trajectory));
   }
@@ -304,15 +315,15 @@ std::string FilesText(const std::filesystem::path& folder, const report::Report&
 
 }  // namespace
 
-int RunValidation(const ValidateOptions& options) {
+ValidationRun RunValidation(const ValidateOptions& options) {
+  Samples samples;
   CheckOutputs(options);
   const Task task = ReadTask(options);
-  if (!options.verify.empty()) return Verify(options, task);
+  if (!options.verify.empty()) return {Verify(options, task), {}};
   const render::FrameOptions frame = FrameOptionsFor(options, task);
   HeldFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
   const object::Object& object = *task.object.object;
-  Samples samples;
   report::Report report = Check(options, task, samples);
   report.object_file = task.object.file;
   report.object_sha256 = task.object.sha256;
@@ -342,7 +353,7 @@ int RunValidation(const ValidateOptions& options) {
     PrintError(kValidateName,
                failure->what + ": " + failure->why + "; what would mend it: " + failure->mend);
   }
-  return report.passed() ? kExitDone : kExitNegative;
+  return {report.passed() ? kExitDone : kExitNegative, samples.entry_seconds};
 }
 
 }  // namespace regrasp::apps

@@ -2,14 +2,20 @@
 
 #include <algorithm>
 
+#include "planner/base/number.h"
 #include "report/markup.h"
 
 namespace regrasp::report {
 
 namespace {
 
+/// Seconds to a thousandth, as JUnit has them.
+constexpr int kTimeDecimals = 3;
+
 Element MakeCase(const std::string& suite, const JunitCase& result) {
-  Element element("testcase", {{"classname", suite}, {"name", result.name}});
+  Element element("testcase", {{"classname", suite},
+                               {"name", result.name},
+                               {"time", FormatFixed(result.seconds, kTimeDecimals)}});
   const Attributes message = {{"message", result.message}};
   switch (result.outcome) {
     case JunitOutcome::kPassed:
@@ -38,7 +44,8 @@ Element MakeSuite(const JunitSuite& suite) {
                   {"tests", std::to_string(suite.cases.size())},
                   {"failures", count(JunitOutcome::kFailed)},
                   {"errors", count(JunitOutcome::kError)},
-                  {"skipped", count(JunitOutcome::kSkipped)}},
+                  {"skipped", count(JunitOutcome::kSkipped)},
+                  {"time", FormatFixed(suite.seconds, kTimeDecimals)}},
                  cases);
 }
 
@@ -62,6 +69,11 @@ JunitSuite MakeJunitSuite(const Report& report) {
                            JunitText(step.detail(), step.frame)});
   }
   return suite;
+}
+
+void SetCaseTimes(const std::vector<double>& seconds, JunitSuite& suite) {
+  const std::size_t count = std::min(seconds.size(), suite.cases.size());
+  for (std::size_t i = 0; i < count; ++i) suite.cases[i].seconds = seconds[i];
 }
 
 std::string FormatJunit(const std::vector<JunitSuite>& suites) {

@@ -15,12 +15,14 @@ struct JunitCase {
   JunitOutcome outcome = JunitOutcome::kPassed;
   std::string message;  ///< of a failure or an error, in a word or a line
   std::string text;     ///< of a failure, for people
+  double seconds = 0;   ///< that it took; 0 where it was not carried out
 };
 
 /// The cases of one plan.
 struct JunitSuite {
   std::string name;
   std::vector<JunitCase> cases;
+  double seconds = 0;  ///< that all of it took, pictures and files too
 };
 
 /// What a case says for people: the detail, and the picture where there is one.
@@ -30,10 +32,14 @@ struct JunitSuite {
 /// Of an entry's verdict, "pass", "fail" or "skipped".
 [[nodiscard]] JunitOutcome OutcomeOf(std::string_view verdict);
 
-/// A suite named after the plan with a case for each entry of its report.
+/// A suite named after the plan with a case for each entry of its report; without times.
 [[nodiscard]] JunitSuite MakeJunitSuite(const Report& report);
 
-/// JUnit XML for CI servers.
+/// How long the cases of a suite took, in their order; those at the end that were not carried out
+/// may be missing.
+void SetCaseTimes(const std::vector<double>& seconds, JunitSuite& suite);
+
+/// JUnit XML for CI servers. Its times are the only thing in it that differs from run to run.
 [[nodiscard]] std::string FormatJunit(const std::vector<JunitSuite>& suites);
 
 }  // namespace regrasp::report

@@ -171,7 +171,8 @@ std::string FormatReportJson(const Report& report) {
                 {{"file", report.object_file},
                  {"sha256", report.object_sha256},
                  {"scale", report.scale},
-                 {"dimension", report.dimension}}},
+                 {"dimension", report.dimension},
+                 {"measures", report.measures}}},
                {"plan", MakePlan(report)},
                {"settings", MakeSettings(report)}};
   if (report.run) json["run"] = RunJson(*report.run);

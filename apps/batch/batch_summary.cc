@@ -63,22 +63,15 @@ TextRow MakeRow(const PlanOutcome& plan) {
 }
 
 std::string FormatCounts(const BatchSummary& summary) {
-  std::string text =
-      std::to_string(summary.plans.size()) + (summary.plans.size() == 1 ? " plan:" : " plans:");
-  std::string separator = " ";
-  for (const PlanVerdict verdict :
-       {PlanVerdict::kPass, PlanVerdict::kFail, PlanVerdict::kBadInput, PlanVerdict::kError}) {
-    text += separator + std::to_string(Count(summary, verdict)) + " " +
-            std::string(PlanVerdictName(verdict));
-    separator = ", ";
-  }
+  std::string text = std::to_string(summary.plans.size()) +
+                     (summary.plans.size() == 1 ? " plan: " : " plans: ") + CountsText(summary);
   const long kept = std::ranges::count(summary.plans, true, &PlanOutcome::kept);
   if (kept > 0) text += "; " + std::to_string(kept) + " kept from an earlier run";
   return text + "\n";
 }
 
 report::JunitSuite MakeSuite(const PlanOutcome& plan) {
-  report::JunitSuite suite{plan.file, {}};
+  report::JunitSuite suite{plan.file, {}, plan.seconds};
   if (!plan.report) {
     suite.cases.push_back({"plan", report::JunitOutcome::kError,
                            std::string(PlanVerdictName(plan.verdict)), plan.message});
@@ -91,6 +84,7 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan) {
                            report::OutcomeOf(entry.verdict), entry.reason,
                            report::JunitText(entry.detail, picture)});
   }
+  report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;
 }
 
@@ -110,6 +104,16 @@ std::string_view PlanVerdictName(PlanVerdict verdict) {
   return "";
 }
 
+std::string CountsText(const BatchSummary& summary) {
+  std::string text;
+  for (const PlanVerdict verdict :
+       {PlanVerdict::kPass, PlanVerdict::kFail, PlanVerdict::kBadInput, PlanVerdict::kError}) {
+    text += (text.empty() ? "" : ", ") + std::to_string(Count(summary, verdict)) + " " +
+            std::string(PlanVerdictName(verdict));
+  }
+  return text;
+}
+
 PlanVerdict BatchSummary::verdict() const {
   PlanVerdict worst = PlanVerdict::kPass;
   for (const PlanOutcome& plan : plans) worst = std::max(worst, plan.verdict);
@@ -126,6 +130,7 @@ std::string FormatSummaryJson(const BatchSummary& summary) {
                  {"fail", Count(summary, PlanVerdict::kFail)},
                  {"bad-input", Count(summary, PlanVerdict::kBadInput)},
                  {"error", Count(summary, PlanVerdict::kError)}}},
+               {"page", kIndexName},
                {"plans", Json::array()},
                {"skipped", Json::array()}};
   for (const PlanOutcome& plan : summary.plans) json["plans"].push_back(PlanJson(plan));

@@ -24,6 +24,8 @@ struct PlanOutcome {
   std::optional<ReportSummary> report;  ///< of a pass or a fail
   std::string message;                  ///< of bad input or an error, one line
   bool kept = false;                    ///< its report is of an earlier run
+  double seconds = 0;                   ///< that this run took for it
+  std::vector<double> entry_seconds;    ///< of those that it replayed
 };
 
 /// What a batch says of all its plans, in their order.
@@ -34,6 +36,9 @@ struct BatchSummary {
   /// The worst verdict.
   [[nodiscard]] PlanVerdict verdict() const;
 };
+
+/// "31 pass, 2 fail, 0 bad-input, 0 error".
+[[nodiscard]] std::string CountsText(const BatchSummary& summary);
 
 /// The text of summary.json. The same plans give the same bytes, whatever was kept and however
 /// many ran at once.

@@ -63,8 +63,9 @@ void AddFolder(const fs::path& folder, PlanLibrary& library) {
 void CheckNames(const PlanLibrary& library) {
   std::map<std::string, fs::path> seen;
   for (const LibraryPlan& plan : library.plans) {
-    // These two are files beside the folders.
-    const bool taken = plan.name == "summary.json" || plan.name == ".regrasp-run";
+    // These are files beside the folders.
+    const bool taken =
+        plan.name == kSummaryName || plan.name == kIndexName || plan.name == ".regrasp-run";
     if (plan.name.empty() || plan.name == "." || plan.name == ".." || taken) {
       throw InputError(plan.path.string() + ": the name of a plan names the folder of its results");
     }

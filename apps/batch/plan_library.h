@@ -16,6 +16,10 @@ struct SkippedFile {
   std::string why;   ///< "is a regrasp-grasp file"
 };
 
+/// Files beside the folders of the plans: the summary of a batch, and its page.
+inline constexpr char kSummaryName[] = "summary.json";
+inline constexpr char kIndexName[] = "index.html";
+
 /// The plans that a batch goes through.
 struct PlanLibrary {
   std::vector<LibraryPlan> plans;

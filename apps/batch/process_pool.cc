@@ -89,13 +89,31 @@ class SignalEvents {
   Descriptor events_;
 };
 
+/// What a child writes on one of its standard streams.
+class Stream {
+ public:
+  Stream();
+  [[nodiscard]] int in() const { return in_.get(); }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// In the child: takes the place of one of its standard streams.
+  void Replace(int standard) const { dup2(out_.get(), standard); }
+  /// In the parent, after the fork.
+  void CloseOut() { out_ = Descriptor(-1); }
+  /// Takes what is there now.
+  void Drain();
+
+ private:
+  Descriptor in_, out_;
+  std::string text_;
+};
+
 struct Child {
   int index;
   pid_t process;
-  Descriptor errors;
+  Stream output, errors;
+  Clock::time_point begin;
   Clock::duration left;  ///< until the time limit
   bool timed_out = false;
-  std::string text;
 };
 
 class Pool {
@@ -123,13 +141,12 @@ class Pool {
 
  private:
   void Start(int index);
-  [[noreturn]] void RunChild(int index, pid_t parent, int errors);
+  [[noreturn]] void RunChild(int index, pid_t parent, const Stream& output, const Stream& errors);
   void Wait();
   void CountTime();
   void KillLate();
   void Reap();
   void KillAll();
-  static void Drain(Child& child);
 
   const PoolOptions& options_;
   const std::function<int(int)>& work_;
@@ -139,30 +156,52 @@ class Pool {
   std::vector<Child> children_;
 };
 
-void Pool::Start(int index) {
+Stream::Stream() : in_(-1), out_(-1) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) FailWith("no pipe to a child process");
-  Descriptor in(ends[0]);
-  Descriptor out(ends[1]);
-  fcntl(in.get(), F_SETFL, O_NONBLOCK);
+  in_ = Descriptor(ends[0]);
+  out_ = Descriptor(ends[1]);
+  fcntl(in(), F_SETFL, O_NONBLOCK);
+}
+
+void Stream::Drain() {
+  std::array<char, 1 << 12> piece;
+  while (in() >= 0) {
+    const ssize_t count = read(in(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return;
+    if (count == 0) {
+      in_ = Descriptor(-1);
+      return;
+    }
+    const std::size_t left = kLongestText - text_.size();
+    text_.append(piece.data(), std::min(left, static_cast<std::size_t>(count)));
+  }
+}
+
+void DrainAll(Child& child) {
+  child.output.Drain();
+  child.errors.Drain();
+}
+
+void Pool::Start(int index) {
+  Stream output, errors;
   // What is buffered would be written twice.
   std::cout.flush();
   std::fflush(nullptr);
   const pid_t parent = getpid();
   const pid_t process = fork();
   if (process < 0) FailWith("no child process");
-  if (process == 0) RunChild(index, parent, out.get());
+  if (process == 0) RunChild(index, parent, output, errors);
+  output.CloseOut();
+  errors.CloseOut();
   CountTime();  // what has passed is not this child's
   const auto limit = options_.time_limit.value_or(std::chrono::duration<double>::zero());
-  children_.push_back({index,
-                       process,
-                       std::move(in),
-                       std::chrono::duration_cast<Clock::duration>(limit),
-                       false,
-                       {}});
+  children_.push_back({index, process, std::move(output), std::move(errors), last_look_,
+                       std::chrono::duration_cast<Clock::duration>(limit)});
 }
 
-void Pool::RunChild(int index, pid_t parent, int errors) {
+void Pool::RunChild(int index, pid_t parent, const Stream& output, const Stream& errors) {
   signals_.Restore();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it died before it could have told
@@ -170,12 +209,12 @@ void Pool::RunChild(int index, pid_t parent, int errors) {
   setrlimit(RLIMIT_CORE, &no_core);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDIN_FILENO);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(errors, STDERR_FILENO);
-  close(errors);
+  output.Replace(STDOUT_FILENO);
+  errors.Replace(STDERR_FILENO);
   int code = 0;
   // Nothing is caught that the code before the fork would catch: it is no longer in charge.
   [&]() noexcept { code = work_(index); }();
+  std::cout.flush();
   std::cerr.flush();
   // Exit handlers and buffers belong to the parent.
   _exit(code);
@@ -186,7 +225,9 @@ void Pool::Wait() {
   Clock::duration longest = kLongestWait;
   for (const Child& child : children_) {
     // A closed pipe is always ready; its child is then waited for by signal.
-    if (child.errors.get() >= 0) waited.push_back({child.errors.get(), POLLIN, 0});
+    for (const Stream* stream : {&child.output, &child.errors}) {
+      if (stream->in() >= 0) waited.push_back({stream->in(), POLLIN, 0});
+    }
     if (!child.timed_out) longest = std::min(longest, child.left);
   }
   int milliseconds = -1;
@@ -195,22 +236,7 @@ void Pool::Wait() {
     milliseconds = std::max(0, static_cast<int>(left.count()));
   }
   poll(waited.data(), waited.size(), milliseconds);
-  for (Child& child : children_) Drain(child);
-}
-
-void Pool::Drain(Child& child) {
-  std::array<char, 1 << 12> piece;
-  while (child.errors.get() >= 0) {
-    const ssize_t count = read(child.errors.get(), piece.data(), piece.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return;
-    if (count == 0) {
-      child.errors = Descriptor(-1);
-      return;
-    }
-    const std::size_t left = kLongestErrors - child.text.size();
-    child.text.append(piece.data(), std::min(left, static_cast<std::size_t>(count)));
-  }
+  for (Child& child : children_) DrainAll(child);
 }
 
 void Pool::CountTime() {
@@ -238,7 +264,7 @@ void Pool::Reap() {
     }
     Child child = std::move(children_[i]);
     children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
-    Drain(child);
+    DrainAll(child);
     ChildExit exit;
     exit.kind = WIFEXITED(status) ? ChildExit::Kind::kExited : ChildExit::Kind::kSignalled;
     exit.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
@@ -246,7 +272,9 @@ void Pool::Reap() {
     if (child.timed_out && exit.kind == ChildExit::Kind::kSignalled) {
       exit.kind = ChildExit::Kind::kTimedOut;
     }
-    exit.errors = std::move(child.text);
+    exit.output = child.output.text();
+    exit.errors = child.errors.text();
+    exit.seconds = std::chrono::duration<double>(last_look_ - child.begin).count();
     on_exit_(child.index, std::move(exit));
   }
 }

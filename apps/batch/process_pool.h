@@ -16,11 +16,13 @@ struct ChildExit {
   };
   Kind kind = Kind::kExited;
   int code = 0;        ///< exit code, or the signal that ended it
-  std::string errors;  ///< what it wrote on standard error, at most kLongestErrors bytes
+  std::string output;  ///< what it wrote on standard output, at most kLongestText bytes
+  std::string errors;  ///< on standard error, likewise
+  double seconds = 0;  ///< that it took, by the clock
 };
 
 /// More is read, so that the child can go on, and thrown away.
-inline constexpr std::size_t kLongestErrors = std::size_t{1} << 16;
+inline constexpr std::size_t kLongestText = std::size_t{1} << 16;
 
 struct PoolOptions {
   using Clock = std::chrono::steady_clock;
@@ -35,8 +37,8 @@ struct PoolOptions {
 ///
 /// What a child does to itself (a crash, an endless loop, memory that runs out) ends with it. A
 /// child's exit code is what `work` returns; where an exception leaves `work`, it aborts. Children
-/// read nothing from standard input, print nothing on standard output, leave no core file and run
-/// no destructor or exit handler of this process. They die when this process does, however it dies.
+/// read nothing from standard input, leave no core file and run no destructor or exit handler of
+/// this process. They die when this process does, however it dies.
 ///
 /// SIGINT, SIGTERM and SIGHUP stop all children, and then this function.
 /// @returns the signal that stopped it, which the caller owes its usual effect; 0 where all ended.

@@ -21,6 +21,19 @@ ReportSummary::Entry ReadEntry(const plan::JsonReader& step) {
           TextOrNothing(step, "detail"), TextOrNothing(step, "frame")};
 }
 
+void ReadSubject(const plan::JsonReader& root, ReportSummary& summary) {
+  if (root.Has("object")) {
+    summary.object = TextOrNothing(root.Member("object"), "file");
+    summary.size = TextOrNothing(root.Member("object"), "measures");
+  }
+  if (root.Has("plan") && !root.Member("plan").IsNull()) {
+    summary.planner = TextOrNothing(root.Member("plan"), "planner");
+  }
+  if (root.Has("settings")) {
+    summary.half_angle_deg = root.Member("settings").Member("friction_half_angle_deg").Number();
+  }
+}
+
 void ReadRun(const plan::JsonReader& run, ReportSummary& summary) {
   summary.run = run.Member("sha256").String();
   if (!run.Has("files")) return;
@@ -42,6 +55,7 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   root.ExpectFormat("regrasp-report");
   ReportSummary summary;
   summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
+  ReadSubject(root, summary);
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();

@@ -18,6 +18,10 @@ struct ReportSummary {
     std::string frame;           ///< empty where there is none
   };
   bool passed = false;
+  std::string object;                    ///< the name of its file
+  std::string size;                      ///< "10.4 cm across, 216 g"
+  std::string planner;                   ///< empty where none is told
+  std::optional<double> half_angle_deg;  ///< friction
   std::string run;  ///< the digest of what the report came from; empty where it gives none
   std::vector<report::FileDigest> files;  ///< the other results of its run
   std::vector<Entry> entries;

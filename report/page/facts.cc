@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/base/angle.h"
+#include "report/page/fact_list.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
 #include "report/squeeze_text.h"
@@ -16,24 +17,8 @@ namespace {
 /// Significant, as NumberText has.
 constexpr int kQualityDigits = 3;
 
-class FactList {
- public:
-  void Add(std::string_view name, std::string_view value) { Add(name, value, {}); }
-  void AddDigest(std::string_view name, std::string_view digest) {
-    Add(name, digest, {{"class", "digest"}});
-  }
-  void AddCommand(std::string_view command) {
-    Add("Command, but for where results go", command, {{"class", "digest"}});
-  }
-  [[nodiscard]] Element Make() const { return Element("dl", {{"class", "facts"}}, facts_); }
-
- private:
-  void Add(std::string_view name, std::string_view value, const Attributes& attributes) {
-    facts_.emplace_back("div", attributes, Element("dt", {}, name), Element("dd", {}, value));
-  }
-
-  std::vector<Element> facts_;
-};
+/// The style of values that need a line of their own.
+constexpr char kLong[] = "digest";
 
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
@@ -78,10 +63,10 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   if (report.settings) AddSettings(*report.settings, facts);
   if (report.run && !report.run->program.empty()) {
     facts.Add("Program", report.run->program);
-    facts.AddCommand(report.run->command);
+    facts.Add("Command, but for where results go", report.run->command, kLong);
   }
-  facts.AddDigest("Object, SHA-256", report.object_sha256);
-  facts.AddDigest(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256);
+  facts.Add("Object, SHA-256", report.object_sha256, kLong);
+  facts.Add(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256, kLong);
   return facts.Make();
 }
 

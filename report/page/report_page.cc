@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
-#include "page_style.h"
 #include "planner/base/angle.h"
 #include "render/picture/caption.h"
 #include "render/picture/fault_text.h"
 #include "report/page/data_uri.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
+#include "report/page/html_page.h"
 #include "report/page/quantity.h"
 #include "report/page/step_measures.h"
 #include "report/page/step_plot.h"
@@ -23,9 +23,6 @@ namespace regrasp::report {
 
 namespace {
 
-/// The page may load nothing and run nothing, whatever stands in it.
-constexpr char kPolicy[] = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
-
 class Page {
  public:
   Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures)
@@ -36,46 +33,21 @@ class Page {
   }
 
   [[nodiscard]] std::string Format() const {
-    const Attributes language = {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}};
-    const std::vector<Element> parts = {Head(), Element("body", {}, Parts{Main()})};
-    return "<!DOCTYPE html>\n" + Element("html", language, parts).Format() + "\n";
+    Parts all;
+    for (const Parts& parts : {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)},
+                               Plots(), MakeStepTable(report_, plan_, measures_, Anchors()),
+                               MakeFingerTable(report_), MakeFindings(report_), Frames()}) {
+      all.insert(all.end(), parts.begin(), parts.end());
+    }
+    return FormatHtmlPage((report_.passed() ? "Pass: " : "Fail: ") + report_.plan_file, all);
   }
 
  private:
   using Parts = std::vector<Element>;
 
-  [[nodiscard]] Element Head() const {
-    Element style("style");
-    style.AddVerbatim(kPageStyle);
-    return Element(
-        "head", {},
-        Parts{Element("meta", {{"charset", "utf-8"}}),
-              Element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", kPolicy}}),
-              Element("meta",
-                      {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}),
-              Element("title", {}, Verdict() + ": " + Subject()), style});
-  }
-
-  [[nodiscard]] Element Main() const {
-    Element main("main");
-    for (const Parts& parts : {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)},
-                               Plots(), MakeStepTable(report_, plan_, measures_, Anchors()),
-                               MakeFingerTable(report_), MakeFindings(report_), Frames()}) {
-      main.Add(parts);
-    }
-    return main;
-  }
-
-  [[nodiscard]] std::string Subject() const { return report_.plan_file; }
-  [[nodiscard]] std::string Verdict() const { return report_.passed() ? "Pass" : "Fail"; }
-
   [[nodiscard]] Element Header() const {
-    const char* kind = report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan";
-    const char* style = report_.passed() ? "verdict pass" : "verdict fail";
-    return Element("header", {},
-                   Parts{Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, Subject()),
-                         Element("p", {{"class", style}}, Element("strong", {}, Verdict()), " ",
-                                 Statement())});
+    return PageHeader(report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan",
+                      report_.plan_file, report_.passed(), Statement());
   }
 
   /// What the verdict says, in words.

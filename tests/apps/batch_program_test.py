@@ -4,10 +4,12 @@ import errno
 import fcntl
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import time
+import urllib.parse
 import xml.etree.ElementTree as ElementTree
 
 import jsonschema
@@ -60,6 +62,11 @@ def tree(folder):
             with open(path, "rb") as file:
                 found[os.path.relpath(path, folder)] = file.read()
     return found
+
+
+def without_times(junit):
+    """What of a JUnit file is the same in every run."""
+    return re.sub(rb' time="\d+\.\d{3}"', b"", junit)
 
 
 def without_weak(errors):
@@ -171,13 +178,15 @@ class Batch(ProgramCase):
         one = self.run_batch(0, "--jobs", "1", "--junit", "one.xml", out="one")
         many = self.run_batch(0, "--jobs", "7", "--junit", "many.xml", out="many")
         self.assertEqual(one.stdout, many.stdout.replace("files: many/", "files: one/"))
-        self.assertEqual(self.read("one.xml"), self.read("many.xml"))
+        self.assertEqual(without_times(self.read("one.xml")),
+                         without_times(self.read("many.xml")))
         self.assertEqual(tree(self.path("one")), tree(self.path("many")))
         lines = one.stdout.splitlines()
         self.assertEqual(len(lines), len(names) + 3)
         self.assertEqual([line.split()[0] for line in lines[1:-2]], [name[:-5] for name in names])
         self.assertEqual(lines[-2],
-                         "files: one/summary.json, and a folder for each plan beside it")
+                         "files: one/index.html, summary.json, and a folder for each plan beside "
+                         "them")
         self.assertEqual(lines[-1],
                          f"{len(names)} plans: {len(names)} pass, 0 fail, 0 bad-input, 0 error")
         summary = self.summary("one")
@@ -211,6 +220,70 @@ class Batch(ProgramCase):
         self.assertEqual(suites["weak.json"].get("failures"), "1")
         self.assertEqual(suites["broken.json"].get("errors"), "1")
         self.assertEqual(suites["square_01.json"].get("failures"), "0")
+        self.assertNotIn(b" time=", without_times(self.read("junit.xml")))
+
+    def times(self, *more):
+        """Of square_01: that of its suite and those of its cases, as JUnit tells them."""
+        self.run_batch(0, "--junit", "junit.xml", *more)
+        suite = ElementTree.parse(self.path("junit.xml")).getroot()[0]
+        return float(suite.get("time")), [float(case.get("time")) for case in suite]
+
+    def test_junit_has_the_times_of_what_this_run_did(self):
+        self.use(["square_01.json"])
+        suite, cases = self.times()
+        self.assertGreater(len(cases), 1)
+        self.assertGreater(sum(cases), 0)
+        self.assertGreaterEqual(suite, sum(cases) - 0.001 * len(cases))  # they are rounded
+        # Nothing is replayed of what is kept.
+        self.assertEqual(set(self.times()[1]), {0})
+        self.assertGreater(sum(self.times("--fresh")[1]), 0)
+
+    def links(self):
+        """Of index.html: where its pictures are, and where its links lead."""
+        page = ElementTree.fromstring(self.read("result/index.html").split(b"\n", 1)[1])
+        space = "{http://www.w3.org/1999/xhtml}"
+        return ([urllib.parse.unquote(image.get("src")) for image in page.iter(space + "img")],
+                [urllib.parse.unquote(link.get("href")) for link in page.iter(space + "a")])
+
+    def test_the_page_of_all_plans_shows_what_failed_first_and_every_link_leads_to_a_file(self):
+        self.use_few()
+        os.rename(self.path("plans/square_01.json"), self.path("plans/a: 100% #1?<b>.json"))
+        self.write("plans/broken.json", "{")
+        arguments = ["--object", program_case.ARGUMENTS.source + "/models", "--plan", "plans",
+                     "--out", "result", "--size", "64x48"]
+        for kept in ("", "4 kept"):
+            done = self.run_program(*arguments)
+            self.assertIn(kept, done.stdout)
+            pictures, links = self.links()
+            self.assertEqual(pictures, ["weak/000_hold.png"] + [
+                name + "/overview.png"
+                for name in ("a: 100% #1?<b>", "polygon15_03", "triangle_00")])
+            self.assertEqual(len(links), 2 * 4)
+            for file in pictures + links:
+                self.assertTrue(os.path.isfile(self.path("result/" + file)), file)
+            page = self.read("result/index.html").decode()
+            self.assertIn("3 pass, 1 fail, 1 bad-input, 0 error.", page)
+            self.assertLess(page.index(">broken<"), page.index(">weak<"))
+            self.assertLess(page.index(">weak<"), page.index(">a: 100% #1?&lt;b&gt;<"))
+
+    def test_a_page_of_others_stays_and_an_own_one_is_replaced(self):
+        self.use(["square_01.json"])
+        os.mkdir(self.path("result"))
+        self.write("result/index.html", "mine")
+        done = self.run_program(*self.arguments())
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("result/index.html: is in the way", done.stderr)
+        self.assertEqual(tree(self.path("result")), {"index.html": b"mine"})
+        os.remove(self.path("result/index.html"))
+        self.run_batch(0)
+        page = self.read("result/index.html")
+        self.write("result/index.html", page[:-300])
+        self.run_batch(0)
+        self.assertEqual(self.read("result/index.html"), page)
+        # Without the summary that names it, it is nobody's.
+        os.remove(self.path("result/summary.json"))
+        self.assertEqual(self.run_program(*self.arguments()).returncode, 2)
+        self.assertEqual(self.read("result/index.html"), page)
 
     def test_the_folder_is_named_after_the_plans_where_none_is_given(self):
         self.use_few()

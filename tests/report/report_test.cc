@@ -147,12 +147,24 @@ TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {
   EXPECT_THAT(json["plan"]["file"].get<std::string>(), HasSubstr("caf"));
 }
 
+TEST(ReportTest, JunitTellsHowLongTheSuiteAndItsCasesTook) {
+  JunitSuite suite = MakeJunitSuite(MakeFailedReport());
+  ASSERT_EQ(suite.cases.size(), 3u);
+  suite.seconds = 2.5;
+  SetCaseTimes({0.25, 1.0004}, suite);
+  const std::string xml = FormatJunit({suite});
+  EXPECT_THAT(xml, HasSubstr("skipped=\"1\" time=\"2.500\">"));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 0 hold\" time=\"0.250\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 1 switch\" time=\"1.000\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\" time=\"0.000\""));
+}
+
 TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
   const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport())});
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger 2 slid by 1 mm &lt;under&gt; "
                              "&quot;shake&quot; &amp; push\npicture: frame1.png</failure>"));
-  EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\"><skipped></skipped>"));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\" time=\"0.000\"><skipped></skipped>"));
   EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport())}), Not(HasSubstr("<failure")));
 }
 

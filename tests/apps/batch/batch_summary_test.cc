@@ -5,33 +5,14 @@
 
 #include <algorithm>
 
+#include "apps/batch/batch_page.h"
+#include "tests/apps/batch/plan_outcomes.h"
+
 namespace regrasp::apps {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-PlanOutcome Passed(const std::string& name) {
-  PlanOutcome plan{name, name + ".json", PlanVerdict::kPass, ReportSummary(), "", false};
-  plan.report->passed = true;
-  plan.report->entries = {{"hold", "pass", "", "", ""}, {"switch", "pass", "", "", ""}};
-  plan.report->weakest_step = 1;
-  plan.report->required_half_angle_deg = 17.25;
-  return plan;
-}
-
-PlanOutcome Failed(const std::string& name) {
-  PlanOutcome plan = Passed(name);
-  plan.verdict = PlanVerdict::kFail;
-  plan.report->passed = false;
-  plan.report->entries[1] = {"switch", "fail", "slipped", "finger <2> slipped", ""};
-  plan.report->entries.push_back({"align", "skipped", "", "", ""});
-  return plan;
-}
-
-PlanOutcome Broken(const std::string& name, PlanVerdict verdict, const std::string& message) {
-  return {name, name + ".json", verdict, std::nullopt, message, false};
-}
 
 BatchSummary All() {
   return {{Passed("good"), Failed("weak"),
@@ -71,6 +52,7 @@ TEST(BatchSummaryTest, TheTableSaysWhatWasKeptAndTheFileDoesNot) {
 TEST(BatchSummaryTest, TheFileHasEveryPlanWithItsReportOrItsMessage) {
   const Json json = Json::parse(FormatSummaryJson(All()));
   EXPECT_EQ(json["format"], "regrasp-summary");
+  EXPECT_EQ(json["page"], "index.html");
   EXPECT_EQ(json["verdict"], "error");
   EXPECT_EQ(json["counts"]["plans"], 4);
   EXPECT_EQ(json["plans"][0]["report"], "good/report.json");
@@ -86,11 +68,26 @@ TEST(BatchSummaryTest, JunitHasASuiteForEachPlanAndAnErrorWhereThereIsNoReport) 
   const std::string xml = FormatSummaryJunit(All());
   EXPECT_THAT(xml,
               HasSubstr("<testsuite name=\"weak.json\" tests=\"3\" failures=\"1\" errors=\"0\" "
-                        "skipped=\"1\">"));
-  EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped</failure>"));
+                        "skipped=\"1\" time=\"0.000\">"));
+  EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped\npicture: "
+                             "weak/001_switch.png</failure>"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"crash.json\" tests=\"1\" failures=\"0\" "
-                             "errors=\"1\" skipped=\"0\">"));
+                             "errors=\"1\" skipped=\"0\" time=\"0.000\">"));
   EXPECT_THAT(xml, HasSubstr("<error message=\"bad-input\">broken.json: not JSON</error>"));
+}
+
+TEST(BatchSummaryTest, JunitTellsWhatThisRunTook) {
+  BatchSummary summary{{Passed("good")}, {}};
+  summary.plans[0].seconds = 0.75;
+  summary.plans[0].entry_seconds = {0.5, 0.125};
+  const std::string xml = FormatSummaryJunit(summary);
+  EXPECT_THAT(xml, HasSubstr("skipped=\"0\" time=\"0.750\">"));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 0 hold\" time=\"0.500\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"step 1 switch\" time=\"0.125\""));
+  // Neither the summary nor the page says anything of times.
+  const BatchSummary untimed{{Passed("good")}, {}};
+  EXPECT_EQ(FormatSummaryJson(summary), FormatSummaryJson(untimed));
+  EXPECT_EQ(FormatBatchPage(summary), FormatBatchPage(untimed));
 }
 
 TEST(BatchSummaryTest, NamesOfAnyBytesBreakNothing) {

@@ -102,16 +102,17 @@ TEST(ProcessPoolTest, MessagesComeBackCutWhereTheyNeverEnd) {
   const auto exits = RunAll(2, 2, [](int index) {
     if (index == 0) {
       std::cerr << "one line\n";
-      std::cout << "and nothing of this\n";
+      std::cout << "on another stream";
       return 0;
     }
     const std::string piece(1 << 12, 'x');
-    for (std::size_t sent = 0; sent < 4 * kLongestErrors; sent += piece.size()) std::cerr << piece;
+    for (std::size_t sent = 0; sent < 4 * kLongestText; sent += piece.size()) std::cerr << piece;
     return 7;
   });
   EXPECT_EQ(exits.at(0).errors, "one line\n");
+  EXPECT_EQ(exits.at(0).output, "on another stream");
   EXPECT_EQ(exits.at(1).code, 7);
-  EXPECT_EQ(exits.at(1).errors.size(), kLongestErrors);
+  EXPECT_EQ(exits.at(1).errors.size(), kLongestText);
 }
 
 TEST(ProcessPoolTest, AChildThatNeverEndsIsStoppedAtTheLimit) {

@@ -12,7 +12,9 @@ using testing::HasSubstr;
 
 Json FailedReport() {
   return Json::parse(R"({"format": "regrasp-report", "version": 1, "verdict": "fail",
-    "weakest_step": 1, "run": {"sha256": "abc"},
+    "weakest_step": 1, "run": {"sha256": "abc"}, "plan": {"planner": "roadmap"},
+    "object": {"file": "cube.obj", "measures": "10.4 cm across, 216 g"},
+    "settings": {"friction_half_angle_deg": 20},
     "steps": [
       {"kind": "hold", "verdict": "pass", "reason": null, "detail": null, "frame": "000_hold.png",
        "force_closure": {"holds": true, "required_half_angle_deg": 12.5}},
@@ -31,6 +33,10 @@ TEST(ReportSummaryTest, TellsWhatTheReportSays) {
   EXPECT_EQ(summary.entries[1].detail, "finger 2 slipped");
   EXPECT_EQ(summary.entries[2].verdict, "skipped");
   EXPECT_EQ(summary.failed_step(), 1);
+  EXPECT_EQ(summary.object, "cube.obj");
+  EXPECT_EQ(summary.size, "10.4 cm across, 216 g");
+  EXPECT_EQ(summary.planner, "roadmap");
+  EXPECT_EQ(summary.half_angle_deg, 20);
   EXPECT_EQ(summary.weakest_step, 1);
   EXPECT_EQ(summary.required_half_angle_deg, 17.5);
 }
@@ -38,9 +44,14 @@ TEST(ReportSummaryTest, TellsWhatTheReportSays) {
 TEST(ReportSummaryTest, WhatAReportLeavesOutIsLeftOut) {
   Json json = FailedReport();
   json.erase("run");
+  json.erase("object");
+  json.erase("settings");
+  json["plan"] = nullptr;
   json["weakest_step"] = nullptr;
   const ReportSummary summary = SummarizeReport(json, "report.json");
   EXPECT_EQ(summary.run, "");
+  EXPECT_EQ(summary.object + summary.size + summary.planner, "");
+  EXPECT_FALSE(summary.half_angle_deg);
   EXPECT_FALSE(summary.weakest_step);
   EXPECT_FALSE(summary.required_half_angle_deg);
 }
@@ -60,6 +71,9 @@ TEST(ReportSummaryTest, WhatIsNoReportIsRefusedWithItsPlace) {
       {"/verdict", "skipped"},
       {"/run", 3},
       {"/run/sha256", 3},
+      {"/object/measures", 3},
+      {"/plan/planner", 3},
+      {"/settings/friction_half_angle_deg", "20"},
       {"/steps", Json::array()},
       {"/steps", nullptr},
       {"/weakest_step", 3},

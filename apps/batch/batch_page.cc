@@ -1,0 +1,157 @@
+#include "apps/batch/batch_page.h"
+
+#include <algorithm>
+
+#include "report/markup.h"
+#include "report/page/fact_list.h"
+#include "report/page/html_page.h"
+#include "report/page/path_uri.h"
+#include "report/page/quantity.h"
+#include "report/page/step_text.h"
+#include "report/page/table.h"
+
+namespace regrasp::apps {
+
+namespace {
+
+using report::Element;
+using Parts = std::vector<Element>;
+
+constexpr char kPage[] = "report.html";
+constexpr char kSheet[] = "overview.png";
+
+bool Passed(const PlanOutcome& plan) { return plan.verdict == PlanVerdict::kPass; }
+
+/// "1 plan", "3 plans".
+std::string Count(long count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string StepCount(const ReportSummary& report) {
+  return Count(static_cast<long>(report.entries.size()) - 1, "step");
+}
+
+/// What became of the plan.
+std::string Statement(const PlanOutcome& plan) {
+  if (!plan.report) return plan.message;
+  const auto failed = plan.report->failed_step();
+  if (!failed) {
+    const std::size_t steps = plan.report->entries.size() - 1;
+    return steps == 0 ? "The hold stands." : "The hold and " + StepCount(*plan.report) + " stand.";
+  }
+  const ReportSummary::Entry& entry = plan.report->entries[*failed];
+  const std::string where =
+      *failed == 0 ? "The hold" : "Step " + std::to_string(*failed) + " (" + entry.kind + ")";
+  return where + ": " + entry.reason + "." +
+         (entry.detail.empty() ? "" : " " + report::Capitalized(entry.detail) + ".");
+}
+
+std::string VerdictWord(const PlanOutcome& plan) {
+  switch (plan.verdict) {
+    case PlanVerdict::kPass:
+      return "Pass";
+    case PlanVerdict::kFail:
+      return "Fail";
+    case PlanVerdict::kBadInput:
+      return "Bad input";
+    case PlanVerdict::kError:
+      return "Not validated";
+  }
+  return "";
+}
+
+/// "2.66° to spare in step 2"; of a plan that failed only what is missing: what is to spare
+/// elsewhere helps nobody.
+std::string MarginText(const PlanOutcome& plan) {
+  const ReportSummary& report = *plan.report;
+  if (!report.weakest_step || !report.required_half_angle_deg || !report.half_angle_deg) return "";
+  const double margin = *report.half_angle_deg - *report.required_half_angle_deg;
+  if (!Passed(plan) && margin >= 0) return "";
+  return report::DegreesText(std::abs(margin)) + (margin < 0 ? " missing in " : " to spare in ") +
+         report::StepName(plan::EntryIndex(*report.weakest_step));
+}
+
+Element Facts(const PlanOutcome& plan) {
+  const ReportSummary& report = *plan.report;
+  report::FactList facts;
+  const auto add = [&facts](const char* name, const std::string& value) {
+    if (!value.empty()) facts.Add(name, value);
+  };
+  add("Object", report.object);
+  add("Size", report.size);
+  add("Friction", report.half_angle_deg ? report::DegreesText(*report.half_angle_deg) : "");
+  add("Weakest", MarginText(plan));
+  add("Sequence", StepCount(report));
+  add("Planner", report.planner);
+  return facts.Make();
+}
+
+/// The name of the picture in the plan's folder that says most of it; empty where there is none.
+std::string PictureOf(const ReportSummary& report) {
+  const auto failed = report.failed_step();
+  if (failed && !report.entries[*failed].frame.empty()) return report.entries[*failed].frame;
+  const bool has_sheet =
+      std::ranges::find(report.files, kSheet, &report::FileDigest::name) != report.files.end();
+  return has_sheet ? kSheet : "";
+}
+
+std::string Link(const PlanOutcome& plan, const std::string& file) {
+  return report::PathUri(plan.name + "/" + file);
+}
+
+/// Pictures are fetched when they come into view: there may be a thousand.
+Parts Picture(const PlanOutcome& plan) {
+  const std::string picture = plan.report ? PictureOf(*plan.report) : "";
+  if (picture.empty()) return {};
+  const std::string what = picture == kSheet ? "All frames of " : "What fails in ";
+  return {Element(
+      "a", {{"href", Link(plan, kPage)}},
+      Element("img",
+              {{"alt", what + plan.name}, {"loading", "lazy"}, {"src", Link(plan, picture)}}))};
+}
+
+Element Card(const PlanOutcome& plan) {
+  Parts words = {plan.report ? Element("h3", {}, Element("a", {{"href", Link(plan, kPage)}}, plan.name))
+                             : Element("h3", {}, plan.name),
+                 Element("p", {}, Element("strong", {}, VerdictWord(plan)), " ", Statement(plan))};
+  if (plan.report) words.push_back(Facts(plan));
+  Parts parts = Picture(plan);
+  parts.push_back(Element("div", {}, words));
+  return Element("article", {{"class", Passed(plan) ? "plan pass" : "plan fail"}}, parts);
+}
+
+/// A heading and a card for each of the plans; nothing where there are none.
+Parts Section(const std::string& name, const std::vector<const PlanOutcome*>& plans) {
+  if (plans.empty()) return {};
+  Parts cards;
+  for (const PlanOutcome* plan : plans) cards.push_back(Card(*plan));
+  return {Element("h2", {}, name), Element("div", {{"class", "plans"}}, cards)};
+}
+
+Parts Skipped(const std::vector<SkippedFile>& skipped) {
+  if (skipped.empty()) return {};
+  Parts items;
+  for (const SkippedFile& file : skipped) items.emplace_back("li", report::Attributes(), file.file + " " + file.why);
+  return {Element("h2", {}, "Skipped"), Element("ul", {}, items)};
+}
+
+}  // namespace
+
+std::string FormatBatchPage(const BatchSummary& summary) {
+  std::vector<const PlanOutcome*> passed, others;
+  for (const PlanOutcome& plan : summary.plans) (Passed(plan) ? passed : others).push_back(&plan);
+  // The worst first.
+  std::ranges::stable_sort(others, std::ranges::greater(), &PlanOutcome::verdict);
+  const bool pass = others.empty();
+  const std::string subject = Count(std::ssize(summary.plans), "plan");
+  Parts all = {report::PageHeader("Validation of a library of plans", subject, pass,
+                                  CountsText(summary) + ".")};
+  for (const Parts& parts : {Section("Not passed", others), Section("Passed", passed),
+                             Skipped(summary.skipped)}) {
+    all.insert(all.end(), parts.begin(), parts.end());
+  }
+  return report::FormatHtmlPage((pass ? "Pass: " : "Fail: ") + subject, all,
+                                report::PictureSource::kOwnSite);
+}
+
+}  // namespace regrasp::apps

@@ -1,0 +1,42 @@
+#include "report/page/html_page.h"
+
+#include "page_style.h"
+
+namespace regrasp::report {
+
+namespace {
+
+std::string Policy(PictureSource pictures) {
+  const std::string policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
+  // Some browsers give a file no site of its own.
+  return policy + (pictures == PictureSource::kOwnSite ? " 'self' file:" : "");
+}
+
+}  // namespace
+
+std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
+                           PictureSource pictures) {
+  Element style("style");
+  style.AddVerbatim(kPageStyle);
+  const std::vector<Element> head = {
+      Element("meta", {{"charset", "utf-8"}}),
+      Element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", Policy(pictures)}}),
+      Element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}),
+      Element("title", {}, title), style};
+  const std::vector<Element> main = {Element("main", {}, parts)};
+  const std::vector<Element> page = {Element("head", {}, head), Element("body", {}, main)};
+  const Attributes language = {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}};
+  return "<!DOCTYPE html>\n" + Element("html", language, page).Format() + "\n";
+}
+
+Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
+                   std::string_view statement) {
+  return Element(
+      "header", {},
+      std::vector<Element>{Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
+                           Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
+                                   Element("strong", {}, passed ? "Pass" : "Fail"), " ",
+                                   statement)});
+}
+
+}  // namespace regrasp::report

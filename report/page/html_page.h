@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/markup.h"
+
+namespace regrasp::report {
+
+/// Where a page may take its pictures from; it loads nothing else.
+enum class PictureSource {
+  kInPage,   ///< from the page alone (DataUri)
+  kOwnSite,  ///< and from files beside it
+};
+
+/// The text of an HTML page in the style of report pages, which runs nothing, whatever stands in
+/// it. Well-formed XML too.
+/// @param parts  what stands in it, one below the other.
+[[nodiscard]] std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
+                                         PictureSource pictures = PictureSource::kInPage);
+
+/// A page's first lines: what it is in small letters, its subject, and the verdict with what it
+/// says in words.
+[[nodiscard]] Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
+                                 std::string_view statement);
+
+}  // namespace regrasp::report
