@@ -12,7 +12,6 @@
 #include "planner/plan/planned_snapshot.h"
 #include "render/frames/contact_sheet.h"
 #include "render/picture/caption.h"
-#include "render/picture/fault_text.h"
 #include "render/picture/webp.h"
 
 namespace regrasp::apps {
@@ -46,10 +45,6 @@ render::SheetLabel MakeLabel(const report::ReportStep& step) {
           failed};
 }
 
-std::string FailureText(const report::ReportStep& step, const report::Report& report) {
-  return render::FaultText(step.reason(), step.fault(), step.detail(), report.scale);
-}
-
 /// The verdict in a line.
 render::SheetLabel MakeHeading(const report::Report& report) {
   const auto failed = std::ranges::find_if(report.steps, Failed);
@@ -62,7 +57,7 @@ render::SheetLabel MakeHeading(const report::Report& report) {
   }
   const int index = failed->check.index;
   return {"FAIL at " + (index == 0 ? "the hold" : "step " + std::to_string(index)) + ": " +
-              FailureText(*failed, report),
+              failed->detail(),
           "", kBad};
 }
 
@@ -94,7 +89,7 @@ Shown ShowFailure(const object::Object& object, const plan::Plan& plan, report::
       seen ? step.replay->snapshot
            : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan), step.check.index,
                                        step.fault(), radius),
-      FailureText(step, report));
+      step.detail());
   return {&step, std::move(picture.snapshot), std::move(picture.marks)};
 }
 

@@ -350,8 +350,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder.path(), report));
   } else if (const auto failure = report::DescribeFailure(report)) {
-    PrintError(kValidateName,
-               failure->what + ": " + failure->why + "; what would mend it: " + failure->mend);
+    PrintError(kValidateName, failure->headline() + "; why: " + failure->why +
+                                  "; what would mend it: " + failure->mend);
   }
   return {report.passed() ? kExitDone : kExitNegative, samples.entry_seconds};
 }

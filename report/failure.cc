@@ -5,6 +5,8 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
+#include "planner/object/object.h"
 
 namespace regrasp::report {
 
@@ -23,35 +25,47 @@ std::string MendFriction(const ReportStep& step) {
   const std::string other =
       "plan for more to spare (plan --optimize margin, or plan at less "
       "friction than is checked)";
-  if (!step.check.required) return "no friction is sure to be enough: other contacts, " + other;
+  if (!step.check.required) return "other contacts, as no friction is sure to be enough: " + other;
   const double degrees = RoundUp(Degrees(step.check.required->upper), kDegreeSteps);
   const double mu = RoundUp(std::tan(Radians(degrees)), kMuSteps);
   return "fingertips with more friction (--friction-angle " + FormatShort(degrees) + " or --mu " +
-         FormatShort(mu) + "; the shake may need a little more), or " + other;
+         FormatShort(mu) + "; to stand the shake may take a little more), or " + other;
 }
 
 /// By the likely cause of a replay that fails what the analysis passes.
-std::string MendReplay(const ReportStep& step) {
+std::string MendReplay(const ReportStep& step, const Report& report) {
+  const bool shaken = report.settings && report.settings->shake > 0;
   switch (step.disagreement ? step.disagreement->cause : Cause::kUnknown) {
     case Cause::kConcaveCorner:
     case Cause::kNoClearance:
       return "contacts farther from concave corners, or thinner fingers (--finger-radius)";
     case Cause::kWeight:
-      return "a larger --squeeze, a lighter object (--mass, --density), or more friction";
+      return "a larger --squeeze, a lighter object (--mass, --density), or more friction "
+             "(--friction-angle)";
     case Cause::kQuality:
-      return "a plan of better grasps (plan --min-quality above the --shake), more friction, or a "
-             "smaller --shake";
+      return "a plan of better grasps (plan --min-quality above the --shake), more friction "
+             "(--friction-angle), or a smaller --shake";
     case Cause::kEdge:
       return "contacts farther from the borders of their faces";
     case Cause::kConeReached:
-      return "more friction, or a plan with more to spare (plan --optimize margin)";
+      return "more friction (--friction-angle), or a plan with more to spare (plan --optimize "
+             "margin)";
     default:
-      return "more friction or a smaller --shake; --stress shows in which direction the grasp is "
-             "weak";
+      return std::string("more friction (--friction-angle)") +
+             (shaken ? ", a smaller --shake" : "") +
+             " or a larger --tolerance; --stress shows in which direction the grasp is weak";
   }
 }
 
-std::string MendOf(const ReportStep& step) {
+std::string MendReach(const plan::Fault& fault) {
+  if (fault.finger_radius > 0) {
+    return "thinner fingers (--finger-radius), or a plan for fingers of that radius (plan "
+           "--finger-radius)";
+  }
+  return "contacts that a finger reaches from outside, farther from concave corners";
+}
+
+std::string MendOf(const ReportStep& step, const Report& report) {
   switch (step.reason()) {
     case Reason::kOffSurface:
       return "a point on the surface; where many are off, this is not the object that the plan was "
@@ -61,30 +75,31 @@ std::string MendOf(const ReportStep& step) {
     case Reason::kFingerNotFree:
       return "another finger, or a step before that releases this one";
     case Reason::kFingerNotHolding:
-      return "releasing a finger that holds";
+      return "releasing a finger that holds, once";
     case Reason::kTooManyFingers:
-      return "fewer fingers at a time, or a hand of more (fingers in the plan)";
+      return "a finger that the hand has, or a hand of more (fingers in the plan)";
     case Reason::kCoincidentFingers:
       return "different points for the two fingers";
     case Reason::kDiscontinuous:
       return "a first waypoint that is the grasp before the step, and the same fingers in all";
     case Reason::kLeavesFace:
-      return "a waypoint at each border that a finger crosses: between two waypoints it goes "
-             "straight inside one face, or keeps its point and turns its normal";
+      return "a waypoint at each border that a finger crosses";
     case Reason::kNotForceClosure:
       return MendFriction(step);
     case Reason::kNotProved:
-      return "a little more friction, waypoints in between, or --allow-undecided where the pieces "
-             "without a proof are few";
+      return "a little more friction (--friction-angle), waypoints in between, or "
+             "--allow-undecided "
+             "where the pieces without a proof are few";
     case Reason::kUnreachable:
-      return "thinner fingers (--finger-radius), or a plan for fingers of that radius (plan "
-             "--finger-radius)";
+      return MendReach(step.fault());
     case Reason::kSimulationUnstable:
-      return "another --squeeze or --mass: the replay says nothing of this plan";
+      return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
+             "object is of "
+             "no usual size";
     case Reason::kContactLost:
     case Reason::kSlipped:
     case Reason::kObjectMoved:
-      return MendReplay(step);
+      return MendReplay(step, report);
     case Reason::kStartDiffers:
       return "planning from the grasp of --start, or leaving --start out";
     case Reason::kGoalNotReached:
@@ -95,27 +110,86 @@ std::string MendOf(const ReportStep& step) {
   return "";
 }
 
-std::string WhyOf(const ReportStep& step) {
+/// How much may move or slip.
+std::string ToleranceText(const Report& report) {
+  if (!report.settings) return "more than the --tolerance of the object's diameter";
+  return "up to " + FormatLength(report.settings->tolerance * report.settings->diameter_m) +
+         ", --tolerance " + FormatShort(report.settings->tolerance) +
+         " of the object's diameter, counts as standing still";
+}
+
+/// What a step breaks.
+std::string RuleOf(Reason reason, const Report& report) {
+  switch (reason) {
+    case Reason::kOffSurface:
+      return "a contact lies on the surface to within " + FormatShort(object::kPointTolerance) +
+             " of the object's diameter";
+    case Reason::kWrongNormal:
+      return "the normal of a contact is the inward one of its face, which the replay pushes along";
+    case Reason::kFingerNotFree:
+      return "a finger makes one contact at a time";
+    case Reason::kFingerNotHolding:
+      return "only a finger that holds before the step can be released, and only once";
+    case Reason::kTooManyFingers:
+      return "no more fingers touch the object than the hand has";
+    case Reason::kCoincidentFingers:
+      return "at rest no two fingers stand at one point";
+    case Reason::kDiscontinuous:
+      return "an align begins with the grasp before it, and its fingers stay the same";
+    case Reason::kLeavesFace:
+      return "between two waypoints a finger moves straight inside one face, or keeps its point "
+             "and "
+             "turns from one face to the next";
+    case Reason::kNotForceClosure:
+      return "with this friction forces of the fingers cannot resist every push and twist";
+    case Reason::kNotProved:
+      return "what is neither proved nor refuted does not pass";
+    case Reason::kUnreachable:
+      return "a finger comes straight along the normal, and keeps clear of the object and the "
+             "others";
+    case Reason::kSimulationUnstable:
+      return "the simulation came to no end, so nothing is known of the step";
+    case Reason::kContactLost:
+      return "a finger that holds stays on the surface";
+    case Reason::kSlipped:
+    case Reason::kObjectMoved:
+      return ToleranceText(report);
+    case Reason::kStartDiffers:
+      return "the plan is to begin with the grasp of --start";
+    case Reason::kGoalNotReached:
+      return "the contacts after the last step are to be those of the goal";
+    case Reason::kNone:
+      return "";
+  }
+  return "";
+}
+
+std::string WhyOf(const ReportStep& step, const Report& report) {
   const bool caused = step.disagreement && step.disagreement->between == sim::Between::kReplayFails;
-  return step.detail() + (caused ? "; likely cause: " + step.disagreement->text : "");
+  return RuleOf(step.reason(), report) +
+         (caused ? "; likely cause: " + step.disagreement->text : "");
 }
 
 }  // namespace
 
+std::string Failure::headline() const {
+  return "step " + std::to_string(entry) + " (" + kind + ") fails: " + reason +
+         (what.empty() ? "" : ": " + what);
+}
+
 std::optional<Failure> DescribeFailure(const Report& report) {
   const auto failed = std::ranges::find(report.steps, Verdict::kFail, &ReportStep::verdict);
   if (failed == report.steps.end()) return std::nullopt;
-  return Failure{failed->check.index,
-                 "step " + std::to_string(failed->check.index) + " (" + failed->check.kind +
-                     ") fails: " + std::string(plan::ReasonName(failed->reason())),
-                 WhyOf(*failed), MendOf(*failed)};
+  return Failure{
+      failed->check.index, failed->check.kind,     std::string(plan::ReasonName(failed->reason())),
+      failed->detail(),    WhyOf(*failed, report), MendOf(*failed, report)};
 }
 
 std::string FormatFailure(const Report& report) {
   const auto failure = DescribeFailure(report);
   if (!failure) return "";
-  return failure->what + "\n  why: " + failure->why + "\n  what would mend it: " + failure->mend +
-         "\n";
+  return failure->headline() + "\n  why: " + failure->why +
+         "\n  what would mend it: " + failure->mend + "\n";
 }
 
 }  // namespace regrasp::report

@@ -7,12 +7,19 @@
 
 namespace regrasp::report {
 
-/// The first step of a plan that fails, for people; a plan that passes has none.
+/// The first step of a plan that fails, for people: the terminal, the page, the pictures,
+/// report.json and JUnit say it in these words. A plan that passes has none.
 struct Failure {
-  int step = 0;
-  std::string what;  ///< "step 1 (align) fails: not-force-closure"
-  std::string why;   ///< how far from passing, and the likely cause where one was found
+  plan::EntryIndex entry{0};
+  std::string kind;    ///< "hold", "switch" or "align"
+  std::string reason;  ///< "slipped"
+  /// With its number and unit: "finger 2 slipped by 300 µm under a push of 5.3 N along +x".
+  std::string what;
+  std::string why;   ///< what it is held against, and the likely cause where one was found
   std::string mend;  ///< what would make it pass
+
+  /// "step 1 (align) fails: slipped: finger 2 slipped by 300 µm …".
+  [[nodiscard]] std::string headline() const;
 };
 
 [[nodiscard]] std::optional<Failure> DescribeFailure(const Report& report);

@@ -1,8 +1,10 @@
 #include "report/junit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "planner/base/number.h"
+#include "report/failure.h"
 #include "report/markup.h"
 
 namespace regrasp::report {
@@ -51,8 +53,14 @@ Element MakeSuite(const JunitSuite& suite) {
 
 }  // namespace
 
-std::string JunitText(const std::string& detail, const std::string& picture) {
-  return detail + (picture.empty() ? "" : "\npicture: " + picture);
+std::string JunitText(const std::string& detail, const std::string& why, const std::string& mend,
+                      const std::string& picture) {
+  std::string text = detail;
+  for (const auto& [name, said] :
+       {std::pair{"why", &why}, {"what would mend it", &mend}, {"picture", &picture}}) {
+    if (!said->empty()) text += std::string("\n") + name + ": " + *said;
+  }
+  return text;
 }
 
 JunitOutcome OutcomeOf(std::string_view verdict) {
@@ -62,11 +70,14 @@ JunitOutcome OutcomeOf(std::string_view verdict) {
 
 JunitSuite MakeJunitSuite(const Report& report) {
   JunitSuite suite{report.plan_file, {}};
+  const auto failure = DescribeFailure(report);
   for (const ReportStep& step : report.steps) {
+    const bool failed = failure && failure->entry == step.check.index;
     suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
                            OutcomeOf(VerdictName(step.verdict())),
                            std::string(plan::ReasonName(step.reason())),
-                           JunitText(step.detail(), step.frame)});
+                           JunitText(step.detail(), failed ? failure->why : "",
+                                     failed ? failure->mend : "", step.frame)});
   }
   return suite;
 }

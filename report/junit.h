@@ -25,9 +25,11 @@ struct JunitSuite {
   double seconds = 0;  ///< that all of it took, pictures and files too
 };
 
-/// What a case says for people: the detail, and the picture where there is one.
-/// @param picture  where the picture is; may be empty.
-[[nodiscard]] std::string JunitText(const std::string& detail, const std::string& picture);
+/// What a case says for people, a line each; what is empty is left out.
+/// @param detail   what failed; why, and what would mend it, as report.json has them.
+/// @param picture  where the picture is.
+[[nodiscard]] std::string JunitText(const std::string& detail, const std::string& why,
+                                    const std::string& mend, const std::string& picture);
 
 /// Of an entry's verdict, "pass", "fail" or "skipped".
 [[nodiscard]] JunitOutcome OutcomeOf(std::string_view verdict);

@@ -4,6 +4,7 @@
 #include "planner/base/angle.h"
 #include "planner/base/json.h"
 #include "planner/certificate/plan_proof.h"
+#include "report/failure.h"
 #include "report/json_values.h"
 #include "report/report.h"
 #include "report/report_seal.h"
@@ -182,6 +183,11 @@ std::string FormatReportJson(const Report& report) {
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();
   for (const ReportStep& step : report.steps) json["steps"].push_back(MakeStep(step, report));
+  if (const auto failure = DescribeFailure(report)) {
+    Json& step = json["steps"][failure->entry];
+    step["why"] = failure->why;
+    step["mend"] = failure->mend;
+  }
   return SealReport(std::move(json));
 }
 

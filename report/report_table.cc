@@ -127,7 +127,7 @@ std::string FormatBody(const Report& report) {
 
 std::string FormatVerdict(const Report& report) {
   const auto failure = DescribeFailure(report);
-  return "verdict: " + (failure ? "fail, " + failure->what : "pass") + "\n";
+  return "verdict: " + (failure ? "fail, " + failure->headline() : "pass") + "\n";
 }
 
 std::string FormatTrials(const Report& report) {

@@ -12,10 +12,11 @@ std::string SqueezeText(const sim::ReplaySettings& settings) {
                               FormatShort(settings.squeeze_N / weight) + " times the weight";
   switch (settings.squeeze_source) {
     case sim::SqueezeSource::kShake:
-      return squeeze +
-             ": so much that the weight is only a tenth of the shake, as verdicts depend on forces "
-             "over the squeeze alone; no hand presses like that (--squeeze realistic does as hands "
-             "do)";
+      return squeeze + ": so much that the weight " +
+             (settings.shake >= sim::kLeastShakeForSqueeze ? "is only a tenth of the shake"
+                                                           : "hardly counts") +
+             ", as verdicts depend on forces over the squeeze alone; no hand presses like that "
+             "(--squeeze realistic does as hands do)";
     case sim::SqueezeSource::kHand:
       if (settings.squeeze_N >= sim::kStrongestGrip_N) {
         return squeeze + ": the most that a hand applies, less than it would take here";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/base/quantity_text.h"
 #include "report/markup.h"
 #include "report/page/fact_list.h"
 #include "report/page/html_page.h"
@@ -67,7 +68,7 @@ std::string MarginText(const PlanOutcome& plan) {
   if (!report.weakest_step || !report.required_half_angle_deg || !report.half_angle_deg) return "";
   const double margin = *report.half_angle_deg - *report.required_half_angle_deg;
   if (!Passed(plan) && margin >= 0) return "";
-  return report::DegreesText(std::abs(margin)) + (margin < 0 ? " missing in " : " to spare in ") +
+  return FormatDegrees(std::abs(margin)) + (margin < 0 ? " missing in " : " to spare in ") +
          report::StepName(plan::EntryIndex(*report.weakest_step));
 }
 
@@ -79,7 +80,7 @@ Element Facts(const PlanOutcome& plan) {
   };
   add("Object", report.object);
   add("Size", report.size);
-  add("Friction", report.half_angle_deg ? report::DegreesText(*report.half_angle_deg) : "");
+  add("Friction", report.half_angle_deg ? FormatDegrees(*report.half_angle_deg) : "");
   add("Weakest", MarginText(plan));
   add("Sequence", StepCount(report));
   add("Planner", report.planner);

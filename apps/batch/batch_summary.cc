@@ -82,7 +82,7 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan) {
     const std::string picture = entry.frame.empty() ? "" : plan.name + "/" + entry.frame;
     suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind,
                            report::OutcomeOf(entry.verdict), entry.reason,
-                           report::JunitText(entry.detail, picture)});
+                           report::JunitText(entry.detail, entry.why, entry.mend, picture)});
   }
   report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;

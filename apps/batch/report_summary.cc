@@ -17,8 +17,12 @@ std::string TextOrNothing(const plan::JsonReader& parent, const char* key) {
 
 ReportSummary::Entry ReadEntry(const plan::JsonReader& step) {
   return {step.Member("kind").OneOf({"hold", "switch", "align"}),
-          step.Member("verdict").OneOf({"pass", "fail", "skipped"}), TextOrNothing(step, "reason"),
-          TextOrNothing(step, "detail"), TextOrNothing(step, "frame")};
+          step.Member("verdict").OneOf({"pass", "fail", "skipped"}),
+          TextOrNothing(step, "reason"),
+          TextOrNothing(step, "detail"),
+          TextOrNothing(step, "frame"),
+          TextOrNothing(step, "why"),
+          TextOrNothing(step, "mend")};
 }
 
 void ReadSubject(const plan::JsonReader& root, ReportSummary& summary) {

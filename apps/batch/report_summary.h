@@ -14,8 +14,9 @@ namespace regrasp::apps {
 struct ReportSummary {
   struct Entry {
     std::string kind, verdict;
-    std::string reason, detail;  ///< empty where there is none
-    std::string frame;           ///< empty where there is none
+    std::string reason, detail;       ///< empty where there is none
+    std::string frame;                ///< empty where there is none
+    std::string why = {}, mend = {};  ///< of the one that failed
   };
   bool passed = false;
   std::string object;                    ///< the name of its file

@@ -21,6 +21,9 @@ constexpr double kRounding = 1e-12;
 constexpr double kDistanceAccuracy = 1e-4;
 constexpr int kDistanceDigits = 3;
 
+/// Radii are given in them.
+constexpr char kUnits[] = " (units of the object's file)";
+
 /// True iff a face other than the contact's own enters the capsule that a finger sweeps on the last
 /// `travel` before it rests.
 bool IsBlocked(const object::Object& object, const grasp::Contact& contact, double radius,
@@ -73,7 +76,7 @@ std::optional<std::string> FindObstacle(const object::Object& object, const gras
   const double clearance = ComputeClearance(object, contact, radius);
   if (clearance < kTouches * radius) {
     return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +
-           FormatShort(clearance) + " fits";
+           FormatShort(clearance) + " fits" + kUnits;
   }
   double free = 0;
   double blocked = object.diameter();
@@ -82,7 +85,8 @@ std::optional<std::string> FindObstacle(const object::Object& object, const gras
     (IsBlocked(object, contact, radius, travel) ? blocked : free) = travel;
   }
   return "the object blocks its path to the contact along the normal: a finger of radius " +
-         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) + " of free path there";
+         FormatShort(radius) + " has " + FormatShort(free, kDistanceDigits) +
+         " of free path there" + kUnits;
 }
 
 }  // namespace regrasp::criteria

@@ -1,31 +1,8 @@
 #include "planner/object/body_measures.h"
 
-#include <algorithm>
-#include <span>
-
-#include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 
 namespace regrasp::object {
-
-namespace {
-
-struct Unit {
-  double size;
-  const char* name;
-};
-
-/// In the largest unit of which there is one, otherwise in the last.
-std::string InUnits(double value, std::span<const Unit> units) {
-  constexpr int kDigits = 3;
-  const auto fits = std::ranges::find_if(units, [&](const Unit& u) { return value >= u.size; });
-  const Unit& unit = fits == units.end() ? units.back() : *fits;
-  return FormatShort(value / unit.size, kDigits) + " " + unit.name;
-}
-
-constexpr Unit kLengths[] = {{1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {1e-6, "µm"}};
-constexpr Unit kMasses[] = {{1, "kg"}, {1e-3, "g"}, {1e-6, "mg"}, {1e-9, "µg"}};
-
-}  // namespace
 
 BodyMeasures MeasureBody(const Object& object, double scale, double density_kg_m3,
                          std::optional<double> thickness) {
@@ -39,9 +16,8 @@ BodyMeasures MeasureBody(const Object& object, double scale, double density_kg_m
 }
 
 std::string MeasuresText(const BodyMeasures& body) {
-  const std::string thick =
-      body.thickness_m > 0 ? InUnits(body.thickness_m, kLengths) + " thick, " : "";
-  return InUnits(body.diameter_m, kLengths) + " across, " + thick + InUnits(body.mass_kg, kMasses);
+  const std::string thick = body.thickness_m > 0 ? FormatLength(body.thickness_m) + " thick, " : "";
+  return FormatLength(body.diameter_m) + " across, " + thick + FormatMass(body.mass_kg);
 }
 
 std::string SizeWarning(const BodyMeasures& body) {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <set>
 
+#include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/path_force_closure.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/motion_fault.h"
-#include "planner/plan/off_surface.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/plan/same_grasp.h"
 #include "planner/plan/tolerance.h"
@@ -40,6 +41,12 @@ Fault Misplaced(FingerIndex finger, int waypoint, const grasp::Contact& found,
   return {.fingers = {finger}, .found = found, .expected = {expected}, .waypoint = waypoint};
 }
 
+/// Between two points of the object.
+std::string LengthText(const CheckContext& context, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b) {
+  return FormatLength((a - b).stableNorm() * context.plan.scale);
+}
+
 void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int waypoint,
                   StepFault& fault) {
   for (const FingerContact& held : grasp) {
@@ -48,26 +55,24 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
     const LocatedContact located = LocateContact(context.object, held.contact);
     // To tell a fault takes a search of the surface.
     if (!fault.Wants(located.reason)) continue;
-    const std::string detail = located.reason == Reason::kOffSurface
-                                   ? OffSurfaceText(context.object, held.contact.p)
-                                   : located.detail;
-    fault.Add(located.reason, At(waypoint, held.finger) + ": " + detail,
-              Misplaced(held.finger, waypoint, held.contact,
-                        NearestContact(context.object, held.contact)));
+    const grasp::Contact nearest = NearestContact(context.object, held.contact);
+    const std::string detail =
+        located.reason == Reason::kOffSurface
+            ? " is " + LengthText(context, held.contact.p, nearest.p) + " off the surface"
+            : ": " + located.detail;
+    fault.Add(located.reason, At(waypoint, held.finger) + detail,
+              Misplaced(held.finger, waypoint, held.contact, nearest));
   }
 }
 
-void CheckFingerNumber(const CheckContext& context, FingerIndex finger, StepFault& fault) {
+/// Where more fingers hold than the hand has, one of them is named twice or outside the hand.
+void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int waypoint,
+                       StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
-            FingerName(finger) + " of a hand of " + std::to_string(context.plan.fingers),
-            FaultOf(finger));
-}
-
-void CheckFingerCount(const CheckContext& context, std::size_t count, StepFault& fault) {
-  if (count <= static_cast<std::size_t>(context.plan.fingers)) return;
-  fault.Add(Reason::kTooManyFingers, std::to_string(count) + " fingers hold, the hand has " +
-                                         std::to_string(context.plan.fingers));
+            At(waypoint, finger) + " is none of a hand of " + std::to_string(context.plan.fingers) +
+                ", numbered from 0",
+            FaultOf(finger, waypoint));
 }
 
 /// For a grasp at rest.
@@ -107,12 +112,13 @@ std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::Requir
 
 std::string AngleNeeded(const CheckContext& context,
                         const std::optional<grasp::RequiredHalfAngle>& required) {
-  if (!required) return "at no friction half-angle";
-  return "needs a friction half-angle of " + FormatShort(Degrees(required->upper)) +
-         " degrees, has " + FormatShort(Degrees(context.half_angle));
+  if (!required) return "is not force closure, and would be at no friction";
+  return "is not force closure: it needs a friction half-angle of " +
+         FormatDegrees(Degrees(required->upper)) + ", and has " +
+         FormatDegrees(Degrees(context.half_angle));
 }
 
-/// @param grasp  that is not force closure.
+/// @param grasp  that is not force closure, or not proved to be.
 Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
                     const std::optional<grasp::RequiredHalfAngle>& required) {
   Fault fault;
@@ -122,9 +128,9 @@ Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
   return fault;
 }
 
-void LeaveUnproved(const std::string& why, StepCheck& check, StepFault& fault) {
+void LeaveUnproved(const std::string& why, const Fault& where, StepCheck& check, StepFault& fault) {
   check.force_closure = false;
-  fault.Add(Reason::kNotProved, why);
+  fault.Add(Reason::kNotProved, why, where);
 }
 
 /// Where force closure holds at the friction, the smallest half-angle is no larger than that.
@@ -151,12 +157,12 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
   check.required = Larger(check.required, required);
   check.force_closure = check.force_closure && holds;
   if (!holds) {
-    fault.Add(Reason::kNotForceClosure,
-              std::string(name) + " is not force closure: " + AngleNeeded(context, required),
+    fault.Add(Reason::kNotForceClosure, std::string(name) + " " + AngleNeeded(context, required),
               LossOfClosure(context, grasp, required));
   } else if (!required) {
-    LeaveUnproved(std::string(name) + " is force closure at no half-angle that is surely below 90",
-                  check, fault);
+    LeaveUnproved(
+        std::string(name) + " is force closure at no friction half-angle that is surely below 90°",
+        LossOfClosure(context, grasp, required), check, fault);
   }
 }
 
@@ -184,12 +190,14 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
     const FingerContact* moved = FindFinger(first, held.finger);
     if (moved == nullptr) continue;
     if (!AreSameContact(held.contact, moved->contact, context.tolerance())) {
-      const double distance = (held.contact.p - moved->contact.p).norm();
-      const double angle = Degrees(grasp::AngleBetween(held.contact.n, moved->contact.n));
-      fault.Add(Reason::kDiscontinuous,
-                At(0, held.finger) + " is not where it was: " + FormatShort(distance) +
-                    " away, normal turned by " + FormatShort(angle) + " degrees",
-                Misplaced(held.finger, 0, moved->contact, held.contact));
+      const double angle = grasp::AngleBetween(held.contact.n, moved->contact.n);
+      fault.Add(
+          Reason::kDiscontinuous,
+          At(0, held.finger) + " is " + LengthText(context, held.contact.p, moved->contact.p) +
+              " from where it was" +
+              (angle > kNormalTolerance ? ", its normal turned by " + FormatDegrees(Degrees(angle))
+                                        : ""),
+          Misplaced(held.finger, 0, moved->contact, held.contact));
     } else if (moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
       fault.Add(Reason::kDiscontinuous,
@@ -223,8 +231,7 @@ void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
                    const FingerGrasp& waypoint, int index, StepFault& fault) {
   CheckSurface(context, waypoint, index, fault);
   CheckNamedOnce(waypoint, index, fault);
-  for (const FingerContact& held : waypoint) CheckFingerNumber(context, held.finger, fault);
-  CheckFingerCount(context, waypoint.size(), fault);
+  for (const FingerContact& held : waypoint) CheckFingerNumber(context, held.finger, index, fault);
   CheckSameFingers(before, waypoint, index, fault);
 }
 
@@ -266,8 +273,7 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
   }
   return "force closure is not proved near " + at + ": of " + std::to_string(path.undecided) +
          " pieces, a millionth of it each, neither a proof nor a loss is found" +
-         (required ? ", and all of it surely holds only from " +
-                         FormatShort(Degrees(required->upper)) + " degrees"
+         (required ? "; all of it surely holds only from " + FormatDegrees(Degrees(required->upper))
                    : "");
 }
 
@@ -287,20 +293,25 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
   check.undecided += path.undecided;
   const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);
   const bool allowed = context.allow_undecided && !path.ended_early;
+  const auto lost_at = [&](const std::optional<grasp::RequiredHalfAngle>& needed) {
+    Fault loss = LossOfClosure(context, FingersAt(from, motion, path.at), needed);
+    loss.waypoint = waypoint;
+    return loss;
+  };
   if (path.decision == grasp::Decision::kNo) {
     const auto there = grasp::ComputeRequiredHalfAngle(motion::GraspAt(motion, path.at), frame);
     check.force_closure = false;
-    Fault loss = LossOfClosure(context, FingersAt(from, motion, path.at), there);
-    loss.waypoint = waypoint;
+    const Fault loss = lost_at(there);
     fault.Add(Reason::kNotForceClosure,
-              "at " + FormatShort(path.at) + " of the way " + way +
-                  " the grasp is not force closure: " + AngleNeeded(context, there),
+              "at " + FormatShort(path.at) + " of the way " + way + " the grasp " +
+                  AngleNeeded(context, there),
               loss);
   } else if (path.decision == grasp::Decision::kTooClose && !allowed) {
-    LeaveUnproved(UnprovedText(path, way, required), check, fault);
+    LeaveUnproved(UnprovedText(path, way, required), lost_at(required), check, fault);
   } else if (!required && !allowed) {
-    LeaveUnproved("on the way " + way + " no bound on the half-angle that it needs is proved",
-                  check, fault);
+    LeaveUnproved(
+        "on the way " + way + " no bound on the friction half-angle that it needs is proved",
+        lost_at(required), check, fault);
   }
 }
 
@@ -320,8 +331,9 @@ StepCheck CheckHold(const CheckContext& context) {
   StepFault fault;
   CheckSurface(context, initial, kNoWaypoint, fault);
   CheckNamedOnce(initial, kNoWaypoint, fault);
-  for (const FingerContact& held : initial) CheckFingerNumber(context, held.finger, fault);
-  CheckFingerCount(context, initial.size(), fault);
+  for (const FingerContact& held : initial) {
+    CheckFingerNumber(context, held.finger, kNoWaypoint, fault);
+  }
   CheckCoincidence(context, initial, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
@@ -338,21 +350,21 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   CheckSurface(context, step.place, kNoWaypoint, fault);
   CheckNamedOnce(step.place, kNoWaypoint, fault);
   for (const FingerContact& placed : step.place) {
-    CheckFingerNumber(context, placed.finger, fault);
+    CheckFingerNumber(context, placed.finger, kNoWaypoint, fault);
     if (const FingerContact* holds = FindFinger(before, placed.finger)) {
-      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds",
+      fault.Add(Reason::kFingerNotFree, FingerName(placed.finger) + " is placed, but holds already",
                 Misplaced(placed.finger, kNoWaypoint, placed.contact, holds->contact));
     }
   }
   std::set<FingerIndex> released;
   for (const FingerIndex finger : step.release) {
-    CheckFingerNumber(context, finger, fault);
-    if (FindFinger(before, finger) == nullptr || !released.insert(finger).second) {
-      fault.Add(Reason::kFingerNotHolding, FingerName(finger) + " is released, but does not hold",
-                FaultOf(finger));
-    }
+    CheckFingerNumber(context, finger, kNoWaypoint, fault);
+    const bool again = !released.insert(finger).second;
+    if (!again && FindFinger(before, finger) != nullptr) continue;
+    fault.Add(Reason::kFingerNotHolding,
+              FingerName(finger) + " is released" + (again ? " twice" : ", but does not hold"),
+              FaultOf(finger));
   }
-  CheckFingerCount(context, before.size() + step.place.size(), fault);
   const FingerGrasp after = GraspAfter(before, step);
   CheckCoincidence(context, after, fault);
   if (fault.none()) {

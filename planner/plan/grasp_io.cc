@@ -4,11 +4,18 @@
 #include "planner/base/number.h"
 #include "planner/plan/contact_json.h"
 #include "planner/plan/locate.h"
-#include "planner/plan/off_surface.h"
 
 namespace regrasp::plan {
 
 namespace {
+
+std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& point) {
+  const double distance =
+      (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
+  return FormatShort(distance) + " of the object file's units off the surface, " +
+         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
+         FormatShort(object::kPointTolerance) + " of it counts as on it";
+}
 
 /// The contact of a point whose normal is left out: its only face's.
 grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& object,

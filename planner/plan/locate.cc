@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 #include "planner/plan/locate_align.h"
 #include "planner/plan/tolerance.h"
@@ -67,8 +68,8 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
   const auto [least, nearest] = RankFaces(faces, object, contact).front();
   if (!(least <= kNormalTolerance)) {
     located.reason = Reason::kWrongNormal;
-    located.detail = "the normal differs by " + FormatShort(Degrees(least)) +
-                     " degrees from the inward normal of face " + std::to_string(nearest) + ", " +
+    located.detail = "the normal differs by " + FormatDegrees(Degrees(least)) +
+                     " from the inward normal of face " + std::to_string(nearest) + ", " +
                      VectorText(object.inward_normal(nearest), object.dimension());
     return located;
   }

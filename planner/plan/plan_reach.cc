@@ -28,7 +28,7 @@ Obstacle Overlap(const FingerContact& a, const FingerContact& b, const FingerGra
               " overlap: their centres are " +
               FormatShort(CentreDistance(a.contact, b.contact, radius)) +
               " apart, and two fingers of radius " + FormatShort(radius) + " need " +
-              FormatShort(2 * radius),
+              FormatShort(2 * radius) + " (units of the object's file)",
           {.fingers = {a.finger, b.finger}, .grasp = grasp, .finger_radius = radius}};
 }
 

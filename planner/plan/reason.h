@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,7 @@ enum class Reason {
 struct FaultPush {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_Nm = Eigen::Vector3d::Zero();
+  std::string name = {};  ///< for people: "a push of 5.3 N along +x"
 };
 
 /// Where a step fails, as far as it can be drawn; it stands beside the text for people, and both

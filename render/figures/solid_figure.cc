@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/base/quantity_text.h"
 #include "planner/plan/planned_snapshot.h"
 #include "render/figures/finger_marker.h"
 #include "render/figures/hidden_lines.h"

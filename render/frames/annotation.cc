@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/base/quantity_text.h"
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/label_layout.h"

@@ -10,7 +10,6 @@
 
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/fault_text.h"
 
 namespace regrasp::render {
 
@@ -30,6 +29,7 @@ constexpr double kTick = 0.42;
 constexpr double kHalo = 0.32;
 constexpr double kDash = 0.35;
 constexpr double kRingGap = 0.3;
+constexpr double kAbsentRadius = 0.9;
 constexpr double kLeader = 1.6;  ///< a text farther than this from what it tells has a line to it
 
 // In diameters of the object.
@@ -120,7 +120,7 @@ class Overlay {
         Line(end - kTick * font_ * across, end + kTick * font_ * across, halo);
       }
     }
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) busy_.push_back(a + t * (b - a));
+    Occupy(a, b);
     Label((a + b) / 2, dimension.text, kFaultRed);
   }
 
@@ -172,6 +172,8 @@ class Overlay {
     const auto [left, right] = std::ranges::minmax_element(rim, {}, bearing);
     Dash(apex, *left, kFaultRed, 1);
     Dash(apex, *right, kFaultRed, 1);
+    for (const Vector2d& end : {*left, *right}) Occupy(apex, end);
+    if (!cone.text.empty()) Label(*left, cone.text, kFaultRed);
   }
 
   void Draw(const FaultMarks::Tip& tip) {
@@ -189,7 +191,7 @@ class Overlay {
       const Vector3d along = push.force_N.normalized();
       const Vector2d tip = Project(centroid + kPushLength * D * along);
       DrawArrow(centre, tip, kPush, 3);
-      Label(tip, PushText(push), kPush);
+      Label(tip, push.name, kPush);
       return;
     }
     if (!(push.torque_Nm.norm() > 0)) return;
@@ -201,7 +203,7 @@ class Overlay {
           Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
     }
     ArrowAlong(arc, kPush, 3);
-    Label(arc.front(), PushText(push), kPush);
+    Label(arc.front(), push.name, kPush);
   }
 
   /// At the top left, in as many lines as it takes.
@@ -209,14 +211,30 @@ class Overlay {
     if (kFontSize * camera_.height < kSmallestFont) return;
     const double margin = kMargin * camera_.height;
     SelectFont(cr_, font_, /*bold=*/true);
-    double base = margin;
+    base_ = margin;
     for (const std::string& line : Wrap(text, camera_.width - 2 * margin)) {
-      base += 0.8 * font_;
-      cairo_move_to(cr_, margin, base);
-      cairo_text_path(cr_, line.c_str());
-      FillWithHalo(cr_, kFaultRed, kHalo * font_);
-      base += 0.5 * font_;
+      base_ += 0.8 * font_;
+      Text({margin, base_}, line);
+      base_ += 0.5 * font_;
     }
+  }
+
+  /// Under the heading: a finger at fault that is not in the picture.
+  void DrawAbsent(FingerIndex finger) {
+    const double margin = kMargin * camera_.height;
+    const double radius = kAbsentRadius * font_;
+    base_ += 0.4 * font_ + radius;
+    const Vector2d centre(margin + radius, base_);
+    SetCircle(cr_, centre, radius);
+    Fill(cr_, kFaultRed, 0.10);
+    SetCircle(cr_, centre, radius);
+    StrokeDashed(kFaultRed, 1.3);
+    SelectFont(cr_, font_, /*bold=*/true);
+    const std::string number = std::to_string(finger);
+    const double middle = base_ + 0.36 * font_;
+    Text({centre.x() - TextWidth(cr_, number) / 2, middle}, number);
+    Text({centre.x() + radius + 0.5 * font_, middle}, "not on the object");
+    base_ += radius;
   }
 
   /// Texts come last, over everything.
@@ -229,7 +247,7 @@ class Overlay {
  private:
   static constexpr double kPlaceRadius = 0.030;
 
-  struct Text {
+  struct LabelText {
     Vector2d at;
     std::string text;
     Color color;
@@ -255,8 +273,19 @@ class Overlay {
     return camera_.Project(frame_.FromWorld(p_W));
   }
 
+  void Text(const Vector2d& at, const std::string& text) {
+    cairo_move_to(cr_, at.x(), at.y());
+    cairo_text_path(cr_, text.c_str());
+    FillWithHalo(cr_, kFaultRed, kHalo * font_);
+  }
+
   void Label(const Vector2d& at, const std::string& text, Color color, double gap = 0) {
     labels_.push_back({at, text, color, gap});
+  }
+
+  /// Texts should not cover a line.
+  void Occupy(const Vector2d& a, const Vector2d& b) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) busy_.push_back(a + t * (b - a));
   }
 
   void Line(const Vector2d& a, const Vector2d& b, bool halo) {
@@ -292,7 +321,7 @@ class Overlay {
   }
 
   void ArrowAlong(const std::vector<Vector2d>& path, Color color, double weight) {
-    for (const Vector2d& p : path) busy_.push_back(p);
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) Occupy(path[i], path[i + 1]);
     // Arrowheads are of one size: the page is scaled instead.
     const double scale = weight * kLineWidth * font_;
     std::vector<Vector2d> scaled = path;
@@ -358,7 +387,8 @@ class Overlay {
   double font_;
   std::vector<Vector2d> busy_;  ///< what texts should not cover
   std::vector<Box> taken_;      ///< by texts
-  std::vector<Text> labels_;
+  std::vector<LabelText> labels_;
+  double base_ = 0;  ///< of what is written at the top left
 };
 
 }  // namespace
@@ -382,6 +412,11 @@ Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFram
   if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
   overlay.DrawLabels();
   overlay.DrawHeading(marks.heading);
+  for (const FingerIndex finger : marks.fingers) {
+    if (std::ranges::find(fingers, finger, &FingerGlyph::finger) == fingers.end()) {
+      overlay.DrawAbsent(finger);
+    }
+  }
   return overlay.ToImage();
 }
 

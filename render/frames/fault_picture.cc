@@ -5,9 +5,8 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
-#include "render/picture/fault_text.h"
-#include "render/picture/round_length.h"
 
 namespace regrasp::render {
 
@@ -32,9 +31,6 @@ constexpr double kTouches = 0.02;
 /// Normals that differ by less look the same.
 constexpr double kSameNormal = Radians(0.05);
 
-constexpr int kDigits = 3;
-constexpr int kFactorDigits = 2;
-
 /// By what a length is multiplied so that it can be seen.
 double StretchOf(double length, double most) {
   if (!(length > kLeastSeen / kMostStretch)) return 1;
@@ -45,7 +41,11 @@ double StretchOf(double length, double most) {
 /// "", ", drawn 40 times as long", ", drawn shorter".
 std::string StretchText(double factor) {
   if (factor == 1) return "";
-  return factor > 1 ? " (drawn × " + FormatShort(factor, kFactorDigits) + ")" : " (drawn shorter)";
+  if (factor < 1) return " (drawn shorter)";
+  // Two digits, without a power of ten.
+  const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 1);
+  const int decimals = unit < 1 ? 1 : 0;
+  return " (drawn × " + FormatFixed(std::round(factor / unit) * unit, decimals) + ")";
 }
 
 /// Whether the finger, rather than the place where it should be, is drawn elsewhere: the surface
@@ -135,11 +135,11 @@ class FaultSketch {
     const Vector3d expected_O = off ? expected.p : Vector3d(found.p - leg);
     const bool seen = stretch != 1 || distance / object_.diameter() >= kTooShort;
     if (seen) {
-      picture_.marks.dimensions.push_back(
-          {Place(expected_O), Place(found_O),
-           FormatLength(distance * scale_, kDigits) + StretchText(stretch)});
+      picture_.marks.dimensions.push_back({Place(expected_O), Place(found_O),
+                                           FormatLength(distance * scale_) + StretchText(stretch)});
     }
     if (off) MoveFinger(found_O);
+    if (reason_ == Reason::kWrongNormal) StandFinger(expected);
     if (seen && !off && reason_ != Reason::kWrongNormal) {
       AddPlace({expected_O, expected.n}, reason_ == Reason::kFingerNotFree ? "holds" : "was here");
     }
@@ -162,13 +162,27 @@ class FaultSketch {
     }
   }
 
+  /// The finger at fault stands on the outside, whatever its normal says.
+  void StandFinger(const grasp::Contact& expected) {
+    for (plan::FingerState& state : picture_.snapshot.fingers) {
+      if (state.finger != fault_.fingers.front()) continue;
+      state.normal_W = Direction(expected.n);
+      state.tip_W = state.contact_W - picture_.snapshot.fingertip_radius_m * state.normal_W;
+    }
+  }
+
   void AddNormals(const grasp::Contact& found, const grasp::Contact& expected) {
     const double angle = grasp::AngleBetween(found.n, expected.n);
-    if (reason_ == Reason::kOffSurface || !(angle > kSameNormal)) return;
-    picture_.marks.normals.push_back(
-        {Place(found.p), Direction(found.n), false, "given, " + FormatDegrees(angle) + " off"});
-    picture_.marks.normals.push_back({Place(expected.p), Direction(expected.n), true,
-                                      reason_ == Reason::kWrongNormal ? "true normal" : "was"});
+    const bool wrong = reason_ == Reason::kWrongNormal;
+    const bool turned = reason_ != Reason::kOffSurface && angle > kSameNormal;
+    if (turned) {
+      picture_.marks.normals.push_back({Place(found.p), Direction(found.n), false,
+                                        "given, " + FormatDegrees(Degrees(angle)) + " off"});
+    }
+    if (turned || wrong) {
+      picture_.marks.normals.push_back(
+          {Place(expected.p), Direction(expected.n), true, wrong ? "true normal" : "was"});
+    }
   }
 
   void AddCones() {
@@ -176,7 +190,9 @@ class FaultSketch {
     for (const plan::FingerContact& held : fault_.grasp) {
       const Vector3d apex = Place(held.contact.p);
       if (!IsNear(apex) || picture_.marks.cones.size() > picture_.snapshot.fingers.size()) continue;
-      picture_.marks.cones.push_back({apex, Direction(held.contact.n), *fault_.required});
+      const std::string text = "needs " + FormatDegrees(Degrees(*fault_.required));
+      picture_.marks.cones.push_back({apex, Direction(held.contact.n), *fault_.required,
+                                      picture_.marks.cones.empty() ? text : ""});
     }
   }
 

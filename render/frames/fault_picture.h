@@ -33,6 +33,7 @@ struct FaultMarks {
   struct Cone {
     Eigen::Vector3d apex, axis;
     double half_angle;
+    std::string text;  ///< of the first, for all
   };
   /// A fingertip as thick as it is.
   struct Tip {
@@ -63,7 +64,7 @@ struct FaultPicture {
 };
 
 /// @param snapshot  what the replay saw, or what is planned (planner/plan/planned_snapshot.h).
-/// @param heading   what failed, in a line (render/picture/fault_text.h).
+/// @param heading   what failed, in a line.
 /// @param scale     metres per unit of the object.
 [[nodiscard]] FaultPicture MakeFaultPicture(const object::Object& object, double scale,
                                             plan::Reason reason, const plan::Fault& fault,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/picture/round_length.h"
+#include "planner/base/quantity_text.h"
 
 namespace regrasp::render {
 

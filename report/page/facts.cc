@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/base/angle.h"
+#include "planner/base/quantity_text.h"
 #include "report/page/fact_list.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
@@ -23,7 +24,7 @@ constexpr char kLong[] = "digest";
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
   const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
-  facts.Add("Needs", required ? DegreesText(Degrees(required->upper)) : "none is enough");
+  facts.Add("Needs", required ? FormatDegrees(Degrees(required->upper)) : "none is enough");
   if (grasp.fingers.empty()) return;
   facts.Add("Quality ε", grasp::QualityText(grasp.quality, kQualityDigits));
   facts.Add("Weakest", "finger " + std::to_string(grasp::WeakestFinger(grasp.fingers)));
@@ -51,13 +52,13 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   FactList facts;
   facts.Add("Object", report.object_file + (report.dimension == 2 ? ", planar" : ", a solid"));
   if (!report.planner.empty()) facts.Add("Planner", report.planner);
-  facts.Add("Friction", DegreesText(Degrees(report.half_angle)) +
+  facts.Add("Friction", FormatDegrees(Degrees(report.half_angle)) +
                             " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
   if (report.grasp) AddGrasp(report, facts);
   const plan::EntryIndex weakest = report.weakest_step();
   if (weakest.valid() && !report.grasp && report.passed()) {
     facts.Add("Weakest", StepName(weakest) + ", " +
-                             DegreesText(measures[weakest].margin_deg.value_or(0)) + " to spare");
+                             FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " to spare");
   }
   if (report.trials) AddTrials(*report.trials, facts);
   if (report.settings) AddSettings(*report.settings, facts);

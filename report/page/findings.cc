@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/angle.h"
+#include "planner/base/quantity_text.h"
 #include "report/page/quantity.h"
 #include "report/page/step_plot.h"
 #include "report/page/table.h"
@@ -56,7 +57,7 @@ std::vector<Element> Disagreements(const Report& report) {
 std::string Margin(const sim::FingerMargins& margins) {
   const auto least = sim::SmallestMargin(margins);
   if (!least || !std::isfinite(*least)) return kNothing;
-  return DegreesText(Degrees(*least)) + " (finger " +
+  return FormatDegrees(Degrees(*least)) + " (finger " +
          std::to_string(sim::FingerOfSmallestMargin(margins)) + ")";
 }
 
@@ -66,7 +67,7 @@ Element RequirementsRow(const ReportStep& step, bool both) {
   Element row("tr");
   row.Add(NumberCell(std::to_string(step.check.index)));
   row.Add(NumberCell(need ? std::to_string(need->finger) : kNothing));
-  row.Add(NumberCell(need ? DegreesText(Degrees(need->friction.required)) : kNothing));
+  row.Add(NumberCell(need ? FormatDegrees(Degrees(need->friction.required)) : kNothing));
   row.Add(NumberCell(Margin(step.replay->rest_margins)));
   row.Add(NumberCell(Margin(step.replay->shake_margins)));
   if (both)

@@ -1,10 +1,10 @@
 #include "report/page/quantity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "report/page/plot_axis.h"
 
 namespace regrasp::report {
@@ -12,7 +12,6 @@ namespace regrasp::report {
 namespace {
 
 constexpr int kDigits = 3;
-constexpr int kAngleDecimals = 2;
 
 /// Numbers from here on, and below there, are written with a power of ten.
 constexpr double kPlainFrom = 1e-3;
@@ -49,18 +48,8 @@ std::string NumberText(double value) {
 std::string LengthText(double metres) {
   if (!std::isfinite(metres)) return kNothing;
   if (metres < kShortest_m) return "0";
-  struct Unit {
-    double metres;
-    const char* name;
-  };
-  static constexpr std::array<Unit, 4> kUnits = {
-      {{1, "\u00a0m"}, {1e-3, "\u00a0mm"}, {1e-6, "\u00a0µm"}, {1e-9, "\u00a0nm"}}};
-  const auto unit = std::ranges::find_if(
-      kUnits, [metres](const Unit& candidate) { return metres >= candidate.metres; });
-  const Unit& best = unit == kUnits.end() ? kUnits.back() : *unit;
-  return NumberText(metres / best.metres) + best.name;
+  std::string text = FormatLength(metres);
+  return text.replace(text.find(' '), 1, "\u00a0");
 }
-
-std::string DegreesText(double degrees) { return FormatFixed(degrees, kAngleDecimals) + "°"; }
 
 }  // namespace regrasp::report

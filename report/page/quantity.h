@@ -8,10 +8,8 @@ namespace regrasp::report {
 /// behind the point are left out. What is not finite is "–".
 [[nodiscard]] std::string NumberText(double value);
 
-/// A length in the unit that suits it: "4.1 µm", "104 mm"; "0" below a tenth of a nanometre.
+/// A length in the unit that suits it (FormatLength), on one line: "4.1 µm", "10.4 cm"; "0" below a
+/// tenth of a nanometre, "–" where it is not finite.
 [[nodiscard]] std::string LengthText(double metres);
-
-/// An angle to a hundredth of a degree: "12.40°".
-[[nodiscard]] std::string DegreesText(double degrees);
 
 }  // namespace regrasp::report

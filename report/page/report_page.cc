@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "planner/base/angle.h"
+#include "planner/base/quantity_text.h"
 #include "render/picture/caption.h"
-#include "render/picture/fault_text.h"
+#include "report/failure.h"
 #include "report/page/data_uri.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
@@ -55,7 +56,7 @@ class Page {
     if (failed_) return FailureStatement();
     const sim::ReplaySettings& settings = *report_.settings;
     const std::string what =
-        " with " + DegreesText(Degrees(report_.half_angle)) +
+        " with " + FormatDegrees(Degrees(report_.half_angle)) +
         " of friction, and in the replay the object resisted a push and a twist of " +
         NumberText(100 * settings.shake) + " % of the squeeze along every axis, in both directions";
     if (report_.grasp) return "The grasp is force closure" + what + ".";
@@ -66,17 +67,17 @@ class Page {
   }
 
   [[nodiscard]] std::string FailureStatement() const {
-    const ReportStep& step = report_.steps[*failed_];
+    const Failure failure = *DescribeFailure(report_);
     std::string text;
     if (!report_.grasp) {
       text = "at " + StepName(*failed_);
       if (*failed_ > 0) text += " (" + render::EntryTitle(plan_, *failed_) + ")";
       text += ": ";
     }
-    text += std::string(plan::ReasonName(step.reason())) + ".";
-    text = Capitalized(text);
-    if (!step.detail().empty()) text += " " + Capitalized(step.detail()) + ".";
-    const bool replayed = step.replay.has_value();
+    text = Capitalized(text + failure.reason + ".");
+    if (!failure.what.empty()) text += " " + Capitalized(failure.what) + ".";
+    text += " Why: " + failure.why + ". What would mend it: " + failure.mend + ".";
+    const bool replayed = report_.steps[*failed_].replay.has_value();
     text +=
         replayed ? " The replay found it." : " The analytic check found it; it was not replayed.";
     if (*failed_ + 1 < static_cast<int>(report_.steps.size())) text += " Later steps were skipped.";
@@ -183,12 +184,10 @@ class Page {
         index == 0 ? StepTitle(plan_, index)
                    : "Step " + std::to_string(index) + ", " + render::EntryTitle(plan_, index);
     const bool failed = step.verdict() == Verdict::kFail;
-    std::string text =
-        failed ? std::string(plan::ReasonName(step.reason())) + ": " +
-                     render::FaultText(step.reason(), step.fault(), step.detail(), report_.scale)
-               : VerdictText(step);
+    std::string text = failed ? std::string(plan::ReasonName(step.reason())) + ": " + step.detail()
+                              : VerdictText(step);
     if (!failed && measures_[index].margin_deg) {
-      text += ", " + DegreesText(*measures_[index].margin_deg) + " of friction left";
+      text += ", " + FormatDegrees(*measures_[index].margin_deg) + " of friction left";
     }
     const Element image("img", {{"alt", name},
                                 {"width", std::to_string(picture.width)},

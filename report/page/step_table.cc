@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "planner/base/angle.h"
+#include "planner/base/quantity_text.h"
 #include "report/page/quantity.h"
 #include "report/page/step_text.h"
 #include "report/page/table.h"
@@ -14,12 +15,12 @@ namespace {
 constexpr char kNothing[] = "–";
 
 std::string DegreesOr(const std::optional<double>& radians, const char* otherwise) {
-  return radians ? DegreesText(Degrees(*radians)) : otherwise;
+  return radians ? FormatDegrees(Degrees(*radians)) : otherwise;
 }
 
 std::string Required(const plan::StepCheck& check) {
   if (check.skipped) return kNothing;
-  if (check.required) return DegreesText(Degrees(check.required->upper));
+  if (check.required) return FormatDegrees(Degrees(check.required->upper));
   const bool decided =
       check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
   return decided ? "none" : kNothing;
@@ -40,7 +41,7 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
   return Element("tr", {{"class", std::string(VerdictName(step.verdict()))}},
                  NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
                  MinorCell(Required(step.check)),
-                 NumberCell(measures.margin_deg ? DegreesText(*measures.margin_deg) : kNothing),
+                 NumberCell(measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNothing),
                  NumberCell(replay ? LengthText(replay->displacement_m) : kNothing),
                  MinorCell(replay ? NumberText(replay->rotation_deg) + "°" : kNothing),
                  NumberCell(replay ? LengthText(replay->slip_m) : kNothing),
@@ -74,8 +75,8 @@ std::vector<Element> MakeFingerTable(const Report& report) {
   for (std::size_t i = 0; i < report.grasp->fingers.size(); ++i) {
     const grasp::FingerFriction& finger = report.grasp->fingers[i];
     rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
-                      NumberCell(DegreesText(Degrees(finger.required))),
-                      NumberCell(DegreesText(Degrees(report.half_angle - finger.required))),
+                      NumberCell(FormatDegrees(Degrees(finger.required))),
+                      NumberCell(FormatDegrees(Degrees(report.half_angle - finger.required))),
                       NumberCell(DegreesOr(finger.without, "none")));
   }
   return {

@@ -1,10 +1,17 @@
 #include "sim/measure/push.h"
 
+#include "planner/base/number.h"
+
 namespace regrasp::sim {
 namespace {
 
 /// In the plane there are two forces and one torque.
 bool IsAxis(int dimension, bool turn, int axis) { return dimension == 3 || turn == (axis == 2); }
+
+/// "+x"
+std::string AxisName(const Push& push) {
+  return std::string(push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
+}
 
 }  // namespace
 
@@ -20,8 +27,14 @@ std::vector<Push> PushDirections(int dimension) {
 }
 
 std::string PushName(const Push& push) {
-  return std::string(push.turn ? "torque " : "force ") + (push.sign > 0 ? "+" : "-") +
-         "xyz"[push.axis];
+  return (push.turn ? "torque " : "force ") + AxisName(push);
+}
+
+std::string PushText(const Push& push, double size, double radius) {
+  constexpr int kDigits = 2;
+  const std::string axis = AxisName(push);
+  return push.turn ? "a twist of " + FormatShort(size * radius, kDigits) + " N·m about " + axis
+                   : "a push of " + FormatShort(size, kDigits) + " N along " + axis;
 }
 
 grasp::Wrench PushWrench(const Push& push, double size) {

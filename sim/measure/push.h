@@ -15,6 +15,11 @@ namespace regrasp::sim {
 /// "force +x", "torque -z".
 [[nodiscard]] std::string PushName(const Push& push);
 
+/// "a push of 5.3 N along +x", "a twist of 0.2 N·m about -z".
+/// @param size    of the force, or of the torque over `radius`, newtons.
+/// @param radius  metres.
+[[nodiscard]] std::string PushText(const Push& push, double size, double radius);
+
 /// A force of `size`, or a torque of `size` times the frame's radius.
 [[nodiscard]] grasp::Wrench PushWrench(const Push& push, double size);
 

@@ -66,18 +66,19 @@ void PushOnce(ReplayWorld& world, const grasp::Wrench& push_S, DisturbanceRespon
 }
 
 void Shake(ReplayWorld& world, DisturbanceResponse response,
-           const std::function<void(const grasp::Wrench& push_S)>& on_fault) {
+           const std::function<void(const plan::FaultPush& push)>& on_fault) {
   const double size = world.settings().shake * world.settings().squeeze_N;
   if (size == 0) return;
-  const char* name =
-      response == DisturbanceResponse::kAdapted ? "shake, " : "shake at fixed squeeze, ";
+  const double radius = world.settings().diameter_m / 2;
+  const char* how = response == DisturbanceResponse::kAdapted ? "" : " at fixed squeeze";
   KeepRest rest(world);
   for (const Push& push : PushDirections(world.scene().dimension)) {
-    world.monitor().SetPhase(name + PushName(push));
+    const std::string name = PushText(push, size, radius) + how;
+    world.monitor().SetPhase("under " + name);
     const grasp::Wrench push_S = PushWrench(push, size);
     PushOnce(world, push_S, response);
     if (world.monitor().reason() != plan::Reason::kNone) {
-      on_fault(push_S);
+      on_fault({push_S.force, radius * push_S.torque_over_radius, name});
       return;
     }
     rest.Restore();

@@ -20,10 +20,10 @@ enum class DisturbanceResponse {
 /// lasts until everything is still (sim/world/stillness.h). The world's monitor measures; a push
 /// that the grasp does not stand is the last. Afterwards everything is as before, whatever is
 /// thrown.
-/// @param on_fault  called while the world is as that push, in newtons, left it.
+/// @param on_fault  called while the world is as that push left it.
 /// @throws UnstableError
 void Shake(ReplayWorld& world, DisturbanceResponse response,
-           const std::function<void(const grasp::Wrench& push_S)>& on_fault);
+           const std::function<void(const plan::FaultPush& push)>& on_fault);
 
 /// One push on the object at rest, and a look at its contacts. Adapted forces and their push stay;
 /// a push that fixed forces meet is taken away again.

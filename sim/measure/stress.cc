@@ -20,7 +20,6 @@ constexpr double kMostStress = 10;
 /// Whether the object stands a push of `share` of the squeeze.
 bool Resists(ReplayWorld& world, KeepRest& rest, const Push& push, double share) {
   world.StartMonitoring();
-  world.monitor().SetPhase("stress, " + PushName(push));
   bool stands = false;
   try {
     PushOnce(world, PushWrench(push, share * world.settings().squeeze_N),

@@ -5,6 +5,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "planner/criteria/clearance.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/largest_load.h"
@@ -29,7 +30,7 @@ std::string Finger(FingerIndex finger) { return "finger " + std::to_string(finge
 Disagreement ConeReached(const std::string& what, FingerIndex finger, double margin) {
   const double degrees = Degrees(std::max(margin, 0.0));
   return {.cause = Cause::kConeReached,
-          .text = what + ": margin " + FormatShort(degrees, 2) + " deg",
+          .text = what + ": margin " + FormatDegrees(degrees),
           .values = {{"finger", finger}, {"cone_margin_deg", degrees}}};
 }
 
@@ -61,9 +62,9 @@ class ReplayFault {
         const double away = step_.object.DistanceToBorder(held.contact.face, held.contact.p);
         if (away >= slip) continue;
         return Disagreement{.cause = Cause::kEdge,
-                            .text = Finger(held.finger) + " stands " + FormatShort(Metres(away)) +
-                                    " m from the border of its face, and may slip " +
-                                    FormatShort(Metres(slip)) + " m",
+                            .text = Finger(held.finger) + " stands " + FormatLength(Metres(away)) +
+                                    " from the border of its face, and may slip " +
+                                    FormatLength(Metres(slip)),
                             .values = {{"finger", held.finger},
                                        {"border_m", Metres(away)},
                                        {"allowed_slip_m", Metres(slip)}}};
@@ -107,10 +108,10 @@ class ReplayFault {
                                       {"fingertip_radius_m", Metres(tip)},
                                       {"border_m", Metres(away)}}};
         found.text = corner ? Finger(held.finger) + " stands in a concave corner, " +
-                                  FormatShort(Metres(away)) + " m from the border of its face"
-                            : "a fingertip of radius " + FormatShort(Metres(tip)) +
-                                  " m has no room at " + Finger(held.finger) + ", where " +
-                                  FormatShort(Metres(clearance)) + " m fit";
+                                  FormatLength(Metres(away)) + " from the border of its face"
+                            : "a fingertip of radius " + FormatLength(Metres(tip)) +
+                                  " has no room at " + Finger(held.finger) + ", where " +
+                                  FormatLength(Metres(clearance)) + " fit";
         return found;
       }
     }
@@ -195,8 +196,8 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
   }
   if (Finding edge = ReplayFault(step).LookForEdge()) return *edge;
   return {.cause = Cause::kUnknown,
-          .text = "no cause found: the object gave way by " + FormatShort(fixed.give_m) +
-                  " m on the servos, and no force reached its cone",
+          .text = "no cause found: the object gave way by " + FormatLength(fixed.give_m) +
+                  " on the servos, and no force reached its cone",
           .values = {{"give_m", fixed.give_m}}};
 }
 
@@ -214,15 +215,15 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
   }
   const double half_angle = std::atan(step.settings.mu);
   if (!step.check.required) {
-    return {.cause = Cause::kUnknown, .text = "no cause found: no friction below 90 deg serves"};
+    return {.cause = Cause::kUnknown, .text = "no cause found: no friction below 90° serves"};
   }
   const double required = step.check.required->upper;
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
   return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
           .text = std::string(near ? "the friction is hardly below the critical one"
                                    : "no cause found") +
-                  ": half-angle " + FormatShort(Degrees(half_angle)) + " deg, required " +
-                  FormatShort(Degrees(required)) + " deg",
+                  ": half-angle " + FormatDegrees(Degrees(half_angle)) + ", required " +
+                  FormatDegrees(Degrees(required)),
           .values = {{"half_angle_deg", Degrees(half_angle)},
                      {"required_half_angle_deg", Degrees(required)}}};
 }

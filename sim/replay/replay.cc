@@ -68,7 +68,10 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   // An object that is lost may well end in a state that the engine cannot bear.
   if (result.reason != plan::Reason::kNone) return result;
   result.reason = plan::Reason::kSimulationUnstable;
-  result.detail = error.what();
+  const std::string why = error.what();
+  // The engine's first sentence has it.
+  result.detail =
+      "the simulation became unstable " + monitor.phase() + ": " + why.substr(0, why.find(". "));
   return result;
 }
 
@@ -89,10 +92,16 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   const auto contact_at = [&](const Eigen::Vector3d& p_B) {
     return grasp::Contact{centroid + p_B / scale, finger.contact.n, finger.contact.face};
   };
+  const Eigen::Vector3d found = world.ContactPoint_B(f);
+  const Eigen::Vector3d& n = finger.contact.n;
   const bool slipped = monitor.reason() == plan::Reason::kSlipped;
   fault.fingers = {f};
-  fault.found = contact_at(world.ContactPoint_B(f));
-  fault.expected = {contact_at(slipped ? finger.touch_B : finger.contact.p)};
+  fault.found = contact_at(found);
+  // A slide is along the surface; off the surface it has no place to be but the one beneath it.
+  const Eigen::Vector3d along = n * n.dot(finger.contact.p - found);
+  const Eigen::Vector3d slide = finger.touch_B - found;
+  fault.expected = {
+      contact_at(found + (slipped ? Eigen::Vector3d(slide - slide.dot(n) * n) : along))};
   return fault;
 }
 
@@ -102,12 +111,14 @@ StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double 
   const MotionMonitor before = world.monitor();
   StepMotion seen;
   seen.fault = DescribeFault(world, object, scale);
+  seen.detail = world.monitor().detail();
   seen.snapshot = world.TakeSnapshot();
-  const auto see_fault = [&](const grasp::Wrench& push_S) {
+  const auto see_fault = [&](const plan::FaultPush& push) {
     // What failed before any push did not fail for it.
     if (world.monitor().reason() == before.reason()) return;
     seen.fault = DescribeFault(world, object, scale);
-    seen.fault.push = {push_S.force, world.settings().diameter_m / 2 * push_S.torque_over_radius};
+    seen.detail = world.monitor().detail();
+    seen.fault.push = push;
     seen.snapshot = world.TakeSnapshot();
   };
   StepMotion result;
@@ -115,6 +126,7 @@ StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double 
   try {
     Shake(world, response, see_fault);
     result = Describe(world.monitor());
+    result.detail = seen.detail;
   } catch (const UnstableError& error) {
     result = Unstable(world.monitor(), error);
   }
@@ -166,9 +178,11 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
   RestoreRoles(world);
   world.StartMonitoring();
   try {
-    world.monitor().SetPhase("motion");
+    world.monitor().SetPhase(index == 0 ? "as the fingers took hold"
+                                        : std::string("during the ") +
+                                              plan::StepKind(plan::StepOf(plan, index)));
     Perform(world, object, plan, index, result);
-    world.monitor().SetPhase("rest");
+    world.monitor().SetPhase("once the fingers stood still");
     ComeToRest(world);
     result.motion_margins = world.monitor().margins();
     ExamineRest(world, object, plan.scale, result);

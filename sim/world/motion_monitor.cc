@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
-#include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "sim/world/cone_margin.h"
 
 namespace regrasp::sim {
@@ -14,6 +14,8 @@ double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
   const Eigen::Quaterniond a(from.linear()), b(to.linear());
   return a.angularDistance(b);
 }
+
+std::string Name(FingerIndex finger) { return "finger " + std::to_string(finger); }
 
 }  // namespace
 
@@ -40,13 +42,15 @@ void MotionMonitor::AddPose(const Eigen::Isometry3d& X_SB) {
   displacement_ = std::max(displacement_, displacement);
   rotation_ = std::max(rotation_, rotation);
   moved_ = std::max(moved_, moved);
-  if (object_moved_.empty() && moved > settings_.tolerance * settings_.diameter_m) {
-    object_moved_ = phase_ + ": the object moved";
+  if (!object_moved_ && moved > settings_.tolerance * settings_.diameter_m) {
+    object_moved_ = phase_;
   }
 }
 
 void MotionMonitor::AddUnrest() {
-  if (object_moved_.empty()) object_moved_ = phase_ + ": the object did not come to rest";
+  if (object_moved_) return;
+  object_moved_ = phase_;
+  unrest_ = true;
 }
 
 bool MotionMonitor::lost() const {
@@ -55,17 +59,19 @@ bool MotionMonitor::lost() const {
 
 void MotionMonitor::AddSlip(FingerIndex finger, double slip_m) {
   slip_ = std::max(slip_, slip_m);
-  if (slipped_.empty() && slip_m > settings_.tolerance * settings_.diameter_m) {
+  if (!slipped_ && slip_m > settings_.tolerance * settings_.diameter_m) {
     slipped_finger_ = finger;
-    slipped_ = phase_ + ": finger " + std::to_string(finger) + " slipped";
+    slipped_ = phase_;
   }
+  if (finger == slipped_finger_) slip_now_ = slip_m;
 }
 
 void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
-  if (!lost_.empty() || gap_m <= kLostGap * settings_.diameter_m) return;
-  lost_finger_ = finger;
-  lost_ = phase_ + ": finger " + std::to_string(finger) + " is " + FormatShort(gap_m) +
-          " m off the surface";
+  if (!lost_ && gap_m > kLostGap * settings_.diameter_m) {
+    lost_finger_ = finger;
+    lost_ = phase_;
+  }
+  if (finger == lost_finger_) gap_now_ = gap_m;
 }
 
 void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
@@ -75,9 +81,9 @@ void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
 }
 
 plan::Reason MotionMonitor::reason() const {
-  if (!lost_.empty()) return plan::Reason::kContactLost;
-  if (!slipped_.empty()) return plan::Reason::kSlipped;
-  if (!object_moved_.empty()) return plan::Reason::kObjectMoved;
+  if (lost_) return plan::Reason::kContactLost;
+  if (slipped_) return plan::Reason::kSlipped;
+  if (object_moved_) return plan::Reason::kObjectMoved;
   return plan::Reason::kNone;
 }
 
@@ -95,12 +101,13 @@ FingerIndex MotionMonitor::finger() const {
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
-      return lost_;
+      return Name(lost_finger_) + " came " + FormatLength(gap_now_) + " off the surface " + *lost_;
     case plan::Reason::kSlipped:
-      return slipped_ + ", " + FormatShort(slip_) + " m in the end";
+      return Name(slipped_finger_) + " slipped by " + FormatLength(slip_now_) + " " + *slipped_;
     case plan::Reason::kObjectMoved:
-      return object_moved_ + ", " + FormatShort(displacement_) + " m and " +
-             FormatShort(Degrees(rotation_)) + " deg in the end";
+      return std::string(unrest_ ? "the object did not come to rest " : "the object moved ") +
+             *object_moved_ + ": by " + FormatLength(displacement_) + " and " +
+             FormatDegrees(Degrees(rotation_));
     default:
       return {};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "planner/plan/reason.h"
@@ -20,8 +21,11 @@ class MotionMonitor {
 
   /// Forgets everything and measures from this pose.
   void Start(const Eigen::Isometry3d& X_SB);
-  /// What is measured next belongs to this part of the step, for people: "shake +x".
+  /// What is measured next belongs to this part of the step, for people: "during the align",
+  /// "under a push of 5.3 N along +x".
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
+
+  [[nodiscard]] const std::string& phase() const { return phase_; }
 
   void AddPose(const Eigen::Isometry3d& X_SB);
   /// While on, how far the object moves is the give of the servos under a push, which counts apart
@@ -40,7 +44,8 @@ class MotionMonitor {
 
   /// kNone, or the first of contact-lost, slipped and object-moved that applies.
   [[nodiscard]] plan::Reason reason() const;
-  /// One phrase on what the reason is, empty where there is none.
+  /// What the reason is, with its number now and when it was seen first: "finger 2 slipped by
+  /// 300 µm during the align"; empty where there is none.
   [[nodiscard]] std::string detail() const;
   /// The finger that lost its contact or slipped first; not valid where the reason is another.
   [[nodiscard]] FingerIndex finger() const;
@@ -58,7 +63,7 @@ class MotionMonitor {
   /// Largest |Δx| + R |Δrotation| while giving.
   [[nodiscard]] double give_m() const { return give_; }
   [[nodiscard]] double slip_m() const { return slip_; }
-  [[nodiscard]] bool contact_lost() const { return !lost_.empty(); }
+  [[nodiscard]] bool contact_lost() const { return lost_.has_value(); }
   [[nodiscard]] const FingerMargins& margins() const { return margins_; }
 
  private:
@@ -66,9 +71,11 @@ class MotionMonitor {
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
   std::string phase_;
   double displacement_ = 0, rotation_ = 0, moved_ = 0, moved_now_ = 0, give_ = 0, slip_ = 0;
+  double slip_now_ = 0, gap_now_ = 0;  ///< of slipped_finger_ and lost_finger_
   bool giving_ = false;
+  bool unrest_ = false;  ///< the object moved in that it did not come to rest
   FingerMargins margins_;
-  std::string lost_, slipped_, object_moved_;  ///< where each was seen first
+  std::optional<std::string> lost_, slipped_, object_moved_;  ///< the phase it was seen in first
   FingerIndex lost_finger_, slipped_finger_;
 };
 

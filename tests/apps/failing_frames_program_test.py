@@ -1,6 +1,7 @@
 """What validate draws of a plan that fails: a frame for every reason, and the contact sheet."""
 
 import copy
+import json
 import os
 import struct
 import zlib
@@ -60,6 +61,9 @@ def is_red(pixel):
 
 class FailingFrames(ProgramCase):
     program = "validate"
+
+    # Nobody's fault but that of the object, the friction or the engine.
+    WITHOUT_FINGER = ("not-proved", "simulation-unstable", "object-moved")
 
     def setUp(self):
         super().setUp()
@@ -126,60 +130,116 @@ class FailingFrames(ProgramCase):
             contact["point"] = [p - away * n for p, n in zip(place["point"], place["normal"])]
             self.assert_frame_of_failure(2, "off-surface")
 
-    def test_a_wrong_normal_at_the_hold_where_nothing_was_replayed(self):
+    # Each breaks the plan for one reason, and says which entry fails, with what options, and
+    # whether a finger is at fault.
+
+    def break_off_surface(self):
+        contact = self.plan["steps"][1]["place"][0]
+        contact["point"] = [p - 0.004 * n for p, n in zip(contact["point"], contact["normal"])]
+        return 2, ()
+
+    def break_wrong_normal(self):
         contact = self.plan["initial"]["contacts"][0]
         contact["normal"] = [-n for n in contact["normal"]]
-        self.assert_frame_of_failure(0, "wrong-normal")
+        return 0, ()
 
-    def test_fingers_that_are_not_free_not_holding_or_too_many(self):
+    def break_finger_not_free(self):
         step = self.plan["steps"][0]
-        good = copy.deepcopy(step)
         step["place"][0]["finger"] = step["release"][0]
-        self.assert_frame_of_failure(1, "finger-not-free")
-        step["place"][0]["finger"] = 7
-        self.assert_frame_of_failure(1, "too-many-fingers")
-        holding = {contact["finger"] for contact in self.plan["initial"]["contacts"]}
-        step["place"], step["release"] = [], list({0, 1, 2, 3, 4} - holding)
-        # The finger is nowhere: what is wrong stands in words.
-        self.assert_frame_of_failure(1, "finger-not-holding", finger=False)
-        held = self.plan["initial"]["contacts"][0]
-        self.plan["steps"][0] = good
-        good["place"][0]["point"], good["place"][0]["normal"] = held["point"], held["normal"]
-        if held["finger"] in good["release"]:
-            good["release"] = [next(f for f in holding if f != held["finger"])]
-        self.assert_frame_of_failure(1, "coincident-fingers")
+        return 1, ()
 
-    def test_an_align_that_jumps_or_leaves_its_face(self):
+    def break_finger_not_holding(self):
+        holding = {contact["finger"] for contact in self.plan["initial"]["contacts"]}
+        self.plan["steps"][0].update(place=[], release=sorted({0, 1, 2, 3, 4} - holding))
+        return 1, ()
+
+    def break_too_many_fingers(self):
+        self.plan["steps"][0]["place"][0]["finger"] = 7
+        return 1, ()
+
+    def break_coincident_fingers(self):
+        contacts = self.plan["initial"]["contacts"]
+        step = self.plan["steps"][0]
+        held, left = contacts[0], contacts[1]["finger"]
+        step["place"][0].update(point=held["point"], normal=held["normal"])
+        step["release"] = [left]
+        return 1, ()
+
+    def break_discontinuous(self):
         waypoints = self.make_align()
-        self.assert_done(*self.arguments())
         waypoints[0][0]["point"] = waypoints[1][0]["point"]
-        self.assert_frame_of_failure(1, "discontinuous")
+        return 1, ()
+
+    def break_leaves_face(self):
         waypoints = self.make_align()
         other = waypoints[1][1]
         axis = next(i for i in range(3) if abs(other["normal"][i]) < 0.5)
-        waypoints[1][0]["point"] = list(other["point"])
+        waypoints[1][0].update(point=list(other["point"]), normal=other["normal"])
         waypoints[1][0]["point"][axis] += 0.005
-        waypoints[1][0]["normal"] = other["normal"]
-        self.assert_frame_of_failure(1, "leaves-face")
+        return 1, ()
 
-    def test_too_little_friction(self):
-        steps, _ = self.assert_frame_of_failure(0, "not-force-closure", "--friction-angle", "5")
-        self.assertGreater(steps[0]["force_closure"]["required_half_angle_deg"], 5)
+    def break_not_force_closure(self):
+        return 0, ("--friction-angle", "5")
 
-    def test_fingers_that_are_too_thick(self):
-        self.assert_frame_of_failure(1, "unreachable", "--finger-radius", "0.06")
+    def break_not_proved(self):
+        """Finger 2 passes finger 1's place, where all are on one line for an instant."""
+        def grasp(y):
+            places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
+                      ([0.03, y, 0], [-1, 0, 0])]
+            return {"contacts": [{"finger": finger, "point": point, "normal": normal}
+                                 for finger, (point, normal) in enumerate(places)]}
+        waypoints = [grasp(-0.009), grasp(0.012)]
+        self.plan.update(initial=waypoints[0], goal=waypoints[1],
+                         steps=[{"kind": "align", "waypoints": waypoints}])
+        return 1, ()
 
-    def test_failures_of_the_replay(self):
-        self.assert_frame_of_failure(0, "slipped", "--tolerance", "1e-12")
-        self.assert_frame_of_failure(0, "contact-lost", "--squeeze", "3", "--mu", "0.36")
-        self.assert_frame_of_failure(1, "object-moved", "--squeeze", "20", "--tolerance", "1e-6",
-                                     finger=False)
+    def break_unreachable(self):
+        return 1, ("--finger-radius", "0.06")
 
-    def test_another_start_or_goal(self):
-        self.assert_frame_of_failure(0, "start-differs", "--start", self.model("cube.goal.json"))
-        last = len(self.plan["steps"])
-        self.assert_frame_of_failure(last, "goal-not-reached", "--goal",
-                                     self.model("cube.start.json"))
+    def break_simulation_unstable(self):
+        return 0, ("--squeeze", "100", "--shake", "1e30", "--tolerance", "1e32")
+
+    def break_contact_lost(self):
+        return 0, ("--squeeze", "3", "--mu", "0.36")
+
+    def break_slipped(self):
+        return 0, ("--tolerance", "1e-12")
+
+    def break_object_moved(self):
+        return 1, ("--squeeze", "20", "--tolerance", "1e-6")
+
+    def break_start_differs(self):
+        return 0, ("--start", self.model("cube.goal.json"))
+
+    def break_goal_not_reached(self):
+        return len(self.plan["steps"]), ("--goal", self.model("cube.start.json"))
+
+    def test_each_reason_of_the_report_has_its_frame_with_the_finger_at_fault_in_red(self):
+        with open(os.path.join(program_case.ARGUMENTS.source, "docs", "report.schema.json"),
+                  encoding="utf-8") as file:
+            reasons = json.load(file)["$defs"]["step"]["properties"]["reason"]["enum"]
+        reasons = [reason for reason in reasons if reason is not None]
+        self.assertEqual(len(reasons), 17)
+        whole = copy.deepcopy(self.plan)
+        for reason in reasons:
+            with self.subTest(reason=reason):
+                self.plan = copy.deepcopy(whole)
+                index, more = getattr(self, "break_" + reason.replace("-", "_"))()
+                self.assert_frame_of_failure(index, reason, *more,
+                                             finger=reason not in self.WITHOUT_FINGER)
+
+    def test_a_normal_of_another_length_or_none_at_all(self):
+        contact = self.plan["initial"]["contacts"][0]
+        normal = contact["normal"]
+        for length in (0, 1e-3, 2):
+            contact["normal"] = [length * n for n in normal]
+            self.assert_frame_of_failure(0, "wrong-normal")
+
+    def test_a_finger_that_is_missing_in_a_waypoint_is_in_the_frame(self):
+        waypoints = self.make_align()
+        self.assert_done(*self.arguments())
+        waypoints[1].pop()
+        self.assert_frame_of_failure(1, "discontinuous")
 
 
 if __name__ == "__main__":

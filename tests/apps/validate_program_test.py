@@ -196,9 +196,9 @@ class Validate(ProgramCase):
         self.write_plan()
         done = self.run_program(*self.arguments("--no-frames"))
         said = done.stdout.splitlines()
-        self.assertEqual(said[0], "step 0 (hold) fails: off-surface")
-        self.assertRegex(said[1], r"^  why: finger \d: 0\.004 of the object file's units off the "
-                                  r"surface, 0\.03849 of the object's diameter")
+        self.assertRegex(said[0], r"^step 0 \(hold\) fails: off-surface: finger \d is 4 mm off the "
+                                  r"surface$")
+        self.assertRegex(said[1], r"^  why: a contact lies on the surface to within 1e-06 of ")
         self.assertRegex(said[2], r"^  what would mend it: .*surface")
         self.assertEqual(said[-1], "verdict: fail, " + said[0])
         self.assertEqual(said[-2], "files: result/report.html, report.json")
@@ -207,6 +207,22 @@ class Validate(ProgramCase):
         self.assertEqual((quiet.returncode, quiet.stdout), (1, ""))
         self.assertTrue(quiet.stderr.startswith("validate: " + said[0]), quiet.stderr)
         self.assertEqual(quiet.stderr.count("\n"), 1)
+
+    def test_terminal_quiet_page_report_and_junit_say_a_failure_in_the_same_words(self):
+        arguments = self.arguments("--no-frames", "--junit", "junit.xml", tolerance="1e-12")
+        headline, why, mend = self.run_program(*arguments).stdout.splitlines()[:3]
+        why, mend = why.removeprefix("  why: "), mend.removeprefix("  what would mend it: ")
+        self.assertRegex(headline, r"slipped: finger \d slipped by [\d.]+ .m ")
+        failed = self.report()["steps"][0]
+        self.assertTrue(headline.endswith(": slipped: " + failed["detail"]), headline)
+        self.assertEqual((failed["why"], failed["mend"]), (why, mend))
+        self.assertNotIn("why", self.report()["steps"][1])
+        case = ElementTree.fromstring(self.read("junit.xml")).find("testsuite/testcase/failure")
+        self.assertEqual(case.text, f"{failed['detail']}\nwhy: {why}\nwhat would mend it: {mend}")
+        for words in (failed["detail"][1:], why, mend):
+            self.assertIn(words, self.page_text())
+        quiet = self.run_program(*arguments, "--quiet").stderr
+        self.assertEqual(quiet, f"validate: {headline}; why: {why}; what would mend it: {mend}\n")
 
     def test_the_friction_that_a_failed_plan_asks_for_passes_the_analytic_check(self):
         done = self.run_program(*self.arguments("--no-frames", friction_angle="2"))

@@ -3,14 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "planner/base/angle.h"
+#include "report/squeeze_text.h"
 
 namespace regrasp::report {
 namespace {
 
 using plan::Reason;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 /// Step 0 passes, step 1 fails for a reason, and needs a half-angle.
 Report FailingFor(Reason reason, double required_deg) {
@@ -31,22 +37,26 @@ TEST(Failure, IsTheFirstStepThatFailsAndAPlanThatPassesHasNone) {
   Report report = FailingFor(Reason::kOffSurface, 0);
   const auto failure = DescribeFailure(report);
   ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->step, 1);
-  EXPECT_EQ(failure->what, "step 1 (align) fails: off-surface");
-  EXPECT_EQ(failure->why, "so far off");
+  EXPECT_EQ(failure->entry, 1);
+  EXPECT_EQ(failure->headline(), "step 1 (align) fails: off-surface: so far off");
+  EXPECT_EQ(FormatFailure(report), failure->headline() + "\n  why: " + failure->why +
+                                       "\n  what would mend it: " + failure->mend + "\n");
   report.steps[1].check.reason = Reason::kNone;
   EXPECT_FALSE(DescribeFailure(report));
   EXPECT_EQ(FormatFailure(report), "");
 }
 
-TEST(Failure, SaysForEveryReasonWhatWouldMendIt) {
-  int count = 0;
+TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
+  std::set<std::string> said;
   for (Reason reason = Reason::kOffSurface; reason <= Reason::kGoalNotReached;
        reason = static_cast<Reason>(static_cast<int>(reason) + 1)) {
-    EXPECT_NE(DescribeFailure(FailingFor(reason, 7))->mend, "") << plan::ReasonName(reason);
-    ++count;
+    const Failure failure = *DescribeFailure(FailingFor(reason, 7));
+    EXPECT_EQ(failure.reason, plan::ReasonName(reason));
+    EXPECT_NE(failure.why, "") << failure.reason;
+    EXPECT_NE(failure.mend, "") << failure.reason;
+    said.insert(failure.reason);
   }
-  EXPECT_EQ(count, 17);
+  EXPECT_EQ(said.size(), 17u);
 }
 
 TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {
@@ -67,9 +77,38 @@ TEST(Failure, OfAReplayGoesByTheLikelyCause) {
   report.steps[1].disagreement =
       sim::Disagreement{sim::Between::kReplayFails, sim::Cause::kWeight, "too heavy"};
   const auto failure = DescribeFailure(report);
-  EXPECT_EQ(failure->why, "finger 2 slipped; likely cause: too heavy");
+  EXPECT_EQ(failure->what, "finger 2 slipped");
+  EXPECT_THAT(failure->why, EndsWith("; likely cause: too heavy"));
   EXPECT_THAT(failure->mend, HasSubstr("--squeeze"));
   EXPECT_NE(failure->mend, unknown);
+}
+
+TEST(Failure, OfASlipTellsTheToleranceAsALength) {
+  Report report = FailingFor(Reason::kNone, 5);
+  report.steps[1].replay.emplace().reason = Reason::kSlipped;
+  report.settings.emplace();
+  report.settings->diameter_m = 0.104;
+  report.settings->tolerance = 0.001;
+  EXPECT_THAT(DescribeFailure(report)->why, StartsWith("up to 104 µm, --tolerance 0.001 of"));
+}
+
+TEST(Failure, AsksForLessOfTheShakeOnlyWhereThereIsOne) {
+  Report report = FailingFor(Reason::kNone, 5);
+  report.steps[1].replay.emplace().reason = Reason::kObjectMoved;
+  report.settings.emplace();
+  report.settings->mass_kg = report.settings->squeeze_N = 1;
+  EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--shake")));
+  EXPECT_THAT(SqueezeText(*report.settings), Not(HasSubstr("the shake")));
+  report.settings->shake = 0.01;
+  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--shake"));
+  EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("a tenth of the shake"));
+}
+
+TEST(Failure, OfAContactThatNoFingerReachesSaysNothingOfThicknessWhereFingersArePoints) {
+  Report report = FailingFor(Reason::kUnreachable, 5);
+  EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--finger-radius")));
+  report.steps[1].check.fault.finger_radius = 0.01;
+  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--finger-radius"));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Json FailedReport() {
       {"kind": "hold", "verdict": "pass", "reason": null, "detail": null, "frame": "000_hold.png",
        "force_closure": {"holds": true, "required_half_angle_deg": 12.5}},
       {"kind": "switch", "verdict": "fail", "reason": "slipped", "detail": "finger 2 slipped",
-       "frame": null, "force_closure": {"holds": true, "required_half_angle_deg": 17.5}},
+       "why": "nothing may slip", "mend": "more friction", "frame": null, "force_closure": {"holds": true, "required_half_angle_deg": 17.5}},
       {"kind": "align", "verdict": "skipped", "reason": null, "force_closure": null}]})");
 }
 
@@ -31,6 +31,9 @@ TEST(ReportSummaryTest, TellsWhatTheReportSays) {
   EXPECT_EQ(summary.entries[0].frame, "000_hold.png");
   EXPECT_EQ(summary.entries[1].reason, "slipped");
   EXPECT_EQ(summary.entries[1].detail, "finger 2 slipped");
+  EXPECT_EQ(summary.entries[1].why, "nothing may slip");
+  EXPECT_EQ(summary.entries[1].mend, "more friction");
+  EXPECT_EQ(summary.entries[0].mend, "");
   EXPECT_EQ(summary.entries[2].verdict, "skipped");
   EXPECT_EQ(summary.failed_step(), 1);
   EXPECT_EQ(summary.object, "cube.obj");

@@ -256,6 +256,8 @@ TEST(CheckAlign, SaysWhereTheSearchForProofsEnded) {
     EXPECT_EQ(step.reason, Reason::kNotProved);
     EXPECT_FALSE(step.force_closure);
     EXPECT_THAT(step.detail, testing::HasSubstr("the search for proofs ended at"));
+    EXPECT_EQ(step.fault.grasp.size(), 2u) << "the grasp there, for a picture";
+    EXPECT_EQ(step.fault.waypoint, 0);
   }
   EXPECT_TRUE(CheckPlan(close.body, TurnAndSlide(2, 1e-4).plan).passed());
 }

@@ -72,10 +72,10 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
             "grasp.json: /contacts/0/point: 0.1 of the object file's units off the surface, "
             "0.02887 of the object's diameter; up to 1e-06 of it counts as on it");
   EXPECT_EQ(Complaint(R"({"point": [1e9, 0, 0]})", cube),
-            "grasp.json: /contacts/0/point: more than 1000 of the object's diameters off the "
-            "surface; up to 1e-06 of it counts as on it");
+            "grasp.json: /contacts/0/point: 1e+09 of the object file's units off the surface, "
+            "2.887e+08 of the object's diameter; up to 1e-06 of it counts as on it");
   EXPECT_EQ(Complaint(good + R"(, {"point": [1, 0, 0], "normal": [1, 0, 0]})", cube)
-                .find("grasp.json: /contacts/1/normal: the normal differs by 180 degrees"),
+                .find("grasp.json: /contacts/1/normal: the normal differs by 180.00°"),
             0u);
   EXPECT_EQ(Complaint(R"({"point": [1, 0, 0], "normal": [-2, 0, 0]})", cube),
             "grasp.json: /contacts/0/normal: the normal is 2 long, not 1");

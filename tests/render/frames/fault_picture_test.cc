@@ -74,21 +74,69 @@ TEST(FaultPicture, TheGhostOfAnObjectThatHardlyMovedIsFarEnoughBackToBeSeen) {
   EXPECT_NE(picture.marks.ghost_text.find("drawn × "), std::string::npos);
 }
 
-TEST(FaultPicture, MakesTheFrameRed) {
+TEST(FaultPicture, AFactorIsTwoDigitsWithoutAPowerOfTen) {
+  const auto text = [](double away) { return OffSurface(away).marks.dimensions.at(0).text; };
+  EXPECT_EQ(text(0.1), "10 cm (drawn × 1.7)");
+  EXPECT_EQ(text(0.001), "1 mm (drawn × 170)");
+}
+
+TEST(FaultPicture, AFingerWhoseNormalIsWrongStandsOutsideAllTheSame) {
+  for (const Vector3d& given : {Vector3d(1, 0, 0), Vector3d(0, 0, 0), Vector3d(-3, 0, 0)}) {
+    plan::Snapshot snapshot;
+    snapshot.fingertip_radius_m = 0.1;
+    snapshot.fingers = {MakeFinger(kFinger, plan::FingerRole::kHolding, {1, 0, 0}, given)};
+    const Fault fault = {.fingers = {FingerIndex(kFinger)},
+                         .found = grasp::Contact{{1, 0, 0}, given},
+                         .expected = {{{1, 0, 0}, {-1, 0, 0}}}};
+    const FaultPicture picture =
+        MakeFaultPicture(MakeCube(), 1, Reason::kWrongNormal, fault, snapshot, "");
+    ASSERT_EQ(picture.snapshot.fingers.size(), 1u) << given.transpose();
+    EXPECT_EQ(picture.snapshot.fingers[0].normal_W, Vector3d(-1, 0, 0));
+    EXPECT_NEAR(picture.snapshot.fingers[0].tip_W.x(), 1.1, 1e-12);
+    EXPECT_TRUE(picture.marks.normals.back().expected) << "the true normal is drawn";
+    EXPECT_EQ(picture.marks.normals.size(), given.x() > 0 ? 2u : 1u);
+  }
+}
+
+TEST(FaultPicture, TheFirstConeThatIsNeededSaysHowWide) {
+  const grasp::Contact contact{{1, 0, 0}, {-1, 0, 0}}, opposite{{-1, 0, 0}, {1, 0, 0}};
+  plan::Snapshot snapshot;
+  snapshot.fingers = {MakeFinger(0, plan::FingerRole::kHolding, contact.p, contact.n),
+                      MakeFinger(1, plan::FingerRole::kHolding, opposite.p, opposite.n)};
+  const Fault fault = {.grasp = {{FingerIndex(0), contact}, {FingerIndex(1), opposite}},
+                       .required = Radians(7.34)};
+  const auto cones =
+      MakeFaultPicture(MakeCube(), 1, Reason::kNotForceClosure, fault, snapshot, "").marks.cones;
+  ASSERT_EQ(cones.size(), 2u);
+  EXPECT_EQ(cones[0].text, "needs 7.34°");
+  EXPECT_EQ(cones[1].text, "");
+}
+
+/// Pixels of a small frame that are red of what is wrong.
+int CountRed(const plan::Snapshot& snapshot, const FaultMarks* marks) {
   const object::Polyhedron cube = MakeCube();
+  FrameRenderer renderer(cube, 1, Radians(20), {snapshot}, {320, 240, 1});
+  const Image image = renderer.Render(snapshot, "", marks);
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    const unsigned char* p = &image.rgb[i];
+    count += p[0] > 110 && p[1] < 0.22 * p[0] && p[2] < 0.35 * p[0];
+  }
+  return count;
+}
+
+TEST(FaultPicture, MakesTheFrameRed) {
   const FaultPicture picture = OffSurface(0.3);
-  FrameRenderer renderer(cube, 1, Radians(20), {picture.snapshot}, {320, 240, 1});
-  const auto red = [&](const FaultMarks* marks) {
-    const Image image = renderer.Render(picture.snapshot, "", marks);
-    int count = 0;
-    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-      const unsigned char* p = &image.rgb[i];
-      count += p[0] > 110 && p[1] < 0.22 * p[0] && p[2] < 0.35 * p[0];
-    }
-    return count;
-  };
-  EXPECT_EQ(red(nullptr), 0);
-  EXPECT_GT(red(&picture.marks), 100);
+  EXPECT_EQ(CountRed(picture.snapshot, nullptr), 0);
+  EXPECT_GT(CountRed(picture.snapshot, &picture.marks), 100);
+}
+
+TEST(FaultPicture, AFingerAtFaultThatIsNowhereIsInTheFrame) {
+  const plan::Snapshot snapshot = OffSurface(0.3).snapshot;
+  const FaultMarks none{.heading = "", .fingers = {}};
+  const FaultMarks absent{.heading = "", .fingers = {FingerIndex(7)}};
+  EXPECT_EQ(CountRed(snapshot, &none), 0);
+  EXPECT_GT(CountRed(snapshot, &absent), 30);
 }
 
 }  // namespace

@@ -32,30 +32,5 @@ TEST(RoundLength, NeverExceedsTheLimitAndIsMoreThanTwoFifthsOfIt) {
   EXPECT_GT(checked, 2000);
 }
 
-TEST(FormatLength, TakesTheUnitThatSuits) {
-  EXPECT_EQ(FormatLength(4100), "4.1 km");
-  EXPECT_EQ(FormatLength(2), "2 m");
-  EXPECT_EQ(FormatLength(1), "1 m");
-  EXPECT_EQ(FormatLength(0.5), "50 cm");
-  EXPECT_EQ(FormatLength(0.01), "1 cm");
-  EXPECT_EQ(FormatLength(0.005), "5 mm");
-  EXPECT_EQ(FormatLength(0.001), "1 mm");
-  EXPECT_EQ(FormatLength(5e-4), "500 µm");
-  EXPECT_EQ(FormatLength(2e-6), "2 µm");
-  EXPECT_EQ(FormatLength(5e-9), "5 nm");
-  EXPECT_EQ(FormatLength(5e-12), "5e-12 m");
-  EXPECT_EQ(FormatLength(0.00412345, 3), "4.12 mm");
-}
-
-TEST(FormatLength, OfEveryRoundLengthIsARoundNumber) {
-  for (double power = 1e-6; power < 1e3; power *= 10) {
-    for (const double digit : {1, 2, 5}) {
-      const std::string text = FormatLength(RoundLength(digit * power * (1 + 1e-12)));
-      EXPECT_TRUE(text[0] == "125"[digit == 1 ? 0 : digit == 2 ? 1 : 2]) << text;
-      EXPECT_EQ(text.find('.'), std::string::npos) << text;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace regrasp::render

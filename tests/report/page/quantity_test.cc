@@ -24,7 +24,7 @@ TEST(QuantityTest, VerySmallAndVeryLargeNumbersHaveAPowerOfTen) {
 
 TEST(QuantityTest, LengthsHaveTheUnitThatSuitsThem) {
   EXPECT_EQ(LengthText(1.25), "1.25\u00a0m");
-  EXPECT_EQ(LengthText(0.10392), "104\u00a0mm");
+  EXPECT_EQ(LengthText(0.10392), "10.4\u00a0cm");
   EXPECT_EQ(LengthText(1.0392e-4), "104\u00a0µm");
   EXPECT_EQ(LengthText(7.8e-9), "7.8\u00a0nm");
   EXPECT_EQ(LengthText(3.4e-10), "0.34\u00a0nm");
@@ -34,11 +34,6 @@ TEST(QuantityTest, LengthsHaveTheUnitThatSuitsThem) {
 TEST(QuantityTest, WhatIsNotFiniteIsADash) {
   EXPECT_EQ(NumberText(std::nan("")), "–");
   EXPECT_EQ(LengthText(std::numeric_limits<double>::infinity()), "–");
-}
-
-TEST(QuantityTest, AnglesHaveTwoDecimals) {
-  EXPECT_EQ(DegreesText(12.4), "12.40°");
-  EXPECT_EQ(DegreesText(-0.126), "-0.13°");
 }
 
 }  // namespace

@@ -55,6 +55,23 @@ TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
   EXPECT_TRUE(monitor.detail().empty());
 }
 
+TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
+  MotionMonitor monitor(UnitSettings());
+  monitor.SetPhase("during the align");
+  monitor.AddPose(Pose(0, 0));
+  monitor.AddPose(Pose(0.004, 0));
+  EXPECT_EQ(monitor.detail(), "the object moved during the align: by 4 mm and 0.00°");
+  monitor.AddSlip(FingerIndex(2), 0.003);
+  monitor.SetPhase("under a push of 5.3 N along +x");
+  monitor.AddSlip(FingerIndex(1), 0.007);
+  monitor.AddSlip(FingerIndex(2), 0.0045);
+  EXPECT_EQ(monitor.detail(), "finger 2 slipped by 4.5 mm during the align");
+  EXPECT_EQ(monitor.slip_m(), 0.007);
+  monitor.AddGap(FingerIndex(3), 1e-4);
+  EXPECT_EQ(monitor.detail(),
+            "finger 3 came 100 µm off the surface under a push of 5.3 N along +x");
+}
+
 TEST(MotionMonitorTest, TheGiveOfTheServosIsNoMotion) {
   MotionMonitor monitor(UnitSettings());
   monitor.Start(Pose(0, 0));

@@ -103,7 +103,8 @@ TEST(MonitorOfAReplay, AnEngineThatCannotGoOnIsNoPass) {
   observer.on_sample = [](const plan::Snapshot&) { throw UnstableError("made up"); };
   const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}, observer);
   EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kSimulationUnstable);
-  EXPECT_EQ(result.steps.at(0).detail, "made up");
+  EXPECT_EQ(result.steps.at(0).detail,
+            "the simulation became unstable as the fingers took hold: made up");
 }
 
 TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {

@@ -1,0 +1,47 @@
+#include "planner/base/quantity_text.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace regrasp {
+namespace {
+
+TEST(QuantityText, ALengthTakesTheUnitThatSuits) {
+  EXPECT_EQ(FormatLength(4100), "4.1 km");
+  EXPECT_EQ(FormatLength(2), "2 m");
+  EXPECT_EQ(FormatLength(0.5), "50 cm");
+  EXPECT_EQ(FormatLength(0.01), "1 cm");
+  EXPECT_EQ(FormatLength(0.005), "5 mm");
+  EXPECT_EQ(FormatLength(5e-4), "500 µm");
+  EXPECT_EQ(FormatLength(2e-6), "2 µm");
+  EXPECT_EQ(FormatLength(5e-9), "5 nm");
+  EXPECT_EQ(FormatLength(5e-12), "0.005 nm");
+  EXPECT_EQ(FormatLength(0), "0 nm");
+  EXPECT_EQ(FormatLength(0.00412345), "4.12 mm");
+  EXPECT_EQ(FormatLength(0.00412345, 2), "4.1 mm");
+}
+
+TEST(QuantityText, WhatRoundsUpToAUnitIsOneOfIt) {
+  int checked = 0;
+  for (const auto& [size, text] :
+       {std::pair{1e3, "1 km"}, {1.0, "1 m"}, {1e-2, "1 cm"}, {1e-3, "1 mm"}, {1e-6, "1 µm"}}) {
+    EXPECT_EQ(FormatLength(0.9997 * size), text);
+    EXPECT_EQ(FormatLength(size), text);
+    EXPECT_EQ(FormatLength(1.0003 * size), text);
+    EXPECT_NE(FormatLength(0.999 * size), text);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 5);
+}
+
+TEST(QuantityText, OfMassesAndAngles) {
+  EXPECT_EQ(FormatMass(1.4), "1.4 kg");
+  EXPECT_EQ(FormatMass(0.216), "216 g");
+  EXPECT_EQ(FormatMass(2.16e-7), "216 µg");
+  EXPECT_EQ(FormatDegrees(12.4), "12.40°");
+  EXPECT_EQ(FormatDegrees(-0.126), "-0.13°");
+}
+
+}  // namespace
+}  // namespace regrasp
