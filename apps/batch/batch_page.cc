@@ -112,8 +112,9 @@ Parts Picture(const PlanOutcome& plan) {
 }
 
 Element Card(const PlanOutcome& plan) {
-  Parts words = {plan.report ? Element("h3", {}, Element("a", {{"href", Link(plan, kPage)}}, plan.name))
-                             : Element("h3", {}, plan.name),
+  Parts words = {plan.report
+                     ? Element("h3", {}, Element("a", {{"href", Link(plan, kPage)}}, plan.name))
+                     : Element("h3", {}, plan.name),
                  Element("p", {}, Element("strong", {}, VerdictWord(plan)), " ", Statement(plan))};
   if (plan.report) words.push_back(Facts(plan));
   Parts parts = Picture(plan);
@@ -132,7 +133,8 @@ Parts Section(const std::string& name, const std::vector<const PlanOutcome*>& pl
 Parts Skipped(const std::vector<SkippedFile>& skipped) {
   if (skipped.empty()) return {};
   Parts items;
-  for (const SkippedFile& file : skipped) items.emplace_back("li", report::Attributes(), file.file + " " + file.why);
+  for (const SkippedFile& file : skipped)
+    items.emplace_back("li", report::Attributes(), file.file + " " + file.why);
   return {Element("h2", {}, "Skipped"), Element("ul", {}, items)};
 }
 
@@ -147,8 +149,8 @@ std::string FormatBatchPage(const BatchSummary& summary) {
   const std::string subject = Count(std::ssize(summary.plans), "plan");
   Parts all = {report::PageHeader("Validation of a library of plans", subject, pass,
                                   CountsText(summary) + ".")};
-  for (const Parts& parts : {Section("Not passed", others), Section("Passed", passed),
-                             Skipped(summary.skipped)}) {
+  for (const Parts& parts :
+       {Section("Not passed", others), Section("Passed", passed), Skipped(summary.skipped)}) {
     all.insert(all.end(), parts.begin(), parts.end());
   }
   return report::FormatHtmlPage((pass ? "Pass: " : "Fail: ") + subject, all,

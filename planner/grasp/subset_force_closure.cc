@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <stdexcept>
+#include <string>
 
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/separator_pool.h"
@@ -31,19 +32,20 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
 /// Enumerates with three contacts fixed and the fourth as the bit of a word.
 class SubsetSearch {
  public:
-  /// @param deadline  outlives this object.
+  /// @param deadline, tell  outlive this object.
   SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
-               const Deadline& deadline)
+               const Deadline& deadline, const Tell& tell)
       : count_(static_cast<int>(points.size())),
         deadline_(deadline),
+        tell_(tell),
         units_(MakeRimmedContacts(points, frame, half_angle)),
         turns_(units_),
         separators_(units_),
         triples_(static_cast<std::size_t>(count_) * count_ * turns_.words()) {}
 
   std::vector<std::array<int, 4>> Run() {
-    ForEachTriple([this](int i, int j, int k) { StoreTriple(i, j, k); });
-    ForEachTriple([this](int i, int j, int k) { ExtendTriple(i, j, k); });
+    ForEachTriple("three", [this](int i, int j, int k) { StoreTriple(i, j, k); });
+    ForEachTriple("four", [this](int i, int j, int k) { ExtendTriple(i, j, k); });
     return std::move(found_);
   }
 
@@ -51,10 +53,15 @@ class SubsetSearch {
 
  private:
   template <typename Function>
-  void ForEachTriple(Function function) {
+  void ForEachTriple(const std::string& fingers, Function function) {
+    CountedProgress progress(tell_,
+                             "testing the grasps of " + fingers + " on pairs of " +
+                                 std::to_string(count_) + " contact points",
+                             std::int64_t{count_} * (count_ - 1) / 2);
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j) {
         deadline_.Check();
+        progress.Add();
         separators_.FixPair(i, j);
         for (int k = j + 1; k < count_; ++k) function(i, j, k);
       }
@@ -179,6 +186,7 @@ class SubsetSearch {
 
   int count_;
   const Deadline& deadline_;
+  const Tell& tell_;
   UnitContacts units_;
   TurnTable turns_;
   SeparatorPool separators_;
@@ -192,14 +200,14 @@ class SubsetSearch {
 std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
                                                     const object::WrenchFrame& frame,
                                                     double half_angle, SubsetCounts* counts,
-                                                    const Deadline& deadline) {
+                                                    const Deadline& deadline, const Tell& tell) {
   CheckGrasp(points, frame);
   CheckHalfAngle(half_angle);
   if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
   const object::WrenchFrame own = ContactFrame(points, frame.dimension);
   if (counts != nullptr) *counts = {};
   if (!(own.radius > 0)) return {};
-  SubsetSearch search(points, own, half_angle, deadline);
+  SubsetSearch search(points, own, half_angle, deadline, tell);
   std::vector<std::array<int, 4>> found = search.Run();
   if (counts != nullptr) *counts = search.counts();
   return found;

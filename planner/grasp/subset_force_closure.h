@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
@@ -30,12 +31,11 @@ struct SubsetCounts {
 /// word operations; the simplex sees only what is left.
 ///
 /// @param counts  filled where not null.
+/// @param tell    told how much of the work is done.
 /// @throws std::invalid_argument  as TestForceClosure; also for a frame in the plane.
 /// @throws TimeUp  the deadline came.
-[[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
-                                                                  const object::WrenchFrame& frame,
-                                                                  double half_angle,
-                                                                  SubsetCounts* counts = nullptr,
-                                                                  const Deadline& deadline = {});
+[[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(
+    std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
+    SubsetCounts* counts = nullptr, const Deadline& deadline = {}, const Tell& tell = {});
 
 }  // namespace regrasp::grasp

@@ -64,10 +64,9 @@ Roadmap BuildRoadmap(const planning::PlanRequest& request,
   std::vector<grasp::Contact> points;
   JoinContacts(points, joined, object::kPointTolerance * diameter);
   JoinContacts(points, contacts, object::kPointTolerance * diameter);
-  request.progress("testing the grasps of four of " + std::to_string(points.size()) +
-                   " contact points");
   return Roadmap(std::move(points), request.object->wrench_frame(), request.criteria.half_angle,
-                 criteria::kSamePoint * diameter, request.hand.fingertip_radius, request.deadline);
+                 criteria::kSamePoint * diameter, request.hand.fingertip_radius, request.deadline,
+                 request.progress);
 }
 
 ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request) {

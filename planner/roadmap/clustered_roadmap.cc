@@ -18,10 +18,9 @@ Roadmap BuildRepresentativeRoadmap(const object::Polyhedron& solid, const Contac
   for (const int contact : clusters.representatives()) {
     representatives.push_back(clusters.contacts()[contact]);
   }
-  options.progress("testing the grasps of four of " + std::to_string(representatives.size()) +
-                   " representatives");
   return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
-                 criteria::kSamePoint * solid.diameter(), options.finger_radius, options.deadline);
+                 criteria::kSamePoint * solid.diameter(), options.finger_radius, options.deadline,
+                 options.progress);
 }
 
 }  // namespace

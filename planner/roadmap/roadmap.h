@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
@@ -31,10 +32,12 @@ class Roadmap final : public search::SwitchingGraph {
   /// @param half_angle  radians.
   /// @param same_point  contacts no farther apart than this are at the same point.
   /// @param finger_radius  of fingers that are not points (reach.h).
+  /// @param tell  told how much of the work is done.
   /// @throws std::invalid_argument  as TestForceClosure.
   /// @throws TimeUp  the deadline came.
   Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame, double half_angle,
-          double same_point, double finger_radius = 0, const Deadline& deadline = {});
+          double same_point, double finger_radius = 0, const Deadline& deadline = {},
+          const Tell& tell = {});
 
   [[nodiscard]] const std::vector<grasp::Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }

@@ -40,12 +40,11 @@ planning::GraphSummary SummaryOf(const Roadmap& roadmap, const planning::PlanReq
 
 planning::QuerySummary RunQueries(const ClusteredRoadmap& roadmap, int count,
                                   const planning::PlanRequest& request) {
-  request.progress(std::to_string(count) + " random queries");
   planning::QuerySummary summary;
   summary.shortest_seconds = std::numeric_limits<double>::infinity();
   for (const RandomQuery& query :
        RunRandomQueries(roadmap, dynamic_cast<const object::Polyhedron&>(*request.object), count,
-                        request.seed, request.last_resort, request.deadline)) {
+                        request.seed, request.last_resort, request.deadline, request.progress)) {
     ++summary.count;
     summary.connected += query.chain.grasps.empty() ? 0 : 1;
     summary.shortest_seconds = std::min(summary.shortest_seconds, query.seconds);

@@ -25,14 +25,16 @@ std::optional<Quadruple> DrawContactGrasp(const ClusteredRoadmap& roadmap,
 std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
                                           const object::Polyhedron& solid, int count,
                                           std::uint64_t seed, bool last_resort,
-                                          const Deadline& deadline) {
+                                          const Deadline& deadline, const Tell& tell) {
   const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
   const criteria::GraspEvaluator evaluator(solid, force_closure);
   RandomStream starts(seed, RandomUse::kStart);
   RandomStream goals(seed, RandomUse::kGoal);
   std::vector<RandomQuery> queries;
+  CountedProgress progress(tell, "random queries", count);
   for (int i = 0; i < count; ++i) {
     deadline.Check();
+    progress.Add();
     const auto start = DrawContactGrasp(roadmap, evaluator, starts);
     const auto goal = DrawContactGrasp(roadmap, evaluator, goals);
     if (!start || !goal) break;

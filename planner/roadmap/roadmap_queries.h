@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
@@ -31,10 +32,12 @@ struct RandomQuery {
 /// 6.1 to 6.6 of Phoka 2010. The same seed gives the same queries whatever the clusters.
 /// @param solid  of the roadmap.
 /// @returns fewer than `count` where grasps can't be drawn.
+/// @param tell  told how many are done.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
                                                         const object::Polyhedron& solid, int count,
                                                         std::uint64_t seed, bool last_resort,
-                                                        const Deadline& deadline = {});
+                                                        const Deadline& deadline = {},
+                                                        const Tell& tell = {});
 
 }  // namespace regrasp::roadmap

@@ -27,6 +27,7 @@ bool SearchSpace::IsSpent() {
   if (tests() >= next_look_) {
     next_look_ = tests() + kTestsBetweenLooks;
     out_of_time_ = limits_.deadline.IsOver();
+    limits_.on_look(tests());
   }
   return out_of_time_ || tests() >= limits_.most_tests;
 }

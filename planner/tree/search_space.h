@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "planner/base/deadline.h"
@@ -12,6 +13,8 @@ namespace regrasp::tree {
 struct SearchLimits {
   std::int64_t most_tests = std::numeric_limits<std::int64_t>::max();
   Deadline deadline = {};
+  /// Told how many tests were done, at every look at the clock.
+  std::function<void(std::int64_t tests)> on_look = [](std::int64_t) {};
 };
 
 /// What a search may look at: contacts as they come up, numbered, and which sets of them are grasps

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/base/angle.h"
+#include "planner/base/counted_progress.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/plan/check.h"
@@ -48,11 +49,12 @@ class TreeSearch {
   planning::PlanResult Plan(const std::string& name) {
     const grasp::Grasp& from = request_.start.grasp;
     const grasp::Grasp& to = request_.goal.grasp;
-    SearchSpace wide = MakeSpace(half_angle_, 0, effort_);
+    SearchSpace wide =
+        MakeSpace(half_angle_, 0, effort_, "growing trees of grasps from start and goal");
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // The contacts of the path alone: the search may have come across thousands.
-    SearchSpace space = MakeSpace(half_angle_, 1, effort_);
+    SearchSpace space = MakeSpace(half_angle_, 1, effort_, "shortening and widening the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
@@ -71,12 +73,16 @@ class TreeSearch {
   };
 
   /// @param share  of the criteria that is asked for.
-  SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort) const {
+  /// @param what   is done in it, for people.
+  SearchSpace MakeSpace(double half_angle, double share, std::int64_t effort,
+                        const std::string& what) const {
     criteria::GraspCriteria criteria = request_.criteria;
     criteria.half_angle = half_angle;
     SearchSpace space(object_, criteria, request_.hand);
     space.SetShare(share);
-    space.SetLimits({effort, request_.deadline});
+    CountedProgress progress(request_.progress, what + ", tests", effort);
+    space.SetLimits({effort, request_.deadline,
+                     [progress](std::int64_t tests) mutable { progress.Reach(tests); }});
     return space;
   }
 
@@ -89,7 +95,6 @@ class TreeSearch {
     space.Accept(start);
     space.Accept(goal);
     if (auto path = SearchOwnSubsets(start, goal, space)) return path;
-    request_.progress("growing trees of grasps from start and goal");
     BidirectionalTree trees(start, goal, source_, random_, space);
     auto path = trees.Join();
     for (int side = 0; side < 2; ++side) {
@@ -107,11 +112,13 @@ class TreeSearch {
                      SearchSpace& space) {
     if (AreAdmitted(path, space)) return path;
     if (auto own = SearchOwnSubsets(path.start, path.end(), space)) return *std::move(own);
-    request_.progress("looking for grasps" + criteria::WithWhatIsAsked(request_.criteria));
+    const std::string asked = criteria::WithWhatIsAsked(request_.criteria);
+    request_.progress("looking for grasps" + asked);
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide = MakeSpace(half_angle_, share, effort_ / kShareEffortShare);
+      SearchSpace wide =
+          MakeSpace(half_angle_, share, effort_ / kShareEffortShare, "looking for grasps" + asked);
       const auto found = Search(from, to, wide);
       // What is not found with less asked for is not going to be found with more.
       if (!found) break;
@@ -145,7 +152,6 @@ class TreeSearch {
 
   /// @returns what was gained of what was asked for.
   std::vector<std::string> Improve(GraspPath& path, const grasp::Grasp& from, SearchSpace& space) {
-    request_.progress("shortening and widening the sequence");
     const std::string before = Achieved(path, from, space);
     path = ShortcutPath(std::move(path), source_, random_, space);
     if (request_.objective == planning::Objective::kTravel) {
@@ -209,8 +215,9 @@ class TreeSearch {
     double none = half_angle_;
     double some = kLargestExplained;
     const auto finds = [&](double half_angle) {
-      request_.progress("looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
-      SearchSpace space = MakeSpace(half_angle, 0, effort_ / kExplainEffortShare);
+      SearchSpace space =
+          MakeSpace(half_angle, 0, effort_ / kExplainEffortShare,
+                    "looking for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
       return Search(from, to, space).has_value();
     };
     if (!finds(some)) return "; nor was one at " + FormatShort(Degrees(some)) + "°";

@@ -31,12 +31,11 @@ std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& p
 
 Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
                    std::string_view statement) {
-  return Element(
-      "header", {},
-      std::vector<Element>{Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
-                           Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
-                                   Element("strong", {}, passed ? "Pass" : "Fail"), " ",
-                                   statement)});
+  return Element("header", {},
+                 std::vector<Element>{
+                     Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
+                     Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
+                             Element("strong", {}, passed ? "Pass" : "Fail"), " ", statement)});
 }
 
 }  // namespace regrasp::report

@@ -65,10 +65,11 @@ class SwitchFinder {
  public:
   /// All outlive this object.
   SwitchFinder(const EdgeTable& edges, const PolygonVertices& vertices, planning::Spanning spanning,
-               const Deadline& deadline)
+               const Deadline& deadline, const Tell& tell)
       : spanning_(spanning),
         edges_(edges),
         deadline_(deadline),
+        tell_(tell),
         vertices_(vertices),
         first_two_finger_(static_cast<int>(vertices.concurrent.size())),
         first_parallel_(first_two_finger_ + static_cast<int>(vertices.two_finger.size())),
@@ -107,8 +108,10 @@ class SwitchFinder {
     const int n = edges_.size();
     by_pair_.resize(static_cast<std::size_t>(n) * n);
     by_edge_.resize(n);
+    CountedProgress progress(tell_, "projecting sets of grasps on edges", count());
     for (SetIndex v{0}; v < count(); ++v) {
       deadline_.Check();
+      progress.Add();
       const std::span<const FaceIndex> on = EdgesOf(v);
       for (std::size_t k = 0; k < on.size(); ++k) {
         by_edge_[on[k]].push_back({v, RangeOf(v, static_cast<int>(k))});
@@ -139,7 +142,10 @@ class SwitchFinder {
   }
 
   void JoinByPairs() {
+    CountedProgress progress(tell_, "joining sets of grasps on pairs of edges",
+                             std::ssize(by_pair_));
     for (const std::vector<SetIndex>& vertices : by_pair_) {
+      progress.Add();
       for (std::size_t i = 0; i < vertices.size(); ++i) {
         deadline_.Check();
         for (std::size_t j = i + 1; j < vertices.size(); ++j) {
@@ -164,8 +170,11 @@ class SwitchFinder {
   }
 
   void JoinTwoFinger() {
+    CountedProgress progress(tell_, "joining sets of 2-finger grasps",
+                             first_parallel_ - first_two_finger_);
     for (SetIndex v = first_two_finger_; v < first_parallel_; ++v) {
       deadline_.Check();
+      progress.Add();
       std::vector<SetIndex> joined;
       for (const FaceIndex edge : EdgesOf(v)) {
         const std::vector<Listed>& listed = by_edge_[edge];
@@ -187,8 +196,10 @@ class SwitchFinder {
   /// Concurrent and parallel grasps of the same three edges.
   void JoinSameTriples() {
     SetIndex first = first_parallel_;
+    CountedProgress progress(tell_, "joining sets of grasps on the same edges", first_two_finger_);
     for (SetIndex v{0}; v < first_two_finger_; ++v) {
       deadline_.Check();
+      progress.Add();
       const EdgeTriple& triple = Concurrent(v).candidate.edges;
       while (first < count() && Parallel(first).candidate.edges < triple) ++first;
       for (SetIndex w = first; w < count() && Parallel(w).candidate.edges == triple; ++w) {
@@ -212,6 +223,7 @@ class SwitchFinder {
   planning::Spanning spanning_;
   const EdgeTable& edges_;
   const Deadline& deadline_;
+  const Tell& tell_;
   const PolygonVertices& vertices_;
   SetIndex first_two_finger_;
   SetIndex first_parallel_;
@@ -224,13 +236,14 @@ class SwitchFinder {
 }  // namespace
 
 PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
-                           planning::Spanning spanning, const Deadline& deadline) {
+                           planning::Spanning spanning, const Deadline& deadline,
+                           const Tell& tell) {
   // Before the processor rounds upward.
   const double tangent = CheckedTangent(half_angle);
   const IntervalScope scope;
   BeginVertices();
   const EdgeTable edges(polygon, tangent);
-  const PolygonVertices vertices = FindVertices(edges, spanning, deadline);
+  const PolygonVertices vertices = FindVertices(edges, spanning, deadline, tell);
   counts_ = vertices.counts;
   sets_ = MakeSets(vertices, tangent);
   EndVertices(static_cast<int>(sets_.size()));
@@ -238,7 +251,7 @@ PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
   for (SetIndex v{0}; v < vertex_count(); ++v) {
     if (sets_[v].type == GraspType::kTwoFinger) two_finger.push_back(v);
   }
-  EndEdges(SwitchFinder(edges, vertices, spanning, deadline).Find(), two_finger);
+  EndEdges(SwitchFinder(edges, vertices, spanning, deadline, tell).Find(), two_finger);
   for (int type = 0; type < kGraspTypes; ++type) {
     counts_[type].components = CountComponents(static_cast<GraspType>(type));
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/grasp_set.h"
@@ -30,10 +31,11 @@ namespace regrasp::polygon {
 class PolygonGraph final : public sets::SetGraph {
  public:
   /// @param half_angle  θ, radians.
+  /// @param tell        told how much of the work is done.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
   PolygonGraph(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
-               const Deadline& deadline = {});
+               const Deadline& deadline = {}, const Tell& tell = {});
 
   /// Concurrent sets first, then two-finger, then parallel ones; of each type by their edges. The
   /// two-finger ones are all joined to each other.

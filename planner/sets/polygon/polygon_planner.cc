@@ -21,9 +21,8 @@ const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
 }
 
 PolygonGraph BuildGraph(const planning::PlanRequest& request) {
-  request.progress("building the switching graph");
   return PolygonGraph(PolygonOf(request), request.criteria.half_angle, request.spanning,
-                      request.deadline);
+                      request.deadline, request.progress);
 }
 
 std::string NameOf(GraspType type) {

@@ -1,6 +1,7 @@
 #include "planner/sets/polygon/polygon_vertices.h"
 
 #include <iterator>
+#include <string>
 #include <utility>
 
 namespace regrasp::polygon {
@@ -10,12 +11,13 @@ namespace {
 /// @param find  gives the sets on a candidate's edges.
 template <class Candidate, class Component, class Find>
 GraspTypeCounts FindOnCandidates(const std::vector<Candidate>& candidates, const Deadline& deadline,
-                                 const Find& find,
+                                 CountedProgress& progress, const Find& find,
                                  std::vector<PolygonVertex<Candidate, Component>>& vertices) {
   GraspTypeCounts counts;
   counts.candidates = std::ssize(candidates);
   for (const Candidate& candidate : candidates) {
     deadline.Check();
+    progress.Add();
     std::vector<Component> found = find(candidate);
     if (!found.empty()) ++counts.combinations;
     for (Component& component : found) vertices.push_back({candidate, std::move(component)});
@@ -27,21 +29,28 @@ GraspTypeCounts FindOnCandidates(const std::vector<Candidate>& candidates, const
 }  // namespace
 
 PolygonVertices FindVertices(const EdgeTable& edges, planning::Spanning spanning,
-                             const Deadline& deadline) {
+                             const Deadline& deadline, const Tell& tell) {
   PolygonVertices vertices;
   ConcurrentCellFinder finder(edges);
   const auto counts = [&](GraspType type) -> GraspTypeCounts& {
     return vertices.counts[static_cast<int>(type)];
   };
-  counts(GraspType::kConcurrent) = FindOnCandidates(
-      FindConcurrentCandidates(edges, spanning, deadline), deadline,
+  const auto find_all = [&](GraspType type, const char* what, const auto& candidates,
+                            const auto& find, auto& found) {
+    CountedProgress progress(tell, "testing " + std::string(what), std::ssize(candidates));
+    counts(type) = FindOnCandidates(candidates, deadline, progress, find, found);
+  };
+  find_all(
+      GraspType::kConcurrent, "triples of edges for concurrent grasps",
+      FindConcurrentCandidates(edges, spanning, deadline),
       [&](const ConcurrentCandidate& c) { return finder.Find(c); }, vertices.concurrent);
-  counts(GraspType::kTwoFinger) = FindOnCandidates(
-      FindTwoFingerCandidates(edges, deadline), deadline,
+  find_all(
+      GraspType::kTwoFinger, "pairs of edges", FindTwoFingerCandidates(edges, deadline),
       [&](const TwoFingerCandidate& c) { return FindTwoFingerSets(edges, c); },
       vertices.two_finger);
-  counts(GraspType::kParallel) = FindOnCandidates(
-      FindParallelCandidates(edges, deadline), deadline,
+  find_all(
+      GraspType::kParallel, "triples of edges for parallel grasps",
+      FindParallelCandidates(edges, deadline),
       [&](const ParallelCandidate& c) { return FindParallelSets(edges, c); }, vertices.parallel);
   return vertices;
 }

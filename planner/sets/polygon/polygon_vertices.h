@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/sets/polygon/concurrent.h"
 #include "planner/sets/polygon/parallel.h"
 #include "planner/sets/polygon/two_finger.h"
@@ -25,9 +26,9 @@ struct PolygonVertices {
   std::array<GraspTypeCounts, kGraspTypes> counts;  ///< by GraspType, without components
 };
 
-/// Inside an IntervalScope. @param edges  outlives the result.
+/// Inside an IntervalScope. @param edges  outlives the result. @param tell  told how much is done.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] PolygonVertices FindVertices(const EdgeTable& edges, planning::Spanning spanning,
-                                           const Deadline& deadline = {});
+                                           const Deadline& deadline = {}, const Tell& tell = {});
 
 }  // namespace regrasp::polygon

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/planning/spanning.h"
 #include "planner/sets/polyhedron/focus_cells.h"
@@ -24,10 +25,11 @@ namespace regrasp::polyhedron {
 class PolyhedronGraph final : public sets::SetGraph {
  public:
   /// @param half_angle  θ, radians.
+  /// @param tell        told how much of the work is done.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
   PolyhedronGraph(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
-                  const Deadline& deadline = {});
+                  const Deadline& deadline = {}, const Tell& tell = {});
 
   /// By their faces. switches() is ascending.
   [[nodiscard]] const std::vector<FocusCell>& cells() const { return cells_; }
@@ -40,7 +42,7 @@ class PolyhedronGraph final : public sets::SetGraph {
   [[nodiscard]] std::int64_t unclear_count() const { return finder_.unclear_count(); }
 
  private:
-  [[nodiscard]] std::vector<sets::SetPair> FindSwitches(const Deadline& deadline);
+  [[nodiscard]] std::vector<sets::SetPair> FindSwitches(const Deadline& deadline, const Tell& tell);
 
   FocusCellFinder finder_;
   std::vector<FocusCell> cells_;

@@ -25,9 +25,9 @@ planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
                                         planning::GraphSummary summary) {
   const auto region = FindSamplingRegion(SolidOf(request), graph, request.deadline);
   Stopwatch stopwatch;
-  const SampledGraph sampled =
-      SamplePolyhedron(SolidOf(request), request.criteria.half_angle, request.spanning, region,
-                       request.graph->focus_points, request.seed, request.deadline);
+  const SampledGraph sampled = SamplePolyhedron(
+      SolidOf(request), request.criteria.half_angle, request.spanning, region,
+      request.graph->focus_points, request.seed, request.deadline, request.progress);
   summary.vertex_seconds = stopwatch.Lap();
   summary.edge_seconds = 0;
   summary.vertices = std::ssize(sampled.quadruples);
@@ -58,9 +58,9 @@ std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
 PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& request,
                                              std::optional<PolyhedronGraph>& own) const {
   if (graph_ != nullptr) return *graph_;
-  request.progress("building the switching graph");
+  request.progress("looking for quadruples of faces");
   return own.emplace(SolidOf(request), request.criteria.half_angle, request.spanning,
-                     request.deadline);
+                     request.deadline, request.progress);
 }
 
 planning::PlanResult PolyhedronPlanner::Plan(const planning::PlanRequest& request) const {

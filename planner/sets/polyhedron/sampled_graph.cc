@@ -155,11 +155,13 @@ AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph
 
 SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
                               planning::Spanning spanning, const AlignedBox3d& region, int points,
-                              std::uint64_t seed, const Deadline& deadline) {
+                              std::uint64_t seed, const Deadline& deadline, const Tell& tell) {
   Sampler sampler(solid, half_angle, spanning, deadline);
   RandomStream random(seed, RandomUse::kFocusPoints);
+  CountedProgress progress(tell, "sampling focus points", points);
   for (int i = 0; i < points && !region.isEmpty(); ++i) {
     deadline.Check();
+    progress.Add();
     Vector3d share;
     for (int axis = 0; axis < 3; ++axis) share[axis] = random.Uniform();
     sampler.Include(region.min() + share.cwiseProduct(region.sizes()));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/planning/graph_summary.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
@@ -38,7 +39,8 @@ struct SampledGraph {
 [[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
                                             planning::Spanning spanning,
                                             const Eigen::AlignedBox3d& region, int points,
-                                            std::uint64_t seed, const Deadline& deadline = {});
+                                            std::uint64_t seed, const Deadline& deadline = {},
+                                            const Tell& tell = {});
 
 /// How much of the direct graph sampling found.
 [[nodiscard]] planning::SamplingShare CompareSampling(const SampledGraph& sampled,

@@ -28,7 +28,8 @@ std::string CardOf(const std::string& page, const std::string& name) {
 
 TEST(BatchPageTest, WhatDidNotPassComesFirstTheWorstAtTheTop) {
   const std::string page = FormatBatchPage(
-      {{Passed("good1"), Failed("weak1"), Broken("bad", PlanVerdict::kBadInput, "why \"bad\" is broken"), Passed("good2"),
+      {{Passed("good1"), Failed("weak1"),
+        Broken("bad", PlanVerdict::kBadInput, "why \"bad\" is broken"), Passed("good2"),
         Broken("crash", PlanVerdict::kError, "crashed"), Failed("weak2")},
        {{"grasp.json", "is a regrasp-grasp file"}}});
   std::vector<std::size_t> places;
@@ -67,7 +68,8 @@ TEST(BatchPageTest, WithoutFramesOrReportThereIsNoPictureAndNoLinkThatLeadsNowhe
   PlanOutcome plain = Passed("plain");
   plain.report->files.clear();
   for (ReportSummary::Entry& entry : plain.report->entries) entry.frame.clear();
-  const std::string page = FormatBatchPage({{plain, Broken("bad", PlanVerdict::kBadInput, "why \"bad\" is broken")}, {}});
+  const std::string page = FormatBatchPage(
+      {{plain, Broken("bad", PlanVerdict::kBadInput, "why \"bad\" is broken")}, {}});
   EXPECT_EQ(Count(page, "<img"), 0u);
   EXPECT_EQ(Count(page, "<a "), 1u);
   EXPECT_THAT(page, HasSubstr("<strong>Bad input</strong> why &quot;bad&quot; is broken"));
