@@ -11,6 +11,8 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/planned_snapshot.h"
 #include "render/frames/contact_sheet.h"
+#include "render/frames/frame_sequence.h"
+#include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
 #include "render/picture/webp.h"
 
@@ -61,14 +63,6 @@ render::SheetLabel MakeHeading(const report::Report& report) {
           "", kBad};
 }
 
-std::vector<plan::Snapshot> RestsOf(const report::Report& report) {
-  std::vector<plan::Snapshot> rests;
-  for (const report::ReportStep& step : report.steps) {
-    if (step.replay) rests.push_back(step.replay->snapshot);
-  }
-  return rests;
-}
-
 /// An entry that has a frame: what it shows, and what is wrong where it failed.
 struct Shown {
   report::ReportStep* step;
@@ -116,8 +110,17 @@ void AddSkipped(const report::Report& report, int cells, render::ContactSheet& s
   }
 }
 
-double RelativeThickness(const report::Report& report) {
-  return report.settings->thickness_m / report.settings->diameter_m;
+/// The frames of a report, and its animation, are seen from one place.
+render::FrameRenderer MakeRenderer(const object::Object& object, const report::Report& report,
+                                   const std::vector<Shown>& shown, render::FrameOptions options) {
+  std::vector<plan::Snapshot> snapshots;
+  for (const Shown& entry : shown) snapshots.push_back(entry.snapshot);
+  if (object.dimension() == 2 && report.settings) {
+    options.body.thickness = report.settings->thickness_m / report.settings->diameter_m;
+  }
+  options.finger_radius = report.finger_radius;
+  options.has_heading = !report.passed();
+  return {object, report.scale, report.half_angle, snapshots, options};
 }
 
 report::PagePicture MakePicture(const render::Image& image, int width) {
@@ -145,47 +148,60 @@ bool IsValidationFile(const std::string& name) {
 }
 
 std::vector<report::PagePicture> WriteFrames(const object::Object& object, const plan::Plan& plan,
-                                             const render::FrameOptions& options,
+                                             const DrawingOptions& options,
                                              const std::filesystem::path& folder,
                                              report::Report& report) {
   std::vector<report::PagePicture> pictures(report.steps.size());
   const std::vector<Shown> shown = ShowEntries(object, plan, report);
-  std::vector<plan::Snapshot> snapshots;
-  for (const Shown& entry : shown) snapshots.push_back(entry.snapshot);
-  render::FrameOptions frame = options;
-  if (object.dimension() == 2 && report.settings) frame.body.thickness = RelativeThickness(report);
-  frame.finger_radius = report.finger_radius;
-  frame.has_heading = !report.passed();
-  render::FrameRenderer renderer(object, report.scale, report.half_angle, snapshots, frame);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
-  render::ContactSheet sheet(count + skipped, frame.width, frame.height, MakeHeading(report));
+  render::ContactSheet sheet(count + skipped, options.frame.width, options.frame.height,
+                             MakeHeading(report));
+  std::vector<render::FrameTask> tasks;
   for (const auto& [step, snapshot, marks] : shown) {
-    const std::string name = EntryFileName(step->check.index, step->check.kind, kFrameEnding);
-    const render::Image image =
-        renderer.Render(snapshot, Caption(plan, *step), marks ? &*marks : nullptr);
-    render::WritePng(folder / name, image);
-    step->frame = name;
-    pictures[step->check.index] = MakePicture(image, report::PagePictureWidth(count));
-    sheet.Add(image, MakeLabel(*step));
+    tasks.push_back({&snapshot, Caption(plan, *step), marks ? &*marks : nullptr});
   }
+  const auto take = [&](int index, const render::Image& image) {
+    report::ReportStep& step = *shown[index].step;
+    const std::string name = EntryFileName(step.check.index, step.check.kind, kFrameEnding);
+    render::WritePng(folder / name, image);
+    step.frame = name;
+    pictures[step.check.index] = MakePicture(image, report::PagePictureWidth(count));
+    sheet.Add(image, MakeLabel(step));
+    options.on_picture(index + 1, count);
+  };
+  render::RenderInOrder(MakeRenderer(object, report, shown, options.frame), tasks, options.workers,
+                        take);
   AddSkipped(report, skipped, sheet);
   render::WritePng(folder / kOverviewName, sheet.ToImage());
   return pictures;
 }
 
-void WriteAnimation(const object::Object& object, const plan::Plan& plan,
-                    const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
-                    const std::filesystem::path& folder, const report::Report& report,
-                    const std::function<void(int done, int all)>& on_entry) {
-  const std::vector<plan::Snapshot> rests = RestsOf(report);
-  if (rests.empty()) return;
-  if (object.dimension() == 2) options.thickness = RelativeThickness(report);
-  WriteFile(
-      folder / kAnimationName,
-      render::RenderAnimation(object, plan, report.half_angle, samples, rests, options,
-                              [&](int done) { on_entry(done, static_cast<int>(rests.size())); }),
-      Durability::kCached);
+std::vector<std::string> WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                                        const DrawingOptions& options,
+                                        const std::vector<plan::Snapshot>& samples,
+                                        const std::vector<MovingFile>& files,
+                                        report::Report& report) {
+  const std::vector<Shown> shown = ShowEntries(object, plan, report);
+  std::vector<render::AnimationRest> rests;
+  for (const auto& [step, snapshot, marks] : shown) {
+    rests.push_back(
+        {snapshot, render::FrameCaption(plan, step->check.index), Caption(plan, *step), marks});
+  }
+  const std::vector<render::AnimationPicture> pictures =
+      render::CutAnimation(samples, rests, report.scale * object.diameter());
+  render::FrameOptions frame = options.frame;
+  frame.gaps = render::GapView::kShown;
+  std::vector<render::MovingFormat> formats;
+  for (const MovingFile& file : files) formats.push_back(file.format);
+  const auto count = static_cast<int>(pictures.size());
+  const std::vector<std::string> bytes =
+      render::RenderAnimation(MakeRenderer(object, report, shown, frame), pictures, formats,
+                              options.workers, [&](int done) { options.on_picture(done, count); });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    WriteFile(files[i].path, bytes[i], Durability::kCached);
+  }
+  return bytes;
 }
 
 }  // namespace regrasp::apps

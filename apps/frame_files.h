@@ -8,7 +8,7 @@
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "render/frames/frame.h"
-#include "render/frames/replay_animation.h"
+#include "render/picture/moving_picture.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
 
@@ -29,6 +29,18 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// report, page, contact sheet, moving picture, or the frame of an entry.
 [[nodiscard]] bool IsValidationFile(const std::string& name);
 
+struct DrawingOptions {
+  render::FrameOptions frame;
+  int workers = 1;  ///< threads that draw
+  /// Called with the number of pictures drawn and of all, after each.
+  std::function<void(int done, int all)> on_picture;
+};
+
+struct MovingFile {
+  std::filesystem::path path;
+  render::MovingFormat format;
+};
+
 /// Draws a frame of every step up to the one that failed into `folder` and names it in the report,
 /// and all of them, small, into the contact sheet overview.png, with the verdict in words. The
 /// frame of the step that failed shows what the replay saw, or what is planned where it was not
@@ -37,18 +49,20 @@ inline constexpr char kAnimationName[] = "replay.webp";
 /// @throws EnvironmentError  no rendering context, or the folder cannot be written.
 [[nodiscard]] std::vector<report::PagePicture> WriteFrames(const object::Object& object,
                                                            const plan::Plan& plan,
-                                                           const render::FrameOptions& options,
+                                                           const DrawingOptions& options,
                                                            const std::filesystem::path& folder,
                                                            report::Report& report);
 
-/// Writes what was replayed as the moving picture replay.webp into `folder`; nothing where nothing
-/// was replayed.
-/// @param samples   states during the replay, ascending in time.
-/// @param on_entry  called with the number of entries drawn and of all, after each.
+/// Writes what was replayed as moving pictures, from where the frames are seen; the last rest is
+/// the frame of the step that failed.
+/// @param options  the size is that of the moving pictures.
+/// @param samples  states during the replay, ascending in time.
+/// @returns the bytes of the files.
 /// @throws EnvironmentError  as WriteFrames.
-void WriteAnimation(const object::Object& object, const plan::Plan& plan,
-                    const std::vector<plan::Snapshot>& samples, render::AnimationOptions options,
-                    const std::filesystem::path& folder, const report::Report& report,
-                    const std::function<void(int done, int all)>& on_entry);
+std::vector<std::string> WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                                        const DrawingOptions& options,
+                                        const std::vector<plan::Snapshot>& samples,
+                                        const std::vector<MovingFile>& files,
+                                        report::Report& report);
 
 }  // namespace regrasp::apps

@@ -44,6 +44,7 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
   options.out = (folder / plan.name).string();
   options.junit.clear();
   options.quiet = true;
+  options.workers = std::max(1, options.workers / options.jobs);
   return RunGuarded(kValidateName, [&] {
     if (!options.fresh && HasSameRun(options)) return kExitKept;
     {

@@ -11,6 +11,7 @@
 #include "apps/view_options.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "render/picture/moving_picture.h"
 
 namespace regrasp::apps {
 
@@ -18,7 +19,7 @@ namespace {
 
 /// Adds an option that takes a size in pixels, "1280x960".
 CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& height,
-                     const std::string& what) {
+                     const std::string& what, const std::string& usual) {
   const auto parse = [name, &width, &height](const std::string& text) {
     const std::size_t x = text.find('x');
     const auto side = [&](const std::string& digits) {
@@ -38,8 +39,7 @@ CLI::Option* AddSize(CLI::App& app, const std::string& name, int& width, int& he
       .add_option_function<std::string>(
           name, parse,
           what + ", pixels, each side from " + std::to_string(render::kMinFrameSide) + " to " +
-              std::to_string(render::kMaxFrameSide) + " (default " + std::to_string(width) + "x" +
-              std::to_string(height) + ")")
+              std::to_string(render::kMaxFrameSide) + " (default " + usual + ")")
       ->type_name("WxH");
 }
 
@@ -178,6 +178,21 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
       ->needs(trials);
 }
 
+void AddVideo(CLI::App& app, std::string& video) {
+  const auto parse = [&video](const std::string& file) {
+    if (!render::MovingFormatOf(file)) {
+      throw CLI::ValidationError("--video",
+                                 "\"" + file + "\" is no name that ends in .mp4, .gif or .webp");
+    }
+    video = file;
+  };
+  app.add_option_function<std::string>(
+         "--video", parse, "Write the moving picture into this file, .mp4 (H.264), .gif or .webp")
+      ->type_name("FILE");
+}
+
+constexpr char kAnimateSize[] = "--animate-size";
+
 void AddPictures(CLI::App& app, ValidateOptions& options) {
   CLI::Option* none = app.add_flag("--no-frames", options.no_frames, "Draw no frames");
   app.add_flag("--show-focus", options.frame.show_focus,
@@ -186,20 +201,23 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   app.add_flag("--show-clusters", options.show_clusters,
                "Frames of a plan over clustered contact points show the clusters on the surface, "
                "and their representatives as dots");
-  AddSize(app, "--size", options.frame.width, options.frame.height, "Size of the frames");
+  AddSize(app, "--size", options.frame.width, options.frame.height, "Size of the frames",
+          std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height));
   AddFrameView(app, options.frame);
-  CLI::Option* moving =
-      app.add_flag("--animate", options.animate,
-                   "Also write the whole replay as a moving picture, replay.webp, slowed down")
-          ->excludes(none);
-  AddSize(app, "--animate-size", options.animation.width, options.animation.height,
-          "Size of the moving picture")
-      ->needs(moving);
+  app.add_flag("--animate", options.animate,
+               "Also write the whole replay as a moving picture, replay.webp, slowed down and seen "
+               "as the frames are; the report page shows it")
+      ->excludes(none);
+  AddVideo(app, options.video);
+  AddSize(app, kAnimateSize, options.animation_width, options.animation_height,
+          "Size of moving pictures", "half of --size");
 }
 
 /// Longer than any plan takes, and still a number of seconds that clocks can add.
 constexpr double kLongestTime_s = 1e6;
 constexpr int kMostJobs = 1024;
+/// Each keeps two pictures of four samples a pixel in memory.
+constexpr int kMostWorkers = 16;
 
 constexpr char kSeveralPlans[] = "goes with several plans or a folder of them";
 constexpr char kSinglePlan[] = "goes with a single plan or grasp";
@@ -225,14 +243,17 @@ bool ChangesResults(const std::string& name) {
   static const std::set<std::string> kOthers = {
       "--help",   "--version", "--object",      "--plan",       "--grasp", "--out",
       "--junit",  "--json",    "--export-mjcf", "--trajectory", "--start", "--goal",
-      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet"};
+      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet", "--video"};
   return !kOthers.contains(name);
 }
 
 }  // namespace
 
-ValidateOptions::ValidateOptions()
-    : jobs(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostJobs)) {}
+ValidateOptions::ValidateOptions() {
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  jobs = std::clamp(cores, 1, kMostJobs);
+  workers = std::clamp(cores, 1, kMostWorkers);
+}
 
 void ValidateOptions::AddTo(CLI::App& app) {
   BeginGroup(app, "Object, and what is validated");
@@ -272,13 +293,18 @@ void ValidateOptions::Finish(const CLI::App& app) {
     }
   };
   if (for_batch()) {
-    refuse({"--trajectory", "--export-mjcf", "--verify", "--json"}, kSinglePlan);
+    refuse({"--trajectory", "--export-mjcf", "--verify", "--json", "--video"}, kSinglePlan);
     if (std::ranges::find(plans, kStandardStream) != plans.end()) {
       throw InputError("--plan - " + std::string(kSinglePlan));
     }
   } else {
     refuse({"--jobs", "--time-limit", "--fresh"}, kSeveralPlans);
     if (!for_grasp()) plan_path = plans.front();
+  }
+  if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");
+  if (animation_width == 0) {
+    animation_width = std::max(render::kMinFrameSide, frame.width / 2);
+    animation_height = std::max(render::kMinFrameSide, frame.height / 2);
   }
   given.clear();
   for (const CLI::Option* option : app.get_options()) {

@@ -9,7 +9,6 @@
 
 #include "apps/options.h"
 #include "render/frames/frame.h"
-#include "render/frames/replay_animation.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
 
@@ -40,7 +39,10 @@ struct ValidateOptions {
   sim::ReplayOptions replay;
   sim::TrialOptions trials;  ///< a count of 0: none
   render::FrameOptions frame;
-  render::AnimationOptions animation;
+  int animation_width = 0;  ///< pixels; after Finish those of --animate-size, or half of --size
+  int animation_height = 0;
+  std::string video;
+  int workers;  ///< threads that draw pictures
   bool no_frames = false;
   bool animate = false;
   bool show_clusters = false;
@@ -64,6 +66,7 @@ struct ValidateOptions {
   /// Several plans, or a folder of them.
   [[nodiscard]] bool for_batch() const;
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
+  [[nodiscard]] bool animates() const { return animate || !video.empty(); }
   /// The plan or the grasp.
   [[nodiscard]] const std::string& InputPath() const;
   /// Where results go: `out`, or out/<plan, grasp or folder name>, or out/batch.

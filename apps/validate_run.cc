@@ -1,9 +1,11 @@
 #include "apps/validate_run.h"
 
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "apps/earlier_run.h"
@@ -60,6 +62,7 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
   if (options.json != kStandardStream) outputs.Add("--json", options.json);
   outputs.Add("--trajectory", options.trajectory);
   outputs.Add("--export-mjcf", options.mjcf);
+  outputs.Add("--video", options.video);
   outputs.folders.push_back({"--out", options.Folder(), IsValidationFile});
   return outputs;
 }
@@ -128,7 +131,7 @@ sim::ReplayObserver MakeObserver(const ValidateOptions& options, ProgressLine& p
     progress.Report("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
   };
   const bool trajectory = !options.trajectory.empty();
-  const bool animate = options.animate;
+  const bool animate = options.animates();
   if (!trajectory && !animate) return observer;
   // How long a replay takes depends on the body: a moving picture is cut from all of its states.
   observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
@@ -223,26 +226,60 @@ std::vector<std::string> NamesOfResults(const ValidateOptions& options, const Ta
   return ResultNames(task.plan, !options.no_frames, options.animate);
 }
 
+/// Says how many pictures are drawn: on a terminal always, in a log now and then.
+class DrawingCount {
+ public:
+  DrawingCount(std::string what, bool quiet)
+      : what_(std::move(what)), line_(quiet), log_(kValidateName, quiet) {
+    line_.Report(what_);
+  }
+  [[nodiscard]] std::function<void(int, int)> reporter() {
+    return [this](int done, int all) {
+      const std::string text =
+          what_ + ": frame " + std::to_string(done) + " of " + std::to_string(all);
+      line_.Report(text);
+      log_.Report(text);
+    };
+  }
+
+ private:
+  std::string what_;
+  ProgressLine line_;
+  ProgressLog log_;
+};
+
+/// @returns what the page shows of it: replay.webp, where that is made.
+report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
+                            const Task& task, const Samples& samples,
+                            const std::filesystem::path& folder, report::Report& report) {
+  frame.width = options.animation_width;
+  frame.height = options.animation_height;
+  std::vector<MovingFile> files;
+  if (options.animate) files.push_back({folder / kAnimationName, render::MovingFormat::kWebp});
+  if (!options.video.empty()) {
+    files.push_back({options.video, *render::MovingFormatOf(options.video)});
+  }
+  DrawingCount count("drawing the moving picture", options.quiet);
+  std::vector<std::string> bytes =
+      WriteAnimation(*task.object.object, task.plan, {frame, options.workers, count.reporter()},
+                     samples.animation, files, report);
+  if (!options.animate) return {};
+  return {std::move(bytes.front()), frame.width, frame.height};
+}
+
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
                    const Task& task, const Samples& samples, const std::filesystem::path& folder,
                    report::Report& report) {
   const object::Object& object = *task.object.object;
   std::vector<report::PagePicture> pictures;
   if (!options.no_frames) {
-    ProgressLine progress(options.quiet);
-    progress.Report("drawing frames");
-    pictures = WriteFrames(object, task.plan, frame, folder, report);
+    DrawingCount count("drawing frames", options.quiet);
+    pictures =
+        WriteFrames(object, task.plan, {frame, options.workers, count.reporter()}, folder, report);
   }
-  if (options.animate) {
-    ProgressLine progress(options.quiet);
-    progress.Report("drawing the moving picture");
-    WriteAnimation(object, task.plan, samples.animation, options.animation, folder, report,
-                   [&](int done, int all) {
-                     progress.Report("drawing the moving picture: " + std::to_string(done) +
-                                     " of " + std::to_string(all) + " steps");
-                   });
-  }
-  WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures));
+  report::PagePicture moving;
+  if (options.animates()) moving = Animate(options, frame, task, samples, folder, report);
+  WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving));
 }
 
 /// What is written last says that all of it is there.

@@ -2,6 +2,7 @@
 # out, so that a test may move): on an idle core more than about 0.7 s each, or 3 s of a program, and
 # all fuzz runs. All others are fast. ctest's table of costs tells where a test belongs.
 set(regrasp_slow_tests
+  apps.animation
   apps.batch
   apps.endurance
   apps.failing_frames

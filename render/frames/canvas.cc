@@ -214,13 +214,23 @@ class Canvas::Impl {
         height_(height),
         factor_(supersampling),
         band_rows_(std::clamp(kMaxBandSamples / (width * factor_ * factor_), 1, height)),
-        context_(width * factor_, band_rows_ * factor_),
-        meshes_(meshes.begin(), meshes.end()) {
-    InitState();
+        meshes_(meshes.begin(), meshes.end()),
+        context_(width * factor_, band_rows_ * factor_) {
+    Init();
   }
+  Impl(const Impl& other)
+      : width_(other.width_),
+        height_(other.height_),
+        factor_(other.factor_),
+        band_rows_(other.band_rows_),
+        meshes_(other.meshes_),
+        context_(width_ * factor_, band_rows_ * factor_) {
+    Init();
+  }
+  Impl& operator=(const Impl&) = delete;
 
   Image Draw(const Camera& camera, const Drawing& drawing) {
-    context_.MakeCurrent();
+    const OffscreenContext::Use use(context_);
     Image image = MakeImage(width_, height_);
     for (int top = 0; top < height_; top += band_rows_) {
       DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
@@ -229,6 +239,11 @@ class Canvas::Impl {
   }
 
  private:
+  void Init() {
+    const OffscreenContext::Use use(context_);
+    InitState();
+  }
+
   void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Image& image) {
     const int rows = band.rows * factor_;
     glViewport(0, 0, width_ * factor_, rows);
@@ -249,12 +264,13 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
-  OffscreenContext context_;
   std::vector<Vertices> meshes_;
+  OffscreenContext context_;
 };
 
 Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling)
     : impl_(std::make_unique<Impl>(meshes, width, height, supersampling)) {}
+Canvas::Canvas(const Canvas& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Canvas::~Canvas() = default;
 
 Image Canvas::Draw(const Camera& camera, const Drawing& drawing) {

@@ -66,6 +66,8 @@ struct Drawing {
 /// and no shadows.
 ///
 /// Deterministic: the same drawing gives the same bytes. The scene is about the origin, of size 1.
+/// A canvas may be used by one thread after the other; a copy has a window of its own, so that two
+/// threads draw at a time.
 class Canvas {
  public:
   /// @param meshes         what MeshInstance names.
@@ -74,7 +76,7 @@ class Canvas {
   /// @throws EnvironmentError  no off-screen rendering context.
   Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int supersampling);
   ~Canvas();
-  Canvas(const Canvas&) = delete;
+  Canvas(const Canvas& other);
   Canvas& operator=(const Canvas&) = delete;
 
   /// @param camera  of the canvas's width and height.

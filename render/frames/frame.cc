@@ -295,7 +295,8 @@ class FrameRenderer::Impl {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       poses.push_back(pose);
-      frames.push_back(GlyphsOf(snapshot));
+      frames.push_back(
+          MakeFingerGlyphs(snapshot, frame_, body_.surface, {GapView::kNone, FingerRadius()}));
     }
     const ViewOptions& view = options_.view;
     const Eigen::Matrix3d axes = CameraAxes(
@@ -348,6 +349,8 @@ FrameRenderer::FrameRenderer(const object::Object& object, double scale, double 
   CheckOptions(options);
   impl_ = std::make_unique<Impl>(object, scale, half_angle, snapshots, options);
 }
+FrameRenderer::FrameRenderer(const FrameRenderer& other)
+    : impl_(std::make_unique<Impl>(*other.impl_)) {}
 FrameRenderer::~FrameRenderer() = default;
 
 Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption,

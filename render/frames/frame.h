@@ -26,7 +26,8 @@ struct FrameOptions {
   int supersampling = 2;  ///< rendered this many times as large along both axes, then averaged
   BodyOptions body = {};
   ViewOptions view = {};
-  /// Fingers in the air are drawn away from their contacts (render/frames/finger_glyph.h).
+  /// Fingers in the air are drawn away from their contacts (render/frames/finger_glyph.h). The
+  /// camera is the same.
   GapView gaps = GapView::kNone;
   /// Fingers are drawn as thick as they are, in the object's unit of length; otherwise as signs.
   std::optional<double> finger_radius = std::nullopt;
@@ -48,7 +49,8 @@ struct FrameOptions {
 ///
 /// One renderer draws a whole plan, with one camera, so that frames can be laid side by side. The
 /// camera is chosen once (ChooseViewpoint) and sees all that is drawn of `snapshots`. Force arrows
-/// have one scale for all of them too. Deterministic: the same bytes every time.
+/// have one scale for all of them too. Deterministic: the same bytes every time. A renderer may be
+/// used by one thread after the other.
 class FrameRenderer {
  public:
   /// @param object      must outlive this renderer.
@@ -60,6 +62,9 @@ class FrameRenderer {
   ///                                supersampling outside [1, 4].
   FrameRenderer(const object::Object& object, double scale, double half_angle,
                 const std::vector<plan::Snapshot>& snapshots, const FrameOptions& options = {});
+  /// Draws the same frames, at the same time in another thread.
+  FrameRenderer(const FrameRenderer& other);
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
   ~FrameRenderer();
 
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.

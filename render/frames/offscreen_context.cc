@@ -33,7 +33,7 @@ OffscreenContext::OffscreenContext(int width, int height)
       context_(CreateContext()) {
   if (context_ == nullptr) throw EnvironmentError("no off-screen rendering context (OSMesa)");
   try {
-    MakeCurrent();
+    const Use tried(*this);
   } catch (...) {
     OSMesaDestroyContext(context_);
     throw;
@@ -41,6 +41,8 @@ OffscreenContext::OffscreenContext(int width, int height)
 }
 
 OffscreenContext::~OffscreenContext() { OSMesaDestroyContext(context_); }
+
+OffscreenContext::Use::~Use() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
 void OffscreenContext::MakeCurrent() {
   if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) != GL_TRUE) {

@@ -16,12 +16,21 @@ class OffscreenContext {
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  /// OpenGL's functions of this thread draw here from now on.
-  void MakeCurrent();
+  /// While it exists, OpenGL's functions of this thread draw here. Another thread's may do so
+  /// afterwards.
+  class Use {
+   public:
+    explicit Use(OffscreenContext& context) { context.MakeCurrent(); }
+    ~Use();
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+  };
   /// What was drawn, once glFinish was called.
   [[nodiscard]] const std::vector<unsigned char>& pixels() const { return pixels_; }
 
  private:
+  void MakeCurrent();
+
   int width_, height_;
   std::vector<unsigned char> pixels_;
   osmesa_context* context_;

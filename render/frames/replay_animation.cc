@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
-
-#include "render/picture/caption.h"
-#include "render/picture/webp.h"
 
 namespace regrasp::render {
 
@@ -16,10 +14,13 @@ namespace {
 constexpr double kLargestMotion = 0.25;
 constexpr double kStillMotion = 1e-3;
 
-double LargestForce(const std::vector<plan::Snapshot>& rests) {
-  double largest = 0;
-  for (const plan::Snapshot& rest : rests) {
-    for (const plan::FingerState& finger : rest.fingers) {
+/// So many pictures show all colours: each finger holds in one of them.
+constexpr int kMostExamples = 8;
+
+double LargestForce(const std::vector<AnimationRest>& rests) {
+  double largest = std::numeric_limits<double>::min();
+  for (const AnimationRest& rest : rests) {
+    for (const plan::FingerState& finger : rest.snapshot.fingers) {
       largest = std::max(largest, finger.force_W.norm());
     }
   }
@@ -42,10 +43,11 @@ double MotionBetween(const plan::Snapshot& a, const plan::Snapshot& b, double di
 /// How far the replay has come at each rest; the samples up to it belong to its entry.
 std::vector<double> ProgressAtRests(const std::vector<plan::Snapshot>& samples,
                                     const std::vector<double>& progress,
-                                    const std::vector<plan::Snapshot>& rests) {
+                                    const std::vector<AnimationRest>& rests) {
   std::vector<double> at;
-  for (const plan::Snapshot& rest : rests) {
-    const auto end = std::ranges::upper_bound(samples, rest.time_s, {}, &plan::Snapshot::time_s);
+  for (const AnimationRest& rest : rests) {
+    const auto end =
+        std::ranges::upper_bound(samples, rest.snapshot.time_s, {}, &plan::Snapshot::time_s);
     at.push_back(end == samples.begin() ? 0 : progress[end - samples.begin() - 1]);
   }
   return at;
@@ -65,6 +67,29 @@ std::vector<int> CountPictures(const std::vector<double>& at_rests) {
   if (all <= kMostPicturesInAll) return counts;
   for (int& count : counts) count = std::max(1, count * kMostPicturesInAll / all);
   return counts;
+}
+
+int RestTime_ms(const std::vector<AnimationRest>& rests, std::size_t entry) {
+  if (rests[entry].marks) return kFailedRestTime_ms;
+  if (entry + 1 == rests.size()) return kLastRestTime_ms;
+  return entry == 0 ? kFirstRestTime_ms : kRestTime_ms;
+}
+
+/// Some of the rests: they have the colours of the fingers, of forces and of marks.
+std::vector<Image> RenderExamples(const FrameRenderer& renderer,
+                                  const std::vector<AnimationPicture>& pictures, int workers) {
+  std::vector<FrameTask> rests;
+  for (const AnimationPicture& picture : pictures) {
+    if (picture.duration_ms > kPictureTime_ms) rests.push_back(picture.frame);
+  }
+  std::vector<FrameTask> chosen;
+  const auto count = static_cast<int>(rests.size());
+  const int examples = std::min(count, kMostExamples);
+  for (int i = 1; i <= examples; ++i) chosen.push_back(rests[count * i / examples - 1]);
+  std::vector<Image> images;
+  RenderInOrder(renderer, chosen, workers,
+                [&images](int, const Image& image) { images.push_back(image); });
+  return images;
 }
 
 }  // namespace
@@ -95,35 +120,47 @@ std::vector<int> ChooseInstants(const std::vector<double>& progress, double from
   return chosen;
 }
 
-std::string RenderAnimation(const object::Object& object, const plan::Plan& plan, double half_angle,
-                            const std::vector<plan::Snapshot>& samples,
-                            const std::vector<plan::Snapshot>& rests,
-                            const AnimationOptions& options,
-                            const std::function<void(int)>& on_entry) {
-  if (rests.empty()) throw std::invalid_argument("RenderAnimation: nothing was replayed");
-  FrameOptions frame;
-  frame.width = options.width;
-  frame.height = options.height;
-  frame.body.thickness = options.thickness;
-  frame.gaps = GapView::kShown;
-  FrameRenderer renderer(object, plan.scale, half_angle, rests, frame);
-  WebpAnimation animation(options.width, options.height);
-  const double largest_force = std::max(LargestForce(rests), std::numeric_limits<double>::min());
-  const std::vector<double> progress =
-      MeasureProgress(samples, plan.scale * object.diameter(), largest_force);
+std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& samples,
+                                           const std::vector<AnimationRest>& rests,
+                                           double diameter_m) {
+  const std::vector<double> progress = MeasureProgress(samples, diameter_m, LargestForce(rests));
   const std::vector<double> at_rests = ProgressAtRests(samples, progress, rests);
   const std::vector<int> counts = CountPictures(at_rests);
+  std::vector<AnimationPicture> pictures;
   double from = 0;
   for (std::size_t entry = 0; entry < rests.size(); ++entry) {
-    const std::string caption = FrameCaption(plan, plan::EntryIndex(static_cast<int>(entry)));
+    const AnimationRest& rest = rests[entry];
     for (const int at : ChooseInstants(progress, from, at_rests[entry], counts[entry])) {
-      animation.Add(renderer.Render(samples[at], caption), kPictureTime_ms);
+      pictures.push_back({{&samples[at], rest.moving_caption}, kPictureTime_ms});
     }
-    animation.Add(renderer.Render(rests[entry], caption), kRestTime_ms);
+    const FaultMarks* marks = rest.marks ? &*rest.marks : nullptr;
+    pictures.push_back({{&rest.snapshot, rest.caption, marks}, RestTime_ms(rests, entry)});
     from = at_rests[entry];
-    if (on_entry) on_entry(static_cast<int>(entry) + 1);
   }
-  return animation.Finish();
+  return pictures;
+}
+
+std::vector<std::string> RenderAnimation(const FrameRenderer& renderer,
+                                         const std::vector<AnimationPicture>& pictures,
+                                         const std::vector<MovingFormat>& formats, int workers,
+                                         const std::function<void(int)>& on_picture) {
+  if (pictures.empty()) throw std::invalid_argument("RenderAnimation: no picture");
+  const bool has_gif = std::ranges::find(formats, MovingFormat::kGif) != formats.end();
+  const std::vector<Image> examples =
+      has_gif ? RenderExamples(renderer, pictures, workers) : std::vector<Image>();
+  std::vector<std::unique_ptr<MovingPicture>> files;
+  std::vector<FrameTask> tasks;
+  for (const AnimationPicture& picture : pictures) tasks.push_back(picture.frame);
+  RenderInOrder(renderer, tasks, workers, [&](int index, const Image& image) {
+    for (std::size_t i = files.size(); i < formats.size(); ++i) {
+      files.push_back(MakeMovingPicture(formats[i], image.width, image.height, examples));
+    }
+    for (const auto& file : files) file->Add(image, pictures[index].duration_ms);
+    if (on_picture) on_picture(index + 1);
+  });
+  std::vector<std::string> bytes;
+  for (const auto& file : files) bytes.push_back(file->Finish());
+  return bytes;
 }
 
 }  // namespace regrasp::render

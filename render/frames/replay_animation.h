@@ -1,20 +1,22 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "planner/object/object.h"
-#include "planner/plan/plan.h"
 #include "planner/plan/snapshot.h"
-#include "render/frames/frame.h"
+#include "render/frames/frame_sequence.h"
+#include "render/picture/moving_picture.h"
 
 namespace regrasp::render {
 
-struct AnimationOptions {
-  int width = 640;
-  int height = 480;
-  double thickness = kUsualThickness;  ///< of the prism of a planar object, in diameters
+/// The end of an entry, where the animation rests.
+struct AnimationRest {
+  plan::Snapshot snapshot;
+  std::string moving_caption;  ///< below what leads to it
+  std::string caption;
+  std::optional<FaultMarks> marks = std::nullopt;  ///< of a failed step
 };
 
 /// How an animation is cut: pictures where something moves, whatever its time in the replay, and a
@@ -24,8 +26,13 @@ inline constexpr double kMotionUnit = 0.02;
 inline constexpr double kPicturesPerUnit = 4;  ///< a finger comes down in ten pictures
 inline constexpr int kFewestPictures = 8;      ///< of an entry
 inline constexpr int kMostPictures = 64;       ///< of an entry: a long align goes faster
-inline constexpr int kPictureTime_ms = 50;     ///< 20 pictures a second
+inline constexpr int kPictureTime_ms = kTick_ms;
+/// At the first rest one finds one's way about the picture; before the animation begins again the
+/// last one can be looked at, longer where it tells what failed.
+inline constexpr int kFirstRestTime_ms = 1500;
 inline constexpr int kRestTime_ms = 900;
+inline constexpr int kLastRestTime_ms = 2500;
+inline constexpr int kFailedRestTime_ms = 4000;
 
 /// A plan of many entries has fewer pictures an entry, but one at least and its rest.
 inline constexpr int kMostPicturesInAll = 900;
@@ -43,19 +50,32 @@ inline constexpr int kMostPicturesInAll = 900;
 [[nodiscard]] std::vector<int> ChooseInstants(const std::vector<double>& progress, double from,
                                               double to, int count);
 
-/// The whole replay as an animated WebP file: its pictures are spread over what moves, so that a
+/// A picture of an animation, and how long it is shown.
+struct AnimationPicture {
+  FrameTask frame;
+  int duration_ms;
+};
+
+/// Cuts a replay into the pictures of an animation: they are spread over what moves, so that a
 /// finger is seen to come down, forces to change, and a finger to leave; every entry rests at its
-/// end. Deterministic.
-/// @param samples  states during the replay, ascending in time.
-/// @param rests    the state after each entry that was replayed, in the order of the plan, ≥ 1.
-/// @param on_entry  called with the number of entries drawn, after each.
-/// @throws EnvironmentError       no off-screen rendering context.
-/// @throws std::invalid_argument  a size that frames cannot have, or no rest.
-[[nodiscard]] std::string RenderAnimation(const object::Object& object, const plan::Plan& plan,
-                                          double half_angle,
-                                          const std::vector<plan::Snapshot>& samples,
-                                          const std::vector<plan::Snapshot>& rests,
-                                          const AnimationOptions& options = {},
-                                          const std::function<void(int)>& on_entry = {});
+/// end.
+/// @param samples  states during the replay, ascending in time; those after the last rest that was
+///                 replayed are left out. They and the rests outlive what is returned.
+/// @param rests    in the order of the plan, ≥ 1.
+[[nodiscard]] std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& samples,
+                                                         const std::vector<AnimationRest>& rests,
+                                                         double diameter_m);
+
+/// Draws the pictures and writes one file of them in each format. Deterministic, whatever the
+/// number of workers.
+/// @param renderer    with GapView::kShown.
+/// @param pictures    ≥ 1.
+/// @param workers     threads that draw, ≥ 1.
+/// @param on_picture  called with the number of pictures done, after each.
+/// @throws EnvironmentError  no off-screen rendering context, or no encoder.
+[[nodiscard]] std::vector<std::string> RenderAnimation(
+    const FrameRenderer& renderer, const std::vector<AnimationPicture>& pictures,
+    const std::vector<MovingFormat>& formats, int workers,
+    const std::function<void(int)>& on_picture = {});
 
 }  // namespace regrasp::render

@@ -58,6 +58,50 @@ class Picture {
   WebPPicture picture_;
 };
 
+class WebpAnimation : public MovingPicture {
+ public:
+  WebpAnimation(int width, int height) : width_(width), height_(height), config_(MakeConfig()) {
+    CheckSize(width, height);
+    WebPAnimEncoderOptions options;
+    const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
+    assert(good && "libwebpmux of another version than its header");
+    static_cast<void>(good);
+    encoder_ = WebPAnimEncoderNew(width, height, &options);
+    Require(encoder_ != nullptr);
+  }
+  ~WebpAnimation() override { WebPAnimEncoderDelete(encoder_); }
+  WebpAnimation(const WebpAnimation&) = delete;
+  WebpAnimation& operator=(const WebpAnimation&) = delete;
+
+  void Add(const Image& image, int duration_ms) override {
+    if (image.width != width_ || image.height != height_ || duration_ms < 1) {
+      throw std::invalid_argument("WebpAnimation: an image of another size, or no duration");
+    }
+    Picture picture(image);
+    Require(WebPAnimEncoderAdd(encoder_, picture.get(), time_ms_, &config_) != 0);
+    time_ms_ += duration_ms;
+  }
+
+  std::string Finish() override {
+    assert(time_ms_ > 0);
+    // A null picture says when the last one ends.
+    Require(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
+    WebPData data;
+    WebPDataInit(&data);
+    const bool good = WebPAnimEncoderAssemble(encoder_, &data) != 0;
+    const std::string bytes(reinterpret_cast<const char*>(data.bytes), good ? data.size : 0);
+    WebPDataClear(&data);
+    Require(good);
+    return bytes;
+  }
+
+ private:
+  int width_, height_;
+  WebPConfig config_;
+  WebPAnimEncoder* encoder_ = nullptr;
+  int time_ms_ = 0;
+};
+
 }  // namespace
 
 std::string EncodeWebp(const Image& image, int width) {
@@ -81,56 +125,8 @@ std::string EncodeWebp(const Image& image, int width) {
   return bytes;
 }
 
-class WebpAnimation::Impl {
- public:
-  Impl(int width, int height) : width_(width), height_(height), config_(MakeConfig()) {
-    WebPAnimEncoderOptions options;
-    const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
-    assert(good && "libwebpmux of another version than its header");
-    static_cast<void>(good);
-    encoder_ = WebPAnimEncoderNew(width, height, &options);
-    Require(encoder_ != nullptr);
-  }
-  ~Impl() { WebPAnimEncoderDelete(encoder_); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  void Add(const Image& image, int duration_ms) {
-    if (image.width != width_ || image.height != height_ || duration_ms < 1) {
-      throw std::invalid_argument("WebpAnimation: an image of another size, or no duration");
-    }
-    Picture picture(image);
-    Require(WebPAnimEncoderAdd(encoder_, picture.get(), time_ms_, &config_) != 0);
-    time_ms_ += duration_ms;
-  }
-
-  std::string Finish() {
-    assert(time_ms_ > 0);
-    // A null picture says when the last one ends.
-    Require(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
-    WebPData data;
-    WebPDataInit(&data);
-    const bool good = WebPAnimEncoderAssemble(encoder_, &data) != 0;
-    const std::string bytes(reinterpret_cast<const char*>(data.bytes), good ? data.size : 0);
-    WebPDataClear(&data);
-    Require(good);
-    return bytes;
-  }
-
- private:
-  int width_, height_;
-  WebPConfig config_;
-  WebPAnimEncoder* encoder_ = nullptr;
-  int time_ms_ = 0;
-};
-
-WebpAnimation::WebpAnimation(int width, int height) {
-  CheckSize(width, height);
-  impl_ = std::make_unique<Impl>(width, height);
+std::unique_ptr<MovingPicture> MakeWebpAnimation(int width, int height) {
+  return std::make_unique<WebpAnimation>(width, height);
 }
-WebpAnimation::~WebpAnimation() = default;
-
-void WebpAnimation::Add(const Image& image, int duration_ms) { impl_->Add(image, duration_ms); }
-std::string WebpAnimation::Finish() { return impl_->Finish(); }
 
 }  // namespace regrasp::render

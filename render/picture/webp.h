@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/picture/image.h"
+#include "render/picture/moving_picture.h"
 
 namespace regrasp::render {
 
@@ -13,28 +14,8 @@ namespace regrasp::render {
 ///                                or width < 1.
 [[nodiscard]] std::string EncodeWebp(const Image& image, int width);
 
-/// Builds a moving picture as an animated WebP file, lossy, that repeats for ever.
-///
-/// Same images, same bytes.
-class WebpAnimation {
- public:
-  /// @throws std::invalid_argument  a size that WebP cannot hold.
-  WebpAnimation(int width, int height);
-  ~WebpAnimation();
-  WebpAnimation(const WebpAnimation&) = delete;
-  WebpAnimation& operator=(const WebpAnimation&) = delete;
-
-  /// @param duration_ms  how long the image is shown, > 0.
-  /// @throws std::invalid_argument  another size than that of the animation, or no duration.
-  void Add(const Image& image, int duration_ms);
-
-  /// The bytes of the file; nothing can be added any more.
-  /// @pre  an image was added.
-  [[nodiscard]] std::string Finish();
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// An animated WebP, lossy.
+/// @throws std::invalid_argument  a size that WebP cannot hold.
+[[nodiscard]] std::unique_ptr<MovingPicture> MakeWebpAnimation(int width, int height);
 
 }  // namespace regrasp::render

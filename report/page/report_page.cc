@@ -26,8 +26,13 @@ namespace {
 
 class Page {
  public:
-  Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures)
-      : report_(report), plan_(plan), pictures_(pictures), measures_(MeasureSteps(report)) {
+  Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures,
+       const PagePicture& moving)
+      : report_(report),
+        plan_(plan),
+        pictures_(pictures),
+        moving_(moving),
+        measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
     }
@@ -35,9 +40,10 @@ class Page {
 
   [[nodiscard]] std::string Format() const {
     Parts all;
-    for (const Parts& parts : {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)},
-                               Plots(), MakeStepTable(report_, plan_, measures_, Anchors()),
-                               MakeFingerTable(report_), MakeFindings(report_), Frames()}) {
+    for (const Parts& parts :
+         {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
+          MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
+          MakeFindings(report_), Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     return FormatHtmlPage((report_.passed() ? "Pass: " : "Fail: ") + report_.plan_file, all);
@@ -177,6 +183,22 @@ class Page {
             Element("div", {{"class", "frames"}}, frames)};
   }
 
+  [[nodiscard]] Parts Replay() const {
+    if (moving_.webp.empty()) return {};
+    const std::string text =
+        "The replay, slowed down most where something moves. Every step rests at its end.";
+    return {Element("div", {{"class", "replay"}},
+                    Parts{Element("h2", {}, "Replay"), Note(text),
+                          MakeImage(moving_, "The replay as a moving picture")})};
+  }
+
+  [[nodiscard]] static Element MakeImage(const PagePicture& picture, const std::string& name) {
+    return Element("img", {{"alt", name},
+                           {"width", std::to_string(picture.width)},
+                           {"height", std::to_string(picture.height)},
+                           {"src", DataUri("image/webp", picture.webp)}});
+  }
+
   [[nodiscard]] Element Frame(const ReportStep& step) const {
     const plan::EntryIndex index = step.check.index;
     const PagePicture& picture = pictures_[index];
@@ -189,17 +211,14 @@ class Page {
     if (!failed && measures_[index].margin_deg) {
       text += ", " + FormatDegrees(*measures_[index].margin_deg) + " of friction left";
     }
-    const Element image("img", {{"alt", name},
-                                {"width", std::to_string(picture.width)},
-                                {"height", std::to_string(picture.height)},
-                                {"src", DataUri("image/webp", picture.webp)}});
     return Figure({{"id", Anchor(index)}, {"class", std::string(VerdictName(step.verdict()))}},
-                  image, name + ".", Capitalized(text) + ".");
+                  MakeImage(picture, name), name + ".", Capitalized(text) + ".");
   }
 
   const Report& report_;
   const plan::Plan& plan_;
   const std::vector<PagePicture>& pictures_;
+  const PagePicture& moving_;
   std::vector<StepMeasures> measures_;
   std::optional<plan::EntryIndex> failed_;
 };
@@ -207,9 +226,9 @@ class Page {
 }  // namespace
 
 std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
-                             const std::vector<PagePicture>& pictures) {
+                             const std::vector<PagePicture>& pictures, const PagePicture& moving) {
   assert(pictures.empty() || pictures.size() == report.steps.size());
-  return Page(report, plan, pictures).Format();
+  return Page(report, plan, pictures, moving).Format();
 }
 
 int PagePictureWidth(int count) {

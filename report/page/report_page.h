@@ -23,8 +23,10 @@ struct PagePicture {
 /// Well-formed XML too. Same report, same bytes.
 /// @param plan      the one that was reported on, for the names of steps.
 /// @param pictures  one per entry of the report, or none at all.
+/// @param moving    of the whole replay, where there is one; left out on paper.
 [[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
-                                           const std::vector<PagePicture>& pictures);
+                                           const std::vector<PagePicture>& pictures,
+                                           const PagePicture& moving = {});
 
 /// How wide a picture should be, pixels, so that a page of `count` of them can be sent by mail: the
 /// more, the smaller.

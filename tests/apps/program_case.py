@@ -11,6 +11,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 import jsonschema
@@ -86,15 +87,26 @@ class ProgramCase(unittest.TestCase):
         master, terminal = os.openpty()
         self.addCleanup(os.close, master)
         command = [os.path.join(ARGUMENTS.programs, self.program), *arguments]
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS, check=False,
-                              env={"TERM": "xterm", **without_no_color, **(environment or {})})
-        os.close(terminal)
-        os.set_blocking(master, False)
+        shown = []
+
+        def watch():
+            try:
+                while text := os.read(master, 1 << 16):
+                    shown.append(text)
+            except OSError:
+                pass  # the other end is closed
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
         try:
-            return done, os.read(master, 1 << 16).decode()
-        except OSError:
-            return done, ""
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS,
+                                  check=False, env={"TERM": "xterm", **without_no_color,
+                                                    **(environment or {})})
+        finally:
+            os.close(terminal)
+            watcher.join()
+        return done, b"".join(shown).decode()
 
     def assert_stages(self, shown, *stages):
         """A terminal was shown these one after the other, the first of them at once."""

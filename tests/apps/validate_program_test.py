@@ -608,33 +608,6 @@ class Validate(ProgramCase):
         self.assert_passes("--no-frames")
         self.assertFalse(os.path.exists(self.path("result/overview.png")))
 
-    def test_the_replay_is_animated_where_asked(self):
-        self.assert_passes("--animate", size="64x48", animate_size="96x64")
-        webp = self.read("result/replay.webp")
-        self.assertEqual((webp[:4], webp[8:16]), (b"RIFF", b"WEBPVP8X"))
-        sides = [1 + int.from_bytes(webp[at:at + 3], "little") for at in (24, 27)]
-        self.assertEqual(sides, [96, 64])
-        self.assertGreater(webp.count(b"ANMF"), 2 * len(self.plan["steps"]))
-        self.assert_passes("--no-frames")
-        self.assertFalse(os.path.exists(self.path("result/replay.webp")))
-        self.refuse("--animate", "--animate", "--no-frames")
-        self.refuse("--animate-size", animate_size="96x64")
-        self.refuse("--animate-size", "--animate", animate_size="1x1")
-
-    def test_a_terminal_is_told_how_many_steps_the_animation_has(self):
-        steps = len(self.plan["steps"]) + 1
-        done, shown = self.run_on_terminal(*self.arguments("--animate", size="64x48",
-                                                           animate_size="64x48"))
-        self.assertEqual(done.returncode, 0, shown)
-        self.assert_stages(shown, "reading ", f"drawing the moving picture: 1 of {steps} steps",
-                           f"drawing the moving picture: {steps} of {steps} steps")
-
-    def test_the_trajectory_is_the_same_with_an_animation(self):
-        self.assert_passes("--no-frames", trajectory="alone.csv")
-        self.assert_passes("--animate", size="64x48", animate_size="64x48",
-                           trajectory="beside.csv")
-        self.assertEqual(self.read("alone.csv"), self.read("beside.csv"))
-
     # A single grasp.
 
     def grasp_arguments(self, **changes):

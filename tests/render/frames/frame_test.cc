@@ -123,6 +123,36 @@ TEST(FrameTest, GivesTheSameBytesTwice) {
   EXPECT_EQ(first.rgb, second.rgb);
 }
 
+TEST(FrameTest, ACopyDrawsTheSameWithTheSameCamera) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small(2));
+  FrameRenderer copy(renderer);
+  for (const plan::Snapshot& snapshot : snapshots) {
+    EXPECT_EQ(CountDifferent(copy.Render(snapshot, "a"), renderer.Render(snapshot, "a")), 0);
+  }
+}
+
+TEST(FrameTest, TheCameraIsTheSameWhereFingersInTheAirAreDrawnAway) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  for (plan::Snapshot& snapshot : snapshots) {
+    snapshot.fingertip_radius_m = 1e-3;
+    for (plan::FingerState& finger : snapshot.fingers) {
+      const bool away = finger.role == plan::FingerRole::kReleased;
+      finger.tip_W = finger.contact_W - (away ? 0.01 : 1e-3) * finger.normal_W;
+    }
+  }
+  FrameOptions shown = Medium();
+  shown.gaps = GapView::kShown;
+  const auto count = [&](std::size_t index) {
+    return CountDifferent(Draw(cube, snapshots, index, Medium()),
+                          Draw(cube, snapshots, index, shown));
+  };
+  EXPECT_EQ(count(0), 0);
+  EXPECT_GT(count(1), 100) << "a released finger stands away";
+}
+
 TEST(FrameTest, ChangesWhenTheObjectTurnsOrAFingerChangesItsRole) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/render/frames/scenes.h"
+
 namespace regrasp::render {
 namespace {
 
@@ -58,6 +60,82 @@ TEST(ReplayAnimationTest, PicturesAreSpreadOverWhatMoves) {
   EXPECT_GE(coming, 13);
   EXPECT_GE(pressing, 11);
   for (std::size_t i = 1; i < progress.size(); ++i) ASSERT_GT(progress[i], progress[i - 1]);
+}
+
+/// The hold and a step of those samples.
+std::vector<AnimationRest> MakeRests(const std::vector<plan::Snapshot>& samples) {
+  return {{samples[1080], "coming", "hold"}, {samples.back(), "pressing", "step"}};
+}
+
+TEST(ReplayAnimationTest, EveryEntryMovesAndThenRests) {
+  const std::vector<plan::Snapshot> samples = ComeDown();
+  const std::vector<AnimationRest> rests = MakeRests(samples);
+  const std::vector<AnimationPicture> pictures = CutAnimation(samples, rests, 1);
+  std::vector<std::string> captions;
+  std::vector<int> durations;
+  double time = -1;
+  for (const AnimationPicture& picture : pictures) {
+    EXPECT_GE(picture.frame.snapshot->time_s, time);
+    time = picture.frame.snapshot->time_s;
+    EXPECT_EQ(picture.frame.fault, nullptr);
+    if (captions.empty() || captions.back() != picture.frame.caption) {
+      captions.push_back(picture.frame.caption);
+    }
+    if (picture.duration_ms > kPictureTime_ms) durations.push_back(picture.duration_ms);
+  }
+  EXPECT_EQ(captions, (std::vector<std::string>{"coming", "hold", "pressing", "step"}));
+  EXPECT_EQ(durations, (std::vector<int>{kFirstRestTime_ms, kLastRestTime_ms}));
+  EXPECT_EQ(pictures.back().frame.snapshot, &rests[1].snapshot);
+}
+
+TEST(ReplayAnimationTest, AFailedStepRestsLongWithItsMarksAndNothingElseHasThem) {
+  const std::vector<plan::Snapshot> samples = ComeDown();
+  std::vector<AnimationRest> rests = MakeRests(samples);
+  rests.back().marks = FaultMarks{.heading = "slipped", .fingers = {}};
+  const std::vector<AnimationPicture> pictures = CutAnimation(samples, rests, 1);
+  EXPECT_EQ(pictures.back().frame.fault, &*rests.back().marks);
+  EXPECT_EQ(pictures.back().duration_ms, kFailedRestTime_ms);
+  for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
+    EXPECT_EQ(pictures[i].frame.fault, nullptr);
+  }
+}
+
+TEST(ReplayAnimationTest, AnEntryThatWasNotReplayedOnlyRests) {
+  const std::vector<plan::Snapshot> samples = ComeDown();
+  std::vector<AnimationRest> rests = MakeRests(samples);
+  const std::size_t count = CutAnimation(samples, rests, 1).size();
+  rests.push_back({plan::Snapshot(), "planned", "planned", FaultMarks()});
+  EXPECT_EQ(CutAnimation(samples, rests, 1).size(), count + 1);
+  EXPECT_EQ(CutAnimation({}, {rests.back()}, 1).size(), 1u);
+}
+
+TEST(ReplayAnimationTest, EveryFormatIsWrittenAndTheBytesDoNotDependOnTheWorkers) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  FrameOptions options = {96, 72, 1};
+  options.gaps = GapView::kShown;
+  const FrameRenderer renderer(cube, 1, 0.3, snapshots, options);
+  std::vector<AnimationPicture> pictures;
+  for (int i = 0; i < 6; ++i) {
+    pictures.push_back({{&snapshots[i % 3], std::to_string(i)}, (1 + i % 2) * kTick_ms});
+  }
+  const std::vector<MovingFormat> formats = {MovingFormat::kGif, MovingFormat::kMp4,
+                                             MovingFormat::kWebp};
+  std::vector<int> done;
+  const std::vector<std::string> files =
+      RenderAnimation(renderer, pictures, formats, 1, [&](int count) { done.push_back(count); });
+  EXPECT_EQ(done, (Indices{1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(files[0].substr(0, 3), "GIF");
+  EXPECT_EQ(files[1].substr(4, 4), "ftyp");
+  EXPECT_EQ(files[2].substr(0, 4), "RIFF");
+  const std::vector<std::string> again = RenderAnimation(renderer, pictures, formats, 3);
+  pictures.pop_back();
+  const std::vector<std::string> shorter = RenderAnimation(renderer, pictures, formats, 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(again[i] == files[i]) << i;
+    EXPECT_FALSE(shorter[i] == files[i]) << i;
+  }
 }
 
 TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {

@@ -53,14 +53,14 @@ TEST(WebpTest, SizesThatWebpCannotHoldAreRefused) {
   EXPECT_THROW(static_cast<void>(EncodeWebp({}, 10)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(16384, 1, 0), 10)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(EncodeWebp(MakeFlat(4, 4, 0), 0)), std::invalid_argument);
-  EXPECT_THROW(WebpAnimation(0, 4), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(MakeWebpAnimation(0, 4)), std::invalid_argument);
 }
 
 TEST(WebpAnimationTest, EveryImageIsShownForItsTime) {
-  WebpAnimation animation(32, 24);
-  animation.Add(MakeFlat(32, 24, 20), 50);
-  animation.Add(MakeFlat(32, 24, 220), 900);
-  const std::string webp = animation.Finish();
+  const auto animation = MakeWebpAnimation(32, 24);
+  animation->Add(MakeFlat(32, 24, 20), 50);
+  animation->Add(MakeFlat(32, 24, 220), 900);
+  const std::string webp = animation->Finish();
   const WebPData data = {Bytes(webp), webp.size()};
   const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
       WebPAnimDecoderNew(&data, nullptr), &WebPAnimDecoderDelete);
@@ -80,9 +80,9 @@ TEST(WebpAnimationTest, EveryImageIsShownForItsTime) {
 }
 
 TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {
-  WebpAnimation animation(32, 24);
-  EXPECT_THROW(animation.Add(MakeFlat(24, 32, 0), 50), std::invalid_argument);
-  EXPECT_THROW(animation.Add(MakeFlat(32, 24, 0), 0), std::invalid_argument);
+  const auto animation = MakeWebpAnimation(32, 24);
+  EXPECT_THROW(animation->Add(MakeFlat(24, 32, 0), 50), std::invalid_argument);
+  EXPECT_THROW(animation->Add(MakeFlat(32, 24, 0), 0), std::invalid_argument);
 }
 
 }  // namespace

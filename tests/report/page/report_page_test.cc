@@ -147,6 +147,16 @@ TEST(ReportPageTest, PicturesStandInThePage) {
   EXPECT_THAT(page, HasSubstr("id=\"frame1\" class=\"fail\""));
 }
 
+TEST(ReportPageTest, TheReplayMovesOnThePageWhereItWasMade) {
+  const Scene scene(/*fails=*/false);
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {}, {"abc", 320, 240});
+  EXPECT_EQ(Count(page, "<div class=\"replay\">"), 1);
+  EXPECT_EQ(Count(page, "src=\"data:image/webp;base64,YWJj\""), 1);
+  const std::string without = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_EQ(Count(without, "<div class=\"replay\">"), 0);
+  EXPECT_EQ(Count(without, "<img"), 0);
+}
+
 TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {
   const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
   const Scene failing(/*fails=*/true), passing(/*fails=*/false);

@@ -1,0 +1,353 @@
+#include "render/picture/video.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "planner/base/error.h"
+#include "render/picture/color_table.h"
+
+namespace regrasp::render {
+
+namespace {
+
+constexpr int kBytesPerPixel = 3;
+constexpr int kLongestSide = 16384;  ///< that both formats can hold
+
+/// Of libx264, 0 to 51: thin lines and small numbers stay sharp.
+constexpr char kRateFactor[] = "18";
+/// A player can begin every two seconds.
+constexpr int kPicturesBetweenKeys = 40;
+
+/// GIF counts time in these.
+constexpr int kCentisecond_ms = 10;
+
+/// What a call of ffmpeg returned.
+int Require(int result) {
+  if (result >= 0) return result;
+  if (result == AVERROR(ENOMEM)) throw std::bad_alloc();
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
+  av_strerror(result, text.data(), text.size());
+  throw EnvironmentError("ffmpeg: " + std::string(text.data()));
+}
+
+template <class T>
+T* RequireMemory(T* pointer) {
+  if (pointer == nullptr) throw std::bad_alloc();
+  return pointer;
+}
+
+template <auto free>
+struct Free {
+  template <class T>
+  void operator()(T* pointer) const {
+    free(&pointer);
+  }
+};
+using Codec = std::unique_ptr<AVCodecContext, Free<&avcodec_free_context>>;
+using Frame = std::unique_ptr<AVFrame, Free<&av_frame_free>>;
+using Packet = std::unique_ptr<AVPacket, Free<&av_packet_free>>;
+
+/// A muxer that writes into memory.
+class Muxer {
+ public:
+  explicit Muxer(const char* format) {
+    Require(avformat_alloc_output_context2(&context_, nullptr, format, nullptr));
+    context_->flags |= AVFMT_FLAG_BITEXACT;
+  }
+  ~Muxer() {
+    TakeBytes();
+    avformat_free_context(context_);
+  }
+  Muxer(const Muxer&) = delete;
+  Muxer& operator=(const Muxer&) = delete;
+
+  void Begin(const AVCodecContext& codec) {
+    AVStream* stream = RequireMemory(avformat_new_stream(context_, nullptr));
+    stream->time_base = codec.time_base;
+    stream->avg_frame_rate = codec.framerate;
+    Require(avcodec_parameters_from_context(stream->codecpar, &codec));
+    Require(avio_open_dyn_buf(&context_->pb));
+    Require(avformat_write_header(context_, nullptr));
+  }
+  void Write(AVPacket& packet, AVRational time_base) {
+    av_packet_rescale_ts(&packet, time_base, context_->streams[0]->time_base);
+    Require(av_interleaved_write_frame(context_, &packet));
+  }
+  std::string Finish() {
+    Require(av_write_trailer(context_));
+    return TakeBytes();
+  }
+  [[nodiscard]] AVFormatContext& context() { return *context_; }
+
+ private:
+  std::string TakeBytes() {
+    if (context_->pb == nullptr) return "";
+    std::uint8_t* bytes = nullptr;
+    const int size = avio_close_dyn_buf(context_->pb, &bytes);
+    context_->pb = nullptr;
+    std::string text(reinterpret_cast<const char*>(bytes), size);
+    av_free(bytes);
+    return text;
+  }
+
+  AVFormatContext* context_ = nullptr;
+};
+
+/// An encoder of libavcodec and its muxer; one thread, so that bytes are the same everywhere.
+class Encoder {
+ public:
+  struct Settings {
+    const char* format;
+    const AVCodec* codec;
+    AVPixelFormat pixels;
+    int width, height;
+    int tick_ms;  ///< its unit of time
+    /// Of the codec alone.
+    std::vector<std::pair<const char*, const char*>> options = {};
+  };
+
+  explicit Encoder(const Settings& settings)
+      : muxer_(settings.format),
+        codec_(RequireMemory(avcodec_alloc_context3(settings.codec))),
+        frame_(RequireMemory(av_frame_alloc())),
+        packet_(RequireMemory(av_packet_alloc())) {
+    codec_->width = settings.width;
+    codec_->height = settings.height;
+    codec_->pix_fmt = settings.pixels;
+    codec_->time_base = {settings.tick_ms, 1000};
+    codec_->framerate = av_inv_q(codec_->time_base);
+    codec_->gop_size = kPicturesBetweenKeys;
+    codec_->thread_count = 1;
+    codec_->flags |= AV_CODEC_FLAG_BITEXACT;
+    if ((muxer_.context().oformat->flags & AVFMT_GLOBALHEADER) != 0) {
+      codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    }
+    if (settings.pixels == AV_PIX_FMT_YUV420P) SetColors();
+    for (const auto& [name, value] : settings.options) {
+      Require(av_opt_set(codec_->priv_data, name, value, 0));
+    }
+    Require(avcodec_open2(codec_.get(), settings.codec, nullptr));
+    muxer_.Begin(*codec_);
+    frame_->width = settings.width;
+    frame_->height = settings.height;
+    frame_->format = settings.pixels;
+    Require(av_frame_get_buffer(frame_.get(), 0));
+  }
+
+  /// What is encoded next, to be written to.
+  AVFrame& NextFrame() {
+    Require(av_frame_make_writable(frame_.get()));
+    return *frame_;
+  }
+  /// Shows the frame from `time` on, ticks.
+  void Encode(std::int64_t time) {
+    frame_->pts = time;
+    Send(frame_.get());
+  }
+  std::string Finish() {
+    Send(nullptr);
+    return muxer_.Finish();
+  }
+  [[nodiscard]] Muxer& muxer() { return muxer_; }
+
+ private:
+  /// As Convert makes them.
+  void SetColors() {
+    codec_->color_range = AVCOL_RANGE_MPEG;
+    codec_->colorspace = AVCOL_SPC_BT709;
+    codec_->color_primaries = AVCOL_PRI_BT709;
+    codec_->color_trc = AVCOL_TRC_BT709;
+  }
+  void Send(const AVFrame* frame) {
+    Require(avcodec_send_frame(codec_.get(), frame));
+    for (;;) {
+      const int result = avcodec_receive_packet(codec_.get(), packet_.get());
+      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
+      Require(result);
+      packet_->duration = 1;
+      muxer_.Write(*packet_, codec_->time_base);
+    }
+  }
+
+  Muxer muxer_;
+  Codec codec_;
+  Frame frame_;
+  Packet packet_;
+};
+
+int Even(int side) { return side + side % 2; }
+
+/// Luma of ITU-R BT.709, 0 to 255, of what is linear in the channels.
+double Luma(const std::array<double, 3>& rgb) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/// The mean of the pixels of a square; beyond the image's right and lower border it goes on as it
+/// is there.
+std::array<double, 3> MeanColor(const Image& image, int left, int top, int side) {
+  std::array<double, 3> mean = {};
+  for (int y = top; y < top + side; ++y) {
+    for (int x = left; x < left + side; ++x) {
+      const std::size_t pixel =
+          std::size_t(std::min(y, image.height - 1)) * image.width + std::min(x, image.width - 1);
+      for (int c = 0; c < 3; ++c) mean[c] += image.rgb[kBytesPerPixel * pixel + c];
+    }
+  }
+  for (double& channel : mean) channel /= side * side;
+  return mean;
+}
+
+/// Fills a frame of Y'CbCr (BT.709, limited range), with one colour for each square of four pixels.
+void Convert(const Image& image, AVFrame& frame) {
+  constexpr double kLuma = 219.0 / 255, kBlue = 224 / (1.8556 * 255), kRed = 224 / (1.5748 * 255);
+  const auto set = [&frame](int plane, int x, int y, double value) {
+    frame.data[plane][std::ptrdiff_t{frame.linesize[plane]} * y + x] =
+        static_cast<std::uint8_t>(value + 0.5);
+  };
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      set(0, x, y, 16 + kLuma * Luma(MeanColor(image, x, y, 1)));
+    }
+  }
+  for (int y = 0; y < frame.height / 2; ++y) {
+    for (int x = 0; x < frame.width / 2; ++x) {
+      const std::array<double, 3> rgb = MeanColor(image, 2 * x, 2 * y, 2);
+      set(1, x, y, 128 + kBlue * (rgb[2] - Luma(rgb)));
+      set(2, x, y, 128 + kRed * (rgb[0] - Luma(rgb)));
+    }
+  }
+}
+
+/// What all videos have: a size, and images that come one after the other.
+class Video : public MovingPicture {
+ public:
+  Video(int width, int height) : width_(width), height_(height) {
+    if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
+      throw std::invalid_argument("video: images of a size that it cannot hold");
+    }
+    av_log_set_level(AV_LOG_QUIET);  // a library prints nothing
+  }
+
+  void Add(const Image& image, int duration_ms) final {
+    if (image.width != width_ || image.height != height_ || duration_ms < kTick_ms ||
+        duration_ms % kTick_ms != 0) {
+      throw std::invalid_argument("video: an image of another size, or no such duration");
+    }
+    AddImage(image, duration_ms);
+    time_ms_ += duration_ms;
+  }
+
+ protected:
+  virtual void AddImage(const Image& image, int duration_ms) = 0;
+  /// Where the next image begins.
+  [[nodiscard]] int time_ms() const { return time_ms_; }
+
+ private:
+  int width_, height_;
+  int time_ms_ = 0;
+};
+
+const AVCodec* FindX264() {
+  const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
+  if (codec == nullptr) {
+    throw EnvironmentError("libavcodec has no encoder of H.264 (libx264): write .webp or .gif");
+  }
+  return codec;
+}
+
+class Mp4 : public Video {
+ public:
+  Mp4(int width, int height)
+      : Video(width, height),
+        encoder_({"mp4",
+                  FindX264(),
+                  AV_PIX_FMT_YUV420P,
+                  Even(width),
+                  Even(height),
+                  kTick_ms,
+                  // "mbtree" is a float estimate that is not the same on every processor.
+                  {{"preset", "medium"},
+                   {"tune", "animation"},
+                   {"mbtree", "0"},
+                   {"crf", kRateFactor}}}) {}
+
+  std::string Finish() override { return encoder_.Finish(); }
+
+ private:
+  /// An image that stays is encoded again and again, in few bytes: programs for slides and editing
+  /// expect an even rate.
+  void AddImage(const Image& image, int duration_ms) override {
+    Convert(image, encoder_.NextFrame());
+    for (int at = 0; at < duration_ms; at += kTick_ms) {
+      encoder_.Encode((time_ms() + at) / kTick_ms);
+    }
+  }
+
+  Encoder encoder_;
+};
+
+class Gif : public Video {
+ public:
+  Gif(int width, int height, const std::vector<Color>& colors)
+      : Video(width, height),
+        colors_(colors),
+        encoder_({"gif", avcodec_find_encoder(AV_CODEC_ID_GIF), AV_PIX_FMT_PAL8, width, height,
+                  kCentisecond_ms}) {}
+
+  std::string Finish() override {
+    Require(av_opt_set_int(encoder_.muxer().context().priv_data, "final_delay",
+                           last_duration_ms_ / kCentisecond_ms, 0));
+    return encoder_.Finish();
+  }
+
+ private:
+  void AddImage(const Image& image, int duration_ms) override {
+    AVFrame& frame = encoder_.NextFrame();
+    SetPalette(reinterpret_cast<std::uint32_t*>(frame.data[1]));
+    const unsigned char* in = image.rgb.data();
+    for (int y = 0; y < image.height; ++y) {
+      std::uint8_t* out = frame.data[0] + std::ptrdiff_t{frame.linesize[0]} * y;
+      for (int x = 0; x < image.width; ++x, in += kBytesPerPixel) {
+        out[x] = colors_.Nearest({in[0], in[1], in[2]});
+      }
+    }
+    encoder_.Encode(time_ms() / kCentisecond_ms);
+    last_duration_ms_ = duration_ms;
+  }
+  /// ARGB; those without a colour are transparent: pixels that stay as they are.
+  void SetPalette(std::uint32_t* argb) const {
+    std::fill_n(argb, AVPALETTE_COUNT, 0);
+    std::ranges::transform(colors_.colors(), argb, [](Color color) {
+      return 0xff000000U | (color.r << 16) | (color.g << 8) | color.b;
+    });
+  }
+
+  ColorTable colors_;
+  Encoder encoder_;
+  int last_duration_ms_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<MovingPicture> MakeMp4(int width, int height) {
+  return std::make_unique<Mp4>(width, height);
+}
+
+std::unique_ptr<MovingPicture> MakeGif(int width, int height, const std::vector<Color>& colors) {
+  if (colors.empty() || colors.size() > kGifColors) {
+    throw std::invalid_argument("MakeGif: no such number of colours");
+  }
+  return std::make_unique<Gif>(width, height, colors);
+}
+
+}  // namespace regrasp::render

@@ -1,0 +1,72 @@
+#include "render/frames/frame_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "tests/render/frames/scenes.h"
+
+namespace regrasp::render {
+namespace {
+
+/// The cube's three frames again and again, each with a number of its own.
+class FrameSequenceTest : public ::testing::Test {
+ protected:
+  FrameSequenceTest() {
+    for (int i = 0; i < 7; ++i) {
+      tasks_.push_back({&snapshots_[i % snapshots_.size()], "frame " + std::to_string(i)});
+    }
+  }
+
+  [[nodiscard]] std::vector<Image> Render(int workers) const {
+    std::vector<Image> images;
+    RenderInOrder(renderer_, tasks_, workers, [&](int index, const Image& image) {
+      EXPECT_EQ(index, static_cast<int>(images.size()));
+      images.push_back(image);
+    });
+    return images;
+  }
+
+  object::Polyhedron cube_ = MakeCube(0.03);
+  std::vector<plan::Snapshot> snapshots_ = MakeCubeSequence();
+  FrameRenderer renderer_{cube_, 1, Radians(20), snapshots_, {480, 360, 1}};
+  std::vector<FrameTask> tasks_;
+};
+
+TEST_F(FrameSequenceTest, FramesComeInOrderAndDoNotDependOnTheNumberOfWorkers) {
+  FrameRenderer alone(renderer_);
+  std::set<std::vector<unsigned char>> different;
+  std::vector<Image> expected;
+  for (const FrameTask& task : tasks_) {
+    expected.push_back(alone.Render(*task.snapshot, task.caption));
+    different.insert(expected.back().rgb);
+  }
+  EXPECT_EQ(different.size(), tasks_.size());
+  for (const int workers : {1, 2, 3, 20}) {
+    const std::vector<Image> images = Render(workers);
+    ASSERT_EQ(images.size(), expected.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      EXPECT_TRUE(images[i].rgb == expected[i].rgb) << workers << " workers, frame " << i;
+    }
+  }
+}
+
+TEST_F(FrameSequenceTest, NothingToDrawIsNoWork) {
+  tasks_.clear();
+  EXPECT_TRUE(Render(2).empty());
+}
+
+TEST_F(FrameSequenceTest, WhatGoesWrongIsThrown) {
+  int taken = 0;
+  const auto take = [&taken](int, const Image&) {
+    if (++taken == 3) throw std::runtime_error("the disk is full");
+  };
+  EXPECT_THROW(RenderInOrder(renderer_, tasks_, 2, take), std::runtime_error);
+  EXPECT_EQ(taken, 3);
+}
+
+}  // namespace
+}  // namespace regrasp::render
