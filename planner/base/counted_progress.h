@@ -11,8 +11,8 @@ namespace regrasp {
 using Tell = std::function<void(std::string_view)>;
 
 /// Tells of work that is done piece by piece how much of it there is and how much is done: "testing
-/// quadruples of faces: 1200 of 5000". At the beginning, and then once in a hundredth of the work at
-/// most: work of any size tells some hundred times.
+/// quadruples of faces: 1200 of 5000". At the beginning, and then once in a hundredth of the work
+/// at most: work of any size tells some hundred times.
 class CountedProgress {
  public:
   CountedProgress(const Tell& tell, std::string what, std::int64_t total);

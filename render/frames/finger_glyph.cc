@@ -17,6 +17,7 @@ constexpr double kLongestForce = 0.20;
 constexpr double kShortestForce = 0.055;
 constexpr double kMotionGap = 0.030;
 constexpr double kMotionLength = 0.085;
+constexpr double kArrowSpace = kMotionGap + kMotionLength;
 constexpr double kMotionRadius = 0.009;
 constexpr double kTrackRadius = 0.007;
 constexpr double kTrackDash = 0.030;
@@ -26,6 +27,9 @@ constexpr double kTrackDash = 0.030;
 constexpr double kBallShare = 0.15;
 constexpr double kStemShare = 0.45;
 constexpr double kGapShare = 0.2;
+
+/// A finger this near to its contact is drawn at it.
+constexpr double kTouching = 1e-3;
 
 /// Nearer than this a ray meets the face that it starts on.
 constexpr double kRaySkip = 1e-4;
@@ -137,14 +141,15 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     const double gap = options.gaps == GapView::kNone
                            ? 0
                            : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
-    const Vector3d tip =
-        glyph.contact + std::min(kGapScale * gap, kGapShare * clearance) * glyph.outward;
+    const double away = std::min({kGapScale * gap, kGapShare * clearance, kArrowSpace});
+    const Vector3d tip = glyph.contact + away * glyph.outward;
     glyph.ball = tip + glyph.outward * glyph.ball_radius;
     glyph.stem_end = tip + glyph.outward * stem;
-    const bool fits = clearance > kStemLength + kMotionGap + kMotionLength;
-    glyph.end = IsInMotion(state.role) && fits
-                    ? Vector3d(glyph.stem_end + glyph.outward * (kMotionGap + kMotionLength))
-                    : glyph.stem_end;
+    // A finger that is drawn away from its contact is seen to move, and stands where its arrow is
+    // otherwise.
+    const bool has_arrow =
+        IsInMotion(state.role) && clearance > kStemLength + kArrowSpace && away < kTouching;
+    glyph.end = glyph.stem_end + (has_arrow ? kArrowSpace : 0) * glyph.outward;
     glyphs.push_back(glyph);
   }
   return glyphs;

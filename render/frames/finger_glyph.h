@@ -42,8 +42,10 @@ struct FingerGlyph {
 
 /// Whether a finger in the air is drawn away from its contact.
 enum class GapView {
-  kNone,   ///< at its contact: what a finger did in a step, seen at its end
-  kShown,  ///< kGapScale times as far as it is, so that the eye sees it come and go
+  kNone,  ///< at its contact: what a finger did in a step, seen at its end
+  /// kGapScale times as far as it is, so that the eye sees it come and go; instead of its arrow,
+  /// and no farther than that.
+  kShown,
 };
 inline constexpr double kGapScale = 3;
 

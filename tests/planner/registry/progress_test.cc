@@ -109,8 +109,7 @@ TEST(Progress, ASearchThatFindsNothingCountsItsTestsUpToItsEffort) {
         PlanWith(*FindPlanner("general"), *file.object, Random(), Random(), request);
     if (result.plan) continue;
     ++none;
-    const Stage& stage =
-        listener.stages().at("growing trees of grasps from start and goal, tests");
+    const Stage& stage = listener.stages().at("growing trees of grasps from start and goal, tests");
     EXPECT_EQ(stage.first, 0);
     EXPECT_EQ(stage.total, 600);
     EXPECT_GE(stage.last, 500);

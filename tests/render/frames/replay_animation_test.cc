@@ -138,20 +138,37 @@ TEST(ReplayAnimationTest, EveryFormatIsWrittenAndTheBytesDoNotDependOnTheWorkers
   }
 }
 
-TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
+/// A finger whose tip, a ball of 0.04 on a body of 1, is `gap` off the surface.
+FingerGlyph GlyphInTheAir(double gap, plan::FingerRole role, GapView gaps) {
   plan::Snapshot sample;
   sample.fingertip_radius_m = 0.04;
   plan::FingerState state;
-  state.role = plan::FingerRole::kPlaced;
+  state.role = role;
   state.normal_W = -Eigen::Vector3d::UnitZ();
-  state.tip_W.z() = 0.09;
+  state.tip_W.z() = 0.04 + gap;
   sample.fingers = {state};
-  const auto height = [&](GapView gaps) {
-    return MakeFingerGlyphs(sample, PictureFrame(), FacetMesh(), {.gaps = gaps}).front().ball.z();
+  return MakeFingerGlyphs(sample, PictureFrame(), FacetMesh(), {.gaps = gaps}).front();
+}
+
+TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
+  const auto height = [](double gap, GapView gaps) {
+    return GlyphInTheAir(gap, plan::FingerRole::kPlaced, gaps).ball.z();
   };
-  EXPECT_NEAR(height(GapView::kShown) - height(GapView::kNone), kGapScale * 0.05, 1e-12);
-  sample.fingers[0].tip_W.z() = 0.04;
-  EXPECT_EQ(height(GapView::kShown), height(GapView::kNone));
+  EXPECT_NEAR(height(0.02, GapView::kShown) - height(0.02, GapView::kNone), kGapScale * 0.02,
+              1e-12);
+  EXPECT_EQ(height(0, GapView::kShown), height(0, GapView::kNone));
+}
+
+TEST(ReplayAnimationTest, AFingerInTheAirIsNoFartherOutThanItsArrowOtherwise) {
+  for (const plan::FingerRole role : {plan::FingerRole::kPlaced, plan::FingerRole::kReleased}) {
+    const double arrow = GlyphInTheAir(0.01, role, GapView::kNone).end.z();
+    EXPECT_NEAR(GlyphInTheAir(0, role, GapView::kShown).end.z(), arrow, 1e-12);
+    for (const double gap : {0.01, 0.03, 0.1, 10.0}) {
+      const FingerGlyph glyph = GlyphInTheAir(gap, role, GapView::kShown);
+      EXPECT_EQ(glyph.end, glyph.stem_end) << "no arrow";
+      EXPECT_LE(glyph.end.z(), arrow + 1e-12) << gap;
+    }
+  }
 }
 
 }  // namespace
