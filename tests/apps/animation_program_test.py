@@ -74,7 +74,9 @@ class Animation(ProgramCase):
         self.assertEqual(webp_size(self.replay()), (64, 48))
         durations = webp_durations(self.replay())
         self.assertGreater(len(durations), 16)
-        self.assertEqual(durations[-1], PASSED_REST)
+        # Pictures before it that look the same are one with it.
+        self.assertGreaterEqual(durations[-1], PASSED_REST)
+        self.assertLess(durations[-1], FAILED_REST)
         page = self.read("result/report.html").decode()
         self.assertEqual(page.count('<div class="replay">'), 1)
         self.assertEqual(page.count("<img "), 3)
