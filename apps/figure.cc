@@ -264,7 +264,8 @@ std::string KindOf(const plan::Plan& plan, plan::EntryIndex entry) {
 std::unique_ptr<render::FigurePanels> FigureProgram::MakePanels(const object::Object& object,
                                                                 const plan::Plan& plan) const {
   if (const auto* polygon = dynamic_cast<const object::Polygon*>(&object)) {
-    return std::make_unique<render::PlanPanels>(*polygon, render::DescribePlan(*polygon, plan));
+    return std::make_unique<render::PlanPanels>(*polygon, render::DescribePlan(*polygon, plan),
+                                                plan.scale);
   }
   return std::make_unique<render::SolidPanels>(dynamic_cast<const object::Polyhedron&>(object),
                                                plan, solid);

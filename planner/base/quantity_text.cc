@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "planner/base/length_unit.h"
 #include "planner/base/number.h"
 
 namespace regrasp {
@@ -12,29 +13,39 @@ namespace {
 
 constexpr int kAngleDecimals = 2;
 
-struct Unit {
-  double size;
+constexpr LengthUnit kLengths[] = {{1e3, "km"},  {1, "m"},     {1e-2, "cm"},
+                                   {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}};
+
+struct MassUnit {
+  double kg;
   const char* name;
 };
+constexpr MassUnit kMasses[] = {{1, "kg"}, {1e-3, "g"}, {1e-6, "mg"}, {1e-9, "µg"}};
 
-constexpr Unit kLengths[] = {{1e3, " km"},  {1, " m"},     {1e-2, " cm"},
-                             {1e-3, " mm"}, {1e-6, " µm"}, {1e-9, " nm"}};
-constexpr Unit kMasses[] = {{1, " kg"}, {1e-3, " g"}, {1e-6, " mg"}, {1e-9, " µg"}};
-
-/// In the largest unit of which there is one once the value is rounded, otherwise in the last.
-std::string InUnits(double value, int digits, std::span<const Unit> units) {
+/// The largest unit of which there is one once the value is rounded, otherwise the last.
+template <class Unit>
+Unit UnitOf(double value, int digits, std::span<const Unit> units, double Unit::*size) {
   const double one = 1 - std::pow(10.0, -digits) / 2;
   const auto fits =
-      std::ranges::find_if(units, [&](const Unit& u) { return value / u.size >= one; });
-  const Unit& unit = fits == units.end() ? units.back() : *fits;
-  return FormatShort(value / unit.size, digits) + unit.name;
+      std::ranges::find_if(units, [&](const Unit& unit) { return value / unit.*size >= one; });
+  return fits == units.end() ? units.back() : *fits;
 }
 
 }  // namespace
 
-std::string FormatLength(double metres, int digits) { return InUnits(metres, digits, kLengths); }
+LengthUnit UnitOfLength(double metres, int digits) {
+  return UnitOf<LengthUnit>(metres, digits, kLengths, &LengthUnit::metres);
+}
 
-std::string FormatMass(double kg, int digits) { return InUnits(kg, digits, kMasses); }
+std::string FormatLength(double metres, int digits) {
+  const LengthUnit unit = UnitOfLength(metres, digits);
+  return FormatShort(metres / unit.metres, digits) + " " + unit.name;
+}
+
+std::string FormatMass(double kg, int digits) {
+  const MassUnit unit = UnitOf<MassUnit>(kg, digits, kMasses, &MassUnit::kg);
+  return FormatShort(kg / unit.kg, digits) + " " + unit.name;
+}
 
 std::string FormatDegrees(double degrees) { return FormatFixed(degrees, kAngleDecimals) + "°"; }
 

@@ -1,10 +1,13 @@
 #include "render/figures/contact_space_axis.h"
 
+#include <cairo.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "planner/base/length_unit.h"
 #include "planner/base/number.h"
 #include "render/figures/panel_text.h"
 #include "render/picture/cairo_paint.h"
@@ -61,11 +64,11 @@ std::string LengthLabel(double length) { return FormatShort(length, kVertexDigit
 
 /// The length that an axis shows where a ring begins: its end, where it shows one turn.
 std::string BeginLabel(const contour::Boundary& boundary, contour::RingIndex ring,
-                       const contour::PlaceRange& shown, double place) {
+                       const contour::PlaceRange& shown, double place, const AxisUnit& unit) {
   const double perimeter = boundary.perimeter(ring);
   const double slack = kRounding * perimeter;
   const bool end = place > perimeter / 2 && shown.low >= -slack && shown.high <= perimeter + slack;
-  return end ? LengthLabel(perimeter) : "0";
+  return end ? LengthLabel(unit.per_unit * perimeter) : "0";
 }
 
 /// Vertices that print keeps apart; where a ring begins is always kept.
@@ -102,17 +105,20 @@ double RoundLengthAbove(double least) {
 }
 
 /// Round lengths on an axis, but near where the ring begins.
-std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& shown, double gap) {
-  const double step = RoundLengthAbove(gap);
-  // As many digits as tell the largest length from the one a step below.
-  const int digits =
-      1 + static_cast<int>(std::floor(std::log10(perimeter)) - std::floor(std::log10(step)));
+std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& shown, double gap,
+                                 const AxisUnit& unit) {
+  const double told = RoundLengthAbove(unit.per_unit * gap);
+  const double step = told / unit.per_unit;
+  // As many digits as tell the largest length from the one a step below, and no fewer than it has
+  // before the point.
+  const int first = static_cast<int>(std::floor(std::log10(unit.per_unit * perimeter)));
+  const int digits = 1 + first - std::min(static_cast<int>(std::floor(std::log10(told))), 0);
   std::vector<AxisTick> ticks;
   for (double turn = std::floor(shown.low / perimeter); turn * perimeter <= shown.high; ++turn) {
     for (double k = 1; k * step <= perimeter - gap; ++k) {
       const double place = turn * perimeter + k * step;
       if (place >= shown.low && place <= shown.high)
-        ticks.push_back({place, FormatShort(k * step, std::max(digits, 1))});
+        ticks.push_back({place, FormatShort(k * told, std::max(digits, 1))});
     }
   }
   return ticks;
@@ -122,19 +128,19 @@ std::vector<AxisTick> RoundTicks(double perimeter, const contour::PlaceRange& sh
 
 std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, contour::RingIndex ring,
                                 const contour::PlaceRange& shown, double points_per_unit,
-                                double label_gap) {
+                                double label_gap, const AxisUnit& unit) {
   assert(points_per_unit > 0 && shown.low < shown.high);
   const double gap = label_gap / points_per_unit;
   const std::vector<Vertex> vertices = ShownVertices(boundary, ring, shown);
   const bool all = CanBeLabelled(vertices, gap);
   std::vector<AxisTick> ticks;
-  if (!all) ticks = RoundTicks(boundary.perimeter(ring), shown, gap);
+  if (!all) ticks = RoundTicks(boundary.perimeter(ring), shown, gap, unit);
   for (const Vertex& vertex : Thin(vertices, kTickGap / points_per_unit)) {
     std::string label;
     if (vertex.begins) {
-      label = BeginLabel(boundary, ring, shown, vertex.place);
+      label = BeginLabel(boundary, ring, shown, vertex.place, unit);
     } else if (all) {
-      label = LengthLabel(vertex.length);
+      label = LengthLabel(unit.per_unit * vertex.length);
     }
     ticks.push_back({vertex.place, label});
   }
@@ -142,37 +148,52 @@ std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary, contour::Ring
   return ticks;
 }
 
+AxisUnit UnitOfAxes(const contour::Boundary& boundary, double metres_per_unit) {
+  double longest = 0;
+  for (contour::RingIndex ring{0}; ring < boundary.ring_count(); ++ring) {
+    longest = std::max(longest, boundary.perimeter(ring));
+  }
+  const LengthUnit unit = UnitOfLength(metres_per_unit * longest);
+  return {metres_per_unit / unit.metres, unit.name};
+}
+
 std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
-                      contour::RingIndex ring) {
-  if (boundary.ring_count() == 1) return length;
-  return length + (ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring));
+                      contour::RingIndex ring, const AxisUnit& unit) {
+  std::string title = length;
+  if (boundary.ring_count() > 1) {
+    title += ring == 0 ? ", outer ring" : ", hole " + std::to_string(ring);
+  }
+  return unit.name.empty() ? title : title + " (" + unit.name + ")";
 }
 
 void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
-                    const PlotWindow& window, const std::string& title) {
+                    const PlotWindow& window, const std::string& length, const AxisUnit& unit) {
   const double bottom = window.corner.y() + window.size().y();
   SetColor(cr, kInk);
-  for (const AxisTick& tick :
-       MakeTicks(boundary, ring, {window.low.x(), window.high.x()}, window.scale.x(), kBelowGap)) {
+  for (const AxisTick& tick : MakeTicks(boundary, ring, {window.low.x(), window.high.x()},
+                                        window.scale.x(), kBelowGap, unit)) {
     const double x = window.ToPage({tick.place, window.low.y()}).x();
-    const double length = tick.label.empty() ? kVertexTick : kLabelTick;
-    StrokeLine(cr, {x, bottom}, {x, bottom + length}, kTickWidth);
+    const double tick_length = tick.label.empty() ? kVertexTick : kLabelTick;
+    StrokeLine(cr, {x, bottom}, {x, bottom + tick_length}, kTickWidth);
     const Vector2d base(x, bottom + kLabelTick + kLabelDistance + kLabelFont);
     DrawLabel(cr, tick.label, base, TextAlign::kCentre);
   }
-  const Vector2d middle(window.corner.x() + window.size().x() / 2, bottom + kTitleBelow);
+  const std::string title = AxisTitle(boundary, length, ring, unit);
+  // To the right of a plot the page may end.
+  const double width = std::max(window.size().x(), LabelWidth(cr, title));
+  const Vector2d middle(window.corner.x() + window.size().x() - width / 2, bottom + kTitleBelow);
   DrawLabel(cr, title, middle, TextAlign::kCentre);
 }
 
 void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
-                  const PlotWindow& window, const std::string& title) {
+                  const PlotWindow& window, const std::string& length, const AxisUnit& unit) {
   const double left = window.corner.x();
   SetColor(cr, kInk);
-  for (const AxisTick& tick :
-       MakeTicks(boundary, ring, {window.low.y(), window.high.y()}, window.scale.y(), kBesideGap)) {
+  for (const AxisTick& tick : MakeTicks(boundary, ring, {window.low.y(), window.high.y()},
+                                        window.scale.y(), kBesideGap, unit)) {
     const double y = window.ToPage({window.low.x(), tick.place}).y();
-    const double length = tick.label.empty() ? kVertexTick : kLabelTick;
-    StrokeLine(cr, {left, y}, {left - length, y}, kTickWidth);
+    const double tick_length = tick.label.empty() ? kVertexTick : kLabelTick;
+    StrokeLine(cr, {left, y}, {left - tick_length, y}, kTickWidth);
     // Digits are about as high as this share of the font: they are centred on the tick.
     constexpr double kDigitShare = 0.36;
     const Vector2d base(left - kLabelTick - kLabelDistance, y + kDigitShare * kLabelFont);
@@ -181,7 +202,7 @@ void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingI
   cairo_save(cr);
   cairo_translate(cr, left - kTitleBeside, window.corner.y() + window.size().y() / 2);
   cairo_rotate(cr, -std::numbers::pi / 2);
-  DrawLabel(cr, title, {0, 0}, TextAlign::kCentre);
+  DrawLabel(cr, AxisTitle(boundary, length, ring, unit), {0, 0}, TextAlign::kCentre);
   cairo_restore(cr);
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <cairo.h>
-
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "planner/sets/contour/boundary.h"
 #include "planner/sets/contour/contact_space.h"
+
+/// Cairo's, so that who names axes needs no Cairo.
+using cairo_t = struct _cairo;
 
 namespace regrasp::render {
 
@@ -30,6 +31,16 @@ struct AxisTick {
   std::string label;  ///< empty: none
 };
 
+/// What the lengths on axes are told in.
+struct AxisUnit {
+  double per_unit = 1;    ///< so many in a unit of the boundary
+  std::string name = {};  ///< "cm"; empty: none is told
+};
+
+/// The unit that suits the longest ring; the same for all axes of a plan.
+/// @param metres_per_unit  of the boundary.
+[[nodiscard]] AxisUnit UnitOfAxes(const contour::Boundary& boundary, double metres_per_unit);
+
 /// The ticks of an axis, in ascending order: vertices of a ring, as many as print keeps apart, and
 /// labels: the lengths of the vertices where these are few, otherwise round ones. Places beyond the
 /// ring's end go around it and have the labels of the places they are; the end of an axis from zero
@@ -39,7 +50,8 @@ struct AxisTick {
 [[nodiscard]] std::vector<AxisTick> MakeTicks(const contour::Boundary& boundary,
                                               contour::RingIndex ring,
                                               const contour::PlaceRange& shown,
-                                              double points_per_unit, double label_gap);
+                                              double points_per_unit, double label_gap,
+                                              const AxisUnit& unit = {});
 
 /// Ticks nearer than this are not drawn apart, points.
 inline constexpr double kTickGap = 1.6;
@@ -48,15 +60,16 @@ inline constexpr double kTickGap = 1.6;
 inline constexpr double kLeftSpace = 44;
 inline constexpr double kBottomSpace = 27;
 
-/// "u", or where the polygon has holes "u, outer ring", "u, hole 1".
+/// "u (cm)", or where the polygon has holes "u, outer ring (cm)", "u, hole 1 (cm)".
 [[nodiscard]] std::string AxisTitle(const contour::Boundary& boundary, const std::string& length,
-                                    contour::RingIndex ring);
+                                    contour::RingIndex ring, const AxisUnit& unit = {});
 
-/// Draw ticks, labels and a title below a plot, and to its left.
+/// Draw ticks, labels and a title (AxisTitle) below a plot, and to its left.
+/// @param length  what the axis shows.
 void DrawBottomAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
-                    const PlotWindow& window, const std::string& title);
+                    const PlotWindow& window, const std::string& length, const AxisUnit& unit);
 void DrawLeftAxis(cairo_t* cr, const contour::Boundary& boundary, contour::RingIndex ring,
-                  const PlotWindow& window, const std::string& title);
+                  const PlotWindow& window, const std::string& length, const AxisUnit& unit);
 
 /// Draws the rectangle around a plot.
 void DrawFrame(cairo_t* cr, const PlotWindow& window);

@@ -4,6 +4,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
+#include "planner/base/quantity_text.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_overview.h"
 #include "render/figures/contact_space_switch.h"
@@ -29,12 +30,12 @@ std::string OverviewCaption(const ContactSpaceMap& map, double half_angle) {
 std::string SwitchCaption(const ContactSwitch& step, const plan::Plan& plan, FingerIndex finger,
                           double place) {
   const auto& [before, after] = step.sides;
-  const auto half_width = [](const ContactSwitchSide& side) {
-    return "±" + FormatShort(side.size, kDigits) + " about grasp " +
+  const auto half_width = [&](const ContactSwitchSide& side) {
+    return "±" + FormatLength(plan.scale * side.size, kDigits) + " about grasp " +
            std::to_string(side.grasp_entry);
   };
   return PanelLabel(step.entry) + " " + EntryTitle(plan, step.entry) + "; finger " +
-         std::to_string(finger) + " stays at " + FormatShort(place, kDigits) +
+         std::to_string(finger) + " stays at " + FormatLength(plan.scale * place, kDigits) +
          "; largest squares: " + half_width(before) + ", " + half_width(after);
 }
 
@@ -45,11 +46,13 @@ ContactSpaceFigures::ContactSpaceFigures(const object::Polygon& polygon, const p
       graph_(polygon, plan.half_angle),
       geometry_(graph_),
       track_(TrackPlan(plan)),
-      names_(NameSets(geometry_, track_)) {}
+      names_(NameSets(geometry_, track_)),
+      unit_(UnitOfAxes(graph_.boundary(), plan.scale)) {}
 
 std::string ContactSpaceFigures::DrawOverview(FigureFormat format) {
   const ContactSpaceMap map = MapContactSpace(geometry_, track_);
-  return DrawContactSpace(graph_.boundary(), map, OverviewCaption(map, plan_.half_angle), format);
+  return DrawContactSpace(graph_.boundary(), map, unit_, OverviewCaption(map, plan_.half_angle),
+                          format);
 }
 
 std::optional<std::string> ContactSpaceFigures::DrawSwitch(plan::EntryIndex entry,
@@ -59,8 +62,8 @@ std::optional<std::string> ContactSpaceFigures::DrawSwitch(plan::EntryIndex entr
   const int axis = *track_[entry].shared_axis;
   const FingerIndex finger = track_[entry].grasp[axis].finger;
   const double place = step->sides[0].grasp.y();
-  return DrawContactSwitch(graph_.boundary(), *step, SwitchCaption(*step, plan_, finger, place),
-                           format);
+  return DrawContactSwitch(graph_.boundary(), *step, unit_,
+                           SwitchCaption(*step, plan_, finger, place), format);
 }
 
 }  // namespace regrasp::render

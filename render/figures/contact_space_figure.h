@@ -8,6 +8,7 @@
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
 #include "planner/sets/contour/set_geometry.h"
+#include "render/figures/contact_space_axis.h"
 #include "render/figures/contact_space_track.h"
 #include "render/figures/figure_format.h"
 
@@ -37,6 +38,7 @@ class ContactSpaceFigures {
   contour::SetGeometry geometry_;
   std::vector<TrackEntry> track_;
   std::map<sets::SetIndex, int> names_;
+  AxisUnit unit_;
 };
 
 }  // namespace regrasp::render

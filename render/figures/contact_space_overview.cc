@@ -48,7 +48,8 @@ struct RingSpan {
 
 class Overview {
  public:
-  Overview(const contour::Boundary& boundary, const ContactSpaceMap& map);
+  /// All outlive this object.
+  Overview(const contour::Boundary& boundary, const ContactSpaceMap& map, const AxisUnit& unit);
 
   [[nodiscard]] double width() const { return kLeftSpace + extent_ + kRightSpace; }
   [[nodiscard]] double height() const { return kTopSpace + extent_ + kBottomSpace; }
@@ -70,12 +71,14 @@ class Overview {
 
   const contour::Boundary& boundary_;
   const ContactSpaceMap& map_;
+  const AxisUnit& unit_;
   std::vector<RingSpan> spans_;
   double extent_ = 0;  ///< of all rings and gaps
 };
 
-Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map)
-    : boundary_(boundary), map_(map) {
+Overview::Overview(const contour::Boundary& boundary, const ContactSpaceMap& map,
+                   const AxisUnit& unit)
+    : boundary_(boundary), map_(map), unit_(unit) {
   std::vector<double> shares;
   int edges = 0;
   for (const contour::RingIndex ring : map.rings) {
@@ -134,10 +137,8 @@ void Overview::DrawSets(cairo_t* cr, const std::array<contour::RingIndex, 2>& ri
 
 void Overview::DrawAxes(cairo_t* cr) const {
   for (const contour::RingIndex ring : map_.rings) {
-    DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}),
-                   AxisTitle(boundary_, "u", ring));
-    DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}),
-                 AxisTitle(boundary_, "u′", ring));
+    DrawBottomAxis(cr, boundary_, ring, WindowOf({ring, map_.rings.front()}), "u", unit_);
+    DrawLeftAxis(cr, boundary_, ring, WindowOf({map_.rings.front(), ring}), "u′", unit_);
   }
 }
 
@@ -224,8 +225,9 @@ void Overview::Draw(cairo_t* cr) const {
 }  // namespace
 
 std::string DrawContactSpace(const contour::Boundary& boundary, const ContactSpaceMap& map,
-                             const std::string& caption, FigureFormat format) {
-  const Overview overview(boundary, map);
+                             const AxisUnit& unit, const std::string& caption,
+                             FigureFormat format) {
+  const Overview overview(boundary, map, unit);
   return DrawWithCaption(format, {overview.width(), overview.height()}, caption,
                          [&](cairo_t* cr) { overview.Draw(cr); });
 }

@@ -124,7 +124,7 @@ void DrawBand(cairo_t* cr, const ContactSwitch& step, const SwitchLayout& layout
 }
 
 void DrawSwitch(cairo_t* cr, const contour::Boundary& boundary, const ContactSwitch& step,
-                const SwitchLayout& layout) {
+                const SwitchLayout& layout, const AxisUnit& unit) {
   DrawBand(cr, step, layout);
   const auto [from, to] = Across(layout);
   for (int k = 0; k < 2; ++k) {
@@ -133,14 +133,12 @@ void DrawSwitch(cairo_t* cr, const contour::Boundary& boundary, const ContactSwi
     DrawSet(cr, step.sides[k], window);
     cairo_restore(cr);
     DrawFrame(cr, window);
-    DrawBottomAxis(cr, boundary, step.sides[k].other_ring, window,
-                   AxisTitle(boundary, "other contact", step.sides[k].other_ring));
+    DrawBottomAxis(cr, boundary, step.sides[k].other_ring, window, "other contact", unit);
     const double middle = window.corner.x() + window.size().x() / 2;
     DrawLabel(cr, std::string(k == 0 ? "before" : "after") + ": set " + SetName(step.sides[k].name),
               {middle, window.corner.y() - kTitleAbove}, TextAlign::kCentre);
   }
-  DrawLeftAxis(cr, boundary, step.shared_ring, layout.windows[0],
-               AxisTitle(boundary, "contact that stays", step.shared_ring));
+  DrawLeftAxis(cr, boundary, step.shared_ring, layout.windows[0], "contact that stays", unit);
   DrawBars(cr, step, layout);
   const double y = layout.windows[0].ToPage(step.sides[0].grasp).y();
   SetColor(cr, kInk);
@@ -180,10 +178,11 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
 }
 
 std::string DrawContactSwitch(const contour::Boundary& boundary, const ContactSwitch& step,
-                              const std::string& caption, FigureFormat format) {
+                              const AxisUnit& unit, const std::string& caption,
+                              FigureFormat format) {
   const SwitchLayout layout = LayOutSwitch(step);
   return DrawWithCaption(format, {kTwoColumnWidth, layout.height}, caption,
-                         [&](cairo_t* cr) { DrawSwitch(cr, boundary, step, layout); });
+                         [&](cairo_t* cr) { DrawSwitch(cr, boundary, step, layout, unit); });
 }
 
 }  // namespace regrasp::render

@@ -28,7 +28,7 @@ struct SwitchLayout {
 /// Laws: the same plan gives the same bytes.
 /// @throws EnvironmentError  Cairo failed.
 [[nodiscard]] std::string DrawContactSwitch(const contour::Boundary& boundary,
-                                            const ContactSwitch& step, const std::string& caption,
-                                            FigureFormat format);
+                                            const ContactSwitch& step, const AxisUnit& unit,
+                                            const std::string& caption, FigureFormat format);
 
 }  // namespace regrasp::render

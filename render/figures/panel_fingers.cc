@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "render/figures/finger_marker.h"
+#include "render/figures/finger_numbers.h"
 #include "render/figures/panel_grasp.h"
 #include "render/figures/panel_path.h"
 #include "render/figures/panel_text.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/label_layout.h"
 #include "render/picture/palette.h"
 #include "render/picture/plane_geometry.h"
 
@@ -30,7 +30,6 @@ constexpr double kArrowNear =
 constexpr double kArrowFar = 16;
 constexpr double kPathOffset = 4.4;  ///< from the border to the arrow of a moved finger
 constexpr double kTick = 1.6;        ///< half of its length
-constexpr double kNumberRadius = 4.8;
 
 /// An arrow into a hole or a notch takes this share of the clearance there.
 constexpr double kShareOfClearance = 0.8;
@@ -195,18 +194,15 @@ double OutwardClearance(const object::Polygon& polygon, const BorderPoint& from)
 void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                  const PanelView& view) {
   const std::vector<FingerShape> shapes = ShapesOf(polygon, diagram, view);
+  std::vector<std::string> names;
   std::vector<LabelAnchor> anchors;
   for (const FingerShape& shape : shapes) {
     DrawShape(cr, shape, view);
+    names.push_back(std::to_string(shape.finger->finger));
     anchors.push_back({shape.contact, shape.outward});
   }
   const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, view);
-  const std::vector<Vector2d> centres =
-      PlaceLabels(anchors, obstacles, kNumberRadius, static_cast<int>(view.width),
-                  static_cast<int>(view.height));
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    DrawMark(cr, std::to_string(shapes[i].finger->finger), centres[i]);
-  }
+  DrawNumbers(cr, names, anchors, obstacles, {view.width, view.height});
 }
 
 }  // namespace regrasp::render

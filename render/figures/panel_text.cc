@@ -102,10 +102,14 @@ std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
   return page.Finish();
 }
 
-void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
+double LabelWidth(cairo_t* cr, const std::string& text) {
   SetFont(cr, kLabelFont, /*bold=*/false);
+  return TextWidth(cr, text);
+}
+
+void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align) {
+  const double width = LabelWidth(cr, text);
   SetColor(cr, kInk);
-  const double width = TextWidth(cr, text);
   double left = base.x();
   if (align == TextAlign::kCentre) left -= width / 2;
   if (align == TextAlign::kRight) left -= width;

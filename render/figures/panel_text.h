@@ -44,6 +44,9 @@ enum class TextAlign { kLeft, kCentre, kRight };
 /// @param base  on the line's base.
 void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base, TextAlign align);
 
+/// How wide it is, points.
+[[nodiscard]] double LabelWidth(cairo_t* cr, const std::string& text);
+
 /// Writes a bold name or number, centred, with a white halo.
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
 

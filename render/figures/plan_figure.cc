@@ -5,6 +5,7 @@
 #include "render/figures/panel_fingers.h"
 #include "render/figures/panel_grasp.h"
 #include "render/figures/panel_view.h"
+#include "render/figures/scale_bar.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/palette.h"
 
@@ -30,7 +31,7 @@ void AddPolygon(cairo_t* cr, const object::Polygon& polygon, const PanelView& vi
 }  // namespace
 
 double PlanPanels::HeightFor(double width) const {
-  return FitView(polygon_, diagrams_, width).height;
+  return FitView(polygon_, diagrams_, width).height + kScaleBarSpace;
 }
 
 void PlanPanels::Draw(cairo_t* cr, int index, double width) const {
@@ -46,6 +47,7 @@ void PlanPanels::Draw(cairo_t* cr, int index, double width) const {
   DrawForceLines(cr, diagram.grasp, view);
   DrawFingers(cr, polygon_, diagram, view);
   DrawFocusPoint(cr, diagram.grasp, view);
+  DrawScaleBar(cr, {width, view.height + kScaleBarSpace}, view.scale / metres_per_unit_);
 }
 
 }  // namespace regrasp::render

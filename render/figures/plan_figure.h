@@ -18,9 +18,11 @@ namespace regrasp::render {
 /// Laws: the same plan gives the same bytes.
 class PlanPanels final : public FigurePanels {
  public:
-  /// @param polygon  outlives this object.
-  PlanPanels(const object::Polygon& polygon, std::vector<StepDiagram> diagrams)
-      : polygon_(polygon), diagrams_(std::move(diagrams)) {}
+  /// @param polygon          outlives this object.
+  /// @param metres_per_unit  of the polygon, for the scale bar.
+  PlanPanels(const object::Polygon& polygon, std::vector<StepDiagram> diagrams,
+             double metres_per_unit = 1)
+      : polygon_(polygon), diagrams_(std::move(diagrams)), metres_per_unit_(metres_per_unit) {}
 
   [[nodiscard]] int count() const override { return static_cast<int>(diagrams_.size()); }
   [[nodiscard]] std::string caption(int index) const override { return diagrams_[index].caption; }
@@ -30,6 +32,7 @@ class PlanPanels final : public FigurePanels {
  private:
   const object::Polygon& polygon_;
   std::vector<StepDiagram> diagrams_;
+  double metres_per_unit_;
 };
 
 }  // namespace regrasp::render

@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/quantity_text.h"
 #include "planner/plan/planned_snapshot.h"
 #include "render/figures/finger_marker.h"
+#include "render/figures/finger_numbers.h"
 #include "render/figures/hidden_lines.h"
 #include "render/figures/panel_text.h"
 #include "render/figures/plan_diagram.h"
+#include "render/figures/scale_bar.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/label_layout.h"
 #include "render/picture/palette.h"
-#include "render/picture/round_length.h"
 
 namespace regrasp::render {
 
@@ -25,7 +24,6 @@ namespace {
 
 // Points.
 constexpr double kMargin = 10;          ///< for markers, arrow heads and numbers
-constexpr double kBarSpace = 14;        ///< below the object, for the scale bar
 constexpr double kTallestPanel = 1.25;  ///< over its width
 constexpr double kEdge = 0.8;
 constexpr double kHiddenEdge = 0.35;
@@ -37,9 +35,6 @@ constexpr double kRingRadius = 4.6;
 constexpr double kRingWidth = 0.8;
 constexpr double kArrowWidth = 1.0;
 constexpr double kPathWidth = 0.9;
-constexpr double kNumberRadius = 4.8;
-constexpr double kBarWidth = 0.6;
-constexpr double kLongestBar = 0.25;  ///< of the panel's width
 
 constexpr double kConeFill = 0.26;  ///< opacity
 constexpr Color kHiddenInk = {120, 128, 142};
@@ -150,6 +145,7 @@ class SolidPainter {
   }
 
   void DrawNumbers(const std::vector<FingerGlyph>& fingers, const Vector2d& size) {
+    std::vector<std::string> names;
     std::vector<LabelAnchor> anchors;
     std::vector<Obstacle> obstacles;
     for (const auto& [a, b] : edges_.visible) {
@@ -158,15 +154,12 @@ class SolidPainter {
     for (const FingerGlyph& glyph : fingers) {
       const Vector2d contact = camera_(glyph.contact);
       const Vector2d end = camera_(glyph.end);
+      names.push_back(std::to_string(glyph.finger));
       anchors.push_back({contact, end - contact, contact});
       obstacles.push_back({contact, contact, kRingRadius, kMarkerWeight});
       obstacles.push_back({contact, end, kStem, kStemWeight});
     }
-    const std::vector<Vector2d> centres = PlaceLabels(
-        anchors, obstacles, kNumberRadius, static_cast<int>(size.x()), static_cast<int>(size.y()));
-    for (std::size_t i = 0; i < fingers.size(); ++i) {
-      DrawMark(cr_, std::to_string(fingers[i].finger), centres[i]);
-    }
+    render::DrawNumbers(cr_, names, anchors, obstacles, size);
   }
 
  private:
@@ -218,18 +211,6 @@ class SolidPainter {
   LineParts edges_;
 };
 
-/// At the bottom right.
-void DrawScaleBar(cairo_t* cr, const Vector2d& size, double points_per_metre) {
-  const double metres = RoundLength(kLongestBar * size.x() / points_per_metre);
-  const double right = size.x() - kMargin / 2;
-  const double left = right - metres * points_per_metre;
-  const double y = size.y() - kBarWidth;
-  SetColor(cr, kInk);
-  StrokeLine(cr, {left, y}, {right, y}, kBarWidth);
-  for (const double x : {left, right}) StrokeLine(cr, {x, y - 1.5}, {x, y}, kBarWidth);
-  DrawLabel(cr, FormatLength(metres), {(left + right) / 2, y - 2.5}, TextAlign::kCentre);
-}
-
 }  // namespace
 
 SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan,
@@ -271,7 +252,7 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
 
 double SolidPanels::HeightFor(double width) const {
   const Vector2d size = high_ - low_;
-  const double height = (width - 2 * kMargin) * size.y() / size.x() + 2 * kMargin + kBarSpace;
+  const double height = (width - 2 * kMargin) * size.y() / size.x() + 2 * kMargin + kScaleBarSpace;
   return std::min(height, kTallestPanel * width);
 }
 
@@ -279,12 +260,12 @@ void SolidPanels::Draw(cairo_t* cr, int index, double width) const {
   const Vector2d panel(width, HeightFor(width));
   const Vector2d size = high_ - low_;
   const double scale = std::min((panel.x() - 2 * kMargin) / size.x(),
-                                (panel.y() - 2 * kMargin - kBarSpace) / size.y());
+                                (panel.y() - 2 * kMargin - kScaleBarSpace) / size.y());
   const Vector2d middle = (low_ + high_) / 2;
   const PanelCamera camera = {
       axes_,
       scale,
-      {middle.x() - panel.x() / 2 / scale, middle.y() + (panel.y() - kBarSpace) / 2 / scale}};
+      {middle.x() - panel.x() / 2 / scale, middle.y() + (panel.y() - kScaleBarSpace) / 2 / scale}};
   SolidPainter painter(cr, body_, camera);
   const std::vector<FingerGlyph>& fingers = fingers_[index];
   painter.DrawBody();

@@ -94,6 +94,8 @@ TEST(ContactSpaceAxisTest, TitlesNameTheRingWhereThereAreSeveral) {
   const object::Polygon ring = MakeRing(8);
   EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", kOuter), "u, outer ring");
   EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", contour::RingIndex(1)), "u, hole 1");
+  EXPECT_EQ(AxisTitle(contour::Boundary(ring), "u", contour::RingIndex(1), {100, "cm"}),
+            "u, hole 1 (cm)");
 }
 
 TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {
@@ -101,6 +103,26 @@ TEST(PlotWindowTest, PutsTheLowerLeftCornerBelow) {
   EXPECT_EQ(window.ToPage({1, 2}), Eigen::Vector2d(10, 36));
   EXPECT_EQ(window.ToPage({3, 6}), Eigen::Vector2d(20, 20));
   EXPECT_EQ(window.size(), Eigen::Vector2d(10, 16));
+}
+
+TEST(ContactSpaceAxisTest, TheUnitSuitsTheObjectAndTicksAreRoundInIt) {
+  const object::Polygon square = MakeSquare();
+  const contour::Boundary boundary(square);
+  const auto labels = [&](double metres_per_unit, double gap) {
+    const AxisUnit unit = UnitOfAxes(boundary, metres_per_unit);
+    std::string text = unit.name + ":";
+    for (const AxisTick& tick : MakeTicks(boundary, kOuter, {0, 8}, 25, gap, unit)) {
+      if (!tick.label.empty()) text += " " + tick.label;
+    }
+    return text;
+  };
+  // Few vertices: their lengths.
+  EXPECT_EQ(labels(1, 28), "m: 0 2 4 6 8");
+  EXPECT_EQ(labels(0.01, 28), "cm: 0 2 4 6 8");
+  EXPECT_EQ(labels(0.001, 28), "mm: 0 2 4 6 8");
+  EXPECT_EQ(labels(0.0254, 28), "cm: 0 5.08 10.2 15.2 20.3");
+  // Round ones where vertices are too near to each other for labels, in the unit of the axis.
+  EXPECT_EQ(labels(0.0254, 51), "cm: 0 10 20.3");
 }
 
 }  // namespace
