@@ -1,6 +1,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "planner/criteria/clearance.h"
@@ -12,12 +13,19 @@ namespace regrasp::criteria {
 
 namespace {
 
+/// The same in whatever order the contacts come: sets have them by faces, sequences by fingers.
 std::vector<double> NumbersOf(const grasp::Grasp& grasp) {
+  using Numbers = std::array<double, 7>;
+  std::vector<Numbers> contacts;
+  contacts.reserve(grasp.size());
+  for (const auto& [p, n, face] : grasp) {
+    contacts.push_back({p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), static_cast<double>(face)});
+  }
+  std::ranges::sort(contacts);
   std::vector<double> numbers;
-  for (const grasp::Contact& contact : grasp) {
-    numbers.insert(numbers.end(), contact.p.begin(), contact.p.end());
-    numbers.insert(numbers.end(), contact.n.begin(), contact.n.end());
-    numbers.push_back(contact.face);
+  numbers.reserve(contacts.size() * std::tuple_size_v<Numbers>);
+  for (const Numbers& contact : contacts) {
+    numbers.insert(numbers.end(), contact.begin(), contact.end());
   }
   return numbers;
 }
@@ -105,14 +113,22 @@ double GraspEvaluator::ComputeRequired(Contacts grasp, double accuracy) const {
   return required ? required->upper : std::numbers::pi / 2;
 }
 
-double GraspEvaluator::Score(const grasp::Grasp& grasp) const {
-  const auto contacts = [&] { return Contacts(grasp); };
+KnownGrasp& GraspEvaluator::Know(const grasp::Grasp& grasp) const {
   const auto [entry, is_new] = known_.try_emplace(NumbersOf(grasp));
-  KnownGrasp& known = entry->second;
-  if (is_new && !AreReachable(grasp)) known.fails_at = KnownGrasp::kInfinity;
-  if (Admits(known, contacts)) {
-    return std::max(half_angle_ - RequiredHalfAngle(known, contacts), 0.0);
-  }
+  if (is_new && !AreReachable(grasp)) entry->second.fails_at = KnownGrasp::kInfinity;
+  return entry->second;
+}
+
+std::optional<double> GraspEvaluator::Margin(const grasp::Grasp& grasp) const {
+  const auto contacts = [&] { return Contacts(grasp); };
+  KnownGrasp& known = Know(grasp);
+  if (!Admits(known, contacts)) return std::nullopt;
+  return std::max(half_angle_ - RequiredHalfAngle(known, contacts), 0.0);
+}
+
+double GraspEvaluator::Score(const grasp::Grasp& grasp) const {
+  if (const auto margin = Margin(grasp)) return *margin;
+  KnownGrasp& known = Know(grasp);
   if (share_ < known.poor_at) return -1;
   if (known.shortfall == 0) known.shortfall = Shortfall(grasp, frame_, asked_);
   return known.shortfall;

@@ -44,7 +44,7 @@ struct KnownGrasp {
 
 /// Decides whether grasps are good enough for a hand to rest in, and how good they are. Of all
 /// planners' grasps: GraspMemory has those of numbered contacts, a roadmap those of its vertices;
-/// Score remembers grasps by their coordinates. Not for several threads.
+/// Margin and Score remember grasps by their coordinates. Not for several threads.
 ///
 /// A grasp is admitted where fingers can be at its contacts at once (CanMeet), it is force closure,
 /// and it meets the criteria; it is good where the hand can also come there.
@@ -101,9 +101,12 @@ class GraspEvaluator {
     }
     return known.required;
   }
-  /// How good it is to rest in a grasp: its margin to the required half-angle, radians, where it is
-  /// good; otherwise a negative number, the worse the lower: its Shortfall, or −1 where no hand can
-  /// hold it. Remembered.
+  /// From the required half-angle of a good grasp to the one at hand, radians; nullopt where it is
+  /// not good. Remembered.
+  [[nodiscard]] std::optional<double> Margin(const grasp::Grasp& grasp) const;
+  /// How good it is to rest in a grasp: its margin where it is good; otherwise a negative number,
+  /// the worse the lower: its Shortfall, which takes long, or −1 where no hand can hold it.
+  /// Remembered.
   [[nodiscard]] double Score(const grasp::Grasp& grasp) const;
 
   /// What was worked out so far.
@@ -128,6 +131,7 @@ class GraspEvaluator {
     if (share_ <= known.good_at || !asks_more_) return true;
     return std::nullopt;
   }
+  [[nodiscard]] KnownGrasp& Know(const grasp::Grasp& grasp) const;
   [[nodiscard]] bool WorkOut(Contacts grasp, KnownGrasp& known) const;
   [[nodiscard]] double ComputeRequired(Contacts grasp, double accuracy) const;
   [[nodiscard]] bool MeetsCriteria(Contacts grasp) const;

@@ -9,13 +9,14 @@
 namespace regrasp::planning {
 
 double SmallestMargin(const std::vector<Rest>& rests, const criteria::GraspEvaluator& evaluator) {
-  // A score is a lower bound of the margin, so that only the few smallest ones need it exactly.
-  std::vector<std::pair<double, const Rest*>> by_score;
-  for (const Rest& rest : rests) by_score.emplace_back(evaluator.Score(rest.grasp), &rest);
-  std::ranges::sort(by_score);
+  // These are lower bounds, so that only the few smallest ones are needed exactly.
+  std::vector<std::pair<double, const Rest*>> by_margin;
+  for (const Rest& rest : rests)
+    by_margin.emplace_back(evaluator.Margin(rest.grasp).value_or(-1), &rest);
+  std::ranges::sort(by_margin);
   double smallest = evaluator.half_angle();
-  for (const auto& [score, rest] : by_score) {
-    if (score >= std::max(smallest, 0.0)) break;
+  for (const auto& [margin, rest] : by_margin) {
+    if (margin >= std::max(smallest, 0.0)) break;
     const auto required = grasp::ComputeRequiredHalfAngle(rest->grasp, evaluator.frame());
     smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
   }
@@ -33,7 +34,7 @@ std::vector<std::string> RestWarnings(const std::vector<Rest>& rests,
   std::vector<std::pair<criteria::UnmetCriterion, std::size_t>> weakest;
   for (std::size_t i = 0; i < rests.size(); ++i) {
     const grasp::Grasp& grasp = rests[i].grasp;
-    if (evaluator.Score(grasp) >= 0) continue;
+    if (evaluator.Margin(grasp)) continue;
     if (warnings.empty() && !evaluator.IsReachable(grasp)) {
       warnings.push_back("a fingertip has no clearance in " + name(i) +
                          ": a contact is in a concave corner");

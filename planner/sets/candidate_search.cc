@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "planner/planning/candidate_result.h"
 #include "planner/search/shortest_paths.h"
@@ -53,18 +54,42 @@ std::optional<search::VertexPair> EdgeNear(const planning::CandidateSequence& ca
   return std::nullopt;
 }
 
-/// The worst score of the grasps that were chosen; the switches to those that are not good enough
-/// are banned.
-double ScoreRests(const planning::CandidateSequence& candidate,
-                  const criteria::GraspEvaluator& evaluator, std::set<search::VertexPair>& banned) {
-  double worst = std::numeric_limits<double>::infinity();
+/// Bans the switches to grasps that were chosen and are not good enough.
+/// @returns whether there are any.
+bool BanPoor(const planning::CandidateSequence& candidate,
+             const criteria::GraspEvaluator& evaluator, std::set<search::VertexPair>& banned) {
+  bool any = false;
   for (const planning::Rest& rest : candidate.rests) {
-    if (!rest.chosen_for) continue;
-    const double score = evaluator.Score(rest.grasp);
-    if (score < 0) banned.insert(*rest.chosen_for);
-    worst = std::min(worst, score);
+    if (!rest.chosen_for || evaluator.Margin(rest.grasp)) continue;
+    banned.insert(*rest.chosen_for);
+    any = true;
+  }
+  return any;
+}
+
+/// A sequence that is not as good as asked.
+struct PoorCandidate {
+  planning::CandidateSequence sequence;
+  bool has_obstacle;
+};
+
+/// The worst score of the grasps that were chosen.
+double ScoreOf(const PoorCandidate& candidate, const criteria::GraspEvaluator& evaluator) {
+  double worst =
+      candidate.has_obstacle ? kScoreOfObstacle : std::numeric_limits<double>::infinity();
+  for (const planning::Rest& rest : candidate.sequence.rests) {
+    if (rest.chosen_for) worst = std::min(worst, evaluator.Score(rest.grasp));
   }
   return worst;
+}
+
+/// Scores of grasps that are not good take long: they are worked out only where nothing is good.
+std::optional<planning::CandidateSequence> BestOf(std::vector<PoorCandidate> candidates,
+                                                  const criteria::GraspEvaluator& evaluator) {
+  if (candidates.empty()) return std::nullopt;
+  const auto best = std::ranges::max_element(
+      candidates, {}, [&](const PoorCandidate& c) { return ScoreOf(c, evaluator); });
+  return std::move(best->sequence);
 }
 
 }  // namespace
@@ -85,8 +110,7 @@ std::optional<planning::CandidateSequence> FindCandidate(
         const std::vector<int>& path, std::set<search::VertexPair>& banned)>& make,
     const Deadline& deadline) {
   // Where no path is free for the fingers' radius, the result is told so (ResultOf).
-  std::optional<planning::CandidateSequence> best;
-  double best_score = -std::numeric_limits<double>::infinity();
+  std::vector<PoorCandidate> poor;
   std::set<search::VertexPair> banned;
   for (int attempt = 0; attempt < kMaxPaths; ++attempt) {
     std::optional<planning::CandidateSequence> candidate;
@@ -96,24 +120,21 @@ std::optional<planning::CandidateSequence> FindCandidate(
       if (path.empty()) break;
       candidate = make(path, banned);
     } catch (const TimeUp&) {
-      if (!best) throw;
+      if (poor.empty()) throw;
       break;
     }
     if (!candidate) continue;
-    double score = ScoreRests(*candidate, evaluator, banned);
+    const bool is_poor = BanPoor(*candidate, evaluator, banned);
     const auto obstacle = planning::FindObstacle(*candidate, evaluator);
+    if (!is_poor && !obstacle) return candidate;
     if (obstacle) {
       const auto edge = EdgeNear(*candidate, obstacle->index);
       if (!edge) return candidate;
       banned.insert(*edge);
-      score = std::min(score, kScoreOfObstacle);
     }
-    if (score >= 0) return candidate;
-    if (best && score <= best_score) continue;
-    best = std::move(candidate);
-    best_score = score;
+    poor.push_back({*std::move(candidate), obstacle.has_value()});
   }
-  return best;
+  return BestOf(std::move(poor), evaluator);
 }
 
 }  // namespace regrasp::sets

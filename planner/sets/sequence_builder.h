@@ -14,7 +14,7 @@
 namespace regrasp::sets {
 
 /// A switch from the grasp at hand, or to the goal, is good enough with this share of the best
-/// one's score: it spares an align.
+/// one's margin: it spares an align.
 inline constexpr double kGoodShare = 0.5;
 
 /// Contacts this close, over the diameter, are the same but for rounding.
@@ -67,7 +67,7 @@ class SequenceBuilder {
 
   struct BestSwitch {
     std::optional<Switch> found;
-    double score = 0;  ///< of its worse grasp
+    double margin = 0;  ///< of its worse grasp, negative where that is not good
   };
 
   struct ChosenSwitch {
@@ -108,12 +108,12 @@ class SequenceBuilder {
     }
     const BestSwitch& best = FindBest(from, to);
     if (!best.found) return std::nullopt;
-    const double least = std::max(kGoodShare * best.score, 0.0);
+    const double least = std::max(kGoodShare * best.margin, 0.0);
     auto from_here = model_.FindSwitch({from, to, &at});
-    if (from_here && ScoreOf(from_here->after) >= least) return from_here;
+    if (from_here && MarginOf(from_here->after) >= least) return from_here;
     if (goal != nullptr) {
       auto to_goal = model_.FindSwitch({from, to, nullptr, goal});
-      if (to_goal && ScoreOf(to_goal->before) >= least) return to_goal;
+      if (to_goal && MarginOf(to_goal->before) >= least) return to_goal;
     }
     return best.found;
   }
@@ -123,14 +123,15 @@ class SequenceBuilder {
     if (is_new) {
       known->second.found = model_.FindSwitch({from, to});
       if (const auto& found = known->second.found) {
-        known->second.score = std::min(ScoreOf(found->before), ScoreOf(found->after));
+        known->second.margin = std::min(MarginOf(found->before), MarginOf(found->after));
       }
     }
     return known->second;
   }
 
-  [[nodiscard]] double ScoreOf(const Place& place) const {
-    return model_.evaluator().Score(GraspAt(place));
+  /// Negative where it is not good.
+  [[nodiscard]] double MarginOf(const Place& place) const {
+    return model_.evaluator().Margin(GraspAt(place)).value_or(-1);
   }
 
   /// The contacts of a place; those of start and goal as they were given.

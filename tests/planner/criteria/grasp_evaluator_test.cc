@@ -79,5 +79,26 @@ TEST(GraspEvaluator, RemembersTheScoreOfEachGraspApart) {
   EXPECT_EQ(evaluator.Score(Across(square, 0.4, 0.6)), second);
 }
 
+TEST(GraspEvaluator, KnowsAGraspInWhateverOrderItsContactsCome) {
+  const object::Polygon square = Square(1);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
+  const grasp::Grasp grasp = Across(square, 0.4, 0.6);
+  const double score = evaluator.Score(grasp);
+  const auto tested = evaluator.counts().force_closure;
+  EXPECT_EQ(evaluator.Score({grasp[1], grasp[0]}), score);
+  EXPECT_EQ(evaluator.counts().force_closure, tested);
+  EXPECT_NEAR(evaluator.Score(Across(square, 0.6, 0.4)), score, 1e-9);
+  EXPECT_GT(evaluator.counts().force_closure, tested);
+}
+
+TEST(GraspEvaluator, OnlyGoodGraspsHaveAMargin) {
+  const object::Polygon square = Square(1);
+  const GraspEvaluator evaluator(square, {Radians(30), 0.01});
+  const grasp::Grasp good = Across(square, 0.4, 0.6);
+  EXPECT_EQ(evaluator.Margin(good), evaluator.Score(good));
+  EXPECT_EQ(evaluator.Margin(Across(square, 0.22, 0.79)), std::nullopt);  // poor
+  EXPECT_EQ(evaluator.Margin(Across(square, 0.2, 0.8)), std::nullopt);    // not force closure
+}
+
 }  // namespace
 }  // namespace regrasp::criteria
