@@ -155,8 +155,10 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
   const std::vector<Shown> shown = ShowEntries(object, plan, report);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
-  render::ContactSheet sheet(count + skipped, options.frame.width, options.frame.height,
-                             MakeHeading(report));
+  const render::FrameRenderer renderer = MakeRenderer(object, report, shown, options.frame);
+  render::ContactSheet sheet(count + skipped, renderer.width(), renderer.height(),
+                             options.sheet_width, MakeHeading(report),
+                             render::GroundOf(options.frame.background));
   std::vector<render::FrameTask> tasks;
   for (const auto& [step, snapshot, marks] : shown) {
     tasks.push_back({&snapshot, Caption(plan, *step), marks ? &*marks : nullptr});
@@ -170,18 +172,16 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
     sheet.Add(image, MakeLabel(step));
     options.on_picture(index + 1, count);
   };
-  render::RenderInOrder(MakeRenderer(object, report, shown, options.frame), tasks, options.workers,
-                        take);
+  render::RenderInOrder(renderer, tasks, options.workers, take);
   AddSkipped(report, skipped, sheet);
   render::WritePng(folder / kOverviewName, sheet.ToImage());
   return pictures;
 }
 
-std::vector<std::string> WriteAnimation(const object::Object& object, const plan::Plan& plan,
-                                        const DrawingOptions& options,
-                                        const std::vector<plan::Snapshot>& samples,
-                                        const std::vector<MovingFile>& files,
-                                        report::Report& report) {
+report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                                   const DrawingOptions& options,
+                                   const std::vector<plan::Snapshot>& samples,
+                                   const std::vector<MovingFile>& files, report::Report& report) {
   const std::vector<Shown> shown = ShowEntries(object, plan, report);
   std::vector<render::AnimationRest> rests;
   for (const auto& [step, snapshot, marks] : shown) {
@@ -192,16 +192,20 @@ std::vector<std::string> WriteAnimation(const object::Object& object, const plan
       render::CutAnimation(samples, rests, report.scale * object.diameter());
   render::FrameOptions frame = options.frame;
   frame.gaps = render::GapView::kShown;
+  if (frame.background == render::Background::kTransparent) {
+    frame.background = render::Background::kWhite;
+  }
+  const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
   std::vector<render::MovingFormat> formats;
   for (const MovingFile& file : files) formats.push_back(file.format);
   const auto count = static_cast<int>(pictures.size());
-  const std::vector<std::string> bytes =
-      render::RenderAnimation(MakeRenderer(object, report, shown, frame), pictures, formats,
-                              options.workers, [&](int done) { options.on_picture(done, count); });
+  std::vector<std::string> bytes =
+      render::RenderAnimation(renderer, pictures, formats, options.workers,
+                              [&](int done) { options.on_picture(done, count); });
   for (std::size_t i = 0; i < files.size(); ++i) {
     WriteFile(files[i].path, bytes[i], Durability::kCached);
   }
-  return bytes;
+  return {std::move(bytes.front()), renderer.width(), renderer.height()};
 }
 
 }  // namespace regrasp::apps

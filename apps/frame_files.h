@@ -7,6 +7,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
 #include "render/picture/moving_picture.h"
 #include "report/page/report_page.h"
@@ -32,6 +33,7 @@ inline constexpr char kAnimationName[] = "replay.webp";
 struct DrawingOptions {
   render::FrameOptions frame;
   int workers = 1;  ///< threads that draw
+  int sheet_width = render::kSheetWidth;
   /// Called with the number of pictures drawn and of all, after each.
   std::function<void(int done, int all)> on_picture;
 };
@@ -57,12 +59,12 @@ struct MovingFile {
 /// the frame of the step that failed.
 /// @param options  the size is that of the moving pictures.
 /// @param samples  states during the replay, ascending in time.
-/// @returns the bytes of the files.
+/// @param files    at least one.
+/// @returns the first of them.
 /// @throws EnvironmentError  as WriteFrames.
-std::vector<std::string> WriteAnimation(const object::Object& object, const plan::Plan& plan,
-                                        const DrawingOptions& options,
-                                        const std::vector<plan::Snapshot>& samples,
-                                        const std::vector<MovingFile>& files,
-                                        report::Report& report);
+report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
+                                   const DrawingOptions& options,
+                                   const std::vector<plan::Snapshot>& samples,
+                                   const std::vector<MovingFile>& files, report::Report& report);
 
 }  // namespace regrasp::apps

@@ -201,8 +201,16 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
   app.add_flag("--show-clusters", options.show_clusters,
                "Frames of a plan over clustered contact points show the clusters on the surface, "
                "and their representatives as dots");
-  AddSize(app, "--size", options.frame.width, options.frame.height, "Size of the frames",
-          std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height));
+  options.frame.crop = true;
+  AddSize(app, "--size", options.frame.width, options.frame.height,
+          "Size of the frames. Without it they are at most as large as the default, and cropped to "
+          "what is drawn",
+          std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height))
+      ->each([&options](const std::string& /*size*/) { options.frame.crop = false; });
+  AddInteger(
+      app, "--sheet-width", options.sheet_width, render::kMinSheetWidth, render::kMaxSheetWidth,
+      "Width of the contact sheet overview.png, pixels; frames are not enlarged for it (default "
+      "1600)");
   AddFrameView(app, options.frame);
   app.add_flag("--animate", options.animate,
                "Also write the whole replay as a moving picture, replay.webp, slowed down and seen "

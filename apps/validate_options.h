@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/options.h"
+#include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
@@ -43,6 +44,7 @@ struct ValidateOptions {
   int animation_height = 0;
   std::string video;
   int workers;  ///< threads that draw pictures
+  int sheet_width = render::kSheetWidth;
   bool no_frames = false;
   bool animate = false;
   bool show_clusters = false;

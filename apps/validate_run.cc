@@ -260,11 +260,11 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
     files.push_back({options.video, *render::MovingFormatOf(options.video)});
   }
   DrawingCount count("drawing the moving picture", options.quiet);
-  std::vector<std::string> bytes =
-      WriteAnimation(*task.object.object, task.plan, {frame, options.workers, count.reporter()},
+  report::PagePicture first =
+      WriteAnimation(*task.object.object, task.plan,
+                     {.frame = frame, .workers = options.workers, .on_picture = count.reporter()},
                      samples.animation, files, report);
-  if (!options.animate) return {};
-  return {std::move(bytes.front()), frame.width, frame.height};
+  return options.animate ? std::move(first) : report::PagePicture();
 }
 
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
@@ -274,8 +274,9 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   std::vector<report::PagePicture> pictures;
   if (!options.no_frames) {
     DrawingCount count("drawing frames", options.quiet);
-    pictures =
-        WriteFrames(object, task.plan, {frame, options.workers, count.reporter()}, folder, report);
+    pictures = WriteFrames(object, task.plan,
+                           {frame, options.workers, options.sheet_width, count.reporter()}, folder,
+                           report);
   }
   report::PagePicture moving;
   if (options.animates()) moving = Animate(options, frame, task, samples, folder, report);

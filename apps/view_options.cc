@@ -58,6 +58,13 @@ void AddFrameView(CLI::App& app, render::FrameOptions& frame) {
       "Frames of a solid without perspective: parallel edges are parallel, and lengths across the "
       "line of sight have one scale. Those of a planar object are so always");
   AddEdges(app, frame.body);
+  using render::Background;
+  AddChoice<Background>(app, "--background", frame.background,
+                        {{"white", Background::kWhite},
+                         {"dark", Background::kDark},
+                         {"transparent", Background::kTransparent}},
+                        "What frames stand on: white, dark with light lines and text, or nothing: "
+                        "PNG files with an alpha channel (default white)");
 }
 
 }  // namespace regrasp::apps

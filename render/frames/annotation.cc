@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "planner/base/quantity_text.h"
@@ -20,13 +21,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Shares of the image's height, and pixels.
-constexpr double kFontSize = 0.024;
-constexpr double kSmallestFont = 7;
-constexpr double kMargin = 0.032;
-constexpr double kLongestBar = 0.20;
+/// Of the root of the area: 23 pixels at 1280 × 960.
+constexpr double kFontSize = 0.0208;
+constexpr double kLongestBar = 0.20;  ///< of the image's width
 
 // In font sizes.
+constexpr double kMargin = 1.33;
+constexpr double kLineHeight = 1.25;
 constexpr double kNumberSize = 1.2;
 constexpr double kLabelRadius = 0.66;
 constexpr double kHalo = 0.32;
@@ -44,31 +45,56 @@ constexpr double kTextWeight = 3;
 /// The friction cone counts as a strip of this share of its length.
 constexpr double kConeStrip = 0.3;
 
-/// Numbers and rings are a darker shade of their finger's colour: thin strokes look paler.
+/// Numbers and rings are nearer to the ink than their finger's colour: thin strokes look paler.
 constexpr double kShade = 0.82;
+constexpr double kLighter = 0.55;  ///< on a dark ground
 
-Color NumberColor(Color color) {
-  const auto shade = [](int channel) { return static_cast<unsigned char>(kShade * channel); };
+Color NumberColor(Color color, const Ground& ground) {
+  const bool dark = ground.paper.g < ground.ink.g;
+  const auto shade = [dark](int channel) {
+    return static_cast<unsigned char>(dark ? 255 - kLighter * (255 - channel) : kShade * channel);
+  };
   return {shade(color.r), shade(color.g), shade(color.b)};
 }
 
-void DrawCentred(cairo_t* cr, const std::string& text, const Vector2d& centre, Color color,
-                 double halo) {
-  const Vector2d begin = CentredText(cr, text, centre);
-  cairo_move_to(cr, begin.x(), begin.y());
-  cairo_text_path(cr, text.c_str());
-  FillWithHalo(cr, color, halo);
-}
+/// Writes on one picture.
+class Writer {
+ public:
+  /// All arguments outlive this object.
+  Writer(cairo_t* cr, const Camera& camera, const TextStyle& style)
+      : cr_(cr), camera_(camera), ground_(style.ground), font_(style.font) {}
 
-/// A ring just outside the ball, dark within white, so that it shows on any ground.
-void DrawRing(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, double font) {
-  const Vector2d centre = camera.Project(glyph.ball);
-  const double radius = glyph.ball_radius * camera.PixelsPerUnit(glyph.ball) + kRingGap * font;
-  for (const bool white : {true, false}) {
-    SetCircle(cr, centre, radius);
-    Stroke(cr, white ? kWhite : NumberColor(glyph.color), (white ? 2.2 : 1) * kRingWidth * font);
+  /// A ring just outside the ball, dark within white, so that it shows on any ground.
+  void DrawRing(const FingerGlyph& glyph) const {
+    const Vector2d centre = camera_.Project(glyph.ball);
+    const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kRingGap * font_;
+    for (const bool halo : {true, false}) {
+      SetCircle(cr_, centre, radius);
+      Stroke(cr_, halo ? ground_.halo : NumberColor(glyph.color, ground_),
+             (halo ? 2.2 : 1) * kRingWidth * font_);
+    }
   }
-}
+
+  /// Writes the caption, in a smaller font where it would need more than two lines, and returns
+  /// what it covers.
+  [[nodiscard]] std::vector<Obstacle> DrawCaption(const std::string& caption) const;
+  [[nodiscard]] std::vector<Obstacle> DrawScaleBar(double metres_per_unit) const;
+  void DrawNumbers(std::span<const FingerGlyph> fingers, std::vector<Obstacle> text) const;
+
+ private:
+  void DrawCentred(const std::string& text, const Vector2d& centre, Color color) const {
+    const Vector2d begin = CentredText(cr_, text, centre);
+    cairo_move_to(cr_, begin.x(), begin.y());
+    cairo_text_path(cr_, text.c_str());
+    FillWithHalo(cr_, color, kHalo * font_, ground_.halo);
+  }
+  void DrawLeader(const FingerGlyph& glyph, const Vector2d& number, double font) const;
+
+  cairo_t* cr_;
+  const Camera& camera_;
+  const Ground& ground_;
+  double font_;
+};
 
 std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
   std::vector<Obstacle> obstacles;
@@ -90,97 +116,127 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
 }
 
 /// A line from a number to its finger's ball, where it does not stand beside the finger.
-void DrawLeader(cairo_t* cr, const Camera& camera, const FingerGlyph& glyph, const Vector2d& number,
-                double font) {
-  const Vector2d ball = camera.Project(glyph.ball);
-  if (DistanceToSegment(number, ball, camera.Project(glyph.end)) < kBeside * kLabelRadius * font) {
+void Writer::DrawLeader(const FingerGlyph& glyph, const Vector2d& number, double font) const {
+  const Vector2d ball = camera_.Project(glyph.ball);
+  if (DistanceToSegment(number, ball, camera_.Project(glyph.end)) < kBeside * kLabelRadius * font) {
     return;
   }
   const Vector2d along = (ball - number).normalized();
   const Vector2d from = number + kLabelRadius * font * along;
-  for (const bool white : {true, false}) {
-    cairo_move_to(cr, from.x(), from.y());
-    cairo_line_to(cr, ball.x(), ball.y());
-    Stroke(cr, white ? kWhite : NumberColor(glyph.color), (white ? 2.4 : 1) * kLeaderWidth * font);
+  for (const bool halo : {true, false}) {
+    cairo_move_to(cr_, from.x(), from.y());
+    cairo_line_to(cr_, ball.x(), ball.y());
+    Stroke(cr_, halo ? ground_.halo : NumberColor(glyph.color, ground_),
+           (halo ? 2.4 : 1) * kLeaderWidth * font);
   }
 }
 
-void DrawNumbers(cairo_t* cr, const Camera& camera, std::span<const FingerGlyph> fingers,
-                 std::vector<Obstacle> text, double font) {
+void Writer::DrawNumbers(std::span<const FingerGlyph> fingers, std::vector<Obstacle> text) const {
+  const double font = std::max(font_, kSmallestFont);
   std::vector<LabelAnchor> anchors;
   for (const FingerGlyph& glyph : fingers) {
-    const Vector2d anchor = camera.Project(glyph.end);
-    anchors.push_back({anchor, anchor - camera.Project(glyph.contact), camera.Project(glyph.ball)});
+    const Vector2d anchor = camera_.Project(glyph.end);
+    anchors.push_back(
+        {anchor, anchor - camera_.Project(glyph.contact), camera_.Project(glyph.ball)});
   }
-  std::vector<Obstacle> obstacles = ObstaclesOf(camera, fingers);
+  std::vector<Obstacle> obstacles = ObstaclesOf(camera_, fingers);
   obstacles.insert(obstacles.end(), text.begin(), text.end());
   const std::vector<Vector2d> centres =
-      PlaceLabels(anchors, obstacles, kLabelRadius * font, camera.width, camera.height);
-  SelectFont(cr, kNumberSize * font, /*bold=*/true);
+      PlaceLabels(anchors, obstacles, kLabelRadius * font, camera_.width, camera_.height);
+  SelectFont(cr_, kNumberSize * font, /*bold=*/true);
+  for (std::size_t i = 0; i < fingers.size(); ++i) DrawLeader(fingers[i], centres[i], font);
   for (std::size_t i = 0; i < fingers.size(); ++i) {
-    DrawLeader(cr, camera, fingers[i], centres[i], font);
-  }
-  for (std::size_t i = 0; i < fingers.size(); ++i) {
-    DrawCentred(cr, std::to_string(fingers[i].finger), centres[i], NumberColor(fingers[i].color),
-                kHalo * font);
+    DrawCentred(std::to_string(fingers[i].finger), centres[i],
+                NumberColor(fingers[i].color, ground_));
   }
 }
 
-/// Writes the caption, in a smaller font where it would be too wide, and returns what it covers.
-std::vector<Obstacle> DrawCaption(cairo_t* cr, const Camera& camera, const std::string& caption,
-                                  double font) {
+/// Breaks a text at spaces into lines that are no wider than `most` in the current font, where
+/// words allow it.
+std::vector<std::string> BreakLines(cairo_t* cr, const std::string& text, double most) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || TextWidth(cr, longer) <= most) {
+      line = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+std::vector<Obstacle> Writer::DrawCaption(const std::string& caption) const {
   if (caption.empty()) return {};
-  const double margin = kMargin * camera.height;
-  const double space = camera.width * (1 - kLongestBar) - 3 * margin;
-  SelectFont(cr, font, /*bold=*/false);
-  const double size = font * std::min(1.0, space / TextWidth(cr, caption));
+  constexpr double kSmaller = 0.95;
+  const double margin = kMargin * font_;
+  const double most = camera_.width * (1 - kLongestBar) - 3 * margin;
+  std::vector<std::string> lines;
+  double size = font_;
+  const auto fits = [&] {
+    SelectFont(cr_, size, /*bold=*/false);
+    lines = BreakLines(cr_, caption, most);
+    return lines.size() <= 2 && std::ranges::all_of(lines, [&](const std::string& line) {
+             return TextWidth(cr_, line) <= most;
+           });
+  };
+  while (size >= kSmallestFont && !fits()) size *= kSmaller;
   if (size < kSmallestFont) return {};
-  SelectFont(cr, size, /*bold=*/false);
-  const double base = camera.height - margin;
-  cairo_move_to(cr, margin, base);
-  cairo_text_path(cr, caption.c_str());
-  FillWithHalo(cr, kInk, kHalo * font);
-  const double middle = base - size / 3;
-  return {{{margin, middle}, {margin + TextWidth(cr, caption), middle}, size / 2, kTextWeight}};
+  std::vector<Obstacle> covered;
+  double base = camera_.height - margin - (std::ssize(lines) - 1) * kLineHeight * size;
+  for (const std::string& line : lines) {
+    cairo_move_to(cr_, margin, base);
+    cairo_text_path(cr_, line.c_str());
+    FillWithHalo(cr_, ground_.ink, kHalo * font_, ground_.halo);
+    const double middle = base - size / 3;
+    covered.push_back(
+        {{margin, middle}, {margin + TextWidth(cr_, line), middle}, size / 2, kTextWeight});
+    base += kLineHeight * size;
+  }
+  return covered;
 }
 
-std::vector<Obstacle> DrawScaleBar(cairo_t* cr, const Camera& camera, double metres_per_unit,
-                                   double font) {
-  if (font < kSmallestFont) return {};
-  const double pixels_per_metre = camera.PixelsPerUnit(Eigen::Vector3d::Zero()) / metres_per_unit;
-  const double metres = RoundLength(kLongestBar * camera.width / pixels_per_metre);
+std::vector<Obstacle> Writer::DrawScaleBar(double metres_per_unit) const {
+  if (font_ < kSmallestFont) return {};
+  const double pixels_per_metre = camera_.PixelsPerUnit(Eigen::Vector3d::Zero()) / metres_per_unit;
+  const double metres = RoundLength(kLongestBar * camera_.width / pixels_per_metre);
   const double length = metres * pixels_per_metre;
-  const double margin = kMargin * camera.height;
-  const double y = camera.height - margin;
-  const double right = camera.width - margin;
+  const double margin = kMargin * font_;
+  const double y = camera_.height - margin;
+  const double right = camera_.width - margin;
   const double left = right - length;
-  const double tick = font / 4;
+  const double tick = font_ / 4;
   for (const double x : {left, right}) {
-    cairo_move_to(cr, x, y - tick);
-    cairo_line_to(cr, x, y + tick);
+    cairo_move_to(cr_, x, y - tick);
+    cairo_line_to(cr_, x, y + tick);
   }
-  cairo_move_to(cr, left, y);
-  cairo_line_to(cr, right, y);
-  Stroke(cr, kInk, std::max(1.0, font / 10));
-  SelectFont(cr, font, /*bold=*/false);
-  DrawCentred(cr, FormatLength(metres), {(left + right) / 2, y - 0.8 * font}, kInk, kHalo * font);
-  return {{{left, y - font / 2}, {right, y - font / 2}, font, kTextWeight}};
+  cairo_move_to(cr_, left, y);
+  cairo_line_to(cr_, right, y);
+  Stroke(cr_, ground_.ink, std::max(1.0, font_ / 10));
+  SelectFont(cr_, font_, /*bold=*/false);
+  DrawCentred(FormatLength(metres), {(left + right) / 2, y - 0.8 * font_}, ground_.ink);
+  return {{{left, y - font_ / 2}, {right, y - font_ / 2}, font_, kTextWeight}};
 }
 
 }  // namespace
 
+double FontSize(int width, int height) {
+  return kFontSize * std::sqrt(static_cast<double>(width) * height);
+}
+
 Image Annotate(const Image& image, const Camera& camera, std::span<const FingerGlyph> fingers,
-               const std::string& caption, double metres_per_unit) {
+               const std::string& caption, double metres_per_unit, const TextStyle& style) {
   const CairoImage page(image);
-  cairo_t* cr = page.context();
-  const double font = kFontSize * image.height;
+  const Writer writer(page.context(), camera, style);
   for (const FingerGlyph& glyph : fingers) {
-    if (glyph.role == plan::FingerRole::kPlaced) DrawRing(cr, camera, glyph, font);
+    if (glyph.role == plan::FingerRole::kPlaced) writer.DrawRing(glyph);
   }
-  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  std::vector<Obstacle> text = DrawCaption(cr, camera, caption, font);
-  for (const Obstacle& bar : DrawScaleBar(cr, camera, metres_per_unit, font)) text.push_back(bar);
-  DrawNumbers(cr, camera, fingers, text, std::max(font, kSmallestFont));
+  cairo_set_line_join(page.context(), CAIRO_LINE_JOIN_ROUND);
+  std::vector<Obstacle> text = writer.DrawCaption(caption);
+  for (const Obstacle& bar : writer.DrawScaleBar(metres_per_unit)) text.push_back(bar);
+  writer.DrawNumbers(fingers, text);
   return page.ToImage();
 }
 

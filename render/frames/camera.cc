@@ -117,4 +117,24 @@ Camera FitCamera(const Eigen::Matrix3d& axes, Projection projection, int width, 
   return camera;
 }
 
+Camera Crop(const Camera& camera, const Margins& margins, std::span<const Eigen::Vector3d> points,
+            int narrowest, int lowest) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& point : points) box.extend(camera.Project(point));
+  const double side = margins.side * camera.height;
+  const Eigen::Vector2d before = box.min() - Eigen::Vector2d(side, margins.top * camera.height);
+  const Eigen::Vector2d after =
+      Eigen::Vector2d(camera.width - side, camera.height * (1 - margins.bottom)) - box.max();
+  const Eigen::Vector2d spare = before.cwiseMin(after);
+  const auto cropped = [](int size, double spare_before, int least) {
+    const auto half = static_cast<int>(std::ceil(size / 2.0 - std::max(spare_before, 0.0)));
+    return std::min(size, std::max(2 * half, least));
+  };
+  Camera crop = camera;
+  crop.width = cropped(camera.width, spare.x(), narrowest);
+  crop.height = cropped(camera.height, spare.y(), lowest);
+  crop.half_height *= static_cast<double>(crop.height) / camera.height;
+  return crop;
+}
+
 }  // namespace regrasp::render

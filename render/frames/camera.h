@@ -28,11 +28,9 @@ struct Camera {
   [[nodiscard]] Eigen::Vector3d ToEye(const Eigen::Vector3d& point) const;
 };
 
-/// Parts of the image's height that stay free of the scene.
+/// Shares of the image's height that stay free of the scene.
 struct Margins {
-  double side = 0.05;
-  double top = 0.05;
-  double bottom = 0.11;
+  double side, top, bottom;
 };
 
 /// Axes of a camera that looks along −`back` with z (or y, where back is along z) up.
@@ -51,5 +49,12 @@ inline constexpr double kTanHalfHeight = 0.15;
 [[nodiscard]] Camera FitCamera(const Eigen::Matrix3d& axes, Projection projection, int width,
                                int height, const Margins& margins,
                                std::span<const Eigen::Vector3d> points);
+
+/// The same picture without what is beyond the margins of the points on both sides alike.
+/// @param camera   by FitCamera, of these points and margins.
+/// @param narrowest, lowest  pixels that stay.
+/// @returns a camera of even width and height, no larger than before.
+[[nodiscard]] Camera Crop(const Camera& camera, const Margins& margins,
+                          std::span<const Eigen::Vector3d> points, int narrowest, int lowest);
 
 }  // namespace regrasp::render

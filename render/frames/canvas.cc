@@ -151,7 +151,6 @@ void InitState() {
   glColorMaterial(GL_FRONT, GL_AMBIENT_AND_DIFFUSE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthFunc(GL_LEQUAL);
-  glClearColor(1, 1, 1, 1);
   glEnableClientState(GL_VERTEX_ARRAY);
   glEnableClientState(GL_NORMAL_ARRAY);
 }
@@ -229,8 +228,10 @@ class Canvas::Impl {
   }
   Impl& operator=(const Impl&) = delete;
 
-  Image Draw(const Camera& camera, const Drawing& drawing) {
+  Image Draw(const Camera& camera, const Drawing& drawing, Color paper) {
     const OffscreenContext::Use use(context_);
+    constexpr float kFull = 255;
+    glClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 1);
     Image image = MakeImage(width_, height_);
     for (int top = 0; top < height_; top += band_rows_) {
       DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
@@ -273,8 +274,8 @@ Canvas::Canvas(const std::vector<FacetMesh>& meshes, int width, int height, int 
 Canvas::Canvas(const Canvas& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Canvas::~Canvas() = default;
 
-Image Canvas::Draw(const Camera& camera, const Drawing& drawing) {
-  return impl_->Draw(camera, drawing);
+Image Canvas::Draw(const Camera& camera, const Drawing& drawing, Color paper) {
+  return impl_->Draw(camera, drawing, paper);
 }
 
 }  // namespace regrasp::render

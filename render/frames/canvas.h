@@ -62,7 +62,7 @@ struct Drawing {
   std::vector<MeshInstance> hiding;
 };
 
-/// An off-screen OpenGL window, on white, with one soft light from above the camera's left shoulder
+/// An off-screen OpenGL window with one soft light from above the camera's left shoulder
 /// and no shadows.
 ///
 /// Deterministic: the same drawing gives the same bytes. The scene is about the origin, of size 1.
@@ -80,7 +80,7 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   /// @param camera  of the canvas's width and height.
-  [[nodiscard]] Image Draw(const Camera& camera, const Drawing& drawing);
+  [[nodiscard]] Image Draw(const Camera& camera, const Drawing& drawing, Color paper = kWhite);
 
  private:
   class Impl;

@@ -11,15 +11,21 @@ namespace regrasp::render {
 
 namespace {
 
-/// Pictures are as wide as lets the sheet be about this wide, within these bounds (pixels).
-constexpr int kSheetWidth = 2400;
-constexpr int kNarrowest = 120;
-constexpr int kWidest = 480;
+/// The narrowest pictures (pixels), and those of a sheet that would be higher than this otherwise:
+/// it is wider than asked for then.
+constexpr int kNarrow = 190;
+constexpr int kNarrowest = 100;
+constexpr int kHighest = 12'000;
+constexpr double kSheetAspect = 4.0 / 3;
 
-/// In widths of a picture.
-constexpr double kGap = 0.04;
-constexpr double kLabelHeight = 0.075;
+/// The font of labels: a share of the picture's width, but no smaller (pixels), and no larger than
+/// this share of the sheet's width.
 constexpr double kFontSize = 0.05;
+constexpr double kSmallestFont = 11;
+constexpr double kLargestFont = 1.0 / 70;
+
+constexpr double kGap = 0.04;         ///< widths of a picture
+constexpr double kLabelHeight = 1.5;  ///< font sizes
 
 constexpr double kBaseLine = 0.72;  ///< of a label's height
 constexpr double kRule = 1;         ///< pixels, around each picture
@@ -30,7 +36,7 @@ constexpr Color kEmptyText = {112, 120, 134};
 
 /// The heading, in label heights: the line and its font at most.
 constexpr double kHeadingHeight = 1.7;
-constexpr double kHeadingFont = 1.1;
+constexpr double kHeadingFont = 1.1;    ///< fonts of labels
 constexpr double kSmallestShare = 0.6;  ///< of the font, for a heading that is too wide
 
 /// The text, cut off where it is wider than `most`.
@@ -46,28 +52,39 @@ std::string Elide(cairo_t* cr, std::string text, double most) {
 
 }  // namespace
 
-SheetGrid::SheetGrid(int count, int picture_width, int picture_height, bool has_heading) {
-  if (count < 1 || picture_width < 1 || picture_height < 1) {
+SheetGrid::SheetGrid(int count, int picture_width, int picture_height, int sheet_width,
+                     bool has_heading) {
+  if (count < 1 || picture_width < 1 || picture_height < 1 || sheet_width < 1) {
     throw std::invalid_argument("ContactSheet: a number is not positive");
   }
-  columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
-  rows = (count + columns - 1) / columns;
-  width = std::clamp(kSheetWidth / columns, kNarrowest, kWidest);
-  const auto scaled = [&](double share) {
-    return std::max(1, static_cast<int>(std::lround(share * width)));
+  const double aspect = static_cast<double>(picture_height) / picture_width;
+  const auto set_columns = [&](int number) {
+    columns = std::clamp(number, 1, count);
+    rows = (count + columns - 1) / columns;
+    width = std::clamp(static_cast<int>(sheet_width / (columns + (columns + 1) * kGap)),
+                       std::min(kNarrowest, picture_width), picture_width);
+    height = std::max(1, static_cast<int>(std::lround(aspect * width)));
+    gap = std::max(1, static_cast<int>(kGap * width));
+    font = std::clamp(kFontSize * width, kSmallestFont,
+                      std::max(kSmallestFont, kLargestFont * sheet_width));
+    label = static_cast<int>(std::lround(kLabelHeight * font));
+    if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
   };
-  height = scaled(static_cast<double>(picture_height) / picture_width);
-  gap = scaled(kGap);
-  label = scaled(kLabelHeight);
-  if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
+  const auto square = static_cast<int>(std::ceil(std::sqrt(count * aspect * kSheetAspect)));
+  set_columns(std::min(square, std::max(1, sheet_width / kNarrow)));
+  while (sheet_height() > kHighest && columns < count) set_columns(columns + 1);
 }
 
-ContactSheet::ContactSheet(int count, int width, int height, const SheetLabel& heading)
+ContactSheet::ContactSheet(int count, int width, int height, int sheet_width,
+                           const SheetLabel& heading, const Ground& ground)
     : count_(count),
       width_(width),
       height_(height),
-      grid_(count, width, height, !heading.title.empty()),
+      grid_(count, width, height, sheet_width, !heading.title.empty()),
+      ground_(ground),
       sheet_(std::make_unique<CairoImage>(MakeImage(grid_.sheet_width(), grid_.sheet_height()))) {
+  SetBox(sheet_->context(), {0, 0}, {grid_.sheet_width(), grid_.sheet_height()});
+  Fill(sheet_->context(), ground_.paper);
   DrawHeading(heading);
 }
 
@@ -90,7 +107,7 @@ void ContactSheet::AddEmpty(const SheetLabel& label, const std::string& text) {
   cairo_t* cr = sheet_->context();
   SetBox(cr, corner, size);
   Fill(cr, kEmpty);
-  SelectFont(cr, kFontSize * grid_.width, /*bold=*/false);
+  SelectFont(cr, grid_.font, /*bold=*/false);
   const Eigen::Vector2d begin = CentredText(cr, text, corner + size / 2);
   SetColor(cr, kEmptyText);
   cairo_move_to(cr, begin.x(), begin.y());
@@ -101,7 +118,7 @@ void ContactSheet::DrawHeading(const SheetLabel& heading) {
   if (heading.title.empty()) return;
   cairo_t* cr = sheet_->context();
   const double most = grid_.sheet_width() - 2 * grid_.gap;
-  const double font = kHeadingFont * kFontSize / kLabelHeight * grid_.label;
+  const double font = kHeadingFont * grid_.font;
   SelectFont(cr, font, /*bold=*/true);
   const double fits = std::max(kSmallestShare, most / TextWidth(cr, heading.title));
   if (fits < 1) SelectFont(cr, fits * font, /*bold=*/true);
@@ -118,13 +135,15 @@ int ContactSheet::TakeCell(const SheetLabel& label) {
   const int x = grid_.x(added_);
   cairo_t* cr = sheet_->context();
   const double base = grid_.y(added_) + kBaseLine * grid_.label;
-  SelectFont(cr, kFontSize * grid_.width, /*bold=*/true);
-  SetColor(cr, kInk);
+  SelectFont(cr, grid_.font, /*bold=*/true);
+  SetColor(cr, ground_.ink);
   cairo_move_to(cr, x, base);
   cairo_show_text(cr, label.title.c_str());
   SetColor(cr, label.color);
-  cairo_move_to(cr, x + grid_.width - TextWidth(cr, label.verdict), base);
-  cairo_show_text(cr, label.verdict.c_str());
+  const double left = grid_.width - TextWidth(cr, label.title) - grid_.font;
+  const std::string verdict = Elide(cr, label.verdict, left);
+  cairo_move_to(cr, x + grid_.width - TextWidth(cr, verdict), base);
+  cairo_show_text(cr, verdict.c_str());
   return added_++;
 }
 

@@ -18,13 +18,21 @@ struct SheetLabel {
   bool framed = false;  ///< the picture has a thick frame in that colour
 };
 
+/// Of a contact sheet, pixels.
+inline constexpr int kSheetWidth = 1600;
+inline constexpr int kMinSheetWidth = 200;
+inline constexpr int kMaxSheetWidth = 10'000;
+
 /// Sides of a contact sheet's grid and of its cells, pixels.
 struct SheetGrid {
   int columns, rows, width, height, gap, label;
   int heading = 0;  ///< height of the line above all pictures
+  double font;      ///< of labels
 
+  /// @param sheet_width  the least that it is, where pictures are not enlarged.
   /// @throws std::invalid_argument  a number is not positive.
-  SheetGrid(int count, int picture_width, int picture_height, bool has_heading = false);
+  SheetGrid(int count, int picture_width, int picture_height, int sheet_width,
+            bool has_heading = false);
   [[nodiscard]] int sheet_width() const { return gap + columns * (width + gap); }
   [[nodiscard]] int sheet_height() const { return heading + gap + rows * (label + height + gap); }
   /// The top left corner of a cell.
@@ -37,14 +45,17 @@ struct SheetGrid {
 /// One image of many pictures in a grid, row by row, each with its label, below a
 /// heading: a sequence at a glance.
 ///
-/// The grid is about as wide as it is high; the more pictures, the smaller they are. Deterministic.
+/// The grid is about four thirds as wide as it is high. The more pictures, the smaller they are,
+/// but not so small that their labels could not be read: then it is higher. Deterministic.
 class ContactSheet {
  public:
   /// @param count          pictures to come, > 0.
   /// @param width, height  of the pictures, pixels.
+  /// @param sheet_width    of the sheet, pixels; less where the pictures are smaller.
   /// @param heading        a line above all pictures, in the label's colour; none where empty.
   /// @throws std::invalid_argument  a number is not positive.
-  ContactSheet(int count, int width, int height, const SheetLabel& heading = {});
+  ContactSheet(int count, int width, int height, int sheet_width = kSheetWidth,
+               const SheetLabel& heading = {}, const Ground& ground = {});
   ~ContactSheet();
 
   /// @throws std::invalid_argument  another size than announced, or more pictures.
@@ -64,6 +75,7 @@ class ContactSheet {
   int count_, width_, height_;
   int added_ = 0;
   SheetGrid grid_;
+  Ground ground_;
   std::unique_ptr<CairoImage> sheet_;
 };
 

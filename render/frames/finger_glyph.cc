@@ -58,8 +58,8 @@ void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes&
   const double size = glyph.force.norm();
   if (!(size > 0 && largest_force > 0)) return;
   const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
-  AddArrow(glyph.contact, glyph.contact + glyph.force / size * length, kForceRadius, kForceInk,
-           meshes, shapes);
+  AddArrow(glyph.contact, glyph.contact + glyph.force / size * length, kForceRadius,
+           glyph.force_color, meshes, shapes);
 }
 
 /// Dashes from a to b of a path on which `before` lies behind a: gaps and dashes take turns along

@@ -28,6 +28,7 @@ struct FingerGlyph {
   FingerIndex finger = {};
   plan::FingerRole role = plan::FingerRole::kHolding;
   Color color = kInk;
+  Color force_color = kForceInk;
   Eigen::Vector3d contact;
   Eigen::Vector3d outward;  ///< unit, against the contact's normal
   Eigen::Vector3d ball;

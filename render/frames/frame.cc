@@ -43,6 +43,7 @@ constexpr double kFocusRadius = 0.014;
 constexpr double kFocusLineRadius = 0.0020;
 constexpr double kRegionLineRadius = 0.0030;
 constexpr Color kFocus = {150, 30, 90};
+constexpr Color kBlack = {0, 0, 0};
 
 /// A contact of the replay is this near to the face that it is planned on, in diameters.
 constexpr double kFocusReach = 1e-2;
@@ -53,8 +54,16 @@ constexpr double kLabelSpace = 0.05;
 /// An object that moved farther than this (diameters) does not widen the picture.
 constexpr double kFarAway = 0.5;
 
-/// Above all that is drawn, of the image's height.
-constexpr double kHeadingMargin = 0.09;
+/// What stays free of the scene, in font sizes: all around, above it for a heading, and below it
+/// for a caption of two lines.
+constexpr double kMargin = 2.1;
+constexpr double kHeadingMargin = 3.75;
+constexpr double kCaptionMargin = 4.6;
+constexpr double kMostMargin = 0.25;  ///< of the image's height
+
+/// Of a frame's sides these shares stay, whatever is drawn: for captions and headings.
+constexpr double kNarrowest = 0.75;
+constexpr double kLowest = 0.35;
 
 constexpr int kMaxSupersampling = 4;
 
@@ -140,10 +149,19 @@ class Extent {
   std::vector<Vector3d> points_;
 };
 
+int EvenShare(double share, int side) { return 2 * static_cast<int>(share * side / 2); }
+
 void PaintRed(const std::vector<FingerIndex>& at_fault, std::vector<FingerGlyph>& fingers) {
   for (FingerGlyph& glyph : fingers) {
     if (std::ranges::find(at_fault, glyph.finger) != at_fault.end()) glyph.color = kFaultRed;
   }
+}
+
+Margins MarginsFor(const FrameOptions& options) {
+  const double font = FontSize(options.width, options.height) / options.height;
+  const auto margin = [&](double fonts) { return std::min(fonts * font, kMostMargin); };
+  return {margin(kMargin), margin(options.has_heading ? kHeadingMargin : kMargin),
+          margin(kCaptionMargin)};
 }
 
 bool IsNear(const Eigen::Isometry3d& pose) {
@@ -165,12 +183,17 @@ class FrameRenderer::Impl {
         planar_(object.dimension() == 2),
         meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
         largest_force_(LargestForce(snapshots)),
+        style_{FontSize(options.width, options.height), GroundOf(options.background)},
         camera_(MakeCamera(snapshots)),
-        canvas_(meshes_, options.width, options.height, options.supersampling) {}
+        canvas_(meshes_, camera_.width, camera_.height, options.supersampling) {}
+
+  [[nodiscard]] int width() const { return camera_.width; }
+  [[nodiscard]] int height() const { return camera_.height; }
 
   Image Render(const plan::Snapshot& snapshot, const std::string& caption,
                const FaultMarks* fault) {
     std::vector<FingerGlyph> fingers = GlyphsOf(snapshot);
+    for (FingerGlyph& glyph : fingers) glyph.force_color = style_.ground.force;
     if (fault != nullptr) PaintRed(fault->fingers, fingers);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing;
@@ -186,10 +209,14 @@ class FrameRenderer::Impl {
                            return pose.linear().transpose() * camera_.ToEye(pose * p);
                          }),
              pose, drawing.outline);
-    const Image image =
-        Annotate(canvas_.Draw(camera_, drawing), camera_, fingers, caption, frame_.diameter_m);
-    if (fault == nullptr) return image;
-    return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault);
+    const auto draw = [&](Color paper) {
+      const Image image = Annotate(canvas_.Draw(camera_, drawing, paper), camera_, fingers, caption,
+                                   frame_.diameter_m, style_);
+      if (fault == nullptr) return image;
+      return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault);
+    };
+    if (options_.background != Background::kTransparent) return draw(style_.ground.paper);
+    return MakeTransparent(draw(kWhite), draw(kBlack));
   }
 
  private:
@@ -231,8 +258,8 @@ class FrameRenderer::Impl {
 
   void AddRepresentatives(const plan::Snapshot& snapshot, std::vector<Shape>& shapes) const {
     for (const Vector3d& p : options_.clusters->representatives) {
-      shapes.push_back(
-          {Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius}, kInk});
+      shapes.push_back({Ball{frame_.FromWorld(snapshot.X_WO * (scale_ * p)), kRepresentativeRadius},
+                        style_.ground.ink});
     }
   }
 
@@ -240,7 +267,9 @@ class FrameRenderer::Impl {
                 std::vector<Shape>& shapes) const {
     const auto edges = static_cast<double>(body_.edges.size());
     const double radius = kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges));
-    for (const auto& [a, b] : lines) shapes.push_back({Line{pose * a, pose * b, radius}, kInk});
+    for (const auto& [a, b] : lines) {
+      shapes.push_back({Line{pose * a, pose * b, radius}, style_.ground.ink});
+    }
   }
 
   /// The contacts of the fingers that hold, where they are planned, on the object.
@@ -310,10 +339,13 @@ class FrameRenderer::Impl {
       }
     }
     const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
-    Margins margins;
-    if (options_.has_heading) margins.top = kHeadingMargin;
+    const Margins margins = MarginsFor(options_);
     Camera camera = FitCamera(axes, view.projection.value_or(usual), options_.width,
                               options_.height, margins, extent.points());
+    if (options_.crop) {
+      camera = Crop(camera, margins, extent.points(), EvenShare(kNarrowest, options_.width),
+                    EvenShare(kLowest, options_.height));
+    }
     camera.half_height /= view.zoom;
     return camera;
   }
@@ -339,6 +371,7 @@ class FrameRenderer::Impl {
   bool planar_;
   std::vector<FacetMesh> meshes_;
   double largest_force_;
+  TextStyle style_;
   Camera camera_;
   Canvas canvas_;
 };
@@ -352,6 +385,13 @@ FrameRenderer::FrameRenderer(const object::Object& object, double scale, double 
 FrameRenderer::FrameRenderer(const FrameRenderer& other)
     : impl_(std::make_unique<Impl>(*other.impl_)) {}
 FrameRenderer::~FrameRenderer() = default;
+
+Ground GroundOf(Background background) {
+  return background == Background::kDark ? kDarkGround : kWhiteGround;
+}
+
+int FrameRenderer::width() const { return impl_->width(); }
+int FrameRenderer::height() const { return impl_->height(); }
 
 Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption,
                             const FaultMarks* fault) {

@@ -13,12 +13,18 @@
 #include "render/frames/finger_glyph.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/image.h"
+#include "render/picture/palette.h"
 
 namespace regrasp::render {
 
 /// Sizes that frames may have, along either axis.
 inline constexpr int kMinFrameSide = 48;
 inline constexpr int kMaxFrameSide = 4096;
+
+/// What a frame stands on: white, dark with light text, or nothing (an alpha channel).
+enum class Background { kWhite, kDark, kTransparent };
+/// Of what is transparent it is the white one: so it is seen on the contact sheet and the page.
+[[nodiscard]] Ground GroundOf(Background background);
 
 struct FrameOptions {
   int width = 1280;
@@ -38,6 +44,9 @@ struct FrameOptions {
   bool show_focus = false;
   /// Of a solid: its surface in the colours of these clusters, and their representatives as dots.
   std::optional<roadmap::ClusterView> clusters = std::nullopt;
+  /// Frames are no larger than what is drawn in them: of the size above only one side is kept.
+  bool crop = false;
+  Background background = Background::kWhite;
 };
 
 /// Draws frames of a replay: the object translucent with creases and outline, fingers as a ball and
@@ -66,6 +75,10 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer& other);
   FrameRenderer& operator=(const FrameRenderer&) = delete;
   ~FrameRenderer();
+
+  /// Sides of every frame, pixels; even, and smaller than asked for where they are cropped.
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
 
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.
   /// @param fault    of a failed step: its fingers are red, and what is wrong is drawn.

@@ -54,8 +54,8 @@ void FillAndStroke(cairo_t* cr, Color fill, Color border, double width) {
   Stroke(cr, border, width);
 }
 
-void FillWithHalo(cairo_t* cr, Color color, double halo) {
-  SetColor(cr, kWhite);
+void FillWithHalo(cairo_t* cr, Color color, double halo, Color halo_color) {
+  SetColor(cr, halo_color);
   cairo_set_line_width(cr, halo);
   cairo_stroke_preserve(cr);
   Fill(cr, color);

@@ -11,8 +11,6 @@
 
 namespace regrasp::render {
 
-inline constexpr Color kWhite = {255, 255, 255};
-
 /// What Cairo made, destroyed with its holder.
 struct CairoDeleter {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -32,8 +30,8 @@ void SetCircle(cairo_t* cr, const Eigen::Vector2d& centre, double radius);
 void Fill(cairo_t* cr, Color color, double opacity = 1);
 void Stroke(cairo_t* cr, Color color, double width);
 void FillAndStroke(cairo_t* cr, Color fill, Color border, double width);
-/// Strokes it white and fills it.
-void FillWithHalo(cairo_t* cr, Color color, double halo);
+/// Strokes it in the halo's colour and fills it.
+void FillWithHalo(cairo_t* cr, Color color, double halo, Color halo_color = kWhite);
 
 /// Marks a point: a black dot with a white rim.
 void DrawDot(cairo_t* cr, const Eigen::Vector2d& at, double radius);

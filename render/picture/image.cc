@@ -43,16 +43,54 @@ Image Shrink(const Image& image, int factor) {
   return small;
 }
 
+Image MakeTransparent(Image on_white, const Image& on_black) {
+  if (on_white.width != on_black.width || on_white.height != on_black.height) {
+    throw std::invalid_argument("MakeTransparent: two sizes");
+  }
+  on_white.alpha.resize(on_white.rgb.size() / 3);
+  for (std::size_t i = 0; i < on_white.alpha.size(); ++i) {
+    // By how much white is brighter than black is the share of the ground, in every channel.
+    int ground = 255;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+      ground = std::min(ground, std::max(0, on_white.rgb[k] - on_black.rgb[k]));
+    }
+    on_white.alpha[i] = static_cast<unsigned char>(255 - ground);
+  }
+  return on_white;
+}
+
+namespace {
+
+/// Colours as PNG has them, without the white that shines through.
+std::vector<unsigned char> Interleave(const Image& image) {
+  std::vector<unsigned char> rgba;
+  rgba.reserve(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    const int alpha = image.alpha[i];
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+      const int own = alpha == 0 ? 0 : (255 * (image.rgb[k] - (255 - alpha)) + alpha / 2) / alpha;
+      rgba.push_back(static_cast<unsigned char>(std::clamp(own, 0, 255)));
+    }
+    rgba.push_back(image.alpha[i]);
+  }
+  return rgba;
+}
+
+}  // namespace
+
 std::string EncodePng(const Image& image) {
+  const bool opaque = image.alpha.empty();
+  const std::vector<unsigned char> rgba = opaque ? std::vector<unsigned char>() : Interleave(image);
   png_image header = {};
   header.version = PNG_IMAGE_VERSION;
   header.width = image.width;
   header.height = image.height;
-  header.format = PNG_FORMAT_RGB;
+  header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, /*convert_to_8bit=*/0,
-                                image.rgb.data(), /*row_stride=*/0, /*colormap=*/nullptr) == 0) {
+                                (opaque ? image.rgb : rgba).data(), /*row_stride=*/0,
+                                /*colormap=*/nullptr) == 0) {
     const std::string message = header.message;
     png_image_free(&header);
     throw EnvironmentError("PNG: " + message);

@@ -20,11 +20,24 @@ struct Color {
 /// apart in grey too.
 [[nodiscard]] Color FingerColor(FingerIndex finger);
 
+inline constexpr Color kWhite = {255, 255, 255};
 inline constexpr Color kInk = {34, 40, 52};  ///< edges of the object, text
 /// What is wrong, and what it should be, in pictures of a failure.
 inline constexpr Color kFaultRed = {214, 16, 32};
 inline constexpr Color kExpected = {0, 122, 61};
 inline constexpr Color kForceInk = {20, 24, 32};  ///< force arrows
+
+/// What frames stand on, and what can be seen on it.
+struct Ground {
+  Color paper = kWhite;
+  Color ink = kInk;
+  Color force = kForceInk;
+  Color halo = kWhite;  ///< around text and rings
+};
+inline constexpr Ground kWhiteGround = {};
+inline constexpr Ground kDarkGround = {
+    {27, 31, 39}, {216, 222, 232}, {244, 246, 250}, {27, 31, 39}};
+
 /// Clusters of contact points: pale, so that fingers stand out on them.
 inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},
                                                           {253, 205, 150},

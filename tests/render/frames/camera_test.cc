@@ -22,6 +22,33 @@ std::vector<Vector3d> RandomPoints(std::mt19937& random, int count) {
   return points;
 }
 
+TEST(CameraTest, CroppingTakesTheSameFromBothSidesAndChangesNothingElse) {
+  std::mt19937 random(5);
+  const Margins margins = {0.05, 0.04, 0.10};
+  int cropped = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Vector3d> points = RandomPoints(random, 12);
+    for (Vector3d& point : points) point.z() *= 0.1;
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+      const Camera whole =
+          FitCamera(CameraAxes(Vector3d(1, 0.2, 0.3)), projection, 801, 600, margins, points);
+      const Camera camera = Crop(whole, margins, points, 400, 300);
+      const Vector2d off((801 - camera.width) / 2.0, (600 - camera.height) / 2.0);
+      EXPECT_GE(camera.height, 300);
+      for (const Vector3d& point : points) {
+        const Vector2d p = camera.Project(point);
+        EXPECT_LT((p + off - whole.Project(point)).norm(), 1e-9);
+        EXPECT_GE(p.x(), 0.05 * 600 - 1e-6);
+        EXPECT_LE(p.x(), camera.width - 0.05 * 600 + 1e-6);
+        EXPECT_GE(p.y(), 0.04 * 600 - 1e-6);
+        EXPECT_LE(p.y(), camera.height - 0.10 * 600 + 1e-6);
+      }
+      cropped += camera.height < 600;
+    }
+  }
+  EXPECT_GT(cropped, 150);
+}
+
 TEST(CameraTest, AxesAreARightHandedFrameWithZUp) {
   std::mt19937 random(1);
   for (const Vector3d& back : RandomPoints(random, 50)) {

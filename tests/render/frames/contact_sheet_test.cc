@@ -31,7 +31,7 @@ TEST(ContactSheetTest, EveryPictureHasItsPlaceInTheGrid) {
   const Image image = sheet.ToImage();
   EXPECT_GT(image.width, image.height);  // three columns, two rows
   for (int i = 0; i < 5; ++i) {
-    EXPECT_GE(Count(image, 50 + 10 * i, 10, 10), 478 * 358) << i;  // 480 x 360 without its border
+    EXPECT_GE(Count(image, 50 + 10 * i, 10, 10), 490 * 367) << i;  // without their borders
   }
 }
 
@@ -54,19 +54,20 @@ TEST(ContactSheetTest, AFailureIsFramedAndWhatComesAfterItIsGrey) {
     return sheet.ToImage();
   };
   EXPECT_EQ(Count(draw(false), red.r, red.g, red.b), 0);
-  EXPECT_GT(Count(draw(true), red.r, red.g, red.b), 2 * 2 * (480 + 360));
-  EXPECT_GT(Count(draw(true), 238, 240, 244), 480 * 360 * 9 / 10);
+  EXPECT_GT(Count(draw(true), red.r, red.g, red.b), 2 * 2 * (320 + 240));
+  EXPECT_GT(Count(draw(true), 238, 240, 244), 320 * 240 * 9 / 10);
 }
 
 TEST(ContactSheetTest, TheHeadingStandsAboveAllPictures) {
   const Color green = {29, 107, 60};
   const Image plain = ContactSheet(4, 320, 240).ToImage();
-  const Image headed = ContactSheet(4, 320, 240, {"PASS", "", green}).ToImage();
+  const Image headed = ContactSheet(4, 320, 240, kSheetWidth, {"PASS", "", green}).ToImage();
   EXPECT_EQ(headed.width, plain.width);
   EXPECT_GT(headed.height, plain.height);
   EXPECT_GT(Count(headed, green.r, green.g, green.b), 20);
   // However long, it is not cut off: no ink at the right border.
-  const Image longer = ContactSheet(1, 320, 240, {std::string(300, 'm'), "", kInk}).ToImage();
+  const Image longer =
+      ContactSheet(1, 320, 240, kSheetWidth, {std::string(300, 'm'), "", kInk}).ToImage();
   for (int y = 0; y < longer.height; ++y) {
     EXPECT_EQ(longer.rgb[3 * (std::size_t(y + 1) * longer.width - 1)], 255);
   }
@@ -74,8 +75,37 @@ TEST(ContactSheetTest, TheHeadingStandsAboveAllPictures) {
 
 TEST(ContactSheetTest, ManyPicturesAreSmallSoThatTheSheetCanBeOpened) {
   const Image image = ContactSheet(1000, 1280, 960).ToImage();
-  EXPECT_LT(image.width, 6000);
-  EXPECT_LT(image.height, 6000);
+  EXPECT_LE(image.width, kSheetWidth);
+  EXPECT_LE(image.height, 12'000);
+  // Cairo's limit is 32767 pixels.
+  const SheetGrid most(20'000, 1280, 960, kSheetWidth);
+  EXPECT_LE(most.sheet_height(), 12'000);
+  EXPECT_LT(most.sheet_width(), 20'000);
+}
+
+TEST(ContactSheetTest, TheSheetIsAsWideAsAskedAndItsLabelsAreAsLarge) {
+  for (const int width : {400, 1600, 3200}) {
+    for (const int count : {1, 4, 9, 30}) {
+      const SheetGrid grid(count, 6400, 4800, width);
+      EXPECT_LE(grid.sheet_width(), width);
+      EXPECT_GT(grid.sheet_width(), 0.9 * width) << width << " " << count;
+      EXPECT_GE(grid.font, 11);
+    }
+  }
+  EXPECT_EQ(SheetGrid(1, 640, 480, 1600).width, 640);  // not enlarged
+  // Long pictures stand in fewer columns.
+  EXPECT_EQ(SheetGrid(4, 1280, 320, 1600).columns, 2);
+  EXPECT_EQ(SheetGrid(9, 1280, 320, 1600).columns, 2);
+  EXPECT_EQ(SheetGrid(9, 1280, 960, 1600).columns, 3);
+}
+
+TEST(ContactSheetTest, OnADarkGroundThereIsNoWhite) {
+  ContactSheet sheet(1, 320, 240, kSheetWidth, {"PASS", "", {29, 200, 60}}, kDarkGround);
+  sheet.Add(MakeFlat(320, 240, 50), {"1  switch", "pass", {29, 200, 60}});
+  const Image image = sheet.ToImage();
+  EXPECT_EQ(Count(image, 255, 255, 255), 0);
+  const Color paper = kDarkGround.paper;
+  EXPECT_GT(Count(image, paper.r, paper.g, paper.b), 320 * 20);
 }
 
 TEST(ContactSheetTest, PicturesThatWereNotAnnouncedAreRefused) {

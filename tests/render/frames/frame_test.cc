@@ -86,6 +86,89 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
   EXPECT_LT(static_cast<double>(difference) / small.rgb.size(), kMeanDifference);
 }
 
+/// A box ten times as long as it is wide, along x, held at its ends.
+struct LongScene {
+  object::Polyhedron box = MakeBox({0.3, 0.03, 0.03});
+  std::vector<plan::Snapshot> snapshots = {{}};
+};
+
+FrameOptions Cropped() {
+  FrameOptions options = Medium();
+  options.crop = true;
+  options.view.direction = ViewDirection{0, 0};
+  return options;
+}
+
+TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
+  const LongScene scene;
+  FrameOptions options = Cropped();
+  options.view.direction = ViewDirection{Radians(-90), 0};  // along the box's side
+  FrameRenderer renderer(scene.box, 1, kHalfAngle, scene.snapshots, options);
+  const Image cropped = renderer.Render(scene.snapshots[0]);
+  EXPECT_EQ(cropped.width, renderer.width());
+  EXPECT_EQ(cropped.height, renderer.height());
+  EXPECT_EQ(cropped.width, 640);
+  EXPECT_LT(cropped.height, 480 / 2);
+  EXPECT_EQ(cropped.height % 2, 0);
+  options.crop = false;
+  const Image whole = Draw(scene.box, scene.snapshots, 0, options);
+  const int off = (480 - cropped.height) / 2;
+  int ink = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const bool inside = y >= off && y < off + cropped.height;
+      // Text stands at the border.
+      if (y >= 480 - 100) continue;
+      const Color expected = PixelAt(whole, x, y);
+      ink += !IsWhite(expected);
+      if (!inside) {
+        EXPECT_TRUE(IsWhite(expected)) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_GT(ink, 1000);
+}
+
+TEST(FrameTest, WhatFillsTheFrameIsNotCropped) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  FrameRenderer renderer(cube, 1, kHalfAngle, MakeCubeSequence(), Cropped());
+  EXPECT_EQ(renderer.height(), 480);
+  EXPECT_GE(renderer.width(), 480);
+}
+
+TEST(FrameTest, OnADarkGroundThereIsNoWhiteAndTextIsLight) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  FrameOptions options = Medium();
+  options.background = Background::kDark;
+  const Image dark = Draw(cube, MakeCubeSequence(), 1, options, "caption");
+  const Color paper = kDarkGround.paper;
+  for (const int x : {0, 639}) {
+    EXPECT_EQ(PixelAt(dark, x, 0).r, paper.r);
+    EXPECT_EQ(PixelAt(dark, x, 0).b, paper.b);
+  }
+  int light = 0;
+  for (int x = 10; x < 200; ++x) {
+    for (int y = 440; y < 475; ++y) light += PixelAt(dark, x, y).g > 150;
+  }
+  EXPECT_GT(light, 20);
+}
+
+TEST(FrameTest, WhatIsTransparentIsTheSameOnWhite) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  FrameOptions options = Medium();
+  const Image white = Draw(cube, MakeCubeSequence(), 1, options, "caption");
+  EXPECT_TRUE(white.alpha.empty());
+  options.background = Background::kTransparent;
+  const Image clear = Draw(cube, MakeCubeSequence(), 1, options, "caption");
+  EXPECT_EQ(clear.rgb, white.rgb);
+  ASSERT_EQ(clear.alpha.size(), std::size_t{640} * 480);
+  EXPECT_EQ(clear.alpha[0], 0);
+  EXPECT_EQ(std::ranges::count_if(clear.alpha, [](int a) { return a == 0; }) > 640 * 480 / 3, true);
+  // Balls and text are opaque, the body is not.
+  EXPECT_GT(std::ranges::count(clear.alpha, 255), 1000);
+  EXPECT_GT(std::ranges::count_if(clear.alpha, [](int a) { return a > 60 && a < 200; }), 5000);
+}
+
 TEST(FrameTest, RejectsSizesOutOfRange) {
   const object::Polyhedron cube = MakeCube(0.03);
   EXPECT_THROW(Draw(cube, MakeCubeSequence(), 0, {47, 480, 1}), std::invalid_argument);

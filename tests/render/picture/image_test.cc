@@ -40,6 +40,30 @@ TEST(ImageTest, ComesBackFromPngUnchanged) {
   std::filesystem::remove(path);
 }
 
+TEST(ImageTest, TransparencyComesFromTheSameDrawingOnWhiteAndOnBlack) {
+  // Left: half of the colour (200, 100, 0). Right: opaque.
+  Image white = MakeImage(3, 1);
+  white.rgb = {227, 177, 127, 10, 20, 30, 255, 255, 255};
+  Image black = MakeImage(3, 1);
+  black.rgb = {100, 50, 0, 10, 20, 30, 0, 0, 0};
+  const Image image = MakeTransparent(white, black);
+  EXPECT_EQ(image.alpha, (std::vector<unsigned char>{128, 255, 0}));
+  const std::string bytes = EncodePng(image);
+  png_image header = {};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()), 0);
+  EXPECT_EQ(header.format, PNG_FORMAT_RGBA);
+  std::vector<unsigned char> rgba(PNG_IMAGE_SIZE(header));
+  ASSERT_NE(png_image_finish_read(&header, nullptr, rgba.data(), 0, nullptr), 0);
+  EXPECT_NEAR(rgba[0], 200, 2);
+  EXPECT_NEAR(rgba[1], 100, 2);
+  EXPECT_NEAR(rgba[2], 0, 2);
+  EXPECT_EQ(rgba[3], 128);
+  EXPECT_EQ((std::vector<unsigned char>(rgba.begin() + 4, rgba.end())),
+            (std::vector<unsigned char>{10, 20, 30, 255, 0, 0, 0, 0}));
+  EXPECT_THROW(MakeTransparent(white, MakeImage(1, 3)), std::invalid_argument);
+}
+
 TEST(ImageTest, CannotBeWrittenIntoAFolderThatIsNotThere) {
   EXPECT_THROW(WritePng(TestFile("regrasp_no_such_folder/image.png"), MakeImage(8, 8)),
                EnvironmentError);
