@@ -310,6 +310,7 @@ void ValidateOptions::Finish(const CLI::App& app) {
     if (!for_grasp()) plan_path = plans.front();
   }
   if (!animates()) refuse({kAnimateSize}, "goes with --animate or --video");
+  animation_crop = frame.crop && animation_width == 0;
   if (animation_width == 0) {
     animation_width = std::max(render::kMinFrameSide, frame.width / 2);
     animation_height = std::max(render::kMinFrameSide, frame.height / 2);

@@ -42,6 +42,7 @@ struct ValidateOptions {
   render::FrameOptions frame;
   int animation_width = 0;  ///< pixels; after Finish those of --animate-size, or half of --size
   int animation_height = 0;
+  bool animation_crop = false;
   std::string video;
   int workers;  ///< threads that draw pictures
   int sheet_width = render::kSheetWidth;

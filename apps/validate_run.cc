@@ -254,6 +254,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
                             const std::filesystem::path& folder, report::Report& report) {
   frame.width = options.animation_width;
   frame.height = options.animation_height;
+  frame.crop = options.animation_crop;
   std::vector<MovingFile> files;
   if (options.animate) files.push_back({folder / kAnimationName, render::MovingFormat::kWebp});
   if (!options.video.empty()) {

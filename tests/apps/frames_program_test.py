@@ -1,6 +1,7 @@
 """How frames of `validate` look: where they are taken from, edges, true fingers."""
 
 import os
+import struct
 
 import program_case
 from program_case import ProgramCase
@@ -37,6 +38,36 @@ class Frames(ProgramCase):
         self.assertEqual(self.draw("--edges", "all", out="all"), self.draw("--edges", "crease"))
         self.assertNotEqual(self.draw("--crease-angle", "91", out="smooth"), self.draw())
 
+    def size_of(self, path):
+        """Width and height of a PNG file, and whether it has an alpha channel."""
+        header = self.read(path)[16:26]
+        return struct.unpack(">II", header[:8]) + (header[9] == 6,)
+
+    def test_without_a_size_frames_are_cropped_to_what_is_drawn(self):
+        files = ["--object", self.model("cube.obj"), "--plan", "plan.json", "--out"]
+        self.assert_done(*files, "cropped", "--view", "0,0")
+        width, height, _ = self.size_of("cropped/000_hold.png")
+        self.assertLess(width, 1280)
+        self.assertEqual(height, 960)
+        self.assert_done(*files, "whole", "--size", "1280x960", "--view", "0,0")
+        self.assertEqual(self.size_of("whole/000_hold.png"), (1280, 960, False))
+
+    def test_the_sheet_has_the_width_that_is_asked_for(self):
+        for width in (300, 600):
+            self.draw("--sheet-width", str(width))
+            found, _, _ = self.size_of("result/overview.png")
+            self.assertTrue(0.95 * width <= found <= width, found)
+
+    def test_frames_stand_on_what_is_asked_for(self):
+        usual = self.draw(out="usual")
+        dark = self.draw("--background", "dark", out="dark")
+        clear = self.draw("--background", "transparent", out="clear")
+        for name in usual:
+            self.assertNotEqual(dark[name], usual[name], name)
+            self.assertEqual(self.size_of(f"clear/{name}")[2], name != "overview.png", name)
+            self.assertFalse(self.size_of(f"usual/{name}")[2])
+        self.assertEqual(clear["overview.png"], usual["overview.png"])
+
     def test_a_whole_turn_is_no_turn(self):
         self.assertEqual(self.draw("--view=-330,20", out="a"), self.draw("--view", "30,20"))
 
@@ -46,6 +77,8 @@ class Frames(ProgramCase):
                                (["--view", "30,91"], ["--view", "91"]),
                                (["--view", "a,b"], ["--view", "a"]),
                                (["--zoom", "0"], ["--zoom", "0"]),
+                               (["--background", "blue"], ["--background", "blue"]),
+                               (["--sheet-width", "10"], ["--sheet-width", "10"]),
                                (["--edges", "some"], ["--edges", "some"]),
                                (["--crease-angle", "181"], ["--crease-angle", "181"])):
             with self.subTest(options=options):
