@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/frames/annotation.h"
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
 
@@ -18,12 +19,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Shares of the image's height.
-constexpr double kFontSize = 0.024;
-constexpr double kMargin = 0.032;
-constexpr double kSmallestFont = 7;  ///< pixels
-
 // In font sizes.
+constexpr double kMargin = 1.33;
 constexpr double kLineWidth = 0.11;
 constexpr double kTick = 0.42;
 constexpr double kHalo = 0.32;
@@ -57,12 +54,14 @@ struct Box {
 
 class Overlay {
  public:
-  Overlay(const Image& image, const Camera& camera, const PictureFrame& frame)
+  Overlay(const Image& image, const Camera& camera, const PictureFrame& frame,
+          const TextStyle& style)
       : page_(image),
         cr_(page_.context()),
         camera_(camera),
         frame_(frame),
-        font_(std::max(kSmallestFont, kFontSize * image.height)) {
+        style_(style),
+        font_(std::max(kSmallestFont, style.font)) {
     cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr_, CAIRO_LINE_CAP_ROUND);
   }
@@ -89,7 +88,7 @@ class Overlay {
     const double radius = glyph.ball_radius * camera_.PixelsPerUnit(glyph.ball) + kRingGap * font_;
     for (const bool white : {true, false}) {
       SetCircle(cr_, camera_.Project(glyph.ball), radius);
-      Stroke(cr_, white ? kWhite : kFaultRed, (white ? 2.6 : 1.4) * kLineWidth * font_);
+      Stroke(cr_, white ? style_.ground.halo : kFaultRed, (white ? 2.6 : 1.4) * kLineWidth * font_);
     }
   }
 
@@ -208,8 +207,8 @@ class Overlay {
 
   /// At the top left, in as many lines as it takes.
   void DrawHeading(const std::string& text) {
-    if (kFontSize * camera_.height < kSmallestFont) return;
-    const double margin = kMargin * camera_.height;
+    if (style_.font < kSmallestFont) return;
+    const double margin = kMargin * font_;
     SelectFont(cr_, font_, /*bold=*/true);
     base_ = margin;
     for (const std::string& line : Wrap(text, camera_.width - 2 * margin)) {
@@ -221,7 +220,7 @@ class Overlay {
 
   /// Under the heading: a finger at fault that is not in the picture.
   void DrawAbsent(FingerIndex finger) {
-    const double margin = kMargin * camera_.height;
+    const double margin = kMargin * font_;
     const double radius = kAbsentRadius * font_;
     base_ += 0.4 * font_ + radius;
     const Vector2d centre(margin + radius, base_);
@@ -276,7 +275,7 @@ class Overlay {
   void Text(const Vector2d& at, const std::string& text) {
     cairo_move_to(cr_, at.x(), at.y());
     cairo_text_path(cr_, text.c_str());
-    FillWithHalo(cr_, kFaultRed, kHalo * font_);
+    FillWithHalo(cr_, kFaultRed, kHalo * font_, style_.ground.halo);
   }
 
   void Label(const Vector2d& at, const std::string& text, Color color, double gap = 0) {
@@ -289,7 +288,7 @@ class Overlay {
   }
 
   void Line(const Vector2d& a, const Vector2d& b, bool halo) {
-    SetColor(cr_, halo ? kWhite : kFaultRed);
+    SetColor(cr_, halo ? style_.ground.halo : kFaultRed);
     StrokeLine(cr_, a, b, (halo ? 2.6 : 1.2) * kLineWidth * font_);
   }
 
@@ -328,7 +327,7 @@ class Overlay {
     for (Vector2d& p : scaled) p /= scale;
     cairo_save(cr_);
     cairo_scale(cr_, scale, scale);
-    SetColor(cr_, kWhite);
+    SetColor(cr_, style_.ground.halo);
     StrokeArrow(cr_, scaled, 1.9);
     SetColor(cr_, color);
     StrokeArrow(cr_, scaled, 1);
@@ -364,7 +363,7 @@ class Overlay {
     }
     cairo_move_to(cr_, best.x() - half.x(), best.y() + 0.36 * font_);
     cairo_text_path(cr_, text.c_str());
-    FillWithHalo(cr_, color, kHalo * font_);
+    FillWithHalo(cr_, color, kHalo * font_, style_.ground.halo);
     taken_.push_back({best - half, best + half});
   }
 
@@ -384,6 +383,7 @@ class Overlay {
   cairo_t* cr_;
   const Camera& camera_;
   const PictureFrame& frame_;
+  const TextStyle& style_;
   double font_;
   std::vector<Vector2d> busy_;  ///< what texts should not cover
   std::vector<Box> taken_;      ///< by texts
@@ -395,8 +395,8 @@ class Overlay {
 
 Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFrame& frame,
                      const BodyShape& body, std::span<const FingerGlyph> fingers,
-                     const FaultMarks& marks) {
-  Overlay overlay(image, camera, frame);
+                     const FaultMarks& marks, const TextStyle& style) {
+  Overlay overlay(image, camera, frame, style);
   overlay.Avoid(fingers);
   if (marks.X_WO_before) overlay.DrawGhost(body, *marks.X_WO_before, marks.ghost_text);
   for (const FingerGlyph& glyph : fingers) {

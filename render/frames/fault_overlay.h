@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/fault_picture.h"
@@ -16,6 +17,7 @@ namespace regrasp::render {
 /// @param fingers  as they are drawn: texts keep clear of them.
 [[nodiscard]] Image DrawFaultMarks(const Image& image, const Camera& camera,
                                    const PictureFrame& frame, const BodyShape& body,
-                                   std::span<const FingerGlyph> fingers, const FaultMarks& marks);
+                                   std::span<const FingerGlyph> fingers, const FaultMarks& marks,
+                                   const TextStyle& style);
 
 }  // namespace regrasp::render

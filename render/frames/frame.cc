@@ -213,7 +213,7 @@ class FrameRenderer::Impl {
       const Image image = Annotate(canvas_.Draw(camera_, drawing, paper), camera_, fingers, caption,
                                    frame_.diameter_m, style_);
       if (fault == nullptr) return image;
-      return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault);
+      return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault, style_);
     };
     if (options_.background != Background::kTransparent) return draw(style_.ground.paper);
     return MakeTransparent(draw(kWhite), draw(kBlack));
