@@ -77,9 +77,11 @@ std::string ZshCompletion(const CLI::App& app) {
 std::string FishCompletion(const CLI::App& app) {
   std::string text;
   for (const OptionHelp& option : AllOptions(app)) {
-    text += "complete -c " + app.get_name() + " -f -l " + option.name.substr(2);
+    // Without files or with them: fish refuses both at once.
+    const bool files = TakesFile(option) || TakesFolder(option);
+    text +=
+        "complete -c " + app.get_name() + (files ? " -F -l " : " -f -l ") + option.name.substr(2);
     if (!option.type.empty()) text += " -r";
-    if (TakesFile(option) || TakesFolder(option)) text += " -F";
     if (!option.choices.empty()) text += " -a '" + Join(option.choices) + "'";
     text += " -d '" + Summary(option) + "'\n";
   }

@@ -33,9 +33,8 @@ void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
 std::vector<Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
                                   std::span<const LabelAnchor> anchors,
                                   std::span<const Obstacle> obstacles, const Vector2d& panel) {
-  std::vector<Vector2d> centres =
-      PlaceLabels(anchors, obstacles, kNumberRadius, static_cast<int>(panel.x()),
-                  static_cast<int>(panel.y()));
+  std::vector<Vector2d> centres = PlaceLabels(
+      anchors, obstacles, kNumberRadius, static_cast<int>(panel.x()), static_cast<int>(panel.y()));
   for (std::size_t i = 0; i < names.size(); ++i) DrawLeader(cr, centres[i], anchors[i].Owner());
   for (std::size_t i = 0; i < names.size(); ++i) DrawMark(cr, names[i], centres[i]);
   return centres;

@@ -76,6 +76,15 @@ class Help(ProgramCase):
                     word = "-l " + option[2:] + " " if kind == "fish" else option
                     self.assertIn(word, text, kind)
 
+    def test_fish_is_never_told_to_complete_files_and_not_to(self):
+        offered = 0
+        for program in PROGRAMS:
+            for line in self.help_as("fish", program).splitlines():
+                words = line.split(" -d ")[0].split()
+                self.assertEqual(("-f" in words) + ("-F" in words), 1, line)
+                offered += "-F" in words
+        self.assertGreater(offered, len(PROGRAMS))
+
     def test_bash_completes_options_and_their_words(self):
         def complete(program, *words):
             script = self.help_as("bash", program) + (

@@ -39,13 +39,15 @@ TEST(ScaleBar, IsARoundLengthOfAtMostAQuarterOfThePanel) {
 
 TEST(ScaleBar, IsAsLongOnThePageAsItSays) {
   for (const double points_per_metre : {700.0, 1000.0, 1500.0}) {
-    const double drawn =
-        InkWidthBelow(-1000, [&](cairo_t* cr) { DrawScaleBar(cr, {240, 100}, points_per_metre); });
+    const double drawn = InkWidthBelow(-1000, [&](cairo_t* cr) {
+      DrawScaleBar(cr, {240, 100}, points_per_metre);
+    });
     const double told = ScaleBarLength(240, points_per_metre) * points_per_metre;
     EXPECT_NEAR(drawn, told, kSlack);
     // Negative control: a bar for another scale is not.
-    EXPECT_GT(std::abs(drawn - ScaleBarLength(240, 1.2 * points_per_metre) * points_per_metre / 1.2),
-              kSlack);
+    EXPECT_GT(
+        std::abs(drawn - ScaleBarLength(240, 1.2 * points_per_metre) * points_per_metre / 1.2),
+        kSlack);
   }
 }
 
@@ -58,8 +60,7 @@ TEST(ScaleBar, OfAPlanarFigureFitsTheObjectBesideIt) {
   for (const double metres_per_unit : {1.0, 0.001, 0.0254}) {
     const PlanPanels panels(square, diagrams, metres_per_unit);
     EXPECT_DOUBLE_EQ(panels.HeightFor(width), view.height + kScaleBarSpace);
-    const double bar =
-        InkWidthBelow(view.height, [&](cairo_t* cr) { panels.Draw(cr, 0, width); });
+    const double bar = InkWidthBelow(view.height, [&](cairo_t* cr) { panels.Draw(cr, 0, width); });
     const double points_per_metre = side / (0.1 * metres_per_unit);
     EXPECT_NEAR(bar, ScaleBarLength(width, points_per_metre) * points_per_metre, kSlack);
     EXPECT_GT(bar, 0.09 * width);
