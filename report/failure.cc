@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/object/object.h"
+#include "planner/plan/locate.h"
 
 namespace regrasp::report {
 
@@ -21,12 +22,21 @@ constexpr double kMuSteps = 1000;
 
 double RoundUp(double value, double steps) { return std::ceil(value * steps) / steps; }
 
+double AskedDegrees(const grasp::RequiredHalfAngle& required) {
+  return RoundUp(Degrees(required.upper), kDegreeSteps);
+}
+
+/// " 7.34" where an angle is known that serves.
+std::string DegreesAsked(const ReportStep& step) {
+  return step.check.required ? " " + FormatShort(AskedDegrees(*step.check.required)) : "";
+}
+
 std::string MendFriction(const ReportStep& step) {
   const std::string other =
       "plan for more to spare (plan --optimize margin, or plan at less "
       "friction than is checked)";
   if (!step.check.required) return "other contacts, as no friction is sure to be enough: " + other;
-  const double degrees = RoundUp(Degrees(step.check.required->upper), kDegreeSteps);
+  const double degrees = AskedDegrees(*step.check.required);
   const double mu = RoundUp(std::tan(Radians(degrees)), kMuSteps);
   return "fingertips with more friction (--friction-angle " + FormatShort(degrees) + " or --mu " +
          FormatShort(mu) + "; to stand the shake may take a little more), or " + other;
@@ -65,13 +75,19 @@ std::string MendReach(const plan::Fault& fault) {
   return "contacts that a finger reaches from outside, farther from concave corners";
 }
 
+/// ": (0, 0.6, -0.8)"
+std::string NormalText(const ReportStep& step, const Report& report) {
+  const grasp::Grasp& expected = step.fault().expected;
+  return expected.empty() ? "" : ": " + plan::VectorText(expected.front().n, report.dimension);
+}
+
 std::string MendOf(const ReportStep& step, const Report& report) {
   switch (step.reason()) {
     case Reason::kOffSurface:
       return "a point on the surface; where many are off, this is not the object that the plan was "
              "made for, or not in its unit of length: plan again for this file";
     case Reason::kWrongNormal:
-      return "the inward normal of the face there, of length 1";
+      return "the inward normal of the face there, of length 1" + NormalText(step, report);
     case Reason::kFingerNotFree:
       return "another finger, or a step before that releases this one";
     case Reason::kFingerNotHolding:
@@ -87,9 +103,9 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kNotForceClosure:
       return MendFriction(step);
     case Reason::kNotProved:
-      return "a little more friction (--friction-angle), waypoints in between, or "
-             "--allow-undecided "
-             "where the pieces without a proof are few";
+      return "a little more friction (--friction-angle" + DegreesAsked(step) +
+             "), waypoints in between, or --allow-undecided where the pieces without a proof are "
+             "few";
     case Reason::kUnreachable:
       return MendReach(step.fault());
     case Reason::kSimulationUnstable:
@@ -167,7 +183,7 @@ std::string RuleOf(Reason reason, const Report& report) {
 std::string WhyOf(const ReportStep& step, const Report& report) {
   const bool caused = step.disagreement && step.disagreement->between == sim::Between::kReplayFails;
   return RuleOf(step.reason(), report) +
-         (caused ? "; likely cause: " + step.disagreement->text : "");
+         (caused ? "; " + sim::LikelyCauseText(*step.disagreement) : "");
 }
 
 }  // namespace

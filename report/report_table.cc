@@ -90,8 +90,8 @@ std::string FormatCauses(const Report& report) {
   std::string text;
   for (const ReportStep& step : report.steps) {
     if (!step.disagreement || step.disagreement->between != sim::Between::kFixedFails) continue;
-    text += "step " + std::to_string(step.check.index) +
-            ": a fixed squeeze fails, likely cause: " + step.disagreement->text + "\n";
+    text += "step " + std::to_string(step.check.index) + ": a fixed squeeze fails, " +
+            sim::LikelyCauseText(*step.disagreement) + "\n";
   }
   return text;
 }

@@ -37,14 +37,24 @@ LengthUnit UnitOfLength(double metres, int digits) {
   return UnitOf<LengthUnit>(metres, digits, kLengths, &LengthUnit::metres);
 }
 
+std::string FormatPlain(double value, int digits) {
+  constexpr double kLargest = 1e6;
+  // What rounds up to one more digit has it already.
+  if (!(std::abs(value) >= std::pow(10.0, digits) - 0.5) || std::abs(value) >= kLargest) {
+    return FormatShort(value, digits);
+  }
+  const double place = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
+  return FormatFixed(std::round(value / place) * place, 0);
+}
+
 std::string FormatLength(double metres, int digits) {
   const LengthUnit unit = UnitOfLength(metres, digits);
-  return FormatShort(metres / unit.metres, digits) + " " + unit.name;
+  return FormatPlain(metres / unit.metres, digits) + " " + unit.name;
 }
 
 std::string FormatMass(double kg, int digits) {
   const MassUnit unit = UnitOf<MassUnit>(kg, digits, kMasses, &MassUnit::kg);
-  return FormatShort(kg / unit.kg, digits) + " " + unit.name;
+  return FormatPlain(kg / unit.kg, digits) + " " + unit.name;
 }
 
 std::string FormatDegrees(double degrees) { return FormatFixed(degrees, kAngleDecimals) + "°"; }

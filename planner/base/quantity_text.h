@@ -4,6 +4,9 @@
 
 namespace regrasp {
 
+/// A number for people: `digits` significant ones, and no power of ten below a million.
+[[nodiscard]] std::string FormatPlain(double value, int digits);
+
 /// A length for people, in the unit that suits it: "4.12 mm", "10.4 cm", "1 m", "300 µm"; `digits`
 /// significant ones.
 [[nodiscard]] std::string FormatLength(double metres, int digits = 3);

@@ -44,14 +44,25 @@ Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, doubl
   return fault;
 }
 
+/// ": finger 2 is elsewhere", ": fingers 0, 2 are elsewhere".
+std::string ElsewhereText(const Fault& fault) {
+  std::string list;
+  for (const FingerIndex finger : fault.fingers) {
+    list += (list.empty() ? "" : ", ") + std::to_string(finger);
+  }
+  if (list.empty()) return "";
+  return fault.fingers.size() == 1 ? ": finger " + list + " is elsewhere"
+                                   : ": fingers " + list + " are elsewhere";
+}
+
 /// start-differs and goal-not-reached are the last reasons of the order: they are looked for only
 /// where an entry has no other fault, so that grasps are no larger than a hand.
 void CheckStart(const CheckContext& context, const CheckOptions& options, StepCheck& hold) {
   if (!Passed(hold) || options.start == nullptr) return;
   if (AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) return;
   hold.reason = Reason::kStartDiffers;
-  hold.detail = "the initial grasp is not the given start grasp";
   hold.fault = CompareGrasps(context.plan.initial, *options.start, context.tolerance());
+  hold.detail = "the initial grasp is not the given start grasp" + ElsewhereText(hold.fault);
 }
 
 void CheckGoal(const CheckContext& context, const CheckOptions& options, const FingerGrasp& end,
@@ -59,13 +70,13 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   if (!Passed(last)) return;
   if (!AreSameGrasp(ContactsOf(end), context.plan.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
-    last.detail = "the last contacts are not those of the plan's goal";
     last.fault = CompareGrasps(end, context.plan.goal, context.tolerance());
+    last.detail = "the last contacts are not those of the plan's goal" + ElsewhereText(last.fault);
   } else if (options.goal != nullptr &&
              !AreSameGrasp(context.plan.goal, *options.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
-    last.detail = "the plan's goal is not the given goal grasp";
     last.fault = CompareGrasps(end, *options.goal, context.tolerance());
+    last.detail = "the plan's goal is not the given goal grasp" + ElsewhereText(last.fault);
   }
 }
 

@@ -70,8 +70,8 @@ void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int wayp
                        StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
-            At(waypoint, finger) + " is none of a hand of " + std::to_string(context.plan.fingers) +
-                ", numbered from 0",
+            At(waypoint, finger) + " does not exist: the hand has " +
+                std::to_string(context.plan.fingers) + ", numbered from 0",
             FaultOf(finger, waypoint));
 }
 
@@ -242,7 +242,7 @@ void CheckMotions(const CheckContext& context, const Align& step, StepFault& fau
       const FingerContact* to = FindFinger(step.waypoints[w + 1], from.finger);
       if (const auto wrong = FindMotionFault(context.object, from.contact, to->contact)) {
         const auto index = static_cast<int>(w);
-        fault.Add(Reason::kLeavesFace, "from " + At(index, from.finger) + " " + *wrong,
+        fault.Add(Reason::kLeavesFace, "on the way to " + At(index + 1, from.finger) + " " + *wrong,
                   Misplaced(from.finger, index + 1, to->contact, from.contact));
       }
     }
@@ -369,8 +369,8 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   CheckCoincidence(context, after, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    IncludeRest(context, before, "the grasp before", check, fault);
-    IncludeRest(context, after, "the grasp after", check, fault);
+    IncludeRest(context, before, "the grasp before the step", check, fault);
+    IncludeRest(context, after, "the grasp after the step", check, fault);
     AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }
   return Finish(check, fault);
@@ -393,8 +393,8 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    IncludeRest(context, step.waypoints.front(), "the grasp before", check, fault);
-    IncludeRest(context, step.waypoints.back(), "the grasp after", check, fault);
+    IncludeRest(context, step.waypoints.front(), "the grasp before the step", check, fault);
+    IncludeRest(context, step.waypoints.back(), "the grasp after the step", check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
       IncludeMotion(context, step, static_cast<int>(w), check, fault);
     }

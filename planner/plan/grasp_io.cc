@@ -41,7 +41,11 @@ grasp::Contact ReadOnObject(const JsonReader& json, const object::Object& object
   if (located.reason == Reason::kOffSurface) {
     json.Member("point").Fail(OffSurfaceText(object, located.contact.p));
   }
-  if (located.reason != Reason::kNone) json.Member("normal").Fail(located.detail);
+  if (located.reason != Reason::kNone) {
+    const grasp::Contact nearest = NearestContact(object, located.contact);
+    json.Member("normal").Fail(located.detail + "; the inward one is " +
+                               VectorText(nearest.n, object.dimension()));
+  }
   return located.contact;
 }
 

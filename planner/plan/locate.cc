@@ -26,13 +26,6 @@ bool IsUnit(const Eigen::Vector3d& normal) {
   return std::abs(normal.norm() - 1) <= kNormalLengthTolerance;
 }
 
-/// "(0, 0.6, -0.8)"; of a planar object two numbers.
-std::string VectorText(const Eigen::Vector3d& v, int dimension) {
-  std::string text = "(";
-  for (int k = 0; k < dimension; ++k) text += (k == 0 ? "" : ", ") + FormatShort(v[k]);
-  return text + ")";
-}
-
 /// Angles between the contact's normal and those of faces near it, nearest first.
 std::vector<std::pair<double, FaceIndex>> RankFaces(const std::vector<FaceIndex>& faces,
                                                     const object::Object& object,
@@ -52,6 +45,12 @@ grasp::Contact Project(const object::Object& object, const grasp::Contact& conta
 
 }  // namespace
 
+std::string VectorText(const Eigen::Vector3d& v, int dimension) {
+  std::string text = "(";
+  for (int k = 0; k < dimension; ++k) text += (k == 0 ? "" : ", ") + FormatShort(v[k]);
+  return text + ")";
+}
+
 LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
   LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
   const double tolerance = object::kPointTolerance * object.diameter();
@@ -69,8 +68,7 @@ LocatedContact LocateContact(const object::Object& object, const grasp::Contact&
   if (!(least <= kNormalTolerance)) {
     located.reason = Reason::kWrongNormal;
     located.detail = "the normal differs by " + FormatDegrees(Degrees(least)) +
-                     " from the inward normal of face " + std::to_string(nearest) + ", " +
-                     VectorText(object.inward_normal(nearest), object.dimension());
+                     " from the inward normal of face " + std::to_string(nearest);
     return located;
   }
   located.contact = Project(object, contact, nearest);

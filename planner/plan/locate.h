@@ -9,6 +9,9 @@
 
 namespace regrasp::plan {
 
+/// A normal for people: "(0, 0.6, -0.8)"; of a planar object two numbers.
+[[nodiscard]] std::string VectorText(const Eigen::Vector3d& v, int dimension);
+
 /// A contact as a file gives it, placed on the object.
 struct LocatedContact {
   /// The point projected onto its face, the face's own normal, and the face; as given and with face

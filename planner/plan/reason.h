@@ -61,11 +61,8 @@ struct Fault {
   std::optional<double> required = std::nullopt;
   std::optional<double> half_angle = std::nullopt;
   std::optional<FaultPush> push = std::nullopt;  ///< that a replay failed under
-  /// Where the object was at the start of the step that moved it, and how far it moved and turned
-  /// at most, metres and radians.
+  /// Where the object was at the start of a step that fails in the replay.
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
-  double moved_m = 0;
-  double turned = 0;
 };
 
 }  // namespace regrasp::plan

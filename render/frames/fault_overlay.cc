@@ -195,12 +195,13 @@ class Overlay {
     }
     if (!(push.torque_Nm.norm() > 0)) return;
     const auto [u, v] = Across(push.torque_Nm.normalized());
-    std::vector<Vector2d> arc;
-    for (int i = 0; i <= kRimPoints * 3 / 4; ++i) {
+    std::vector<Vector2d> rim;
+    for (int i = 0; i < kRimPoints; ++i) {
       const double turn = 2 * std::numbers::pi * i / kRimPoints;
-      arc.push_back(
+      rim.push_back(
           Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
     }
+    const std::vector<Vector2d> arc = FreestArc(rim);
     ArrowAlong(arc, kPush, 3);
     Label(arc.front(), push.name, kPush);
   }
@@ -253,6 +254,25 @@ class Overlay {
     double gap;
   };
 
+  /// Three quarters of a rim, those that cross least of what is there.
+  [[nodiscard]] std::vector<Vector2d> FreestArc(std::vector<Vector2d> rim) const {
+    constexpr int kStarts = 8;
+    std::vector<Vector2d> best;
+    long least = std::numeric_limits<long>::max();
+    for (int start = 0; start < kStarts; ++start) {
+      const std::vector<Vector2d> arc(rim.begin(), rim.begin() + kRimPoints * 3 / 4 + 1);
+      const long crossed = std::ranges::count_if(busy_, [&](const Vector2d& p) {
+        return std::ranges::any_of(arc, [&](const Vector2d& q) { return (p - q).norm() < font_; });
+      });
+      if (crossed < least) {
+        least = crossed;
+        best = arc;
+      }
+      std::ranges::rotate(rim, rim.begin() + kRimPoints / kStarts);
+    }
+    return best;
+  }
+
   /// Lines of words, no wider than `width` where a word is not.
   [[nodiscard]] std::vector<std::string> Wrap(const std::string& text, double width) const {
     std::vector<std::string> lines = {""};
@@ -284,7 +304,8 @@ class Overlay {
 
   /// Texts should not cover a line.
   void Occupy(const Vector2d& a, const Vector2d& b) {
-    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) busy_.push_back(a + t * (b - a));
+    constexpr int kParts = 8;
+    for (int i = 0; i <= kParts; ++i) busy_.push_back(a + i * (b - a) / kParts);
   }
 
   void Line(const Vector2d& a, const Vector2d& b, bool halo) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
-#include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "planner/grasp/angle_between.h"
 
@@ -28,6 +27,8 @@ constexpr double kMostStretch = 2000;
 /// A contact of the replay is this near to the surface, in diameters, where it has not lost it.
 constexpr double kTouches = 0.02;
 
+constexpr int kFactorDigits = 2;
+
 /// Normals that differ by less look the same.
 constexpr double kSameNormal = Radians(0.05);
 
@@ -38,14 +39,11 @@ double StretchOf(double length, double most) {
   return length > most ? most / length : 1;
 }
 
-/// "", ", drawn 40 times as long", ", drawn shorter".
-std::string StretchText(double factor) {
+/// "", " (drawn × 40)", " (drawn shorter)".
+std::string StretchText(double factor, const std::string& what = "") {
   if (factor == 1) return "";
-  if (factor < 1) return " (drawn shorter)";
-  // Two digits, without a power of ten.
-  const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 1);
-  const int decimals = unit < 1 ? 1 : 0;
-  return " (drawn × " + FormatFixed(std::round(factor / unit) * unit, decimals) + ")";
+  if (factor < 1) return " (" + what + "drawn shorter)";
+  return " (" + what + "drawn × " + FormatPlain(factor, kFactorDigits) + ")";
 }
 
 /// Whether the finger, rather than the place where it should be, is drawn elsewhere: the surface
@@ -176,12 +174,13 @@ class FaultSketch {
     const bool wrong = reason_ == Reason::kWrongNormal;
     const bool turned = reason_ != Reason::kOffSurface && angle > kSameNormal;
     if (turned) {
+      const std::string by = FormatDegrees(Degrees(angle));
       picture_.marks.normals.push_back({Place(found.p), Direction(found.n), false,
-                                        "given, " + FormatDegrees(Degrees(angle)) + " off"});
+                                        wrong ? "given, " + by + " off" : "turned by " + by});
     }
     if (turned || wrong) {
       picture_.marks.normals.push_back(
-          {Place(expected.p), Direction(expected.n), true, wrong ? "true normal" : "was"});
+          {Place(expected.p), Direction(expected.n), true, wrong ? "true normal" : "before"});
     }
   }
 
@@ -213,12 +212,13 @@ class FaultSketch {
     const Eigen::AngleAxisd turn(fault_.X_WO_before->linear() * now.linear().transpose());
     const double motion = back.norm() / diameter_m() + std::abs(turn.angle()) / 2;
     if (!std::isfinite(motion) || motion > kFarAway) return;
+    if (reason_ != Reason::kObjectMoved && motion < kTooShort) return;
     const double stretch = StretchOf(motion, kFarAway);
     Isometry3d ghost = Isometry3d::Identity();
     ghost.linear() = Eigen::AngleAxisd(stretch * turn.angle(), turn.axis()).matrix() * now.linear();
     ghost.translation() = picture_.marks.centroid + stretch * back - ghost.linear() * Centroid();
     picture_.marks.X_WO_before = ghost;
-    picture_.marks.ghost_text = "was here" + StretchText(stretch);
+    picture_.marks.ghost_text = "was here" + StretchText(stretch, "motion ");
   }
 
   void LeaveOutWhatIsFar() {

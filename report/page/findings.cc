@@ -9,6 +9,7 @@
 #include "planner/base/quantity_text.h"
 #include "report/page/quantity.h"
 #include "report/page/step_plot.h"
+#include "report/page/step_text.h"
 #include "report/page/table.h"
 #include "report/stress_table.h"
 #include "sim/measure/push.h"
@@ -47,8 +48,8 @@ std::vector<Element> Disagreements(const Report& report) {
     if (!step.disagreement) continue;
     items.emplace_back("li", Attributes(),
                        "Step " + std::to_string(step.check.index) + ": " +
-                           std::string(BetweenText(step.disagreement->between)) +
-                           ". Likely cause: " + step.disagreement->text + ".");
+                           std::string(BetweenText(step.disagreement->between)) + ". " +
+                           Capitalized(sim::LikelyCauseText(*step.disagreement)) + ".");
   }
   if (items.empty()) return {};
   return {Element("h2", {}, "Disagreements"), Element("ul", {}, items)};

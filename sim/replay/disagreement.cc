@@ -248,6 +248,10 @@ std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step) {
   return std::nullopt;
 }
 
+std::string LikelyCauseText(const Disagreement& found) {
+  return (found.cause == Cause::kUnknown ? "" : "likely cause: ") + found.text;
+}
+
 std::string_view BetweenName(Between between) {
   switch (between) {
     case Between::kReplayFails:

@@ -56,6 +56,9 @@ struct ExaminedStep {
 /// clearance slips too, and a grasp that is too weak reaches its cones.
 [[nodiscard]] std::optional<Disagreement> ExplainDisagreement(const ExaminedStep& step);
 
+/// "likely cause: the quality is below the shake: …", or that none was found.
+[[nodiscard]] std::string LikelyCauseText(const Disagreement& found);
+
 /// "replay-fails" and so on, as the report spells it.
 [[nodiscard]] std::string_view BetweenName(Between between);
 /// "quality-below-shake" and so on, as the report spells it.

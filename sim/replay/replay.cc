@@ -80,12 +80,9 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
   const MotionMonitor& monitor = world.monitor();
   const Eigen::Vector3d& centroid = object.mass_properties().centroid;
   plan::Fault fault;
-  if (monitor.reason() == plan::Reason::kObjectMoved) {
-    const Eigen::Translation3d p_WS(scale * centroid);
-    fault.X_WO_before = p_WS * monitor.start() * p_WS.inverse();
-    fault.moved_m = monitor.displacement_m();
-    fault.turned = monitor.rotation_rad();
-  }
+  if (monitor.reason() == plan::Reason::kNone) return fault;
+  const Eigen::Translation3d p_WS(scale * centroid);
+  fault.X_WO_before = p_WS * monitor.start() * p_WS.inverse();
   const FingerIndex f = monitor.finger();
   if (!f.valid()) return fault;
   const WorldFinger& finger = world.fingers()[f];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/base/angle.h"
+#include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 #include "sim/world/cone_margin.h"
 
@@ -14,6 +15,9 @@ double RotationAngle(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
   const Eigen::Quaterniond a(from.linear()), b(to.linear());
   return a.angularDistance(b);
 }
+
+/// A turn may be a thousandth of a degree.
+constexpr int kAngleDigits = 3;
 
 std::string Name(FingerIndex finger) { return "finger " + std::to_string(finger); }
 
@@ -98,6 +102,11 @@ FingerIndex MotionMonitor::finger() const {
   }
 }
 
+std::string MotionMonitor::MotionText() const {
+  return "moved by " + FormatLength(displacement_) + " and turned by " +
+         FormatShort(Degrees(rotation_), kAngleDigits) + "°";
+}
+
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
@@ -105,9 +114,8 @@ std::string MotionMonitor::detail() const {
     case plan::Reason::kSlipped:
       return Name(slipped_finger_) + " slipped by " + FormatLength(slip_now_) + " " + *slipped_;
     case plan::Reason::kObjectMoved:
-      return std::string(unrest_ ? "the object did not come to rest " : "the object moved ") +
-             *object_moved_ + ": by " + FormatLength(displacement_) + " and " +
-             FormatDegrees(Degrees(rotation_));
+      return unrest_ ? "the object did not come to rest " + *object_moved_ + ": it " + MotionText()
+                     : "the object " + MotionText() + " " + *object_moved_;
     default:
       return {};
   }

@@ -67,6 +67,8 @@ class MotionMonitor {
   [[nodiscard]] const FingerMargins& margins() const { return margins_; }
 
  private:
+  [[nodiscard]] std::string MotionText() const;
+
   ReplaySettings settings_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();
   std::string phase_;

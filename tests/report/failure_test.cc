@@ -104,6 +104,14 @@ TEST(Failure, AsksForLessOfTheShakeOnlyWhereThereIsOne) {
   EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("a tenth of the shake"));
 }
 
+TEST(Failure, OfAWrongNormalTellsTheTrueOne) {
+  Report report = FailingFor(Reason::kWrongNormal, 5);
+  report.steps[1].check.fault.expected = {{{1, 2, 0}, {0.6, -0.8, 0}}};
+  EXPECT_THAT(DescribeFailure(report)->mend, EndsWith(": (0.6, -0.8, 0)"));
+  report.dimension = 2;
+  EXPECT_THAT(DescribeFailure(report)->mend, EndsWith(": (0.6, -0.8)"));
+}
+
 TEST(Failure, OfAContactThatNoFingerReachesSaysNothingOfThicknessWhereFingersArePoints) {
   Report report = FailingFor(Reason::kUnreachable, 5);
   EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--finger-radius")));

@@ -20,6 +20,7 @@ TEST(QuantityText, ALengthTakesTheUnitThatSuits) {
   EXPECT_EQ(FormatLength(0), "0 nm");
   EXPECT_EQ(FormatLength(0.00412345), "4.12 mm");
   EXPECT_EQ(FormatLength(0.00412345, 2), "4.1 mm");
+  EXPECT_EQ(FormatLength(5e-4, 2), "500 µm");
 }
 
 TEST(QuantityText, WhatRoundsUpToAUnitIsOneOfIt) {
@@ -33,6 +34,15 @@ TEST(QuantityText, WhatRoundsUpToAUnitIsOneOfIt) {
     ++checked;
   }
   EXPECT_EQ(checked, 5);
+}
+
+TEST(QuantityText, APlainNumberHasNoPowerOfTen) {
+  EXPECT_EQ(FormatPlain(1.66, 2), "1.7");
+  EXPECT_EQ(FormatPlain(99.4, 2), "99");
+  EXPECT_EQ(FormatPlain(166, 2), "170");
+  EXPECT_EQ(FormatPlain(-123456, 3), "-123000");
+  EXPECT_EQ(FormatPlain(99.9, 2), "100");
+  EXPECT_EQ(FormatPlain(2.16e8, 3), "2.16e+08");
 }
 
 TEST(QuantityText, OfMassesAndAngles) {

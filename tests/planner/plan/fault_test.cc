@@ -139,6 +139,7 @@ TEST(Fault, OfStartAndGoalHasTheContactsThatDoNotMatch) {
   const StepCheck goal = FailedStep([](Plan& changed) { changed.goal[0].p.y() += 0.1; });
   EXPECT_EQ(goal.reason, Reason::kGoalNotReached);
   EXPECT_EQ(goal.fault.fingers.size(), 1u);
+  EXPECT_NE(goal.detail.find("goal: finger "), std::string::npos) << goal.detail;
   EXPECT_EQ(goal.fault.expected.size(), 1u);
 }
 

@@ -74,6 +74,20 @@ TEST(FaultPicture, TheGhostOfAnObjectThatHardlyMovedIsFarEnoughBackToBeSeen) {
   EXPECT_NE(picture.marks.ghost_text.find("drawn × "), std::string::npos);
 }
 
+TEST(FaultPicture, AnObjectThatFellHasItsGhostWhateverFailedFirst) {
+  const object::Polyhedron cube = MakeCube();
+  const auto has_ghost = [&](double fall) {
+    plan::Snapshot snapshot;
+    snapshot.X_WO.translation().z() = -fall;
+    Fault fault;
+    fault.X_WO_before = Eigen::Isometry3d::Identity();
+    return MakeFaultPicture(cube, 1, Reason::kContactLost, fault, snapshot, "")
+        .marks.X_WO_before.has_value();
+  };
+  EXPECT_TRUE(has_ghost(0.3));
+  EXPECT_FALSE(has_ghost(0.003));
+}
+
 TEST(FaultPicture, AFactorIsTwoDigitsWithoutAPowerOfTen) {
   const auto text = [](double away) { return OffSurface(away).marks.dimensions.at(0).text; };
   EXPECT_EQ(text(0.1), "10 cm (drawn × 1.7)");

@@ -60,7 +60,7 @@ TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
   monitor.SetPhase("during the align");
   monitor.AddPose(Pose(0, 0));
   monitor.AddPose(Pose(0.004, 0));
-  EXPECT_EQ(monitor.detail(), "the object moved during the align: by 4 mm and 0.00°");
+  EXPECT_EQ(monitor.detail(), "the object moved by 4 mm and turned by 0° during the align");
   monitor.AddSlip(FingerIndex(2), 0.003);
   monitor.SetPhase("under a push of 5.3 N along +x");
   monitor.AddSlip(FingerIndex(1), 0.007);
