@@ -190,15 +190,18 @@ std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
 /// Adds a band of samples, RGBA from the bottom, to the sums of the pixels that they belong to.
 void AddSamples(const unsigned char* samples, int width, int rows, int factor, int weight,
                 std::vector<std::uint32_t>& sums) {
-  const int pixels = width / factor;
-  for (int y = 0; y < rows; ++y) {
-    const unsigned char* in = samples + std::size_t{4} * width * (rows - 1 - y);
-    std::uint32_t* out = sums.data() + std::size_t{3} * pixels * (y / factor);
-    for (int x = 0; x < pixels; ++x, out += 3) {
-      for (int i = 0; i < factor; ++i, in += 4) {
-        out[0] += weight * in[0];
-        out[1] += weight * in[1];
-        out[2] += weight * in[2];
+  const int row = 4 * width;
+  std::vector<std::uint16_t> column(row);  // of rows that belong to one row of pixels
+  std::uint32_t* out = sums.data();
+  for (int bottom = rows; bottom > 0; bottom -= factor) {
+    std::ranges::fill(column, 0);
+    for (int k = 1; k <= factor; ++k) {
+      const unsigned char* in = samples + std::size_t(row) * (bottom - k);
+      for (int i = 0; i < row; ++i) column[i] += in[i];
+    }
+    for (int x = 0; x < row; out += 3) {
+      for (int i = 0; i < factor; ++i, x += 4) {
+        for (int channel = 0; channel < 3; ++channel) out[channel] += weight * column[x + channel];
       }
     }
   }
