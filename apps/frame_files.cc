@@ -11,6 +11,7 @@
 #include "planner/plan/locate.h"
 #include "planner/plan/planned_snapshot.h"
 #include "render/frames/contact_sheet.h"
+#include "render/frames/fault_overlay.h"
 #include "render/frames/frame_sequence.h"
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
@@ -114,7 +115,11 @@ void AddSkipped(const report::Report& report, int cells, render::ContactSheet& s
 render::FrameRenderer MakeRenderer(const object::Object& object, const report::Report& report,
                                    const std::vector<Shown>& shown, render::FrameOptions options) {
   std::vector<plan::Snapshot> snapshots;
-  for (const Shown& entry : shown) snapshots.push_back(entry.snapshot);
+  for (const Shown& entry : shown) {
+    snapshots.push_back(entry.snapshot);
+    if (!entry.marks) continue;
+    options.also_seen = render::ExtentOf(*entry.marks, report.scale * object.diameter());
+  }
   if (object.dimension() == 2 && report.settings) {
     options.body.thickness = report.settings->thickness_m / report.settings->diameter_m;
   }

@@ -31,6 +31,7 @@ constexpr double kLeader = 1.6;  ///< a text farther than this from what it tell
 
 // In diameters of the object.
 constexpr double kNormalLength = 0.2;
+constexpr double kPlaceRadius = 0.030;
 constexpr double kPushLength = 0.30;
 constexpr double kTwistRadius = 0.16;
 
@@ -245,8 +246,6 @@ class Overlay {
   [[nodiscard]] Image ToImage() const { return page_.ToImage(); }
 
  private:
-  static constexpr double kPlaceRadius = 0.030;
-
   struct LabelText {
     Vector2d at;
     std::string text;
@@ -413,6 +412,32 @@ class Overlay {
 };
 
 }  // namespace
+
+std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
+  std::vector<Vector3d> points;
+  const auto add_ball = [&](const Vector3d& centre, double radius) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {-1.0, 1.0}) {
+        points.push_back(centre + sign * radius * Vector3d::Unit(axis));
+      }
+    }
+  };
+  for (const auto& dimension : marks.dimensions) {
+    for (const Vector3d& end : {dimension.from, dimension.to}) points.push_back(end);
+  }
+  for (const auto& normal : marks.normals) {
+    points.push_back(normal.at + kNormalLength * diameter_m * normal.along);
+  }
+  for (const auto& place : marks.places) {
+    add_ball(place.contact - kPlaceRadius * diameter_m * place.normal, kPlaceRadius * diameter_m);
+  }
+  for (const auto& cone : marks.cones) points.push_back(cone.apex);
+  for (const auto& tip : marks.tips) add_ball(tip.centre, tip.radius);
+  if (marks.push && marks.push->force_N.norm() > 0) {
+    points.push_back(marks.centroid + kPushLength * diameter_m * marks.push->force_N.normalized());
+  }
+  return points;
+}
 
 Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFrame& frame,
                      const BodyShape& body, std::span<const FingerGlyph> fingers,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
@@ -10,6 +11,10 @@
 #include "render/picture/image.h"
 
 namespace regrasp::render {
+
+/// Points that the marks go as far as, metres, world frame; of cones, which are as long as those of
+/// the fingers, their apex alone.
+[[nodiscard]] std::vector<Eigen::Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m);
 
 /// Draws what is wrong over the picture of a failed step: in red what is, in green what should be,
 /// with lengths and angles; the push and the object's ghost where a replay moved it; and what

@@ -51,6 +51,9 @@ constexpr double kFocusReach = 1e-2;
 /// Space for a finger's number beyond its end, in diameters.
 constexpr double kLabelSpace = 0.05;
 
+/// What is farther from the object's centre (diameters) does not widen the picture.
+constexpr double kFarMark = 1.5;
+
 /// An object that moved farther than this (diameters) does not widen the picture.
 constexpr double kFarAway = 0.5;
 
@@ -337,6 +340,10 @@ class FrameRenderer::Impl {
       for (const FingerGlyph& glyph : fingers) {
         extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
       }
+    }
+    for (const Vector3d& p_W : options_.also_seen) {
+      const Vector3d p = frame_.FromWorld(p_W);
+      if (p.norm() < kFarMark) extent.Add(Ball{p, kLabelSpace / 2});
     }
     const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
     const Margins margins = MarginsFor(options_);

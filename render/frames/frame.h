@@ -39,6 +39,8 @@ struct FrameOptions {
   std::optional<double> finger_radius = std::nullopt;
   /// Leaves room at the top for the heading of a failed step.
   bool has_heading = false;
+  /// The camera sees these points too: metres, world frame.
+  std::vector<Eigen::Vector3d> also_seen = {};
   /// Of a concurrent grasp of a solid: the focus point, the lines to it, and the contact regions
   /// that it gives on the faces (planner/sets/polyhedron/focus_view.h).
   bool show_focus = false;

@@ -8,6 +8,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/object/polygon.h"
+#include "render/frames/fault_overlay.h"
 #include "render/picture/palette.h"
 #include "tests/render/frames/scenes.h"
 
@@ -390,6 +391,24 @@ TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
   options.view.direction = ViewDirection{0, 0};
   FrameRenderer renderer(plate, 1, kHalfAngle, {snapshot}, options);
   EXPECT_EQ(CountAtBorder(renderer.Render(snapshot)), 0);
+}
+
+TEST(FrameTest, WhatIsWrongIsInsideTheFrameToo) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  FaultMarks marks;
+  marks.dimensions = {{{0.03, 0, 0}, {0.09, 0, 0}, ""}};
+  marks.places = {{{0, 0, 0.08}, -Eigen::Vector3d::UnitZ(), ""}};
+  marks.tips = {{{0, -0.07, 0}, 0.01}};
+  FrameOptions options = Medium();
+  options.view.direction = ViewDirection{Radians(60), Radians(20)};
+  const auto at_border = [&] {
+    FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, options);
+    return CountAtBorder(renderer.Render(snapshots[0], "", &marks));
+  };
+  EXPECT_GT(at_border(), 0);
+  options.also_seen = ExtentOf(marks, cube.diameter());
+  EXPECT_EQ(at_border(), 0);
 }
 
 TEST(FrameTest, ShowsPlanarFrictionConesFromTheirFlatSide) {
