@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 
 // In font sizes.
 constexpr double kMargin = 1.33;
+constexpr double kCaptionMargin = 2.6;
 constexpr double kLineWidth = 0.11;
 constexpr double kTick = 0.42;
 constexpr double kHalo = 0.32;
@@ -238,7 +239,7 @@ class Overlay {
     base_ += radius;
   }
 
-  /// Texts come last, over everything.
+  /// Texts come last, over everything, where heading and absent fingers leave space.
   void DrawLabels() {
     for (const auto& [at, text, color, gap] : labels_) PlaceLabel(at, text, color, gap);
   }
@@ -359,7 +360,10 @@ class Overlay {
     SelectFont(cr_, font_, /*bold=*/true);
     const Vector2d half(TextWidth(cr_, text) / 2, 0.6 * font_);
     const Vector2d margin = half + Vector2d::Constant(0.4 * font_);
-    const Vector2d size(camera_.width, camera_.height);
+    // Off the border, below the heading and above the caption.
+    const Vector2d low = half + Vector2d(kMargin * font_, std::max(kMargin * font_, base_));
+    const Vector2d high = Vector2d(camera_.width, camera_.height) - half -
+                          Vector2d(kMargin * font_, kCaptionMargin * font_);
     double least = std::numeric_limits<double>::infinity();
     Vector2d best = at;
     for (const double distance : {0.9, 1.8, 3.0, 4.5, 6.5}) {
@@ -368,7 +372,7 @@ class Overlay {
         const Vector2d way(std::cos(turn), std::sin(turn));
         const double away = gap + distance * font_;
         Vector2d centre = at + (away * way.array() + half.array() * way.array()).matrix();
-        centre = centre.cwiseMax(margin).cwiseMin(size - margin);
+        centre = centre.cwiseMin(high).cwiseMax(low);
         const double cost = Covered({centre - margin, centre + margin}) + distance / 4;
         if (cost < least) {
           least = cost;
@@ -456,13 +460,13 @@ Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFram
   for (const auto& dimension : marks.dimensions) overlay.Draw(dimension);
   for (const auto& normal : marks.normals) overlay.Draw(normal);
   if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
-  overlay.DrawLabels();
   overlay.DrawHeading(marks.heading);
   for (const FingerIndex finger : marks.fingers) {
     if (std::ranges::find(fingers, finger, &FingerGlyph::finger) == fingers.end()) {
       overlay.DrawAbsent(finger);
     }
   }
+  overlay.DrawLabels();
   return overlay.ToImage();
 }
 

@@ -39,11 +39,10 @@ class MovingPicture {
   [[nodiscard]] virtual std::string Finish() = 0;
 };
 
-/// @param width, height  of all images. That of an MP4 is even: a side that is odd is a pixel
-/// longer.
+/// @param width, height  of all images. Those of an MP4 are even: a side that is odd is a pixel
+///                       longer.
 /// @param examples       images that have the colours of all others, of which a GIF chooses its
-/// own;
-///                       other formats need none.
+///                       own; other formats need none.
 /// @throws std::invalid_argument  a size that the format cannot have, or a GIF without example.
 /// @throws EnvironmentError       the libraries of ffmpeg have no encoder for it.
 [[nodiscard]] std::unique_ptr<MovingPicture> MakeMovingPicture(MovingFormat format, int width,

@@ -397,8 +397,8 @@ TEST(FrameTest, WhatIsWrongIsInsideTheFrameToo) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FaultMarks marks;
-  marks.dimensions = {{{0.03, 0, 0}, {0.09, 0, 0}, ""}};
-  marks.places = {{{0, 0, 0.08}, -Eigen::Vector3d::UnitZ(), ""}};
+  marks.dimensions = {{{0.03, 0, 0}, {0.09, 0, 0}, "a text that goes beyond its line"}};
+  marks.places = {{{0, 0, 0.08}, -Eigen::Vector3d::UnitZ(), "was here"}};
   marks.tips = {{{0, -0.07, 0}, 0.01}};
   FrameOptions options = Medium();
   options.view.direction = ViewDirection{Radians(60), Radians(20)};
