@@ -24,16 +24,13 @@ constexpr lp::Limits kLimits = {.pivots = 100, .refactor_after = 24};
 
 MinMax::MinMax(const Vector3d& centre, double reach)
     : centre_(centre), reach_(reach), rounding_(kRounding * reach) {
-  Restart();
-}
-
-void MinMax::Restart() {
   // A regular tetrahedron about the ball of the reach: its faces are cuts of value 0.
   const double s = std::sqrt(1.0 / 3);
   Resume({{{Vector3d(s, s, s), -reach_},
            {Vector3d(s, -s, -s), -reach_},
            {Vector3d(-s, s, -s), -reach_},
            {Vector3d(-s, -s, s), -reach_}}});
+  first_ = program_;
 }
 
 void MinMax::Resume(const Basis& basis) {

@@ -56,7 +56,7 @@ class MinMax {
   [[nodiscard]] double rounding() const { return rounding_; }
 
   /// Back to the first basis.
-  void Restart();
+  void Restart() { program_ = first_; }
 
   /// To go on later from the basis at hand.
   using Basis = std::array<Cut, 4>;
@@ -86,6 +86,7 @@ class MinMax {
   double reach_;
   double rounding_;
   Program program_;
+  Program first_;  ///< with the first basis
 };
 
 }  // namespace regrasp::polyhedron
