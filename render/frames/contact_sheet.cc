@@ -50,6 +50,16 @@ std::string Elide(cairo_t* cr, std::string text, double most) {
   return text + "…";
 }
 
+/// The next number above, or that below where it is nearer and leaves fewer cells empty; not one
+/// where there are several pictures.
+int ChooseColumns(int count, double about) {
+  const auto more = static_cast<int>(std::ceil(about));
+  const int fewer = more - 1;
+  const auto empty = [count](int columns) { return (columns - count % columns) % columns; };
+  const bool nearer = about - fewer < more - about;
+  return fewer > 1 && nearer && empty(fewer) < empty(more) ? fewer : more;
+}
+
 }  // namespace
 
 SheetGrid::SheetGrid(int count, int picture_width, int picture_height, int sheet_width,
@@ -70,8 +80,8 @@ SheetGrid::SheetGrid(int count, int picture_width, int picture_height, int sheet
     label = static_cast<int>(std::lround(kLabelHeight * font));
     if (has_heading) heading = static_cast<int>(std::lround(kHeadingHeight * label));
   };
-  const auto square = static_cast<int>(std::ceil(std::sqrt(count * aspect * kSheetAspect)));
-  set_columns(std::min(square, std::max(1, sheet_width / kNarrow)));
+  const int wished = ChooseColumns(count, std::sqrt(count * aspect * kSheetAspect));
+  set_columns(std::min(wished, std::max(1, sheet_width / kNarrow)));
   while (sheet_height() > kHighest && columns < count) set_columns(columns + 1);
 }
 

@@ -97,6 +97,10 @@ TEST(ContactSheetTest, TheSheetIsAsWideAsAskedAndItsLabelsAreAsLarge) {
   EXPECT_EQ(SheetGrid(4, 1280, 320, 1600).columns, 2);
   EXPECT_EQ(SheetGrid(9, 1280, 320, 1600).columns, 2);
   EXPECT_EQ(SheetGrid(9, 1280, 960, 1600).columns, 3);
+  // Two by two, and no empty cells beside them.
+  EXPECT_EQ(SheetGrid(4, 1100, 960, 1600).columns, 2);
+  EXPECT_EQ(SheetGrid(6, 1280, 960, 1600).columns, 3);
+  EXPECT_EQ(SheetGrid(8, 1280, 960, 1600).columns, 3);
 }
 
 TEST(ContactSheetTest, OnADarkGroundThereIsNoWhite) {
