@@ -44,7 +44,8 @@ std::string Statement(const PlanOutcome& plan) {
   const std::string where =
       *failed == 0 ? "The hold" : "Step " + std::to_string(*failed) + " (" + entry.kind + ")";
   return where + ": " + entry.reason + "." +
-         (entry.detail.empty() ? "" : " " + report::Capitalized(entry.detail) + ".");
+         (entry.detail.empty() ? "" : " " + report::Capitalized(entry.detail) + ".") +
+         report::WhyAndMend(entry.why, entry.mend);
 }
 
 std::string VerdictWord(const PlanOutcome& plan) {

@@ -82,7 +82,7 @@ class Page {
     }
     text = Capitalized(text + failure.reason + ".");
     if (!failure.what.empty()) text += " " + Capitalized(failure.what) + ".";
-    text += " Why: " + failure.why + ". What would mend it: " + failure.mend + ".";
+    text += WhyAndMend(failure.why, failure.mend);
     const bool replayed = report_.steps[*failed_].replay.has_value();
     text +=
         replayed ? " The replay found it." : " The analytic check found it; it was not replayed.";

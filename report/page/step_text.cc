@@ -12,6 +12,11 @@ std::string StepName(plan::EntryIndex index) {
   return index == 0 ? "the hold" : "step " + std::to_string(index);
 }
 
+std::string WhyAndMend(const std::string& why, const std::string& mend) {
+  return (why.empty() ? "" : " Why: " + why + ".") +
+         (mend.empty() ? "" : " What would mend it: " + mend + ".");
+}
+
 std::string Capitalized(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] += 'A' - 'a';
   return text;

@@ -12,6 +12,10 @@ namespace regrasp::report {
 /// "the hold", "step 3".
 [[nodiscard]] std::string StepName(plan::EntryIndex index);
 
+/// Two sentences that go on after what failed, each with a space before it; none where both are
+/// empty.
+[[nodiscard]] std::string WhyAndMend(const std::string& why, const std::string& mend);
+
 /// The text with an upper-case first letter, if that is an ASCII one.
 [[nodiscard]] std::string Capitalized(std::string text);
 

@@ -50,7 +50,7 @@ TEST(BatchPageTest, APlanThatFailsShowsWhatFailedAndOneThatPassesItsSheet) {
   EXPECT_EQ(Count(page, "<img"), 2u);
   EXPECT_EQ(Count(page, "href=\"weak/report.html\""), 2u);
   EXPECT_THAT(page, HasSubstr("<strong>Fail</strong> Step 1 (switch): slipped. Finger &lt;2&gt; "
-                              "slipped."));
+                              "slipped. Why: it stays. What would mend it: more friction.</p>"));
   EXPECT_THAT(page, HasSubstr("<strong>Pass</strong> The hold and 1 step stand."));
   EXPECT_THAT(page, HasSubstr("<dd>10.4 cm across, 216 g</dd>"));
 }

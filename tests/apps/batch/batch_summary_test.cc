@@ -69,8 +69,10 @@ TEST(BatchSummaryTest, JunitHasASuiteForEachPlanAndAnErrorWhereThereIsNoReport) 
   EXPECT_THAT(xml,
               HasSubstr("<testsuite name=\"weak.json\" tests=\"3\" failures=\"1\" errors=\"0\" "
                         "skipped=\"1\" time=\"0.000\">"));
-  EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped\npicture: "
-                             "weak/001_switch.png</failure>"));
+  EXPECT_THAT(xml,
+              HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped\nwhy: it stays\n"
+                        "what would mend it: more friction\n"
+                        "picture: weak/001_switch.png</failure>"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"crash.json\" tests=\"1\" failures=\"0\" "
                              "errors=\"1\" skipped=\"0\" time=\"0.000\">"));
   EXPECT_THAT(xml, HasSubstr("<error message=\"bad-input\">broken.json: not JSON</error>"));

@@ -27,7 +27,8 @@ inline PlanOutcome Failed(const std::string& name) {
   PlanOutcome plan = Passed(name);
   plan.verdict = PlanVerdict::kFail;
   plan.report->passed = false;
-  plan.report->entries[1] = {"switch", "fail", "slipped", "finger <2> slipped", "001_switch.png"};
+  plan.report->entries[1] = {"switch",         "fail",     "slipped",      "finger <2> slipped",
+                             "001_switch.png", "it stays", "more friction"};
   plan.report->entries.push_back({"align", "skipped", "", "", ""});
   return plan;
 }
