@@ -110,8 +110,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
       return MendReach(step.fault());
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
-             "object is of "
-             "no usual size";
+             "object is of no usual size";
     case Reason::kContactLost:
     case Reason::kSlipped:
     case Reason::kObjectMoved:
@@ -154,8 +153,7 @@ std::string RuleOf(Reason reason, const Report& report) {
       return "an align begins with the grasp before it, and its fingers stay the same";
     case Reason::kLeavesFace:
       return "between two waypoints a finger moves straight inside one face, or keeps its point "
-             "and "
-             "turns from one face to the next";
+             "and turns from one face to the next";
     case Reason::kNotForceClosure:
       return "with this friction forces of the fingers cannot resist every push and twist";
     case Reason::kNotProved:

@@ -182,15 +182,7 @@ class FailingFrames(ProgramCase):
         return 0, ("--friction-angle", "5")
 
     def break_not_proved(self):
-        """Finger 2 passes finger 1's place, where all are on one line for an instant."""
-        def grasp(y):
-            places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
-                      ([0.03, y, 0], [-1, 0, 0])]
-            return {"contacts": [{"finger": finger, "point": point, "normal": normal}
-                                 for finger, (point, normal) in enumerate(places)]}
-        waypoints = [grasp(-0.009), grasp(0.012)]
-        self.plan.update(initial=waypoints[0], goal=waypoints[1],
-                         steps=[{"kind": "align", "waypoints": waypoints}])
+        self.plan.update(program_case.align_past_a_finger())
         return 1, ()
 
     def break_unreachable(self):

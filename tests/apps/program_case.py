@@ -22,6 +22,19 @@ ARGUMENTS = argparse.Namespace(programs="", source="")
 HANG_SECONDS = 300
 
 
+def align_past_a_finger():
+    """Of a plan on the cube, what is neither proved nor refuted: finger 2 passes finger 1's place,
+    where all are on one line for an instant."""
+    def grasp(y):
+        places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
+                  ([0.03, y, 0], [-1, 0, 0])]
+        return {"contacts": [{"finger": finger, "point": point, "normal": normal}
+                             for finger, (point, normal) in enumerate(places)]}
+    waypoints = [grasp(-0.009), grasp(0.012)]
+    return {"initial": waypoints[0], "goal": waypoints[1],
+            "steps": [{"kind": "align", "waypoints": waypoints}]}
+
+
 class ProgramCase(unittest.TestCase):
     """A folder of its own for each test, and the program's promises as assertions."""
 

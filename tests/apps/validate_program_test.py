@@ -480,16 +480,7 @@ class Validate(ProgramCase):
     # Further outputs.
 
     def test_what_is_not_proved_does_not_pass_unless_that_is_allowed(self):
-        # Finger 2 passes finger 1's place, where all are on one line for an instant.
-        def grasp(y):
-            places = [([-0.03, 0, 0], [1, 0, 0]), ([0.03, 0, 0], [-1, 0, 0]),
-                      ([0.03, y, 0], [-1, 0, 0])]
-            return {"contacts": [{"finger": finger, "point": point, "normal": normal}
-                                 for finger, (point, normal) in enumerate(places)]}
-        waypoints = [grasp(-0.009), grasp(0.012)]
-        self.plan["steps"] = [{"kind": "align", "waypoints": waypoints}]
-        self.plan["initial"] = waypoints[0]
-        self.plan["goal"] = waypoints[1]
+        self.plan.update(program_case.align_past_a_finger())
         self.write_plan()
         report = self.assert_fails(1, "not-proved", junit="junit.xml")
         step = report["steps"][1]
