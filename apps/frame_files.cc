@@ -210,7 +210,8 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
   for (std::size_t i = 0; i < files.size(); ++i) {
     WriteFile(files[i].path, bytes[i], Durability::kCached);
   }
-  return {std::move(bytes.front()), renderer.width(), renderer.height()};
+  return {std::move(bytes.front()), renderer.width(), renderer.height(),
+          render::MediaType(formats.front())};
 }
 
 }  // namespace regrasp::apps

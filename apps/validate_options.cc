@@ -186,8 +186,10 @@ void AddVideo(CLI::App& app, std::string& video) {
     }
     video = file;
   };
-  app.add_option_function<std::string>(
-         "--video", parse, "Write the moving picture into this file, .mp4 (H.264), .gif or .webp")
+  app.add_option_function<std::string>("--video", parse,
+                                       "Write the replay as a moving picture into this file, .mp4 "
+                                       "(H.264), .gif or .webp; without "
+                                       "--animate it is the one that the report page shows")
       ->type_name("FILE");
 }
 
@@ -251,7 +253,7 @@ bool ChangesResults(const std::string& name) {
   static const std::set<std::string> kOthers = {
       "--help",   "--version", "--object",      "--plan",       "--grasp", "--out",
       "--junit",  "--json",    "--export-mjcf", "--trajectory", "--start", "--goal",
-      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet", "--video"};
+      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet"};
   return !kOthers.contains(name);
 }
 

@@ -248,7 +248,7 @@ class DrawingCount {
   ProgressLog log_;
 };
 
-/// @returns what the page shows of it: replay.webp, where that is made.
+/// @returns what the page shows of it: replay.webp, or the video where only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
                             const Task& task, const Samples& samples,
                             const std::filesystem::path& folder, report::Report& report) {
@@ -261,11 +261,10 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
     files.push_back({options.video, *render::MovingFormatOf(options.video)});
   }
   DrawingCount count("drawing the moving picture", options.quiet);
-  report::PagePicture first =
-      WriteAnimation(*task.object.object, task.plan,
-                     {.frame = frame, .workers = options.workers, .on_picture = count.reporter()},
-                     samples.animation, files, report);
-  return options.animate ? std::move(first) : report::PagePicture();
+  return WriteAnimation(
+      *task.object.object, task.plan,
+      {.frame = frame, .workers = options.workers, .on_picture = count.reporter()},
+      samples.animation, files, report);
 }
 
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,

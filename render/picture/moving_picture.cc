@@ -16,6 +16,18 @@ std::optional<MovingFormat> MovingFormatOf(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
+std::string_view MediaType(MovingFormat format) {
+  switch (format) {
+    case MovingFormat::kMp4:
+      return "video/mp4";
+    case MovingFormat::kGif:
+      return "image/gif";
+    case MovingFormat::kWebp:
+      return "image/webp";
+  }
+  throw std::invalid_argument("MediaType: no such format");
+}
+
 std::unique_ptr<MovingPicture> MakeMovingPicture(MovingFormat format, int width, int height,
                                                  std::span<const Image> examples) {
   switch (format) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "render/picture/image.h"
 
@@ -19,6 +20,9 @@ enum class MovingFormat {
 
 /// By the ending of the file's name; none for another ending.
 [[nodiscard]] std::optional<MovingFormat> MovingFormatOf(const std::filesystem::path& file);
+
+/// As web pages name it, "video/mp4".
+[[nodiscard]] std::string_view MediaType(MovingFormat format);
 
 /// Durations are multiples of this: pictures come 20 a second.
 inline constexpr int kTick_ms = 50;

@@ -63,6 +63,8 @@ class Muxer {
   explicit Muxer(const char* format) {
     Require(avformat_alloc_output_context2(&context_, nullptr, format, nullptr));
     context_->flags |= AVFMT_FLAG_BITEXACT;
+    context_->io_open = &OpenWritten;
+    context_->io_close2 = &Close;
   }
   ~Muxer() {
     TakeBytes();
@@ -90,12 +92,35 @@ class Muxer {
   [[nodiscard]] AVFormatContext& context() { return *context_; }
 
  private:
+  /// What is written so far, to be read while more is written: so MP4's muxer moves its index.
+  static int OpenWritten(AVFormatContext* context, AVIOContext** io, const char* /*url*/,
+                         int /*flags*/, AVDictionary** /*options*/) {
+    std::uint8_t* written = nullptr;
+    const int size = avio_get_dyn_buf(context->pb, &written);
+    auto* bytes = static_cast<std::uint8_t*>(av_memdup(written, size));
+    if (bytes == nullptr) return AVERROR(ENOMEM);
+    // Without a function that reads, the buffer is all there is.
+    *io = avio_alloc_context(bytes, size, 0, nullptr, nullptr, nullptr, nullptr);
+    if (*io == nullptr) {
+      av_free(bytes);
+      return AVERROR(ENOMEM);
+    }
+    return 0;
+  }
+  static int Close(AVFormatContext* /*context*/, AVIOContext* io) {
+    av_free(io->buffer);
+    avio_context_free(&io);
+    return 0;
+  }
+
   std::string TakeBytes() {
     if (context_->pb == nullptr) return "";
     std::uint8_t* bytes = nullptr;
-    const int size = avio_close_dyn_buf(context_->pb, &bytes);
-    context_->pb = nullptr;
+    const int size = avio_get_dyn_buf(context_->pb, &bytes);
     std::string text(reinterpret_cast<const char*>(bytes), size);
+    // This one ends the bytes where something was written last, which is not their end in an MP4.
+    avio_close_dyn_buf(context_->pb, &bytes);
+    context_->pb = nullptr;
     av_free(bytes);
     return text;
   }
@@ -112,6 +137,9 @@ class Encoder {
     AVPixelFormat pixels;
     int width, height;
     int tick_ms;  ///< its unit of time
+    /// MP4 alone: where its pictures are stands before them, so that a player on a network can
+    /// begin before it has all of the file.
+    bool index_first = false;
     /// Of the codec alone.
     std::vector<std::pair<const char*, const char*>> options = {};
   };
@@ -137,6 +165,9 @@ class Encoder {
       Require(av_opt_set(codec_->priv_data, name, value, 0));
     }
     Require(avcodec_open2(codec_.get(), settings.codec, nullptr));
+    if (settings.index_first) {
+      Require(av_opt_set(muxer_.context().priv_data, "movflags", "+faststart", 0));
+    }
     muxer_.Begin(*codec_);
     frame_->width = settings.width;
     frame_->height = settings.height;
@@ -275,6 +306,7 @@ class Mp4 : public Video {
                   Even(width),
                   Even(height),
                   kTick_ms,
+                  /*index_first=*/true,
                   // "mbtree" is a float estimate that is not the same on every processor.
                   {{"preset", "medium"},
                    {"tune", "animation"},

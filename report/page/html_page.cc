@@ -7,7 +7,8 @@ namespace regrasp::report {
 namespace {
 
 std::string Policy(PictureSource pictures) {
-  const std::string policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
+  const std::string policy =
+      "default-src 'none'; style-src 'unsafe-inline'; media-src data:; img-src data:";
   // Some browsers give a file no site of its own.
   return policy + (pictures == PictureSource::kOwnSite ? " 'self' file:" : "");
 }

@@ -148,7 +148,7 @@ class Page {
   }
 
   [[nodiscard]] bool HasPicture(plan::EntryIndex index) const {
-    return !pictures_.empty() && !pictures_[index].webp.empty();
+    return !pictures_.empty() && !pictures_[index].bytes.empty();
   }
   [[nodiscard]] static std::string Anchor(plan::EntryIndex index) {
     return "frame" + std::to_string(index);
@@ -184,19 +184,36 @@ class Page {
   }
 
   [[nodiscard]] Parts Replay() const {
-    if (moving_.webp.empty()) return {};
+    if (moving_.bytes.empty()) return {};
     const std::string text =
         "The replay, slowed down most where something moves. Every step rests at its end.";
+    const std::string name = "The replay as a moving picture";
+    const bool video = moving_.media_type.starts_with("video/");
     return {Element("div", {{"class", "replay"}},
                     Parts{Element("h2", {}, "Replay"), Note(text),
-                          MakeImage(moving_, "The replay as a moving picture")})};
+                          video ? MakeVideo(moving_, name) : MakeImage(moving_, name)})};
   }
 
   [[nodiscard]] static Element MakeImage(const PagePicture& picture, const std::string& name) {
     return Element("img", {{"alt", name},
                            {"width", std::to_string(picture.width)},
                            {"height", std::to_string(picture.height)},
-                           {"src", DataUri("image/webp", picture.webp)}});
+                           {"src", DataUri(picture.media_type, picture.bytes)}});
+  }
+
+  /// It plays as moving images do: by itself, silently and for ever.
+  [[nodiscard]] static Element MakeVideo(const PagePicture& picture, const std::string& name) {
+    return Element("video",
+                   {{"aria-label", name},
+                    {"width", std::to_string(picture.width)},
+                    {"height", std::to_string(picture.height)},
+                    {"controls", ""},
+                    {"autoplay", ""},
+                    {"loop", ""},
+                    {"muted", ""},
+                    {"playsinline", ""},
+                    {"src", DataUri(picture.media_type, picture.bytes)}},
+                   "This browser plays no " + std::string(picture.media_type) + ".");
   }
 
   [[nodiscard]] Element Frame(const ReportStep& step) const {

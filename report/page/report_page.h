@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/plan/plan.h"
@@ -8,11 +9,12 @@
 
 namespace regrasp::report {
 
-/// The picture of an entry of a report, ready to be put into a page.
+/// A picture, ready to be put into a page.
 struct PagePicture {
-  std::string webp;  ///< bytes of a WebP file; empty where the entry has no picture
-  int width = 0;     ///< pixels, as is the height
+  std::string bytes;  ///< of its file; empty where there is no picture
+  int width = 0;      ///< pixels, as is the height
   int height = 0;
+  std::string_view media_type = "image/webp";  ///< of an image, or of a video that browsers play
 };
 
 /// The text of report.html: what a report says, for people, as one HTML page that needs no other

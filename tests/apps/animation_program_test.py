@@ -1,12 +1,15 @@
 """The replay as a moving picture: validate --animate and --video."""
 
+import base64
 import copy
 import os
 import re
+import xml.etree.ElementTree
 
 import program_case
 from program_case import ProgramCase
 
+XHTML = "{http://www.w3.org/1999/xhtml}"
 SMALL = ["--size", "128x96", "--animate-size", "64x48"]
 
 # How long the last picture of a plan stands, milliseconds.
@@ -121,6 +124,30 @@ class Animation(ProgramCase):
         self.assertEqual(sorted(os.listdir(self.folder)),
                          ["film.gif", "film.mp4", "film.webp", "result"])
         self.assertFalse(os.path.exists(self.path("result/replay.webp")))
+
+    def replay_on_page(self):
+        """The element that shows the replay on the report page, and the bytes in it."""
+        page = xml.etree.ElementTree.fromstring(self.read("result/report.html"))
+        replays = page.findall(f".//{XHTML}div[@class='replay']")
+        if not replays:
+            return None, b""
+        self.assertEqual(len(replays), 1)
+        shown = [element for element in replays[0] if element.get("src")]
+        self.assertEqual(len(shown), 1)
+        head, body = shown[0].get("src").split(";base64,")
+        return shown[0].tag.removeprefix(XHTML) + " " + head, base64.b64decode(body)
+
+    def test_a_video_alone_is_on_the_page_too(self):
+        for ending, element in (("gif", "img data:image/gif"), ("mp4", "video data:video/mp4"),
+                                ("webp", "img data:image/webp")):
+            name = "film." + ending
+            self.assert_done(*self.of_grasp("--no-frames", *SMALL, "--video", name))
+            self.assertEqual(self.replay_on_page(), (element, self.read(name)))
+            self.assertIn(b"media-src data:;", self.read("result/report.html"))
+        self.assert_done(*self.of_grasp(*SMALL, "--animate", "--video", "film.mp4"))
+        self.assertEqual(self.replay_on_page(), ("img data:image/webp", self.replay()))
+        self.assert_done(*self.of_grasp("--no-frames"))
+        self.assertEqual(self.replay_on_page(), (None, b""))
 
     def test_the_same_plan_gives_the_same_bytes_on_one_core_as_on_all(self):
         formats = ("gif", "mp4", "webp")

@@ -170,6 +170,36 @@ TEST(VideoTest, AnMp4HasAPictureEveryTickAndShowsEveryImageForItsTime) {
   }
 }
 
+/// The types of the boxes that an MP4 file consists of.
+std::vector<std::string> Boxes(const std::string& bytes) {
+  std::vector<std::string> types;
+  for (std::size_t at = 0; at + 8 <= bytes.size();) {
+    std::size_t size = 0;
+    for (int i = 0; i < 4; ++i) size = 256 * size + static_cast<unsigned char>(bytes[at + i]);
+    types.push_back(bytes.substr(at + 4, 4));
+    at += std::max<std::size_t>(size, 8);
+    EXPECT_LE(at, bytes.size());
+  }
+  return types;
+}
+
+TEST(VideoTest, TheIndexOfAnMp4StandsBeforeItsPictures) {
+  const auto video = MakeMp4(64, 48);
+  video->Add(MakeFlat(64, 48, kTeal), 2 * kTick_ms);
+  video->Add(MakeLine(64, 48, 20), 3 * kTick_ms);
+  const std::string bytes = video->Finish();
+  const std::vector<std::string> boxes = Boxes(bytes);
+  const auto place = [&boxes](const char* type) { return std::ranges::find(boxes, type); };
+  EXPECT_EQ(boxes.front(), "ftyp");
+  EXPECT_LT(place("moov"), place("mdat"));
+  EXPECT_NE(place("mdat"), boxes.end());
+  // It points to where they are now.
+  const std::vector<Shown> shown = Decode(bytes);
+  ASSERT_EQ(shown.size(), 5u);
+  EXPECT_LE(DistanceAt(shown[0].image, 30, 20, kTeal), 4);
+  EXPECT_LE(DistanceAt(shown[4].image, 20, 20, kRed), 60);
+}
+
 TEST(VideoTest, SidesOfAnMp4AreEven) {
   const auto video = MakeMp4(49, 51);
   video->Add(MakeLine(49, 51, 47), kTick_ms);

@@ -157,6 +157,20 @@ TEST(ReportPageTest, TheReplayMovesOnThePageWhereItWasMade) {
   EXPECT_EQ(Count(without, "<img"), 0);
 }
 
+TEST(ReportPageTest, AVideoPlaysOnThePageAndAnImageOfAnotherTypeIsOne) {
+  const Scene scene(/*fails=*/false);
+  const std::string video =
+      FormatReportHtml(scene.report, scene.plan, {}, {"abc", 320, 240, "video/mp4"});
+  EXPECT_EQ(Count(video, "<video"), 1);
+  EXPECT_EQ(Count(video, "</video>"), 1);
+  EXPECT_EQ(Count(video, "src=\"data:video/mp4;base64,YWJj\""), 1);
+  EXPECT_EQ(Count(video, "<img"), 0);
+  const std::string image =
+      FormatReportHtml(scene.report, scene.plan, {}, {"abc", 320, 240, "image/gif"});
+  EXPECT_EQ(Count(image, "src=\"data:image/gif;base64,YWJj\""), 1);
+  EXPECT_EQ(Count(image, "<video"), 0);
+}
+
 TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {
   const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
   const Scene failing(/*fails=*/true), passing(/*fails=*/false);
