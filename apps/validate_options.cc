@@ -253,7 +253,7 @@ bool ChangesResults(const std::string& name) {
   static const std::set<std::string> kOthers = {
       "--help",   "--version", "--object",      "--plan",       "--grasp", "--out",
       "--junit",  "--json",    "--export-mjcf", "--trajectory", "--start", "--goal",
-      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet"};
+      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet", "--video"};
   return !kOthers.contains(name);
 }
 

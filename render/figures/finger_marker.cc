@@ -1,5 +1,6 @@
 #include "render/figures/finger_marker.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,8 +13,13 @@ namespace regrasp::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWhiteRim = 0.5;      ///< points, around a filled marker
+constexpr double kWhiteRim = 0.5;      ///< points, around a filled marker and its ring
 constexpr double kOutlineWidth = 0.9;  ///< points
+constexpr double kRingDistance = 1.9;  ///< of the ring from the marker, points
+constexpr double kRingWidth = 0.8;     ///< points
+
+/// What is seen of a marker around another one on it, points: a triangle there reaches 1.5 radii.
+constexpr double kNestedRim = 1.6;
 
 /// A regular polygon of the same area as the disc.
 struct MarkerShape {
@@ -37,18 +43,37 @@ void AddPath(cairo_t* cr, const MarkerShape& shape, const Eigen::Vector2d& centr
 
 }  // namespace
 
-void DrawFingerMarker(cairo_t* cr, FingerIndex finger, const Eigen::Vector2d& centre, double radius,
-                      MarkerStyle style) {
+double FingerMarker::reach() const {
+  return radius + (ring ? kRingDistance + kRingWidth / 2 + kWhiteRim : 0);
+}
+
+void EnlargeCovered(std::span<FingerMarker> markers) {
+  for (std::size_t i = markers.size(); i-- > 0;) {
+    FingerMarker& below = markers[i];
+    for (const FingerMarker& above : markers.subspan(i + 1)) {
+      const bool covered = (above.centre - below.centre).norm() < above.reach();
+      if (covered) below.radius = std::max(below.radius, above.reach() + kNestedRim);
+    }
+  }
+}
+
+void DrawFingerMarker(cairo_t* cr, const FingerMarker& marker) {
+  const Color own = FingerColor(marker.finger);
+  const Color color = marker.style == MarkerStyle::kPale ? Paler(own, kBehindShare) : own;
+  if (marker.ring) {
+    SetCircle(cr, marker.centre, marker.radius + kRingDistance);
+    Stroke(cr, kWhite, kRingWidth + 2 * kWhiteRim);
+    SetCircle(cr, marker.centre, marker.radius + kRingDistance);
+    Stroke(cr, color, kRingWidth);
+  }
   const int count = static_cast<int>(kShapes.size());
-  const MarkerShape& shape = kShapes[((finger % count) + count) % count];
-  AddPath(cr, shape, centre, radius);
+  const MarkerShape& shape = kShapes[((marker.finger % count) + count) % count];
+  AddPath(cr, shape, marker.centre, marker.radius);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
-  const Color color = FingerColor(finger);
-  if (style == MarkerStyle::kHollow) {
+  if (marker.style == MarkerStyle::kHollow) {
     FillAndStroke(cr, kWhite, color, kOutlineWidth);
   } else {
-    const double share = style == MarkerStyle::kPale ? kBehindShare : 1;
-    FillWithHalo(cr, Paler(color, share), 2 * kWhiteRim);
+    FillWithHalo(cr, color, 2 * kWhiteRim);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "render/figures/finger_marker.h"
@@ -21,9 +22,6 @@ using Eigen::Vector2d;
 namespace {
 
 // Points.
-constexpr double kMarkerRadius = 2.7;
-constexpr double kRingRadius = 4.6;
-constexpr double kRingWidth = 0.8;
 constexpr double kArrowWidth = 1.0;
 constexpr double kArrowNear =
     6.2;  ///< from the contact to the arrow of a placed or released finger
@@ -49,6 +47,23 @@ constexpr double kLineWeight = 0.4;
 constexpr double kBorderWeight = 0.25;
 constexpr double kConeWeight = 0.12;
 
+/// The starts of moved fingers, then the contacts.
+std::vector<FingerMarker> MarkersOf(const StepDiagram& diagram, const PanelView& view) {
+  std::vector<FingerMarker> markers;
+  for (const DiagramFinger& finger : diagram.fingers) {
+    if (finger.role != plan::FingerRole::kMoved) continue;
+    markers.push_back({finger.finger, view.ToPanel(finger.path.front().p), MarkerStyle::kHollow});
+  }
+  for (const DiagramFinger& finger : diagram.fingers) {
+    const bool released = finger.role == plan::FingerRole::kReleased;
+    markers.push_back({finger.finger, view.ToPanel(finger.contact.p),
+                       released ? MarkerStyle::kHollow : MarkerStyle::kFilled,
+                       finger.role == plan::FingerRole::kPlaced});
+  }
+  EnlargeCovered(markers);
+  return markers;
+}
+
 struct FingerShape {
   const DiagramFinger* finger;
   Vector2d contact;
@@ -56,14 +71,17 @@ struct FingerShape {
   std::vector<Vector2d> arrow;  ///< empty where there is none
 };
 
+/// @param marker_radius  of the contact's.
 std::vector<Vector2d> ArrowOf(const object::Polygon& polygon, const DiagramFinger& finger,
-                              const PanelView& view) {
+                              double marker_radius, const PanelView& view) {
   const Vector2d contact = view.ToPanel(finger.contact.p);
   const Vector2d outward = PanelView::ToPanelDirection(finger.contact.outward);
   const double clearance =
       kShareOfClearance * view.scale * OutwardClearance(polygon, finger.contact);
-  const double far = std::min(kArrowFar, std::max(clearance, kArrowNear + kArrowHead));
-  const Vector2d near_end = contact + kArrowNear * outward;
+  const double enlarged = marker_radius - kMarkerRadius;
+  const double near = kArrowNear + enlarged;
+  const double far = std::min(kArrowFar + enlarged, std::max(clearance, near + kArrowHead));
+  const Vector2d near_end = contact + near * outward;
   const Vector2d far_end = contact + far * outward;
   switch (finger.role) {
     case plan::FingerRole::kPlaced:
@@ -98,57 +116,46 @@ void MoveArrowAside(FingerShape& shape, const std::vector<FingerShape>& shapes) 
   }
 }
 
+/// @param contacts  the markers of the diagram's fingers.
 std::vector<FingerShape> ShapesOf(const object::Polygon& polygon, const StepDiagram& diagram,
-                                  const PanelView& view) {
+                                  std::span<const FingerMarker> contacts, const PanelView& view) {
   std::vector<FingerShape> shapes;
-  for (const DiagramFinger& finger : diagram.fingers) {
-    shapes.push_back({&finger, view.ToPanel(finger.contact.p),
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const DiagramFinger& finger = diagram.fingers[i];
+    shapes.push_back({&finger, contacts[i].centre,
                       PanelView::ToPanelDirection(finger.contact.outward),
-                      ArrowOf(polygon, finger, view)});
+                      ArrowOf(polygon, finger, contacts[i].radius, view)});
   }
   for (FingerShape& shape : shapes) MoveArrowAside(shape, shapes);
   return shapes;
 }
 
-void DrawShape(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
+void DrawMotion(cairo_t* cr, const FingerShape& shape, const PanelView& view) {
   const DiagramFinger& finger = *shape.finger;
   const Color color = FingerColor(finger.finger);
   SetColor(cr, color);
   StrokeArrow(cr, shape.arrow, kArrowWidth);
-  if (finger.role == plan::FingerRole::kMoved) {
-    for (const auto& [at, across] : PathBeside(finger.path, view, kPathOffset).ticks) {
-      SetColor(cr, color);
-      StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
-    }
-    DrawFingerMarker(cr, finger.finger, view.ToPanel(finger.path.front().p), kMarkerRadius,
-                     MarkerStyle::kHollow);
+  if (finger.role != plan::FingerRole::kMoved) return;
+  for (const auto& [at, across] : PathBeside(finger.path, view, kPathOffset).ticks) {
+    SetColor(cr, color);
+    StrokeLine(cr, at - kTick * across, at + kTick * across, kArrowWidth);
   }
-  if (finger.role == plan::FingerRole::kPlaced) {
-    SetCircle(cr, shape.contact, kRingRadius);
-    Stroke(cr, color, kRingWidth);
-  }
-  DrawFingerMarker(
-      cr, finger.finger, shape.contact, kMarkerRadius,
-      finger.role == plan::FingerRole::kReleased ? MarkerStyle::kHollow : MarkerStyle::kFilled);
 }
 
 std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiagram& diagram,
-                                  const std::vector<FingerShape>& shapes, const PanelView& view) {
+                                  const std::vector<FingerShape>& shapes,
+                                  const std::vector<FingerMarker>& markers, const PanelView& view) {
   std::vector<Obstacle> obstacles;
   for (FaceIndex face{0}; face < polygon.face_count(); ++face) {
     const auto [a, b] = polygon.edge(face);
     obstacles.push_back({view.ToPanel(a.head<2>()), view.ToPanel(b.head<2>()), 0, kBorderWeight});
   }
+  for (const FingerMarker& marker : markers) {
+    obstacles.push_back({marker.centre, marker.centre, marker.reach(), kMarkerWeight});
+  }
   for (const FingerShape& shape : shapes) {
-    const bool ring = shape.finger->role == plan::FingerRole::kPlaced;
-    obstacles.push_back(
-        {shape.contact, shape.contact, ring ? kRingRadius : kMarkerRadius, kMarkerWeight});
     for (std::size_t i = 1; i < shape.arrow.size(); ++i) {
       obstacles.push_back({shape.arrow[i - 1], shape.arrow[i], 1, kArrowWeight});
-    }
-    if (shape.finger->role == plan::FingerRole::kMoved) {
-      const Vector2d start = view.ToPanel(shape.finger->path.front().p);
-      obstacles.push_back({start, start, kMarkerRadius, kMarkerWeight});
     }
   }
   for (const DoubleCone& cone : diagram.grasp.cones) {
@@ -193,15 +200,18 @@ double OutwardClearance(const object::Polygon& polygon, const BorderPoint& from)
 
 void DrawFingers(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& diagram,
                  const PanelView& view) {
-  const std::vector<FingerShape> shapes = ShapesOf(polygon, diagram, view);
+  const std::vector<FingerMarker> markers = MarkersOf(diagram, view);
+  const std::vector<FingerShape> shapes =
+      ShapesOf(polygon, diagram, std::span(markers).last(diagram.fingers.size()), view);
   std::vector<std::string> names;
   std::vector<LabelAnchor> anchors;
   for (const FingerShape& shape : shapes) {
-    DrawShape(cr, shape, view);
+    DrawMotion(cr, shape, view);
     names.push_back(std::to_string(shape.finger->finger));
     anchors.push_back({shape.contact, shape.outward});
   }
-  const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, view);
+  for (const FingerMarker& marker : markers) DrawFingerMarker(cr, marker);
+  const std::vector<Obstacle> obstacles = ObstaclesOf(polygon, diagram, shapes, markers, view);
   DrawNumbers(cr, names, anchors, obstacles, {view.width, view.height});
 }
 

@@ -30,9 +30,6 @@ constexpr double kHiddenEdge = 0.35;
 constexpr double kHiddenDash = 1.6;
 constexpr double kStem = 2.0;
 constexpr double kConeBorder = 0.4;
-constexpr double kMarkerRadius = 2.7;
-constexpr double kRingRadius = 4.6;
-constexpr double kRingWidth = 0.8;
 constexpr double kArrowWidth = 1.0;
 constexpr double kPathWidth = 0.9;
 
@@ -127,24 +124,42 @@ class SolidPainter {
     DrawLine({glyph.contact, glyph.stem_end}, FingerColor(glyph.finger), kStem);
   }
 
-  /// What a finger does, and its marker.
-  void DrawFinger(const FingerGlyph& glyph) {
-    const bool hidden = IsBehind(glyph);
+  void DrawMotion(const FingerGlyph& glyph) {
     const Color own = FingerColor(glyph.finger);
-    const Color color = hidden ? Paler(own, kBehindShare) : own;
-    const Vector2d contact = camera_(glyph.contact);
-    SetColor(cr_, color);
-    DrawMotion(glyph);
-    if (glyph.role == plan::FingerRole::kPlaced) {
-      SetCircle(cr_, contact, kRingRadius);
-      Stroke(cr_, color, kRingWidth);
+    SetColor(cr_, IsBehind(glyph) ? Paler(own, kBehindShare) : own);
+    std::vector<Vector2d> path;
+    if (HasPath(glyph)) {
+      for (const Vector3d& p : glyph.path) path.push_back(camera_(p));
+      StrokeArrow(cr_, path, kPathWidth);
+    } else if (glyph.role == plan::FingerRole::kPlaced) {
+      path = {camera_(glyph.end), camera_(glyph.stem_end)};
+      StrokeArrow(cr_, path, kArrowWidth);
+    } else if (glyph.role == plan::FingerRole::kReleased) {
+      path = {camera_(glyph.stem_end), camera_(glyph.end)};
+      StrokeArrow(cr_, path, kArrowWidth);
     }
-    const MarkerStyle held = hidden ? MarkerStyle::kPale : MarkerStyle::kFilled;
-    DrawFingerMarker(cr_, glyph.finger, contact, kMarkerRadius,
-                     glyph.role == plan::FingerRole::kReleased ? MarkerStyle::kHollow : held);
   }
 
-  void DrawNumbers(const std::vector<FingerGlyph>& fingers, const Vector2d& size) {
+  /// The starts of moved fingers, then the contacts.
+  [[nodiscard]] std::vector<FingerMarker> MarkersOf(const std::vector<FingerGlyph>& fingers) const {
+    std::vector<FingerMarker> markers;
+    for (const FingerGlyph& glyph : fingers) {
+      if (!HasPath(glyph)) continue;
+      markers.push_back({glyph.finger, camera_(glyph.path.front()), MarkerStyle::kHollow});
+    }
+    for (const FingerGlyph& glyph : fingers) {
+      const MarkerStyle held = IsBehind(glyph) ? MarkerStyle::kPale : MarkerStyle::kFilled;
+      const bool released = glyph.role == plan::FingerRole::kReleased;
+      markers.push_back({glyph.finger, camera_(glyph.contact),
+                         released ? MarkerStyle::kHollow : held,
+                         glyph.role == plan::FingerRole::kPlaced});
+    }
+    EnlargeCovered(markers);
+    return markers;
+  }
+
+  void DrawNumbers(const std::vector<FingerGlyph>& fingers,
+                   const std::vector<FingerMarker>& markers, const Vector2d& size) {
     std::vector<std::string> names;
     std::vector<LabelAnchor> anchors;
     std::vector<Obstacle> obstacles;
@@ -156,13 +171,18 @@ class SolidPainter {
       const Vector2d end = camera_(glyph.end);
       names.push_back(std::to_string(glyph.finger));
       anchors.push_back({contact, end - contact, contact});
-      obstacles.push_back({contact, contact, kRingRadius, kMarkerWeight});
       obstacles.push_back({contact, end, kStem, kStemWeight});
+    }
+    for (const FingerMarker& marker : markers) {
+      obstacles.push_back({marker.centre, marker.centre, marker.reach(), kMarkerWeight});
     }
     render::DrawNumbers(cr_, names, anchors, obstacles, size);
   }
 
  private:
+  [[nodiscard]] static bool HasPath(const FingerGlyph& glyph) {
+    return glyph.role == plan::FingerRole::kMoved && glyph.path.size() > 1;
+  }
   [[nodiscard]] bool IsBehind(const FingerGlyph& glyph) const {
     return IsHidden(body_.surface, glyph.contact + glyph.ball_radius * glyph.outward,
                     camera_.back());
@@ -188,21 +208,6 @@ class SolidPainter {
     for (const auto& [a, b] : parts.hidden) StrokeLine(cr_, camera_(a), camera_(b), width / 2);
     SetColor(cr_, color);
     for (const auto& [a, b] : parts.visible) StrokeLine(cr_, camera_(a), camera_(b), width);
-  }
-
-  void DrawMotion(const FingerGlyph& glyph) {
-    std::vector<Vector2d> path;
-    if (glyph.role == plan::FingerRole::kMoved && glyph.path.size() > 1) {
-      for (const Vector3d& p : glyph.path) path.push_back(camera_(p));
-      StrokeArrow(cr_, path, kPathWidth);
-      DrawFingerMarker(cr_, glyph.finger, path.front(), kMarkerRadius, MarkerStyle::kHollow);
-    } else if (glyph.role == plan::FingerRole::kPlaced) {
-      path = {camera_(glyph.end), camera_(glyph.stem_end)};
-      StrokeArrow(cr_, path, kArrowWidth);
-    } else if (glyph.role == plan::FingerRole::kReleased) {
-      path = {camera_(glyph.stem_end), camera_(glyph.end)};
-      StrokeArrow(cr_, path, kArrowWidth);
-    }
   }
 
   cairo_t* cr_;
@@ -272,8 +277,10 @@ void SolidPanels::Draw(cairo_t* cr, int index, double width) const {
   for (const FingerGlyph& glyph : fingers) painter.DrawCone(glyph, half_angle_);
   painter.DrawVisibleEdges();
   for (const FingerGlyph& glyph : fingers) painter.DrawStem(glyph);
-  for (const FingerGlyph& glyph : fingers) painter.DrawFinger(glyph);
-  painter.DrawNumbers(fingers, panel);
+  for (const FingerGlyph& glyph : fingers) painter.DrawMotion(glyph);
+  const std::vector<FingerMarker> markers = painter.MarkersOf(fingers);
+  for (const FingerMarker& marker : markers) DrawFingerMarker(cr, marker);
+  painter.DrawNumbers(fingers, markers, panel);
   DrawScaleBar(cr, panel, scale / frame_.diameter_m);
 }
 
