@@ -24,12 +24,21 @@ std::string Join(const std::vector<std::string>& words) {
 bool TakesFile(const OptionHelp& option) { return option.type.starts_with("FILE"); }
 bool TakesFolder(const OptionHelp& option) { return option.type == "DIR"; }
 
-/// What it does in a few words: up to the first stop, without what a shell would act on.
-std::string Summary(const OptionHelp& option) {
-  std::string text = option.text.substr(0, option.text.find_first_of(";:.("));
-  std::erase_if(text, [](char c) { return std::string("[]'\"`$\\").find(c) != std::string::npos; });
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
+std::string Replaced(const std::string& text, char what, const std::string& by) {
+  std::string out;
+  for (const char c : text) out += c == what ? by : std::string(1, c);
+  return out;
+}
+
+/// Within single quotes of zsh, and within brackets there.
+std::string ZshQuoted(std::string text) {
+  for (const char c : {'\\', '[', ']'}) text = Replaced(text, c, std::string("\\") + c);
+  return Replaced(text, '\'', "'\\''");
+}
+
+/// Within single quotes of fish.
+std::string FishQuoted(const std::string& text) {
+  return Replaced(Replaced(text, '\\', "\\\\"), '\'', "\\'");
 }
 
 }  // namespace
@@ -58,7 +67,7 @@ std::string BashCompletion(const CLI::App& app) {
 std::string ZshCompletion(const CLI::App& app) {
   std::string text = "#compdef " + app.get_name() + "\n_arguments";
   for (const OptionHelp& option : AllOptions(app)) {
-    text += " \\\n  '" + option.name + "[" + Summary(option) + "]";
+    text += " \\\n  '" + option.name + "[" + ZshQuoted(option.summary) + "]";
     if (!option.type.empty()) {
       text += ":" + option.name.substr(2) + ":";
       if (TakesFile(option)) {
@@ -83,7 +92,7 @@ std::string FishCompletion(const CLI::App& app) {
         "complete -c " + app.get_name() + (files ? " -F -l " : " -f -l ") + option.name.substr(2);
     if (!option.type.empty()) text += " -r";
     if (!option.choices.empty()) text += " -a '" + Join(option.choices) + "'";
-    text += " -d '" + Summary(option) + "'\n";
+    text += " -d '" + FishQuoted(option.summary) + "'\n";
   }
   return text;
 }

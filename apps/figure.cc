@@ -98,7 +98,7 @@ void FigureProgram::AddTo(CLI::App& app) {
   app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
   app.add_option("--out", out, "Folder for the figures")->required()->type_name("DIR");
   AddChoice<std::string>(app, "--format", format, {{"svg", "svg"}, {"pdf", "pdf"}, {"png", "png"}},
-                         "Of the figures (default svg)");
+                         "Format of the figures (default svg)");
   BeginGroup(app, "Size and choice");
   AddNumber(app, "--width", style.width_mm, kWidths,
             "Width of the figure of a step, millimetres (default 85, a column)", "MM");

@@ -51,20 +51,21 @@ void GraphProgram::AddTo(CLI::App& app) {
   common.AddTo(app, "polygon in the plane, roadmap in space, unless an option asks for another");
   BeginGroup(app, "What is counted and told");
   app.add_option("--json", json,
-                 "Also writes the counts as JSON; - is standard output, instead "
+                 "Also write the counts as JSON; - is standard output, instead "
                  "of the table")
       ->type_name("FILE");
-  AddInteger(app, "--sampling", tasks.focus_points, 1, kMostSamples,
-             "The planner polyhedron looks for cells by so many random focus points instead of "
-             "directly, in a box that contains all cells");
+  AddInteger(
+      app, "--sampling", tasks.focus_points, 1, kMostSamples,
+      "Look for cells of the planner polyhedron by so many random focus points: in a box that "
+      "contains all cells, instead of directly");
   app.add_flag("--compare", compare,
-               "With --sampling: also says how much of the direct graph the points found");
+               "Also say how much of the direct graph the points of --sampling found");
   AddInteger(app, "--queries", tasks.queries, 1, kMostQueries,
-             "A roadmap of clusters also answers so many queries between random force-closure "
+             "Also answer so many random queries on a roadmap of clusters: between force-closure "
              "grasps of its contact points");
   app.add_flag("--no-lazy", no_lazy,
-               "With --queries: no search among the grasps of all contact points where the "
-               "representatives do not join start and goal");
+               "No search beyond the representatives in --queries: none among the grasps of all "
+               "contact points where they do not join start and goal");
   app.footer(
       "  graph --object polygon40.wkt --friction-angle 10 --spanning uniform\n"
       "  graph --object part.obj --mu 0.3 --planner polyhedron --json graph.json\n");

@@ -65,6 +65,13 @@ std::vector<std::string> ChoicesOf(const std::string& type) {
   return choices;
 }
 
+/// Up to the first stop, or the default.
+std::string FirstClause(const std::string& text) {
+  std::size_t end = text.size();
+  for (const char* stop : {"; ", ": ", ". ", " (default"}) end = std::min(end, text.find(stop));
+  return text.substr(0, end);
+}
+
 OptionHelp HelpOf(const CLI::Option& option) {
   OptionHelp help;
   help.name = "--" + option.get_lnames().front();
@@ -73,6 +80,7 @@ OptionHelp HelpOf(const CLI::Option& option) {
   help.type = type.substr(0, type.find(':'));
   help.choices = ChoicesOf(type);
   help.text = option.get_description();
+  help.summary = FirstClause(help.text);
   help.required = option.get_required();
   return help;
 }

@@ -9,9 +9,10 @@ namespace regrasp::apps {
 
 /// What is said of an option.
 struct OptionHelp {
-  std::string name;  ///< "--object"
-  std::string type;  ///< "FILE", "imitate|slide"; empty for a flag
-  std::string text;  ///< what it does, with unit and default
+  std::string name;     ///< "--object"
+  std::string type;     ///< "FILE", "imitate|slide"; empty for a flag
+  std::string text;     ///< what it does, with unit and default
+  std::string summary;  ///< its first clause, which shells show beside the name
   bool required = false;
   std::vector<std::string> choices;  ///< where it takes one of some words
 };

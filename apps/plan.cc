@@ -124,25 +124,28 @@ void PlanProgram::AddEnds(CLI::App& app) {
 
 void PlanProgram::AddSearch(CLI::App& app) {
   app.add_flag("--no-lazy", no_lazy,
-               "On a roadmap of clusters: no search among the grasps of all contact points where "
-               "the representatives do not join start and goal");
+               "No search beyond the representatives on a roadmap of clusters: none among the "
+               "grasps of all contact points where they do not join start and goal");
   AddChoice<planning::Objective>(
       app, "--optimize", objective,
       {{"steps", planning::Objective::kSteps},
        {"margin", planning::Objective::kMargin},
        {"travel", planning::Objective::kTravel},
        {"regions", planning::Objective::kRegions}},
-      "The planner general: steps (the fewest found, then margin; the default), margin (the "
-      "weakest grasp's margin, with two steps more at most), travel (the fewest found, then the "
-      "least travel of the fingers). The planner contour: regions (every switch where the smaller "
-      "of its two grasps' contact regions is largest; default: well inside both sets)");
+      "What makes a sequence good: with the planner general steps (the fewest found, then margin; "
+      "the default), margin (the weakest grasp's margin, with two steps more at most), travel (the "
+      "fewest found, then the least travel of the fingers); with the planner contour regions "
+      "(every "
+      "switch where the smaller of its two grasps' contact regions is largest; default: well "
+      "inside "
+      "both sets)");
   AddInteger(app, "--effort", effort, std::int64_t{1}, kMostEffort,
-             "The planner general: force-closure tests, some microseconds each, after which it "
-             "gives up (default " +
+             "Force-closure tests after which the planner general gives up; each takes some "
+             "microseconds (default " +
                  std::to_string(tree::TreePlanner::kDefaultEffort) + ")");
   app.add_flag("--explain", explain,
-               "The planner general: where it finds no sequence, looks for the smallest friction "
-               "at which it finds one");
+               "Look for the smallest friction that is enough where no sequence is found; of the "
+               "planner general");
 }
 
 planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,

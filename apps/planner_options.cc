@@ -51,29 +51,31 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   BeginGroup(app, "Planner");
   std::string type;
   for (const std::string& name : NamesForUsers()) type += (type.empty() ? "" : "|") + name;
-  app.add_option("--planner", planner, PlannersText() + " (default auto: " + automatic + ")")
+  app.add_option("--planner", planner,
+                 "The planner: " + PlannersText() + " (default auto: " + automatic + ")")
       ->type_name(type)
       ->check(CheckPlanner);
   AddChoice<planning::Spanning>(
       app, "--spanning", spanning,
       {{"adaptive", planning::Spanning::kAdaptive}, {"uniform", planning::Spanning::kUniform}},
-      "Cones of focus cells as wide as the normals allow, or all of the friction's half-angle; of "
-      "polygon and polyhedron (default adaptive)");
+      "How wide cones of focus cells are: adaptive, as the normals allow, or uniform, all of the "
+      "friction's half-angle; of polygon and polyhedron (default adaptive)");
   AddInteger(app, "--contacts", contacts, roadmap::kFewestClusters, roadmap::kMaxClusteredContacts,
              "Contact points of the roadmap: spread evenly over the surface, on a mesh at the "
              "centres of its facets (default 60, in clusters 1000)");
   AddInteger(app, "--clusters", clusters, roadmap::kFewestClusters, roadmap::kMostClusters,
-             "The roadmap sorts its contact points into so many clusters and looks at all grasps "
-             "of their representatives only (default: 50 where there are more than " +
+             "Clusters that the roadmap sorts its contact points into: it looks at all grasps of "
+             "their representatives only (default: 50 where there are more than " +
                  std::to_string(roadmap::kMaxRoadmapContacts) +
                  " contact points to choose or faces, otherwise none)");
   AddSeed(app, seed, "Seed of everything that is drawn at random (default 0)");
-  app.add_flag("--force", force,
-               "Builds a planner's graph also where it would take more than half "
-               "of the memory, which is refused otherwise");
+  app.add_flag(
+      "--force", force,
+      "Build a planner's graph also where it takes more than half of the memory; otherwise "
+      "that is refused");
   AddNumber(app, "--time-limit", time_limit_s, NumberRange::Positive(),
-            "Seconds from the program's start after which reading, planning and building a graph "
-            "give up; a plan then depends on the machine",
+            "Longest time from the program's start, seconds: after it reading, planning and "
+            "building a graph give up; a plan then depends on the machine",
             "S");
   AddQuiet(app, quiet);
 }

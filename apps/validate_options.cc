@@ -64,7 +64,7 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
       ->excludes(grasp);
   add("--goal", options.goal, "Grasp file that the plan's goal must be")->excludes(grasp);
   add("--verify", options.verify,
-      "Checks the proofs of a report that --certificates wrote, in exact rational arithmetic, "
+      "Check the proofs of a report that --certificates wrote: in exact rational arithmetic, "
       "against this plan and object, at the plan's friction or the one that is given, and all else "
       "that a plan must be; nothing is replayed or written")
       ->excludes(grasp);
@@ -79,15 +79,15 @@ void AddOutputs(CLI::App& app, ValidateOptions& options) {
       "for each in it, index.html and summary.json (default out/<folder name> or out/batch)")
       ->type_name("DIR");
   app.add_flag("--certificates", options.certificates,
-               "The report also holds, for every grasp and all along every align, contact forces "
-               "that prove force closure, or a twist that refutes it");
+               "Also write proofs of force closure into the report: for every grasp and all along "
+               "every align, contact forces that prove it, or a twist that refutes it");
   add("--junit", options.junit, "Write the verdicts as JUnit XML");
   add("--json", options.json,
       "Write the report here too; - is standard output, instead of the table");
   add("--export-mjcf", options.mjcf,
-      "Write the scene of the replay as MJCF, without what versions of MuJoCo name differently");
+      "Write the scene of the replay as MJCF; without what versions of MuJoCo name differently");
   add("--trajectory", options.trajectory,
-      "Write time (s), place (m) and force (N) of every finger during the replay as CSV");
+      "Write what every finger does during the replay as CSV: time (s), place (m), force (N)");
 }
 
 /// The object and the fingers, beside what the plan says of them.
@@ -102,7 +102,7 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
             "Density of the object, kg/m^3 (default 1000)", "KG_M3")
       ->excludes(mass);
   AddNumber(app, "--thickness", options.replay.thickness, NumberRange::Positive(),
-            "Thickness of the prism that a planar object is, in the object file's own unit of "
+            "Thickness of the prism that a planar object is: in the object file's own unit of "
             "length (default a quarter of the diameter)");
   AddNumber(app, "--finger-radius", options.replay.finger_radius, NumberRange::Positive(),
             "Radius of the fingers, in the object file's own unit of length: a finger that cannot "
@@ -143,10 +143,10 @@ void AddReplay(CLI::App& app, ValidateOptions& options) {
       "direction, fixed with the forces of the rest and the stiffness of their servos "
       "alone; both runs both, the adapted one decides (default adapted)");
   app.add_flag("--stress", options.replay.stress,
-               "Also find the largest push and turn that each rest resists in every direction, by "
+               "Also find the largest push and turn that each rest resists: in every direction, by "
                "bisection in the replay and by analysis; takes some ten times as long");
   AddNumber(app, "--tolerance", options.replay.tolerance, NumberRange::Positive(),
-            "How far the object may move and a fingertip slip, in diameters of the object "
+            "How far the object may move and a fingertip slip; in diameters of the object "
             "(default 0.001)");
   AddChoice<sim::AlignChoice>(
       app, "--align", options.replay.align,
@@ -167,7 +167,7 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
                  "passes. The verdict is that of the replay without noise");
   AddSeed(app, options.trials.seed, "Seed of the noise (default 0)")->needs(trials);
   AddNumber(app, "--position-noise", options.trials.position_noise, share,
-            "Standard deviation of each contact along the surface, in diameters of the object "
+            "Standard deviation of each contact along the surface; in diameters of the object "
             "(default 0.01)")
       ->needs(trials);
   AddNumber(app, "--friction-error", options.trials.friction_error, share,
@@ -187,7 +187,7 @@ void AddVideo(CLI::App& app, std::string& video) {
     video = file;
   };
   app.add_option_function<std::string>("--video", parse,
-                                       "Write the replay as a moving picture into this file, .mp4 "
+                                       "Write the replay as a moving picture into this file: .mp4 "
                                        "(H.264), .gif or .webp; without "
                                        "--animate it is the one that the report page shows")
       ->type_name("FILE");
@@ -197,12 +197,14 @@ constexpr char kAnimateSize[] = "--animate-size";
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
   CLI::Option* none = app.add_flag("--no-frames", options.no_frames, "Draw no frames");
-  app.add_flag("--show-focus", options.frame.show_focus,
-               "Frames of a solid also show the focus point of four concurrent contacts, the lines "
-               "to it, and the contact regions that it gives");
-  app.add_flag("--show-clusters", options.show_clusters,
-               "Frames of a plan over clustered contact points show the clusters on the surface, "
-               "and their representatives as dots");
+  app.add_flag(
+      "--show-focus", options.frame.show_focus,
+      "Also show the focus point of four concurrent contacts: in frames of a solid, with the "
+      "lines to it and the contact regions that it gives");
+  app.add_flag(
+      "--show-clusters", options.show_clusters,
+      "Also show the clusters of a plan over clustered contact points: on the surface, with "
+      "their representatives as dots");
   options.frame.crop = true;
   AddSize(app, "--size", options.frame.width, options.frame.height,
           "Size of the frames. Without it they are at most as large as the default, and cropped to "
@@ -215,7 +217,7 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
       "1600)");
   AddFrameView(app, options.frame);
   app.add_flag("--animate", options.animate,
-               "Also write the whole replay as a moving picture, replay.webp, slowed down and seen "
+               "Also write the whole replay as a moving picture: replay.webp, slowed down and seen "
                "as the frames are; the report page shows it")
       ->excludes(none);
   AddVideo(app, options.video);
@@ -284,8 +286,9 @@ void ValidateOptions::AddTo(CLI::App& app) {
   app.add_flag("--allow-object-change", allow_object_change,
                "Accept an object file with other bytes than the plan was made for");
   app.add_flag("--allow-undecided", allow_undecided,
-               "Pass aligns of which up to a thousandth of a segment between two waypoints is "
-               "neither proved nor refuted; otherwise they fail as not-proved");
+               "Pass aligns that are proved but for a little: up to a thousandth of a segment "
+               "between two waypoints is neither proved nor refuted; otherwise they fail as "
+               "not-proved");
   AddQuiet(app, quiet);
   app.footer(
       "  validate --object cube.obj --plan plan.json\n"

@@ -45,7 +45,7 @@ void AddEdges(CLI::App& app, render::BodyOptions& body) {
            body.crease_angle =
                Radians(ParseNumber("--crease-angle", text, {.lower = 0, .upper = kHalfTurn}));
          },
-         "Facets that meet at less than this are shown as one smooth surface, degrees (default 40)")
+         "Angle below which facets are shown as one smooth surface, degrees (default 40)")
       ->type_name("DEG");
 }
 

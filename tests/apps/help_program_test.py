@@ -1,6 +1,7 @@
 """What all programs say of their options: --help, manual page, completions, and mistyped ones."""
 
 import re
+import shlex
 import shutil
 import subprocess
 
@@ -9,10 +10,20 @@ from program_case import ProgramCase
 
 PROGRAMS = ("plan", "validate", "graph", "figure")
 
+# Of what shells show beside an option, on a terminal of 100 columns.
+SUMMARY_LENGTH = 72
+
 
 def options_in(text):
     """The options that --help lists: each begins a line, indented by two."""
     return re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)
+
+
+def is_first_clause(summary, text):
+    """All of the text up to a stop."""
+    rest = text.removeprefix(summary)
+    return rest != text and (not rest or rest == " (required)" or
+                             re.match(r"[;:.] | \(default", rest) is not None)
 
 
 class Help(ProgramCase):
@@ -75,6 +86,37 @@ class Help(ProgramCase):
                 for option in options:
                     word = "-l " + option[2:] + " " if kind == "fish" else option
                     self.assertIn(word, text, kind)
+
+    def texts(self, program):
+        """What --help says of each option, in one line."""
+        texts, option = {}, None
+        for line in self.help(program, COLUMNS="120").split("Examples:")[0].splitlines():
+            head = re.match(r"  (--[a-z-]+)(?: \S+)?(?:  +(.*))?$", line)
+            if head:
+                option = head[1]
+                texts[option] = head[2] or ""
+            elif line.startswith(" " * 26):
+                texts[option] = (texts[option] + " " + line.strip()).strip()
+        return texts
+
+    def test_shells_show_the_first_clause_of_an_options_text_whole_and_in_a_line(self):
+        self.assertFalse(is_first_clause("Write time", "Write time (s) and place (m); as CSV"))
+        self.assertFalse(is_first_clause("The sheet overview", "The sheet overview.png, pixels"))
+        self.assertFalse(is_first_clause("The plans grasp", "The plan's grasp"))
+        for program in PROGRAMS:
+            texts = self.texts(program)
+            zsh = {word.split("[")[0]: word[word.index("[") + 1:word.rindex("]")]
+                   for word in shlex.split(self.help_as("zsh", program).split("_arguments")[1])
+                   if word.startswith("--")}
+            # fish writes a quote within quotes as \', a POSIX shell as '\''.
+            lines = self.help_as("fish", program).replace("\\'", "'\\''").splitlines()
+            fish = {"--" + words[words.index("-l") + 1]: words[words.index("-d") + 1]
+                    for words in map(shlex.split, lines)}
+            self.assertEqual(zsh, fish)
+            self.assertEqual(sorted(zsh), sorted(texts))
+            for option, summary in zsh.items():
+                self.assertTrue(is_first_clause(summary, texts[option]), (summary, texts[option]))
+                self.assertLessEqual(len(summary), SUMMARY_LENGTH, summary)
 
     def test_fish_is_never_told_to_complete_files_and_not_to(self):
         offered = 0

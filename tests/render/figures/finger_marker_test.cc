@@ -32,8 +32,8 @@ double AreaOf(FingerIndex finger, const std::vector<FingerMarker>& markers) {
   cairo_scale(context.get(), kPixels, kPixels);
   for (const FingerMarker& marker : markers) DrawFingerMarker(context.get(), marker);
   cairo_surface_flush(surface.get());
-  const auto* pixels = reinterpret_cast<const std::uint32_t*>(
-      cairo_image_surface_get_data(surface.get()));
+  const auto* pixels =
+      reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface.get()));
   const Color color = FingerColor(finger);
   const std::uint32_t wanted = (color.r << 16) | (color.g << 8) | color.b;
   int count = 0;
