@@ -128,6 +128,13 @@ void CheckOutputsWritable(const OutputFiles& outputs) {
   }
 }
 
+fs::path PathForCi(const fs::path& path) {
+  const fs::path here = fs::current_path();
+  const fs::path absolute = (here / path).lexically_normal();
+  const fs::path relative = absolute.lexically_relative(here);
+  return relative.empty() || *relative.begin() == ".." ? absolute : relative;
+}
+
 std::string ReadOutput(const fs::path& path) {
   try {
     return ReadFile(path);

@@ -44,6 +44,10 @@ void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles&
 /// @throws EnvironmentError  names the one that cannot.
 void CheckOutputsWritable(const OutputFiles& outputs);
 
+/// A path as CI servers look for it: from the folder that the program runs in, which is the job's
+/// (GitLab's CI_PROJECT_DIR, Jenkins' workspace), or absolute where it does not lead below it.
+[[nodiscard]] std::filesystem::path PathForCi(const std::filesystem::path& path);
+
 /// The bytes of a file that the program has written itself.
 /// @throws EnvironmentError  it is gone, or cannot be read any more: that is no bad input.
 [[nodiscard]] std::string ReadOutput(const std::filesystem::path& path);

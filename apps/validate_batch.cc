@@ -152,7 +152,9 @@ class Batch {
     ExpectResults();
     WriteFile(folder_.path() / kIndexName, FormatBatchPage(summary_));
     WriteFile(folder_.path() / kSummaryName, FormatSummaryJson(summary_));
-    if (!options_.junit.empty()) WriteFile(options_.junit, FormatSummaryJunit(summary_));
+    if (!options_.junit.empty()) {
+      WriteFile(options_.junit, FormatSummaryJunit(summary_, PathForCi(folder_.path())));
+    }
     if (!options_.quiet) {
       PrintTable(FormatSummaryTable(summary_), (folder_.path() / kIndexName).string() + ", " +
                                                    kSummaryName +

@@ -308,9 +308,10 @@ std::vector<report::FileDigest> DigestFiles(const std::filesystem::path& folder,
   return files;
 }
 
-void WriteJunit(const ValidateOptions& options, const report::Report& report, Samples& samples) {
+void WriteJunit(const ValidateOptions& options, const std::filesystem::path& folder,
+                const report::Report& report, Samples& samples) {
   if (options.junit.empty()) return;
-  report::JunitSuite suite = report::MakeJunitSuite(report);
+  report::JunitSuite suite = report::MakeJunitSuite(report, PathForCi(folder));
   suite.seconds = samples.run.Lap();
   report::SetCaseTimes(samples.entry_seconds, suite);
   WriteFile(options.junit, report::FormatJunit({suite}));
@@ -322,7 +323,7 @@ void WriteResults(const ValidateOptions& options, const render::FrameOptions& fr
   RemoveEarlierRun(folder, OwnResults(folder));
   folder.Announce(names);
   WritePictures(options, frame, task, samples, folder.path(), report);
-  WriteJunit(options, report, samples);
+  WriteJunit(options, folder.path(), report, samples);
   if (!options.trajectory.empty()) {
     WriteFile(options.trajectory, sim::FormatTrajectory(samples.trajectory));
   }

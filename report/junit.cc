@@ -11,6 +11,11 @@ namespace regrasp::report {
 
 namespace {
 
+/// What a failure says, and its picture.
+std::string FailureText(const JunitCase& result) {
+  return result.text + (result.picture.empty() ? "" : "\npicture: " + result.picture);
+}
+
 /// Seconds to a thousandth, as JUnit has them.
 constexpr int kTimeDecimals = 3;
 
@@ -23,7 +28,10 @@ Element MakeCase(const std::string& suite, const JunitCase& result) {
     case JunitOutcome::kPassed:
       break;
     case JunitOutcome::kFailed:
-      element.Add(Element("failure", message, result.text));
+      element.Add(Element("failure", message, FailureText(result)));
+      if (!result.picture.empty()) {
+        element.Add(Element("system-out", {}, "[[ATTACHMENT|" + result.picture + "]]"));
+      }
       break;
     case JunitOutcome::kError:
       element.Add(Element("error", message, result.text));
@@ -53,11 +61,9 @@ Element MakeSuite(const JunitSuite& suite) {
 
 }  // namespace
 
-std::string JunitText(const std::string& detail, const std::string& why, const std::string& mend,
-                      const std::string& picture) {
+std::string JunitText(const std::string& detail, const std::string& why, const std::string& mend) {
   std::string text = detail;
-  for (const auto& [name, said] :
-       {std::pair{"why", &why}, {"what would mend it", &mend}, {"picture", &picture}}) {
+  for (const auto& [name, said] : {std::pair{"why", &why}, {"what would mend it", &mend}}) {
     if (!said->empty()) text += std::string("\n") + name + ": " + *said;
   }
   return text;
@@ -68,16 +74,17 @@ JunitOutcome OutcomeOf(std::string_view verdict) {
   return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
 }
 
-JunitSuite MakeJunitSuite(const Report& report) {
+JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& folder) {
   JunitSuite suite{report.plan_file, {}};
   const auto failure = DescribeFailure(report);
   for (const ReportStep& step : report.steps) {
     const bool failed = failure && failure->entry == step.check.index;
-    suite.cases.push_back({"step " + std::to_string(step.check.index) + " " + step.check.kind,
-                           OutcomeOf(VerdictName(step.verdict())),
-                           std::string(plan::ReasonName(step.reason())),
-                           JunitText(step.detail(), failed ? failure->why : "",
-                                     failed ? failure->mend : "", step.frame)});
+    suite.cases.push_back(
+        {.name = "step " + std::to_string(step.check.index) + " " + step.check.kind,
+         .outcome = OutcomeOf(VerdictName(step.verdict())),
+         .message = std::string(plan::ReasonName(step.reason())),
+         .text = JunitText(step.detail(), failed ? failure->why : "", failed ? failure->mend : ""),
+         .picture = step.frame.empty() ? "" : (folder / step.frame).string()});
   }
   return suite;
 }

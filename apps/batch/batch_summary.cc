@@ -70,7 +70,7 @@ std::string FormatCounts(const BatchSummary& summary) {
   return text + "\n";
 }
 
-report::JunitSuite MakeSuite(const PlanOutcome& plan) {
+report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::path& folder) {
   report::JunitSuite suite{plan.file, {}, plan.seconds};
   if (!plan.report) {
     suite.cases.push_back({"plan", report::JunitOutcome::kError,
@@ -79,10 +79,12 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan) {
   }
   for (std::size_t i = 0; i < plan.report->entries.size(); ++i) {
     const ReportSummary::Entry& entry = plan.report->entries[i];
-    const std::string picture = entry.frame.empty() ? "" : plan.name + "/" + entry.frame;
-    suite.cases.push_back({"step " + std::to_string(i) + " " + entry.kind,
-                           report::OutcomeOf(entry.verdict), entry.reason,
-                           report::JunitText(entry.detail, entry.why, entry.mend, picture)});
+    suite.cases.push_back(
+        {.name = "step " + std::to_string(i) + " " + entry.kind,
+         .outcome = report::OutcomeOf(entry.verdict),
+         .message = entry.reason,
+         .text = report::JunitText(entry.detail, entry.why, entry.mend),
+         .picture = entry.frame.empty() ? "" : (folder / plan.name / entry.frame).string()});
   }
   report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;
@@ -150,9 +152,9 @@ std::string FormatSummaryTable(const BatchSummary& summary) {
   return text + FormatCounts(summary);
 }
 
-std::string FormatSummaryJunit(const BatchSummary& summary) {
+std::string FormatSummaryJunit(const BatchSummary& summary, const std::filesystem::path& folder) {
   std::vector<report::JunitSuite> suites;
-  for (const PlanOutcome& plan : summary.plans) suites.push_back(MakeSuite(plan));
+  for (const PlanOutcome& plan : summary.plans) suites.push_back(MakeSuite(plan, folder));
   return report::FormatJunit(suites);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +49,8 @@ struct BatchSummary {
 [[nodiscard]] std::string FormatSummaryTable(const BatchSummary& summary);
 
 /// JUnit XML: a suite a plan with a case for each entry of its report, or with one error.
-[[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary);
+/// @param folder  of the plans' folders, as CI servers find it (PathForCi).
+[[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary,
+                                             const std::filesystem::path& folder);
 
 }  // namespace regrasp::apps

@@ -8,6 +8,7 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import urllib.parse
 import xml.etree.ElementTree as ElementTree
@@ -221,6 +222,25 @@ class Batch(ProgramCase):
         self.assertEqual(suites["broken.json"].get("errors"), "1")
         self.assertEqual(suites["square_01.json"].get("failures"), "0")
         self.assertNotIn(b" time=", without_times(self.read("junit.xml")))
+
+    def test_ci_servers_find_the_frame_of_what_failed_from_where_the_run_was(self):
+        self.use_few()
+        outside = tempfile.TemporaryDirectory()
+        self.addCleanup(outside.cleanup)
+        for out, folder in (("result", "result"), (self.path("result"), "result"),
+                            (outside.name, outside.name)):
+            for plan, frame in (("plans", "weak/000_hold.png"),
+                                ("plans/weak.json", "000_hold.png")):
+                self.run_program("--object", program_case.ARGUMENTS.source + "/models", "--plan",
+                                 plan, "--out", out, "--size", "160x120", "--junit", "junit.xml")
+                attached = [case.find("system-out").text for case in
+                            ElementTree.parse(self.path("junit.xml")).iter("testcase")
+                            if case.find("system-out") is not None]
+                self.assertEqual(attached, [f"[[ATTACHMENT|{folder}/{frame}]]"])
+                self.assertTrue(os.path.isfile(os.path.join(self.folder, folder, frame)))
+                shutil.rmtree(self.path(out))
+        self.run_batch(1, "--no-frames", "--junit", "junit.xml")
+        self.assertNotIn(b"ATTACHMENT", self.read("junit.xml"))
 
     def times(self, *more):
         """Of square_01: that of its suite and those of its cases, as JUnit tells them."""

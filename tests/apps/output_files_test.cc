@@ -135,5 +135,16 @@ TEST_F(OutputFilesTest, AResultThatIsGoneIsNoBadInput) {
   EXPECT_THROW((void)ReadOutput("/proc/self/mem"), EnvironmentError);  // a file, not to be read
 }
 
+TEST(PathForCiTest, IsFromTheWorkingFolderAndAbsoluteOutsideOfIt) {
+  const fs::path here = fs::current_path();
+  EXPECT_EQ(PathForCi("out/plans"), "out/plans");
+  EXPECT_EQ(PathForCi("./out/../out/"), "out/");
+  EXPECT_EQ(PathForCi(here / "out"), "out");
+  EXPECT_EQ(PathForCi("."), ".");
+  EXPECT_EQ(PathForCi("../out"), here.parent_path() / "out");
+  EXPECT_EQ(PathForCi("/nowhere/out"), "/nowhere/out");
+  EXPECT_EQ(PathForCi("..out"), "..out");
+}
+
 }  // namespace
 }  // namespace regrasp::apps

@@ -148,7 +148,7 @@ TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {
 }
 
 TEST(ReportTest, JunitTellsHowLongTheSuiteAndItsCasesTook) {
-  JunitSuite suite = MakeJunitSuite(MakeFailedReport());
+  JunitSuite suite = MakeJunitSuite(MakeFailedReport(), "out");
   ASSERT_EQ(suite.cases.size(), 3u);
   suite.seconds = 2.5;
   SetCaseTimes({0.25, 1.0004}, suite);
@@ -160,13 +160,15 @@ TEST(ReportTest, JunitTellsHowLongTheSuiteAndItsCasesTook) {
 }
 
 TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
-  const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport())});
+  const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport(), "out")});
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"slipped\">finger 2 slid by 1 mm &lt;under&gt; "
                              "&quot;shake&quot; &amp; push\nwhy: "));
-  EXPECT_THAT(xml, HasSubstr("\npicture: frame1.png</failure>"));
+  EXPECT_THAT(xml, HasSubstr("\npicture: out/frame1.png</failure>"
+                             "<system-out>[[ATTACHMENT|out/frame1.png]]</system-out></testcase>"));
   EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\" time=\"0.000\"><skipped></skipped>"));
-  EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport())}), Not(HasSubstr("<failure")));
+  EXPECT_THAT(FormatJunit({MakeJunitSuite(MakeReport(), "out")}),
+              AllOf(Not(HasSubstr("<failure")), Not(HasSubstr("ATTACHMENT"))));
 }
 
 TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {

@@ -65,14 +65,14 @@ TEST(BatchSummaryTest, TheFileHasEveryPlanWithItsReportOrItsMessage) {
 }
 
 TEST(BatchSummaryTest, JunitHasASuiteForEachPlanAndAnErrorWhereThereIsNoReport) {
-  const std::string xml = FormatSummaryJunit(All());
+  const std::string xml = FormatSummaryJunit(All(), "out/plans");
   EXPECT_THAT(xml,
               HasSubstr("<testsuite name=\"weak.json\" tests=\"3\" failures=\"1\" errors=\"0\" "
                         "skipped=\"1\" time=\"0.000\">"));
   EXPECT_THAT(xml,
               HasSubstr("<failure message=\"slipped\">finger &lt;2&gt; slipped\nwhy: it stays\n"
                         "what would mend it: more friction\n"
-                        "picture: weak/001_switch.png</failure>"));
+                        "picture: out/plans/weak/001_switch.png</failure>"));
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"crash.json\" tests=\"1\" failures=\"0\" "
                              "errors=\"1\" skipped=\"0\" time=\"0.000\">"));
   EXPECT_THAT(xml, HasSubstr("<error message=\"bad-input\">broken.json: not JSON</error>"));
@@ -82,7 +82,7 @@ TEST(BatchSummaryTest, JunitTellsWhatThisRunTook) {
   BatchSummary summary{{Passed("good")}, {}};
   summary.plans[0].seconds = 0.75;
   summary.plans[0].entry_seconds = {0.5, 0.125};
-  const std::string xml = FormatSummaryJunit(summary);
+  const std::string xml = FormatSummaryJunit(summary, "out");
   EXPECT_THAT(xml, HasSubstr("skipped=\"0\" time=\"0.750\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"step 0 hold\" time=\"0.500\""));
   EXPECT_THAT(xml, HasSubstr("name=\"step 1 switch\" time=\"0.125\""));
@@ -96,7 +96,7 @@ TEST(BatchSummaryTest, NamesOfAnyBytesBreakNothing) {
   const BatchSummary summary{{Passed("a\nb\xFF\"<")}, {}};
   EXPECT_EQ(std::ranges::count(FormatSummaryTable(summary), '\n'), 3);
   EXPECT_TRUE(Json::accept(FormatSummaryJson(summary)));
-  EXPECT_THAT(FormatSummaryJunit(summary), HasSubstr("&quot;&lt;"));
+  EXPECT_THAT(FormatSummaryJunit(summary, "out"), HasSubstr("&quot;&lt;"));
 }
 
 }  // namespace
