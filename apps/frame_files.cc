@@ -22,6 +22,8 @@ namespace regrasp::apps {
 namespace {
 
 constexpr char kFrameEnding[] = "png";
+/// In the caption of a frame that is not seen from where the others are.
+constexpr char kOwnView[] = " (seen from another side)";
 
 constexpr render::Color kGood = {29, 107, 60};
 constexpr render::Color kBad = {179, 38, 30};
@@ -166,14 +168,18 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
                              render::GroundOf(options.frame.background));
   std::vector<render::FrameTask> tasks;
   for (const auto& [step, snapshot, marks] : shown) {
-    tasks.push_back({&snapshot, Caption(plan, *step), marks ? &*marks : nullptr});
+    const int view = static_cast<int>(tasks.size());
+    const char* note = renderer.HasOwnView(view) ? kOwnView : "";
+    tasks.push_back({&snapshot, Caption(plan, *step) + note, marks ? &*marks : nullptr, view});
   }
   const auto take = [&](int index, const render::Image& image) {
     report::ReportStep& step = *shown[index].step;
     const std::string name = EntryFileName(step.check.index, step.check.kind, kFrameEnding);
     render::WritePng(folder / name, image);
     step.frame = name;
-    pictures[step.check.index] = MakePicture(image, report::PagePictureWidth(count));
+    report::PagePicture& picture = pictures[step.check.index];
+    picture = MakePicture(image, report::PagePictureWidth(count));
+    picture.own_view = renderer.HasOwnView(index);
     sheet.Add(image, MakeLabel(step));
     options.on_picture(index + 1, count);
   };

@@ -1,9 +1,6 @@
 #include "render/figures/hidden_lines.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
-
-#include "render/frames/camera.h"
 
 namespace regrasp::render {
 
@@ -15,37 +12,9 @@ using Eigen::Vector3d;
 constexpr double kOnSurface = 2e-3;
 constexpr double kPlaceTolerance = 1e-5;  ///< of a step
 
-/// Points across the line of sight.
-class FlatBox {
- public:
-  explicit FlatBox(const Eigen::Matrix3d& axes) : axes_(axes) {}
-  FlatBox& Extend(const Vector3d& p) {
-    box_.extend(Eigen::Vector2d((axes_.transpose() * p).head<2>()));
-    return *this;
-  }
-  [[nodiscard]] bool Meets(const FlatBox& other) const { return box_.intersects(other.box_); }
-
- private:
-  const Eigen::Matrix3d& axes_;
-  Eigen::AlignedBox2d box_;
-};
-
-/// The triangles that may stand before a line.
-FacetMesh TrianglesBefore(const FacetMesh& surface, const LineSegment& line,
-                          const Eigen::Matrix3d& axes) {
-  FacetMesh before;
-  const FlatBox here = FlatBox(axes).Extend(line[0]).Extend(line[1]);
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const auto& [a, b, c] = surface.triangles[i];
-    if (!FlatBox(axes).Extend(a).Extend(b).Extend(c).Meets(here)) continue;
-    before.Add(surface.triangles[i], surface.normals[i]);
-  }
-  return before;
-}
-
 class LineSplitter {
  public:
-  LineSplitter(const FacetMesh& surface, const LineSegment& line, const Vector3d& back)
+  LineSplitter(const RayTree& surface, const LineSegment& line, const Vector3d& back)
       : surface_(surface), line_(line), back_(back) {}
 
   void Split(LineParts& parts) const {
@@ -83,23 +52,22 @@ class LineSplitter {
     (hidden ? parts.hidden : parts.visible).push_back({At(from), At(to)});
   }
 
-  const FacetMesh& surface_;
+  const RayTree& surface_;
   const LineSegment& line_;
   const Vector3d& back_;
 };
 
 }  // namespace
 
-bool IsHidden(const FacetMesh& surface, const Vector3d& point, const Vector3d& back) {
-  return std::isfinite(RayDistance(surface, point, back, kOnSurface));
+bool IsHidden(const RayTree& surface, const Vector3d& point, const Vector3d& back) {
+  return surface.CountHits(point, back, kOnSurface, 1) > 0;
 }
 
-LineParts SplitByVisibility(const FacetMesh& surface, std::span<const LineSegment> lines,
+LineParts SplitByVisibility(const RayTree& surface, std::span<const LineSegment> lines,
                             const Vector3d& back) {
-  const Eigen::Matrix3d axes = CameraAxes(back);
   LineParts parts;
   for (const LineSegment& line : lines) {
-    LineSplitter(TrianglesBefore(surface, line, axes), line, back).Split(parts);
+    LineSplitter(surface, line, back).Split(parts);
   }
   return parts;
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "render/frames/facet_mesh.h"
+#include "render/frames/ray_tree.h"
 
 namespace regrasp::render {
 
@@ -23,14 +23,14 @@ struct LineParts {
 /// 1e-5 of that: what is hidden or seen for less than a step may be missed. A surface that a line
 /// lies on does not hide it. The surface is about 1 in size.
 /// @param back  unit, towards the eye.
-[[nodiscard]] LineParts SplitByVisibility(const FacetMesh& surface,
+[[nodiscard]] LineParts SplitByVisibility(const RayTree& surface,
                                           std::span<const LineSegment> lines,
                                           const Eigen::Vector3d& back);
 
 inline constexpr double kVisibilityStep = 0.01;
 
 /// Whether a surface stands before a point.
-[[nodiscard]] bool IsHidden(const FacetMesh& surface, const Eigen::Vector3d& point,
+[[nodiscard]] bool IsHidden(const RayTree& surface, const Eigen::Vector3d& point,
                             const Eigen::Vector3d& back);
 
 }  // namespace regrasp::render

@@ -77,7 +77,7 @@ class SolidPainter {
          FindOutline(body_, [this](const Vector3d&) { return camera_.back(); })) {
       lines.push_back(line);
     }
-    edges_ = SplitByVisibility(body_.surface, lines, camera_.back());
+    edges_ = SplitByVisibility(body_.rays, lines, camera_.back());
     SetColor(cr_, kHiddenInk);
     cairo_set_dash(cr_, &kHiddenDash, 1, 0);
     for (const auto& [a, b] : edges_.hidden) StrokeLine(cr_, camera_(a), camera_(b), kHiddenEdge);
@@ -184,7 +184,7 @@ class SolidPainter {
     return glyph.role == plan::FingerRole::kMoved && glyph.path.size() > 1;
   }
   [[nodiscard]] bool IsBehind(const FingerGlyph& glyph) const {
-    return IsHidden(body_.surface, glyph.contact + glyph.ball_radius * glyph.outward,
+    return IsHidden(body_.rays, glyph.contact + glyph.ball_radius * glyph.outward,
                     camera_.back());
   }
 
@@ -203,7 +203,7 @@ class SolidPainter {
 
   /// Thin and dashed where it is hidden.
   void DrawLine(const LineSegment& line, Color color, double width) {
-    const LineParts parts = SplitByVisibility(body_.surface, {&line, 1}, camera_.back());
+    const LineParts parts = SplitByVisibility(body_.rays, {&line, 1}, camera_.back());
     SetColor(cr_, Paler(color, kBehindShare));
     for (const auto& [a, b] : parts.hidden) StrokeLine(cr_, camera_(a), camera_(b), width / 2);
     SetColor(cr_, color);
@@ -226,11 +226,11 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
   const int entries = static_cast<int>(plan.steps.size()) + 1;
   for (plan::EntryIndex entry{0}; entry < entries; ++entry) {
     const plan::Snapshot snapshot = plan::MakePlannedSnapshot(plan, entry, {}, 0);
-    fingers_.push_back(MakeFingerGlyphs(snapshot, frame_, body_.surface));
+    fingers_.push_back(MakeFingerGlyphs(snapshot, frame_, body_.rays));
     captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry));
   }
   axes_ = CameraAxes(options.view ? options.view->ToCamera()
-                                  : ChooseViewpoint(body_, /*planar=*/false, fingers_));
+                                  : ChooseViewpoints(body_, /*planar=*/false, fingers_, /*largest_force=*/0).common);
   Eigen::AlignedBox2d box;
   const auto extend = [&](const Vector3d& p) {
     box.extend(Vector2d((axes_.transpose() * p).head<2>()));

@@ -178,6 +178,7 @@ BodyShape MakeBodyShape(const object::Object& object, const BodyOptions& options
   const std::vector<Vector3d> normals = UnitNormals(mesh);
   BodyShape shape;
   shape.surface = ShadeSmoothly(mesh, normals, options.crease_angle);
+  shape.rays = RayTree(shape.surface);
   if (options.edges != EdgeStyle::kNone) AddEdges(mesh, normals, options, shape);
   return shape;
 }

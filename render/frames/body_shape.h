@@ -7,6 +7,7 @@
 #include "planner/base/angle.h"
 #include "planner/object/object.h"
 #include "render/frames/facet_mesh.h"
+#include "render/frames/ray_tree.h"
 
 namespace regrasp::render {
 
@@ -31,6 +32,7 @@ struct Fold {
 /// the folds that may be its outline.
 struct BodyShape {
   FacetMesh surface;
+  RayTree rays;  ///< that meet the surface
   std::vector<std::array<Eigen::Vector3d, 2>> edges;
   std::vector<Fold> folds;
 };

@@ -145,25 +145,4 @@ FacetMesh MakeBand(const Vector3d& from, const Vector3d& to, double radius, cons
   return band;
 }
 
-double RayDistance(const FacetMesh& mesh, const Vector3d& origin, const Vector3d& direction,
-                   double skip) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b, c] : mesh.triangles) {
-    // Möller and Trumbore 1997.
-    const Vector3d u = b - a;
-    const Vector3d v = c - a;
-    const Vector3d p = direction.cross(v);
-    const double determinant = u.dot(p);
-    if (determinant == 0) continue;
-    const Vector3d s = origin - a;
-    const double alpha = s.dot(p) / determinant;
-    const Vector3d q = s.cross(u);
-    const double beta = direction.dot(q) / determinant;
-    const double distance = v.dot(q) / determinant;
-    const bool inside = alpha >= 0 && beta >= 0 && alpha + beta <= 1;
-    if (inside && distance > skip) nearest = std::min(nearest, distance);
-  }
-  return nearest;
-}
-
 }  // namespace regrasp::render

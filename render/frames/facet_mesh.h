@@ -36,9 +36,4 @@ struct FacetMesh {
 [[nodiscard]] FacetMesh MakeBand(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                  double radius, const Eigen::Vector3d& back);
 
-/// The distance along the ray from `origin` in unit `direction` to the first triangle, infinite
-/// where there is none. Hits nearer than `skip` do not count.
-[[nodiscard]] double RayDistance(const FacetMesh& mesh, const Eigen::Vector3d& origin,
-                                 const Eigen::Vector3d& direction, double skip);
-
 }  // namespace regrasp::render

@@ -53,15 +53,6 @@ void AddArrow(const Vector3d& tail, const Vector3d& tip, double radius, Color co
   shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -direction)}, color});
 }
 
-void AddForce(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
-              std::vector<Shape>& shapes) {
-  const double size = glyph.force.norm();
-  if (!(size > 0 && largest_force > 0)) return;
-  const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
-  AddArrow(glyph.contact, glyph.contact + glyph.force / size * length, kForceRadius,
-           glyph.force_color, meshes, shapes);
-}
-
 /// Dashes from a to b of a path on which `before` lies behind a: gaps and dashes take turns along
 /// the whole path, and one that goes round a corner is drawn in two.
 void AddDashes(const Vector3d& a, const Vector3d& b, double before, Color color,
@@ -117,7 +108,7 @@ Eigen::Isometry3d PictureFrame::BodyPose(const Eigen::Isometry3d& X_WO) const {
 }
 
 std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const PictureFrame& frame,
-                                          const FacetMesh& surface, const GlyphOptions& options) {
+                                          const RayTree& body, const GlyphOptions& options) {
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const plan::FingerState& state : snapshot.fingers) {
@@ -131,7 +122,7 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
     glyph.outward = -state.normal_W.normalized();
     glyph.force = state.force_W;
     const double clearance =
-        RayDistance(surface, to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
+        body.Distance(to_body * glyph.contact, to_body.linear() * glyph.outward, kRaySkip);
     glyph.ball_radius =
         options.finger_radius.value_or(std::min(kBallRadius, kBallShare * clearance));
     glyph.stem_radius =
@@ -155,6 +146,15 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot, const 
   return glyphs;
 }
 
+std::optional<Vector3d> ForceTip(const FingerGlyph& glyph, double largest_force) {
+  const double size = glyph.force.norm();
+  if (glyph.role == plan::FingerRole::kReleased || !(size > 0 && largest_force > 0)) {
+    return std::nullopt;
+  }
+  const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
+  return glyph.contact + glyph.force / size * length;
+}
+
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes) {
   const Color color = glyph.color;
@@ -171,7 +171,9 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
   if (ghost) return;
   const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
   shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
-  AddForce(glyph, largest_force, meshes, shapes);
+  if (const auto tip = ForceTip(glyph, largest_force)) {
+    AddArrow(glyph.contact, *tip, kForceRadius, glyph.force_color, meshes, shapes);
+  }
   if (glyph.role == plan::FingerRole::kMoved) AddTrack(glyph, color, meshes, shapes);
 }
 

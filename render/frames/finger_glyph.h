@@ -62,8 +62,17 @@ struct GlyphOptions {
 /// they have their own size.
 [[nodiscard]] std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
                                                         const PictureFrame& frame,
-                                                        const FacetMesh& surface,
+                                                        const RayTree& body,
                                                         const GlyphOptions& options = {});
+
+/// Where the arrow of a finger's force ends; it begins at its contact. A finger that has left has
+/// none.
+/// @param largest_force  of the whole sequence, newtons: the longest arrow.
+[[nodiscard]] std::optional<Eigen::Vector3d> ForceTip(const FingerGlyph& glyph,
+                                                      double largest_force);
+
+/// Space for a finger's number beyond its end, in diameters.
+inline constexpr double kLabelSpace = 0.05;
 
 /// The canvas's meshes that glyphs are made of.
 struct GlyphMeshes {
@@ -80,7 +89,7 @@ inline constexpr double kArrowHeadLength = 0.040;
 /// The shapes of one finger: ball, stem, friction cone and force; a released finger is a ghost with
 /// an arrow that leaves, a placed one has an arrow that arrives, a moved one a ghost where it came
 /// from and a track that ends in an arrowhead.
-/// @param largest_force  of the whole sequence, newtons: the longest arrow.
+/// @param largest_force  as ForceTip.
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,
                      std::vector<Shape>& shapes);
 

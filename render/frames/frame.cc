@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -47,9 +48,6 @@ constexpr Color kBlack = {0, 0, 0};
 
 /// A contact of the replay is this near to the face that it is planned on, in diameters.
 constexpr double kFocusReach = 1e-2;
-
-/// Space for a finger's number beyond its end, in diameters.
-constexpr double kLabelSpace = 0.05;
 
 /// What is farther from the object's centre (diameters) does not widen the picture.
 constexpr double kFarMark = 1.5;
@@ -187,14 +185,16 @@ class FrameRenderer::Impl {
         meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
-        camera_(MakeCamera(snapshots)),
-        canvas_(meshes_, camera_.width, camera_.height, options.supersampling) {}
+        cameras_(MakeCameras(snapshots)),
+        canvas_(meshes_, width(), height(), options.supersampling) {}
 
-  [[nodiscard]] int width() const { return camera_.width; }
-  [[nodiscard]] int height() const { return camera_.height; }
+  [[nodiscard]] int width() const { return cameras_.common.width; }
+  [[nodiscard]] int height() const { return cameras_.common.height; }
+  [[nodiscard]] bool HasOwnView(int index) const { return cameras_.own.contains(index); }
 
-  Image Render(const plan::Snapshot& snapshot, const std::string& caption,
-               const FaultMarks* fault) {
+  Image Render(const plan::Snapshot& snapshot, const std::string& caption, const FaultMarks* fault,
+               int view) {
+    const Camera& camera = HasOwnView(view) ? cameras_.own.at(view) : cameras_.common;
     std::vector<FingerGlyph> fingers = GlyphsOf(snapshot);
     for (FingerGlyph& glyph : fingers) glyph.force_color = style_.ground.force;
     if (fault != nullptr) PaintRed(fault->fingers, fingers);
@@ -209,14 +209,14 @@ class FrameRenderer::Impl {
     drawing.hiding = {{kOutsideMesh, pose}};
     AddLines(FindOutline(body_,
                          [&](const Vector3d& p) -> Vector3d {
-                           return pose.linear().transpose() * camera_.ToEye(pose * p);
+                           return pose.linear().transpose() * camera.ToEye(pose * p);
                          }),
              pose, drawing.outline);
     const auto draw = [&](Color paper) {
-      const Image image = Annotate(canvas_.Draw(camera_, drawing, paper), camera_, fingers, caption,
+      const Image image = Annotate(canvas_.Draw(camera, drawing, paper), camera, fingers, caption,
                                    frame_.diameter_m, style_);
       if (fault == nullptr) return image;
-      return DrawFaultMarks(image, camera_, frame_, body_, fingers, *fault, style_);
+      return DrawFaultMarks(image, camera, frame_, body_, fingers, *fault, style_);
     };
     if (options_.background != Background::kTransparent) return draw(style_.ground.paper);
     return MakeTransparent(draw(kWhite), draw(kBlack));
@@ -224,7 +224,7 @@ class FrameRenderer::Impl {
 
  private:
   [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
-    return MakeFingerGlyphs(snapshot, frame_, body_.surface, {options_.gaps, FingerRadius()});
+    return MakeFingerGlyphs(snapshot, frame_, body_.rays, {options_.gaps, FingerRadius()});
   }
 
   [[nodiscard]] std::optional<double> FingerRadius() const {
@@ -319,23 +319,31 @@ class FrameRenderer::Impl {
     }
   }
 
-  /// The camera that sees all that is drawn.
-  [[nodiscard]] Camera MakeCamera(const std::vector<plan::Snapshot>& snapshots) const {
-    std::vector<std::vector<FingerGlyph>> frames;
+  /// All that is drawn of a sequence.
+  struct Sequence {
+    std::vector<std::vector<FingerGlyph>> frames = {};  ///< none of what is far away
     std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
+  };
+
+  [[nodiscard]] Sequence SequenceOf(const std::vector<plan::Snapshot>& snapshots) const {
+    Sequence all;
     for (const plan::Snapshot& snapshot : snapshots) {
+      all.frames.emplace_back();
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
-      poses.push_back(pose);
-      frames.push_back(
-          MakeFingerGlyphs(snapshot, frame_, body_.surface, {GapView::kNone, FingerRadius()}));
+      all.poses.push_back(pose);
+      all.frames.back() =
+          MakeFingerGlyphs(snapshot, frame_, body_.rays, {GapView::kNone, FingerRadius()});
     }
-    const ViewOptions& view = options_.view;
-    const Eigen::Matrix3d axes = CameraAxes(
-        view.direction ? view.direction->ToCamera() : ChooseViewpoint(body_, planar_, frames));
+    return all;
+  }
+
+  /// Points whose pictures bound that of a sequence.
+  [[nodiscard]] std::vector<Vector3d> ExtentOf(const Sequence& all,
+                                               const Eigen::Matrix3d& axes) const {
     Extent extent(axes, meshes_);
-    for (const Eigen::Isometry3d& pose : poses) extent.Add(MeshInstance{kOutsideMesh, pose});
-    for (const std::vector<FingerGlyph>& fingers : frames) {
+    for (const Eigen::Isometry3d& pose : all.poses) extent.Add(MeshInstance{kOutsideMesh, pose});
+    for (const std::vector<FingerGlyph>& fingers : all.frames) {
       for (const Shape& shape : FingerShapes(fingers)) extent.Add(shape.form);
       for (const FingerGlyph& glyph : fingers) {
         extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
@@ -345,16 +353,51 @@ class FrameRenderer::Impl {
       const Vector3d p = frame_.FromWorld(p_W);
       if (p.norm() < kFarMark) extent.Add(Ball{p, kLabelSpace / 2});
     }
-    const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
-    const Margins margins = MarginsFor(options_);
-    Camera camera = FitCamera(axes, view.projection.value_or(usual), options_.width,
-                              options_.height, margins, extent.points());
-    if (options_.crop) {
-      camera = Crop(camera, margins, extent.points(), EvenShare(kNarrowest, options_.width),
-                    EvenShare(kLowest, options_.height));
+    return extent.points();
+  }
+
+  /// Of most frames, and of those that have one of their own, by their index.
+  struct Cameras {
+    Camera common;
+    std::map<int, Camera> own = {};
+  };
+
+  /// The margins are as many pixels whatever the height.
+  [[nodiscard]] Camera FitTo(const std::vector<Vector3d>& points, const Vector3d& back, int width,
+                             int height) const {
+    Margins margins = MarginsFor(options_);
+    for (double* margin : {&margins.side, &margins.top, &margins.bottom}) {
+      *margin *= static_cast<double>(options_.height) / height;
     }
-    camera.half_height /= view.zoom;
-    return camera;
+    const Projection usual = planar_ ? Projection::kOrthographic : Projection::kPerspective;
+    return FitCamera(CameraAxes(back), options_.view.projection.value_or(usual), width, height,
+                     margins, points);
+  }
+
+  /// Cameras that see all that is drawn.
+  [[nodiscard]] Cameras MakeCameras(const std::vector<plan::Snapshot>& snapshots) const {
+    const Sequence all = SequenceOf(snapshots);
+    const ViewOptions& view = options_.view;
+    const Viewpoints viewpoints =
+        view.direction ? Viewpoints{view.direction->ToCamera(), {}}
+                       : ChooseViewpoints(body_, planar_, all.frames, largest_force_);
+    const std::vector<Vector3d> points = ExtentOf(all, CameraAxes(viewpoints.common));
+    Cameras cameras = {FitTo(points, viewpoints.common, options_.width, options_.height)};
+    if (options_.crop) {
+      cameras.common =
+          Crop(cameras.common, MarginsFor(options_), points, EvenShare(kNarrowest, options_.width),
+               EvenShare(kLowest, options_.height));
+    }
+    const auto& [width, height] = std::pair(cameras.common.width, cameras.common.height);
+    for (std::size_t i = 0; i < viewpoints.own.size(); ++i) {
+      if (!viewpoints.own[i]) continue;
+      const Vector3d& back = *viewpoints.own[i];
+      cameras.own[static_cast<int>(i)] =
+          FitTo(ExtentOf(all, CameraAxes(back)), back, width, height);
+    }
+    cameras.common.half_height /= view.zoom;
+    for (auto& [index, camera] : cameras.own) camera.half_height /= view.zoom;
+    return cameras;
   }
 
   static double LargestForce(const std::vector<plan::Snapshot>& snapshots) {
@@ -379,7 +422,7 @@ class FrameRenderer::Impl {
   std::vector<FacetMesh> meshes_;
   double largest_force_;
   TextStyle style_;
-  Camera camera_;
+  Cameras cameras_;
   Canvas canvas_;
 };
 
@@ -400,9 +443,11 @@ Ground GroundOf(Background background) {
 int FrameRenderer::width() const { return impl_->width(); }
 int FrameRenderer::height() const { return impl_->height(); }
 
+bool FrameRenderer::HasOwnView(int index) const { return impl_->HasOwnView(index); }
+
 Image FrameRenderer::Render(const plan::Snapshot& snapshot, const std::string& caption,
-                            const FaultMarks* fault) {
-  return impl_->Render(snapshot, caption, fault);
+                            const FaultMarks* fault, int view) {
+  return impl_->Render(snapshot, caption, fault, view);
 }
 
 }  // namespace regrasp::render

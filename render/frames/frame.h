@@ -26,6 +26,9 @@ enum class Background { kWhite, kDark, kTransparent };
 /// Of what is transparent it is the white one: so it is seen on the contact sheet and the page.
 [[nodiscard]] Ground GroundOf(Background background);
 
+/// The camera of all frames that have none of their own.
+inline constexpr int kCommonView = -1;
+
 struct FrameOptions {
   int width = 1280;
   int height = 960;
@@ -59,7 +62,8 @@ struct FrameOptions {
 /// straight above without perspective, with contacts and flat friction cones on their top.
 ///
 /// One renderer draws a whole plan, with one camera, so that frames can be laid side by side. The
-/// camera is chosen once (ChooseViewpoint) and sees all that is drawn of `snapshots`. Force arrows
+/// camera is chosen once (ChooseViewpoints) and sees all that is drawn of `snapshots`; those that
+/// it does not show well enough have one of their own, unless the direction is given. Force arrows
 /// have one scale for all of them too. Deterministic: the same bytes every time. A renderer may be
 /// used by one thread after the other.
 class FrameRenderer {
@@ -82,10 +86,15 @@ class FrameRenderer {
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;
 
+  /// Whether a snapshot of the sequence, by its index, has a camera of its own.
+  [[nodiscard]] bool HasOwnView(int index) const;
+
   /// @param caption  one line of UTF-8 at the bottom left; none where empty.
   /// @param fault    of a failed step: its fingers are red, and what is wrong is drawn.
+  /// @param view     the snapshot of the sequence, by its index, whose camera takes the picture;
+  ///                 kCommonView for that of most.
   [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "",
-                             const FaultMarks* fault = nullptr);
+                             const FaultMarks* fault = nullptr, int view = kCommonView);
 
  private:
   class Impl;

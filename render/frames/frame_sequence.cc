@@ -17,7 +17,7 @@ void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tas
   const auto start = [&](int index) {
     frames.push_back(std::async(std::launch::async, [&, index] {
       const FrameTask& task = tasks[index];
-      return renderers[index % ahead].Render(*task.snapshot, task.caption, task.fault);
+      return renderers[index % ahead].Render(*task.snapshot, task.caption, task.fault, task.view);
     }));
   };
   for (int index = 0; index < ahead; ++index) start(index);

@@ -14,6 +14,7 @@ struct FrameTask {
   const plan::Snapshot* snapshot;
   std::string caption;
   const FaultMarks* fault = nullptr;
+  int view = kCommonView;
 };
 
 /// Draws frames in several threads, each with a copy of the renderer, and hands them on in this one

@@ -82,7 +82,7 @@ std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::P
                                          MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
   std::vector<ScenePart> parts = {{"object", body.surface, kBodyOutside, kGlass}};
   const plan::Snapshot snapshot = plan::MakePlannedSnapshot(located, entry, {}, 0);
-  for (const FingerGlyph& glyph : MakeFingerGlyphs(snapshot, frame, body.surface)) {
+  for (const FingerGlyph& glyph : MakeFingerGlyphs(snapshot, frame, body.rays)) {
     AddFinger(glyph, meshes, parts);
   }
   for (ScenePart& part : parts) {

@@ -27,15 +27,30 @@ struct ViewOptions {
   double zoom = 1;  ///< > 0; beyond 1 what is at the border is cut off
 };
 
-/// Where the pictures of a sequence are taken from.
-///
+/// Where the pictures of a sequence are taken from: unit vectors from the object towards the
+/// camera.
+struct Viewpoints {
+  Eigen::Vector3d common;
+  /// Of each frame that is not seen well enough from there, and better from elsewhere.
+  std::vector<std::optional<Eigen::Vector3d>> own;
+};
+
 /// Tries directions around the object from a little above (and, less gladly, from below) and takes
-/// the one that sees most of each finger before the object, that has fingers and cones apart, that
-/// looks along no stem, and that sees much of the object: few faces edge-on, its parts side by
-/// side. A planar object is seen from straight above.
-/// @param frames  the fingers of every frame of the sequence.
-/// @returns the unit vector from the object towards the camera.
-[[nodiscard]] Eigen::Vector3d ChooseViewpoint(const BodyShape& body, bool planar,
-                                              const std::vector<std::vector<FingerGlyph>>& frames);
+/// the one that sees most of each finger: of its ball and stem, which the object and other fingers
+/// hide, of its force arrow, which is also the shorter the more it points at the camera, and of its
+/// label, which needs a free place beside it and nearer to its own ball than to others; that has
+/// fingers and cones apart, that looks along no stem, and that sees much of the object: few faces
+/// edge-on, its parts side by side.
+///
+/// One direction serves all frames. A finger is not seen well enough where its ball is hidden by
+/// another finger or behind two walls, its arrow is a point, or its label has no place of its own.
+/// A frame with such fingers has a direction of its own if one shows more of them.
+///
+/// A planar object is seen from straight above.
+/// @param frames         the fingers of every frame of the sequence.
+/// @param largest_force  of the whole sequence, newtons.
+[[nodiscard]] Viewpoints ChooseViewpoints(const BodyShape& body, bool planar,
+                                          const std::vector<std::vector<FingerGlyph>>& frames,
+                                          double largest_force);
 
 }  // namespace regrasp::render

@@ -228,6 +228,7 @@ class Page {
     if (!failed && measures_[index].margin_deg) {
       text += ", " + FormatDegrees(*measures_[index].margin_deg) + " of friction left";
     }
+    if (picture.own_view) text += "; seen from another side, as one view hides a finger";
     return Figure({{"id", Anchor(index)}, {"class", std::string(VerdictName(step.verdict()))}},
                   MakeImage(picture, name), name + ".", Capitalized(text) + ".");
   }

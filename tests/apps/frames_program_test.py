@@ -68,6 +68,21 @@ class Frames(ProgramCase):
             self.assertFalse(self.size_of(f"usual/{name}")[2])
         self.assertEqual(clear["overview.png"], usual["overview.png"])
 
+    def views_of(self, model, *options):
+        """How many frames of a plan are not seen from where the others are, as the page says."""
+        self.assert_done("--object", self.model(f"{model}.obj"), "--start",
+                         self.model(f"{model}.start.json"), "--goal",
+                         self.model(f"{model}.goal.json"), "--friction-angle", "20", "--output",
+                         f"{model}.json", program="plan")
+        self.assert_done("--object", self.model(f"{model}.obj"), "--plan", f"{model}.json",
+                         "--out", model, "--size", "320x240", *options)
+        return self.read(f"{model}/report.html").count(b"seen from another side")
+
+    def test_a_frame_in_which_a_finger_is_hidden_has_a_view_of_its_own_and_the_page_says_so(self):
+        self.assertGreater(self.views_of("l_block"), 0)
+        self.assertEqual(self.views_of("cube"), 0)
+        self.assertEqual(self.views_of("l_block", "--view", "30,20"), 0)
+
     def test_a_whole_turn_is_no_turn(self):
         self.assertEqual(self.draw("--view=-330,20", out="a"), self.draw("--view", "30,20"))
 

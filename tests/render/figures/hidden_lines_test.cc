@@ -16,11 +16,11 @@ using Eigen::Vector3d;
 const Vector3d kUp = Vector3d::UnitZ();
 
 /// [−0.2, 0.2]² at height z.
-FacetMesh Square(double z) {
+RayTree Square(double z) {
   FacetMesh mesh;
   mesh.AddFlat({-0.2, -0.2, z}, {0.2, -0.2, z}, {0.2, 0.2, z});
   mesh.AddFlat({-0.2, -0.2, z}, {0.2, 0.2, z}, {-0.2, 0.2, z});
-  return mesh;
+  return RayTree(mesh);
 }
 
 double LengthOf(const std::vector<LineSegment>& segments) {
@@ -58,7 +58,7 @@ TEST(HiddenLinesTest, OfTheTwelveEdgesOfACubeThreeAreHiddenWhereverOneStands) {
   for (const double x : {0.3, 0.7, -0.5}) {
     for (const double z : {0.4, -0.6}) {
       const Vector3d back = Vector3d(x, 0.5, z).normalized();
-      const LineParts parts = SplitByVisibility(cube.surface, cube.edges, back);
+      const LineParts parts = SplitByVisibility(cube.rays, cube.edges, back);
       EXPECT_NEAR(LengthOf(parts.hidden), 3 * edge, 1e-9);
       EXPECT_NEAR(LengthOf(parts.visible), 9 * edge, 1e-9);
       ++views;

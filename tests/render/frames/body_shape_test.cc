@@ -58,7 +58,7 @@ TEST(BodyShapeTest, RaysInThePlaneOfTheContactsMeetThePrismsWalls) {
   const double half = 1 / frame.diameter();
   int met = 0;
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0)}) {
-    EXPECT_NEAR(RayDistance(shape.surface, -half * direction, direction, 1e-4), 2 * half, 1e-12);
+    EXPECT_NEAR(shape.rays.Distance(-half * direction, direction, 1e-4), 2 * half, 1e-12);
     ++met;
   }
   EXPECT_EQ(met, 3);

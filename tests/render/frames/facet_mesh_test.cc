@@ -61,16 +61,6 @@ TEST(FacetMeshTest, AConeHasItsHalfAngleAndOpensUpwards) {
   EXPECT_GT(Volume(cone), 0);
 }
 
-TEST(FacetMeshTest, RaysMeetTheNearestTriangleBeyondTheSkip) {
-  const BodyShape cube = MakeBodyShape(MakeCube(0.03));
-  const double half = 0.5 / std::sqrt(3.0);
-  const Vector3d x = Vector3d::UnitX();
-  const Vector3d off_diagonal(0, 0.01, 0.02);
-  EXPECT_NEAR(RayDistance(cube.surface, off_diagonal, x, 1e-4), half, 1e-12);
-  EXPECT_NEAR(RayDistance(cube.surface, off_diagonal - half * x, x, 1e-4), 2 * half, 1e-12);
-  EXPECT_TRUE(std::isinf(RayDistance(cube.surface, off_diagonal + x, x, 1e-4)));
-}
-
 TEST(FacetMeshTest, ACapsuleHasTheVolumeOfItsCylinderAndItsBall) {
   const Vector3d from(0.2, -0.1, 0.4), to(0.5, 0.3, -0.2);
   const double radius = 0.1;

@@ -377,6 +377,52 @@ TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
   EXPECT_EQ(cut_off, drawn);  // each is cut off once it is three times as large
 }
 
+/// Two fingers inside a ring, one before the other as seen from one of 36 azimuths.
+std::vector<plan::Snapshot> MakePairsInsideARing() {
+  std::vector<plan::Snapshot> snapshots;
+  for (const double elevation : {20, 28, 38, 48}) {
+    for (int i = 0; i < 36; ++i) {
+      const Eigen::Vector3d along =
+          0.01 * ViewDirection{Radians(10.0 * i + 3), Radians(elevation)}.ToCamera();
+      plan::Snapshot& snapshot = snapshots.emplace_back();
+      for (const int finger : {0, 1}) {
+        snapshot.fingers.push_back(MakeFinger(finger, plan::FingerRole::kHolding,
+                                              finger == 0 ? along : -along,
+                                              -Eigen::Vector3d::UnitZ()));
+      }
+    }
+  }
+  return snapshots;
+}
+
+TEST(FrameTest, WhatOneViewHidesIsSeenFromAnotherOneOfTheSameSize) {
+  const object::Polyhedron ring = MakeHoledBlock();
+  const std::vector<plan::Snapshot> snapshots = MakePairsInsideARing();
+  FrameOptions options = Medium();
+  options.crop = true;
+  FrameRenderer renderer(ring, 1, kHalfAngle, snapshots, options);
+  int own = 0;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    const int index = static_cast<int>(i);
+    if (!renderer.HasOwnView(index)) continue;
+    const Image common = renderer.Render(snapshots[i]);
+    const Image image = renderer.Render(snapshots[i], "", nullptr, index);
+    EXPECT_EQ(image.width, common.width);
+    EXPECT_EQ(image.height, common.height);
+    EXPECT_EQ(CountAtBorder(image), 0);
+    EXPECT_GT(CountDifferent(image, common), 10000);
+    ++own;
+  }
+  EXPECT_GT(own, 0);
+  EXPECT_LT(own, 36);
+
+  options.view.direction = ViewDirection{Radians(30), Radians(28)};
+  const FrameRenderer given(ring, 1, kHalfAngle, snapshots, options);
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    EXPECT_FALSE(given.HasOwnView(static_cast<int>(i)));
+  }
+}
+
 TEST(FrameTest, AForceIsInsideTheFrameHoweverItsFingerStands) {
   // The one long force of the sequence leaves the object at its other side.
   const object::Polyhedron plate = object::Polyhedron::FromSoup(

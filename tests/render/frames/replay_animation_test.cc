@@ -147,7 +147,7 @@ FingerGlyph GlyphInTheAir(double gap, plan::FingerRole role, GapView gaps) {
   state.normal_W = -Eigen::Vector3d::UnitZ();
   state.tip_W.z() = 0.04 + gap;
   sample.fingers = {state};
-  return MakeFingerGlyphs(sample, PictureFrame(), FacetMesh(), {.gaps = gaps}).front();
+  return MakeFingerGlyphs(sample, PictureFrame(), RayTree(), {.gaps = gaps}).front();
 }
 
 TEST(ReplayAnimationTest, AFingerInTheAirIsDrawnAwayFromItsContact) {
