@@ -33,15 +33,17 @@ ContactClusters ClusterContacts(const object::Polyhedron& solid,
   options.progress("choosing contact points");
   std::vector<grasp::Contact> contacts =
       sampling::MeshContacts(solid, options.contacts, options.seed);
+  CountedProgress progress(options.progress, "testing the clearance of contact points",
+                           std::ssize(contacts));
   std::erase_if(contacts, [&](const grasp::Contact& contact) {
     options.deadline.Check();
+    progress.Add();
     return !criteria::HasClearance(solid, contact) ||
            !criteria::CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
-  options.progress("clustering " + std::to_string(contacts.size()) + " contact points");
   return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
-                         options.seed, options.deadline);
+                         options.seed, options.deadline, options.progress);
 }
 
 ClusteredRoadmap::ClusteredRoadmap(const object::Polyhedron& solid,

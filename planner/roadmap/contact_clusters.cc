@@ -16,7 +16,7 @@ constexpr int kRestarts = 5;
 
 ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
                                  const object::WrenchFrame& frame, double half_angle, int clusters,
-                                 std::uint64_t seed, const Deadline& deadline)
+                                 std::uint64_t seed, const Deadline& deadline, const Tell& tell)
     : frame_(frame), half_angle_(half_angle), contacts_(std::move(contacts)) {
   if (clusters < 1 || clusters >= static_cast<int>(contacts_.size())) {
     throw std::invalid_argument("clusters must be at least 1 and fewer than the contacts");
@@ -24,14 +24,15 @@ ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
   for (const grasp::Contact& contact : contacts_) {
     pyramids_.push_back(PyramidOf(contact, frame_, half_angle_, contacts_));
   }
-  const Eigen::MatrixXd distances = WrenchDistances(pyramids_);
+  const Eigen::MatrixXd distances = WrenchDistances(pyramids_, tell);
   deadline.Check();
   const double sigma = distances.mean();
   affinity_scale_ = 2 * sigma * sigma;
+  if (tell) tell("embedding " + std::to_string(contacts_.size()) + " contact points");
   embedding_ = EmbedAffinity((-distances / affinity_scale_).array().exp(), clusters);
   deadline.Check();
   RandomStream random(seed, RandomUse::kClusters);
-  const KMeansClusters found = KMeans(embedding_.rows, clusters, kRestarts, random);
+  const KMeansClusters found = KMeans(embedding_.rows, clusters, kRestarts, random, tell);
   places_ = embedding_.rows.transpose();
   centers_ = found.centers.transpose();
   for (const int cluster : found.cluster_of) cluster_of_.emplace_back(cluster);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/base/index.h"
 #include "planner/grasp/contact.h"
@@ -33,7 +34,7 @@ class ContactClusters {
   /// @throws TimeUp  the deadline came; looks between its stages only, of a second or two each.
   ContactClusters(std::vector<grasp::Contact> contacts, const object::WrenchFrame& frame,
                   double half_angle, int clusters, std::uint64_t seed,
-                  const Deadline& deadline = {});
+                  const Deadline& deadline = {}, const Tell& tell = {});
 
   /// The clustered contacts, then those that were added.
   [[nodiscard]] const std::vector<grasp::Contact>& contacts() const { return contacts_; }

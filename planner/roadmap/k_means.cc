@@ -99,14 +99,17 @@ KMeansClusters RunOnce(const Eigen::MatrixXd& points, int count, RandomStream& r
 
 }  // namespace
 
-KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts,
-                      RandomStream& random) {
+KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts, RandomStream& random,
+                      const Tell& tell) {
   if (count < 1 || count > points.rows() || restarts < 1) {
     throw std::invalid_argument("k-means needs 1 to n clusters and a run");
   }
+  CountedProgress progress(tell, "sorting contact points into clusters, runs", restarts);
   KMeansClusters best = RunOnce(points, count, random);
+  progress.Add();
   for (int run = 1; run < restarts; ++run) {
     KMeansClusters clusters = RunOnce(points, count, random);
+    progress.Add();
     if (clusters.cost < best.cost) best = std::move(clusters);
   }
   return best;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/random.h"
 
 namespace regrasp::roadmap {
@@ -22,6 +23,6 @@ struct KMeansClusters {
 /// @param points  n × d. @param count  k, 1 … n. @param restarts  >= 1.
 /// @throws std::invalid_argument  a number is out of range.
 [[nodiscard]] KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts,
-                                    RandomStream& random);
+                                    RandomStream& random, const Tell& tell = {});
 
 }  // namespace regrasp::roadmap

@@ -69,13 +69,15 @@ double WrenchDistance(const WrenchPyramid& a, const WrenchPyramid& b) {
   return least / m;
 }
 
-Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids) {
+Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids, const Tell& tell) {
   const auto count = static_cast<Eigen::Index>(pyramids.size());
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(count, count);
+  CountedProgress progress(tell, "comparing pairs of contact points", count * (count - 1) / 2);
   for (Eigen::Index j = 0; j < count; ++j) {
     for (Eigen::Index i = 0; i < j; ++i) {
       distances(i, j) = distances(j, i) = WrenchDistance(pyramids[i], pyramids[j]);
     }
+    progress.Reach(j * (j + 1) / 2);
   }
   return distances;
 }

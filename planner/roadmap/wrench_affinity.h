@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/grasp/contact.h"
 #include "planner/object/wrench_frame.h"
 
@@ -40,6 +41,7 @@ using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 [[nodiscard]] double WrenchDistance(const WrenchPyramid& a, const WrenchPyramid& b);
 
 /// All distances between pyramids, N × N.
-[[nodiscard]] Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids);
+[[nodiscard]] Eigen::MatrixXd WrenchDistances(std::span<const WrenchPyramid> pyramids,
+                                              const Tell& tell = {});
 
 }  // namespace regrasp::roadmap

@@ -33,20 +33,20 @@ std::int64_t CountCombinations(const std::vector<GraspPiece>& pieces) {
 }  // namespace
 
 ContourGraph::ContourGraph(const object::Polygon& polygon, double half_angle,
-                           const Deadline& deadline)
+                           const Deadline& deadline, const Tell& tell)
     : boundary_(polygon), tangent_(CheckedTangent(half_angle)) {
   const polygon::IntervalScope scope;
   BeginVertices();
   const polygon::EdgeTable edges(polygon, tangent_);
   const auto candidates = polygon::FindTwoFingerCandidates(edges, deadline);
   candidates_ = std::ssize(candidates);
-  pieces_ = FindPieces(edges, candidates, deadline);
+  pieces_ = FindPieces(edges, candidates, deadline, tell);
   combinations_ = CountCombinations(pieces_);
-  passages_ = FindPassages(edges, boundary_, pieces_, deadline);
+  passages_ = FindPassages(edges, boundary_, pieces_, deadline, tell);
   EndVertices(GroupPieces());
   EndEdges(FindOverlaps(
       edges, boundary_, pieces_, vertex_count(), [&](sets::SetIndex set) { return pieces_of(set); },
-      deadline));
+      deadline, tell));
 }
 
 int ContourGraph::GroupPieces() {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/contour/boundary.h"
@@ -68,7 +69,8 @@ class ContourGraph final : public sets::SetGraph {
   /// @param half_angle  θ, radians.
   /// @throws std::invalid_argument  θ is not in (0, π/2).
   /// @throws TimeUp  the deadline came.
-  ContourGraph(const object::Polygon& polygon, double half_angle, const Deadline& deadline = {});
+  ContourGraph(const object::Polygon& polygon, double half_angle, const Deadline& deadline = {},
+               const Tell& tell = {});
 
   [[nodiscard]] const Boundary& boundary() const { return boundary_; }
   /// tan θ.

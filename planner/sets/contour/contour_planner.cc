@@ -19,7 +19,8 @@ const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
 
 ContourGraph BuildGraph(const planning::PlanRequest& request) {
   request.progress("building the switching graph");
-  return ContourGraph(PolygonOf(request), request.criteria.half_angle, request.deadline);
+  return ContourGraph(PolygonOf(request), request.criteria.half_angle, request.deadline,
+                      request.progress);
 }
 
 }  // namespace

@@ -175,11 +175,13 @@ class PieceFinder {
 
 std::vector<GraspPiece> FindPieces(const polygon::EdgeTable& edges,
                                    const std::vector<polygon::TwoFingerCandidate>& candidates,
-                                   const Deadline& deadline) {
+                                   const Deadline& deadline, const Tell& tell) {
   const CornerFilter filter(edges);
   std::vector<GraspPiece> pieces;
+  CountedProgress progress(tell, "testing pairs of edges", std::ssize(candidates));
   for (const polygon::TwoFingerCandidate& pair : candidates) {
     deadline.Check();
+    progress.Add();
     const auto verdicts = filter.Classify(pair[0], pair[1]);
     for (const bool stretching : {false, true}) {
       const Verdict verdict = verdicts[stretching ? 1 : 0];
@@ -197,11 +199,13 @@ std::vector<GraspPiece> FindPieces(const polygon::EdgeTable& edges,
 
 std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges, const Boundary& boundary,
                                        const std::vector<GraspPiece>& pieces,
-                                       const Deadline& deadline) {
+                                       const Deadline& deadline, const Tell& tell) {
   const PieceFinder finder(pieces, edges.size());
   std::vector<PiecePassage> passages;
+  CountedProgress progress(tell, "joining grasps across corners", std::ssize(pieces));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     deadline.Check();
+    progress.Add();
     const GraspPiece& piece = pieces[i];
     for (const FaceIndex edge : piece.edges) {
       const FaceIndex other = OtherEdge(piece, edge);

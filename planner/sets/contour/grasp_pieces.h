@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/polygon/candidates.h"
@@ -20,7 +21,7 @@ namespace regrasp::contour {
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] std::vector<GraspPiece> FindPieces(
     const polygon::EdgeTable& edges, const std::vector<polygon::TwoFingerCandidate>& candidates,
-    const Deadline& deadline = {});
+    const Deadline& deadline = {}, const Tell& tell = {});
 
 /// The passages between pieces, which are in ascending order of their edges. Inside an
 /// IntervalScope.
@@ -28,7 +29,8 @@ namespace regrasp::contour {
 [[nodiscard]] std::vector<PiecePassage> FindPassages(const polygon::EdgeTable& edges,
                                                      const Boundary& boundary,
                                                      const std::vector<GraspPiece>& pieces,
-                                                     const Deadline& deadline = {});
+                                                     const Deadline& deadline = {},
+                                                     const Tell& tell = {});
 
 /// The sets that pieces are by their passages.
 [[nodiscard]] search::Components FindSets(int piece_count,

@@ -62,13 +62,15 @@ class Sweep {
     for (const FaceIndex edge : covered_edges_) covered_[edge] = 0;
   }
 
-  std::vector<sets::SetPair> Run(int set_count, const Deadline& deadline) {
+  std::vector<sets::SetPair> Run(int set_count, const Deadline& deadline, const Tell& tell) {
     std::sort(events_.begin(), events_.end(), IsBefore);
+    CountedProgress progress(tell, "joining sets along the boundary", std::ssize(events_));
     std::vector<sets::SetPair> pairs;
     std::vector<sets::SetIndex> active;
     std::vector<int> times(set_count);  // that a set is active
     for (const Event& event : events_) {
       deadline.Check();
+      progress.Add();
       int& count = times[event.set];
       if (!event.opens) {
         if (--count == 0) active.erase(std::find(active.begin(), active.end(), event.set));
@@ -140,13 +142,15 @@ std::vector<sets::SetPair> FindOverlaps(
     const polygon::EdgeTable& edges, const Boundary& boundary,
     const std::vector<GraspPiece>& pieces, int set_count,
     const std::function<std::span<const PieceIndex>(sets::SetIndex set)>& pieces_of,
-    const Deadline& deadline) {
+    const Deadline& deadline, const Tell& tell) {
   Sweep sweep(edges, boundary, pieces);
+  CountedProgress progress(tell, "projecting sets on the boundary", set_count);
   for (sets::SetIndex set{0}; set < set_count; ++set) {
     deadline.Check();
+    progress.Add();
     sweep.AddSet(set, pieces_of(set));
   }
-  return sweep.Run(set_count, deadline);
+  return sweep.Run(set_count, deadline, tell);
 }
 
 }  // namespace regrasp::contour

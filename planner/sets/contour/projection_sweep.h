@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/base/counted_progress.h"
 #include "planner/base/deadline.h"
 #include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/polygon/edge_table.h"
@@ -22,6 +23,6 @@ namespace regrasp::contour {
     const polygon::EdgeTable& edges, const Boundary& boundary,
     const std::vector<GraspPiece>& pieces, int set_count,
     const std::function<std::span<const PieceIndex>(sets::SetIndex set)>& pieces_of,
-    const Deadline& deadline = {});
+    const Deadline& deadline = {}, const Tell& tell = {});
 
 }  // namespace regrasp::contour

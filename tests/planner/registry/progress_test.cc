@@ -83,6 +83,12 @@ TEST(Progress, TheGraphOfAPolygonCountsItsSetsAndPairs) {
                  "joining sets of 2-finger grasps", "joining sets of grasps on the same edges"});
 }
 
+TEST(Progress, TheGraphOfAContourCountsItsPairsGraspsAndSets) {
+  ExpectCounted(SummarizeWith("contour", "gear128.wkt", {}),
+                {"testing pairs of edges", "joining grasps across corners",
+                 "projecting sets on the boundary", "joining sets along the boundary"});
+}
+
 TEST(Progress, ARoadmapCountsItsPairsOfContactPointsAndItsQueries) {
   planning::PlanRequest request;
   request.contact_points = 40;
@@ -93,7 +99,9 @@ TEST(Progress, ARoadmapCountsItsPairsOfContactPointsAndItsQueries) {
   request.clusters = 10;
   request.graph = planning::GraphTasks{.queries = 20};
   ExpectCounted(SummarizeWith("roadmap", "stone.obj", request),
-                {"testing the grasps of four on pairs of 10 contact points", "random queries"});
+                {"testing the clearance of contact points", "comparing pairs of contact points",
+                 "sorting contact points into clusters, runs",
+                 "testing the grasps of four on pairs of 10 contact points", "random queries"});
 }
 
 TEST(Progress, ASearchThatFindsNothingCountsItsTestsUpToItsEffort) {
