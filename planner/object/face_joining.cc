@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A polygon of the file, as its triangles make it up.
+/// What is flat in the file, as its triangles make it up.
 struct Facet {
   Vector3d area_vector = Vector3d::Zero();
   Vector3d normal = Vector3d::Zero();  ///< unit, outward
@@ -26,13 +26,13 @@ struct Facet {
 
 std::vector<Facet> CollectFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
                                  double diameter) {
-  std::vector<Facet> facets(mesh.facet_count);
+  std::vector<Facet> facets(mesh.flat_count);
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
-    Facet& facet = facets[mesh.facet_of_triangle[t]];
+    Facet& facet = facets[mesh.flat_of_triangle[t]];
     facet.area_vector += DoubleAreaVector(mesh, t) / 2;
     for (int k = 0; k < 3; ++k) {
-      const int other = mesh.facet_of_triangle[topology.neighbor[t][k]];
-      if (other == mesh.facet_of_triangle[t]) continue;
+      const int other = mesh.flat_of_triangle[topology.neighbor[t][k]];
+      if (other == mesh.flat_of_triangle[t]) continue;
       facet.neighbors.push_back(other);
       const double length =
           (mesh.vertices[mesh.triangles[t][(k + 1) % 3]] - mesh.vertices[mesh.triangles[t][k]])
@@ -128,7 +128,7 @@ std::vector<FaceIndex> JoinCoplanarFacets(const TriangleMesh& mesh, const Surfac
   Renumber(face_of_facet);
   std::vector<FaceIndex> face_of_triangle;
   face_of_triangle.reserve(mesh.triangles.size());
-  for (const int facet : mesh.facet_of_triangle) face_of_triangle.push_back(face_of_facet[facet]);
+  for (const int facet : mesh.flat_of_triangle) face_of_triangle.push_back(face_of_facet[facet]);
   return face_of_triangle;
 }
 

@@ -2,7 +2,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_2.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
@@ -41,13 +41,6 @@ Vector3d AreaVector(const std::vector<Vector3d>& corners) {
   return sum / 2;
 }
 
-/// Exactly on one line, decided with exact predicates.
-bool AllCollinear(const std::vector<Vector3d>& corners) {
-  const Point3 a = ToPoint(corners[0]), b = ToPoint(corners[1]);
-  return std::all_of(corners.begin() + 2, corners.end(),
-                     [&](const Vector3d& c) { return CGAL::collinear(a, b, ToPoint(c)); });
-}
-
 double DistanceFromPlane(const std::vector<Vector3d>& corners, const Vector3d& normal) {
   Vector3d mean = Vector3d::Zero();
   for (const auto& corner : corners) mean += (corner - corners[0]) / double(corners.size());
@@ -68,6 +61,12 @@ std::vector<Point2> Project(const std::vector<Vector3d>& corners, const Vector3d
   std::vector<Point2> projected;
   for (const auto& corner : corners) projected.emplace_back(corner[u], corner[v]);
   return projected;
+}
+
+/// Simple and counter-clockwise.
+bool IsOutline(const std::vector<Point2>& corners) {
+  return CGAL::is_simple_2(corners.begin(), corners.end()) &&
+         CGAL::orientation_2(corners.begin(), corners.end()) == CGAL::COUNTERCLOCKWISE;
 }
 
 /// Marks the faces that can be reached from outside without crossing the outline.
@@ -120,43 +119,70 @@ double ExtentSquared(const std::vector<Vector3d>& corners) {
   return largest;
 }
 
-std::vector<std::array<int, 3>> TriangulatePolygon(const std::vector<Vector3d>& corners,
-                                                   double diameter, const std::string& facet) {
-  if (AllCollinear(corners)) {
-    throw MeshError(MeshDefect::kDegenerateFacet, facet + ": degenerate: it has no area");
-  }
-  if (corners.size() == 3) return {{0, 1, 2}};
-  const auto fail_outline = [&] {
-    throw MeshError(MeshDefect::kSelfIntersecting,
-                    facet + ": self-intersecting: its outline meets itself");
-  };
+}  // namespace
+
+bool AreCollinear(const std::vector<Vector3d>& corners) {
+  const Point3 a = ToPoint(corners[0]), b = ToPoint(corners[1]);
+  return std::all_of(corners.begin() + 2, corners.end(),
+                     [&](const Vector3d& c) { return CGAL::collinear(a, b, ToPoint(c)); });
+}
+
+PolygonCut CutPolygon(const std::vector<Vector3d>& corners) {
+  if (AreCollinear(corners)) return {{}, 0, MeshDefect::kDegenerateFacet};
+  if (corners.size() == 3) return {{{0, 1, 2}}, 0, {}};
   const Vector3d area = AreaVector(corners);
-  if (area.norm() <= kAreaRounding * ExtentSquared(corners)) fail_outline();
-  const double deviation = DistanceFromPlane(corners, area.normalized());
-  if (deviation > kPlanarTolerance * diameter) {
-    throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner lies " +
-                                                FormatShort(deviation) + " off its plane");
+  if (area.norm() <= kAreaRounding * ExtentSquared(corners)) {
+    return {{}, 0, MeshDefect::kSelfIntersecting};
   }
+  PolygonCut cut;
+  cut.off_plane = DistanceFromPlane(corners, area.normalized());
   const std::vector<Point2> outline = Project(corners, area);
-  const CGAL::Polygon_2<Kernel> polygon(outline.begin(), outline.end());
-  if (!polygon.is_simple() || polygon.is_clockwise_oriented()) fail_outline();
-  return TriangulateSimple(outline);
+  if (IsOutline(outline)) {
+    cut.triangles = TriangulateSimple(outline);
+  } else {
+    cut.defect = MeshDefect::kSelfIntersecting;
+  }
+  return cut;
+}
+
+namespace {
+
+/// @throws MeshError  the polygon is not one of a solid's surface.
+void CheckCut(const PolygonCut& cut, double diameter, const std::string& facet) {
+  if (cut.off_plane > kBentTolerance * diameter) {
+    throw MeshError(MeshDefect::kNotPlanar,
+                    facet + ": not planar: a corner lies " + FormatShort(cut.off_plane) +
+                        " off its plane, " + FormatShort(cut.off_plane / diameter) +
+                        " of the object's diameter (at most " + FormatShort(kBentTolerance) + ")");
+  }
+  if (!cut.defect) return;
+  throw MeshError(*cut.defect, facet + (*cut.defect == MeshDefect::kDegenerateFacet
+                                            ? ": degenerate: it has no area"
+                                            : ": self-intersecting: its outline meets itself"));
 }
 
 }  // namespace
 
 TriangleMesh TriangulateFacets(const WeldedSoup& soup, double diameter, const std::string& name) {
-  TriangleMesh mesh{
-      soup.vertices, soup.vertex_in_file, {}, {}, static_cast<int>(soup.facets.size())};
-  for (int f = 0; f < mesh.facet_count; ++f) {
+  TriangleMesh mesh{soup.vertices, soup.vertex_in_file, {}, {}, {}, 0};
+  std::vector<Vector3d> corners;
+  for (int f = 0; f < std::ssize(soup.facets); ++f) {
     const std::vector<int>& facet = soup.facets[f];
-    std::vector<Vector3d> corners;
+    if (facet.empty()) continue;
+    corners.clear();
     for (const int v : facet) corners.push_back(soup.vertices[v]);
-    for (const auto& [a, b, c] :
-         TriangulatePolygon(corners, diameter, name + ": facet " + std::to_string(f))) {
+    const PolygonCut cut = CutPolygon(corners);
+    if (cut.defect || cut.off_plane > 0) {
+      CheckCut(cut, diameter, name + ": facet " + std::to_string(f));
+    }
+    const bool bent = cut.off_plane > kPlanarTolerance * diameter;
+    for (const auto& [a, b, c] : cut.triangles) {
       mesh.triangles.push_back({facet[a], facet[b], facet[c]});
       mesh.facet_of_triangle.push_back(f);
+      mesh.flat_of_triangle.push_back(mesh.flat_count);
+      if (bent) ++mesh.flat_count;
     }
+    if (!bent) ++mesh.flat_count;
   }
   return mesh;
 }

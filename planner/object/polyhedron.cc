@@ -9,6 +9,8 @@
 #include "planner/object/face_joining.h"
 #include "planner/object/face_tree.h"
 #include "planner/object/facet_triangulation.h"
+#include "planner/object/mend_soup.h"
+#include "planner/object/mesh_survey.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/size_limits.h"
 #include "planner/object/solid.h"
@@ -86,21 +88,89 @@ std::vector<Face> MakeFaces(const TriangleMesh& mesh, const SurfaceTopology& top
   return faces;
 }
 
+double DiameterOf(const WeldedSoup& soup, const std::string& name) {
+  if (soup.vertices.empty()) {
+    throw MeshError(MeshDefect::kEmpty, name + ": empty: no facet has an area of its own");
+  }
+  const double diameter = ComputeDiameter(soup.vertices);
+  const std::string complaint = SizeComplaint(soup.vertices, diameter);
+  if (!complaint.empty()) {
+    throw MeshError(MeshDefect::kBadSize, name + ": vertices: " + complaint);
+  }
+  return diameter;
+}
+
+/// A closed, consistently oriented manifold.
+struct Surface {
+  TriangleMesh mesh;
+  SurfaceTopology topology;
+  double diameter;
+};
+
+Surface MakeSurface(const WeldedSoup& soup, double diameter, const std::string& name) {
+  TriangleMesh mesh = TriangulateFacets(soup, diameter, name);
+  CheckEdges(mesh, diameter, name);
+  SurfaceTopology topology = ComputeTopology(mesh, name);
+  return {std::move(mesh), std::move(topology), diameter};
+}
+
+/// Only a soup that is no such surface is mended: one that is stays as it is, to the bit.
+Surface MakeMendedSurface(WeldedSoup soup, double diameter, const std::string& name) {
+  try {
+    return MakeSurface(soup, diameter, name);
+  } catch (const MeshError&) {
+    if (!MendSoup(soup, diameter)) throw;
+  }
+  return MakeSurface(soup, DiameterOf(soup, name), name);
+}
+
+/// Whether a defect is one of those that SurveyMesh counts.
+bool IsSurveyed(MeshDefect defect) {
+  switch (defect) {
+    case MeshDefect::kDegenerateFacet:
+    case MeshDefect::kNotPlanar:
+    case MeshDefect::kNotClosed:
+    case MeshDefect::kNotManifold:
+    case MeshDefect::kNotOriented:
+    case MeshDefect::kSelfIntersecting:
+    case MeshDefect::kSeveralSolids:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What was found first, and then all that is wrong.
+MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Reading& reading) {
+  try {
+    if (!IsSurveyed(first.defect())) return first;
+    reading.Begin("counting what is wrong with " + std::to_string(soup.facets.size()) + " facets");
+    const std::string all = SurveyText(SurveyMesh(soup, reading.deadline));
+    return {first.defect(), first.what() + ("; in all " + all)};
+  } catch (const TimeUp&) {
+    return first;
+  }
+}
+
 }  // namespace
 
 Polyhedron Polyhedron::FromSoup(const PolygonSoup& soup, const std::string& name,
                                 const Reading& reading) {
+  try {
+    return Check(soup, name, reading);
+  } catch (const MeshError& error) {
+    throw WithSurvey(error, soup, reading);
+  }
+}
+
+Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
+                             const Reading& reading) {
   const std::string facets = std::to_string(soup.facets.size()) + " facets";
   reading.Begin("checking " + facets);
-  const WeldedSoup welded = WeldVertices(soup, name);
-  const double diameter = ComputeDiameter(welded.vertices);
-  if (const std::string complaint = SizeComplaint(welded.vertices, diameter); !complaint.empty()) {
-    throw MeshError(MeshDefect::kBadSize, name + ": vertices: " + complaint);
-  }
+  WeldedSoup welded = WeldVertices(soup, name);
+  const double first_diameter = DiameterOf(welded, name);
   reading.Begin("triangulating " + facets);
-  TriangleMesh mesh = TriangulateFacets(welded, diameter, name);
-  CheckEdges(mesh, diameter, name);
-  SurfaceTopology topology = ComputeTopology(mesh, name);
+  auto [mesh, topology, diameter] = MakeMendedSurface(std::move(welded), first_diameter, name);
   reading.Begin("looking for intersections of " + facets);
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");

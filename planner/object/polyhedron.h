@@ -24,7 +24,8 @@ class Polyhedron final : public Object {
   /// Laws: faces, areas and mass do not depend on how facets are cut or on the order of a facet's
   /// corners' start.
   /// @param name  how messages call it, usually the file's path.
-  /// @throws MeshError  (an InputError) with the MeshDefect; names the facet or vertex, from 0.
+  /// @throws MeshError  (an InputError) with the MeshDefect; names the facet or vertex, from 0, and
+  ///                    then counts all that is wrong (SurveyMesh).
   /// @throws TimeUp  the deadline came.
   static Polyhedron FromSoup(const PolygonSoup& soup, const std::string& name,
                              const Reading& reading = {});
@@ -55,6 +56,7 @@ class Polyhedron final : public Object {
                                      const Eigen::Vector3d& b, double tolerance) const override;
 
  private:
+  static Polyhedron Check(const PolygonSoup& soup, const std::string& name, const Reading& reading);
   Polyhedron(TriangleMesh mesh, std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces,
              double diameter);
 

@@ -1,61 +1,105 @@
 #include "planner/object/self_intersection.h"
 
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
-#include <iterator>
+#include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "planner/object/mesh_defect.h"
 #include "planner/object/size_limits.h"
-#include "planner/object/surface_mesh.h"
 
 namespace regrasp::object {
 
 namespace {
 
-/// The clock is looked at once in about a millisecond.
-constexpr std::size_t kOverlapsBetweenLooks = 5000;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Corners = std::array<int, 3>;
 
-/// Throws where the check below would meet more pairs of boxes than it can finish.
-void CheckOverlaps(const TriangleMesh& mesh, const std::string& name, const Deadline& deadline) {
-  using Box = CGAL::Box_intersection_d::Box_d<double, 3>;
-  std::vector<Box> boxes;
-  for (const auto& triangle : mesh.triangles) {
-    CGAL::Bbox_3 box;
-    for (const int v : triangle) {
-      const Eigen::Vector3d& p = mesh.vertices[v];
-      box += CGAL::Bbox_3(p.x(), p.y(), p.z(), p.x(), p.y(), p.z());
-    }
-    boxes.emplace_back(box);
+/// The clock is looked at once in about a millisecond.
+constexpr std::size_t kPairsBetweenLooks = 5000;
+
+/// Ends the walk over the boxes, which knows no other way.
+struct Stop {};
+
+/// Turned such that the corners of both that are in both come first, in the same order.
+/// @returns how many they are.
+int SortShared(Corners& a, Corners& b) {
+  int shared = 0;
+  for (int i = shared; i < 3; ++i) {
+    const auto same = std::find(b.begin() + shared, b.end(), a[i]);
+    if (same == b.end()) continue;
+    std::swap(a[i], a[shared]);
+    std::swap(*same, b[shared]);
+    ++shared;
   }
-  std::size_t overlaps = 0;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box&, const Box&) {
-    if (++overlaps % kOverlapsBetweenLooks == 0) deadline.Check();
-    if (overlaps <= kMaxOverlaps) return;
-    throw MeshError(MeshDefect::kTooLarge,
-                    name + ": more than " + std::to_string(kMaxOverlaps) +
-                        " pairs of facets lie so close that they would have to be checked");
-  });
+  return shared;
+}
+
+bool Meet(const TriangleMesh& mesh, Corners a, Corners b) {
+  const auto point = [&](int v) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    return Point(p.x(), p.y(), p.z());
+  };
+  const int shared = SortShared(a, b);
+  if (shared == 3) return true;
+  const Point p = point(a[0]), q = point(a[1]), r = point(a[2]);
+  if (shared == 2) {  // folded onto each other
+    const Point s = point(b[2]);
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+  const Point u = point(b[0]), v = point(b[1]), w = point(b[2]);
+  const Kernel::Triangle_3 first(p, q, r), second(u, v, w);
+  if (shared == 0) return CGAL::do_intersect(first, second);
+  // Where they meet beyond the vertex, the far edge of one ends in the other.
+  return CGAL::do_intersect(first, Kernel::Segment_3(v, w)) ||
+         CGAL::do_intersect(second, Kernel::Segment_3(q, r));
 }
 
 }  // namespace
 
+bool VisitCrossings(const TriangleMesh& mesh, std::size_t most_pairs, const Deadline& deadline,
+                    const std::function<bool(TriangleIndex, TriangleIndex)>& visit) {
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (int t = 0; t < std::ssize(mesh.triangles); ++t) {
+    CGAL::Bbox_3 box;
+    for (const int v : mesh.triangles[t]) {
+      const Eigen::Vector3d& p = mesh.vertices[v];
+      box += CGAL::Bbox_3(p.x(), p.y(), p.z(), p.x(), p.y(), p.z());
+    }
+    boxes.emplace_back(box, t);
+  }
+  deadline.Check();
+  std::size_t pairs = 0;
+  try {
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+      if (++pairs % kPairsBetweenLooks == 0) deadline.Check();
+      if (pairs > most_pairs) throw Stop();
+      if (!Meet(mesh, mesh.triangles[a.info()], mesh.triangles[b.info()])) return;
+      const auto [first, second] = std::minmax({a.info(), b.info()});
+      if (!visit(TriangleIndex(first), TriangleIndex(second))) throw Stop();
+    });
+  } catch (const Stop&) {
+  }
+  return pairs <= most_pairs;
+}
+
 void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
                            const Deadline& deadline) {
-  CheckOverlaps(mesh, name, deadline);
-  deadline.Check();
-  const SurfaceMesh surface = MakeSurfaceMesh(mesh, mesh.triangles);
-  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> found;
-  deadline.Check();
-  // The first pair is enough; all pairs of a hostile mesh would not fit into memory.
-  CGAL::Polygon_mesh_processing::self_intersections(
-      faces(surface), surface, std::back_inserter(found), CGAL::parameters::maximum_number(1));
-  if (found.empty()) return;
-  const auto [a, b] = std::minmax({int(found[0].first), int(found[0].second)});
-  throw MeshError(MeshDefect::kSelfIntersecting,
-                  name + ": " + FacetName(mesh, TriangleIndex(a)) + ": self-intersecting: meets " +
-                      FacetName(mesh, TriangleIndex(b)) + ", which is not its neighbour there");
+  const auto reject = [&](TriangleIndex a, TriangleIndex b) -> bool {
+    throw MeshError(MeshDefect::kSelfIntersecting,
+                    name + ": " + FacetName(mesh, a) + ": self-intersecting: meets " +
+                        FacetName(mesh, b) + ", which is not its neighbour there");
+  };
+  if (VisitCrossings(mesh, kMaxOverlaps, deadline, reject)) return;
+  throw MeshError(MeshDefect::kTooLarge,
+                  name + ": more than " + std::to_string(kMaxOverlaps) +
+                      " pairs of facets lie so close that they would have to be checked");
 }
 
 }  // namespace regrasp::object

@@ -1,74 +1,46 @@
 #include "planner/object/surface_topology.h"
 
 #include <algorithm>
-#include <tuple>
+#include <span>
 
+#include "planner/object/edge_sides.h"
 #include "planner/object/mesh_defect.h"
 
 namespace regrasp::object {
 
 namespace {
 
-/// One side of an edge: the corner `corner` of `triangle` and the next, ends in order.
-struct EdgeSide {
-  int low, high;
-  TriangleIndex triangle;
-  int corner;
-  bool forward;  ///< the triangle runs from low to high
-};
-
-std::vector<EdgeSide> SortedEdgeSides(const TriangleMesh& mesh) {
-  std::vector<EdgeSide> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), t, k, from < to});
-    }
-  }
-  std::ranges::sort(sides, {}, [](const EdgeSide& side) {
-    return std::tuple(side.low, side.high, side.triangle);
-  });
-  return sides;
-}
-
 [[noreturn]] void Reject(MeshDefect defect, const TriangleMesh& mesh, const std::string& name,
                          const EdgeSide& side, const std::string& what) {
-  throw MeshError(defect, name + ": " + FacetName(mesh, side.triangle) + ": " + what +
+  throw MeshError(defect, name + ": " + FacetName(mesh, TriangleIndex(side.facet)) + ": " + what +
                               " at the edge from " + VertexName(mesh, side.low) + " to " +
                               VertexName(mesh, side.high));
 }
 
-/// `first` to `last`: all sides of one edge.
-void CheckEdge(const TriangleMesh& mesh, const std::string& name, const EdgeSide* first,
-               const EdgeSide* last) {
-  const auto count = last - first;
-  if (count == 1) {
-    Reject(MeshDefect::kNotClosed, mesh, name, *first, "not closed: no other facet");
+/// @param sides  all of one edge.
+void CheckEdge(const TriangleMesh& mesh, const std::string& name, std::span<const EdgeSide> sides) {
+  if (sides.size() == 1) {
+    Reject(MeshDefect::kNotClosed, mesh, name, sides[0], "not closed: no other facet");
   }
-  if (count > 2) {
-    Reject(MeshDefect::kNotManifold, mesh, name, *first,
-           "not manifold: " + std::to_string(count) + " facets meet");
+  if (sides.size() > 2) {
+    Reject(MeshDefect::kNotManifold, mesh, name, sides[0],
+           "not manifold: " + std::to_string(sides.size()) + " facets meet");
   }
-  if (first[0].forward == first[1].forward) {
-    Reject(MeshDefect::kNotOriented, mesh, name, *first,
-           "not consistently oriented with " + FacetName(mesh, first[1].triangle));
+  if (sides[0].forward == sides[1].forward) {
+    Reject(MeshDefect::kNotOriented, mesh, name, sides[0],
+           "not consistently oriented with " + FacetName(mesh, TriangleIndex(sides[1].facet)));
   }
 }
 
 std::vector<std::array<TriangleIndex, 3>> JoinTriangles(const TriangleMesh& mesh,
                                                         const std::string& name) {
-  const std::vector<EdgeSide> sides = SortedEdgeSides(mesh);
   std::vector<std::array<TriangleIndex, 3>> neighbor(mesh.triangles.size());
-  const EdgeSide* const end = sides.data() + sides.size();
-  for (const EdgeSide *first = sides.data(), *last; first != end; first = last) {
-    last = std::find_if(first, end, [&](const EdgeSide& side) {
-      return side.low != first->low || side.high != first->high;
-    });
-    CheckEdge(mesh, name, first, last);
-    neighbor[first[0].triangle][first[0].corner] = first[1].triangle;
-    neighbor[first[1].triangle][first[1].corner] = first[0].triangle;
-  }
+  ForEachEdge(SortedEdgeSides(mesh.triangles, mesh.vertices.size()),
+              [&](std::span<const EdgeSide> sides) {
+                CheckEdge(mesh, name, sides);
+                neighbor[sides[0].facet][sides[0].corner] = TriangleIndex(sides[1].facet);
+                neighbor[sides[1].facet][sides[1].corner] = TriangleIndex(sides[0].facet);
+              });
   return neighbor;
 }
 

@@ -17,7 +17,9 @@ struct TriangleMesh {
   std::vector<int> vertex_in_file;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<int> facet_of_triangle;         ///< the file's facets, counted from 0
-  int facet_count = 0;
+  /// What is flat, counted from 0 in the file's order: a facet, or a triangle of a bent one.
+  std::vector<int> flat_of_triangle;
+  int flat_count = 0;
 };
 
 /// Twice the area of a triangle times its unit outward normal.

@@ -34,22 +34,33 @@ void CheckCoordinates(const Eigen::Vector3d& vertex, int index, const std::strin
   }
 }
 
-void CheckCorners(std::vector<int> corners, std::size_t facet, const WeldedSoup& welded,
-                  const std::string& name) {
-  if (corners.size() < 3) {
-    throw MeshError(MeshDefect::kDegenerateFacet, FacetName(name, facet) +
-                                                      ": degenerate: fewer than three corners (" +
-                                                      std::to_string(corners.size()) + ")");
-  }
-  std::ranges::sort(corners);
-  const auto twice = std::ranges::adjacent_find(corners);
-  if (twice == corners.end()) return;
-  throw MeshError(MeshDefect::kDegenerateFacet, FacetName(name, facet) +
-                                                    ": degenerate: two of its corners are vertex " +
-                                                    std::to_string(welded.vertex_in_file[*twice]));
+}  // namespace
+
+void DropRepeated(std::vector<int>& corners) {
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  if (corners.size() < 3) corners.clear();
 }
 
-}  // namespace
+void DropUnused(WeldedSoup& soup) {
+  std::vector<int> number(soup.vertices.size(), -1);
+  for (const auto& facet : soup.facets) {
+    for (const int v : facet) number[v] = 0;
+  }
+  int next = 0;
+  for (int v = 0; v < std::ssize(soup.vertices); ++v) {
+    if (number[v] < 0) continue;
+    soup.vertices[next] = soup.vertices[v];
+    soup.vertex_in_file[next] = soup.vertex_in_file[v];
+    number[v] = next++;
+  }
+  if (next == std::ssize(soup.vertices)) return;
+  soup.vertices.resize(next);
+  soup.vertex_in_file.resize(next);
+  for (auto& facet : soup.facets) {
+    for (int& v : facet) v = number[v];
+  }
+}
 
 WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
   if (soup.facets.empty()) throw MeshError(MeshDefect::kEmpty, name + ": empty: no facet");
@@ -75,9 +86,10 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
       }
       corners.push_back(found->second);
     }
-    CheckCorners(corners, f, welded, name);
+    DropRepeated(corners);
     welded.facets.push_back(std::move(corners));
   }
+  DropUnused(welded);
   return welded;
 }
 

@@ -34,7 +34,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"bow_tie.obj", "facet 0: self-intersecting"},
     {"comma.obj", "line 3: vertex 2: \"1,5\" is not a finite number"},
     {"control_character.ply", "the file ends inside \"a?b\" 0"},
-    {"corner_twice.obj", "facet 0: degenerate: two of its corners are vertex 1"},
+    {"corner_twice.obj", "facet 0: not closed: no other facet"},
     {"crossing.obj", "self-intersecting: meets facet"},
     {"edge_of_1e-162.obj", "facet 0: the edge from vertex 0 to vertex 1: shorter (1e-162) than"},
     {"edge_of_1e-162.wkt", "ring 0: edge 0: shorter (1e-162) than 1e-30 of the diameter"},
@@ -42,7 +42,6 @@ const std::map<std::string, std::string> kBadFiles = {
     {"empty.glb", "No suitable reader"},
     {"empty.obj", "empty: no facet"},
     {"empty.stl", "not an STL file"},
-    {"facet_twice.obj", "facet 0: not manifold: 3 facets meet"},
     {"far_away.obj", "too far from the origin"},
     {"flat.obj", "facet 0: self-intersecting: meets facet 1"},
     {"flipped_facet.obj", "facet 0: not consistently oriented with facet 3"},
@@ -83,7 +82,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"needle.off", "facet 0: too thin"},
     {"negative_count.off", "line 2: a negative number"},
     {"negative_list.ply", "facet 0: a list of length -3"},
-    {"no_area.obj", "facet 0: degenerate: it has no area"},
+    {"no_area.obj", "empty: no facet has an area of its own"},
     {"no_counts.off", "ends where the number of vertices"},
     {"no_end.ply", "line 5: \"prope\" is not a statement"},
     {"no_format.ply", "no format"},
@@ -117,7 +116,6 @@ const std::map<std::string, std::string> kBadFiles = {
     {"truncated_binary.ply", "ends inside facet 3"},
     {"truncated_binary.stl", "the file has 283 bytes"},
     {"two_coordinates.obj", "line 1: vertex 0: fewer than three coordinates"},
-    {"two_corners.obj", "facet 0: degenerate: fewer than three corners (2)"},
     {"unknown_statement.obj", "line 1: \"hello\" is not a statement"},
     {"vertex_on_facet.obj", "self-intersecting: meets facet"},
     {"word.stl", "line 30: \"hello\" where a facet"},
@@ -153,7 +151,7 @@ TEST(BadFiles, TheirSoundRelativesAreRead) {
     EXPECT_NEAR(file.object->mass_properties().volume, (placed ? 8 : 1) / 6.0, 1e-6);
     ++read;
   }
-  EXPECT_EQ(read, 13u);
+  EXPECT_EQ(read, 16u);
 }
 
 TEST(BadFiles, AFileThatIsMissingOrAFolderIsRefused) {
@@ -194,12 +192,15 @@ std::map<std::string, std::string> SoundFiles() {
   return files;
 }
 
+/// A file of this many bytes is cut behind every one of them, a longer one at as many places.
+constexpr std::size_t kMostCuts = 5000;
+
 TEST(BadFiles, TruncatedAnywhereAFileIsReadOrRefused) {
   int refused = 0, files = 0;
   for (const auto& [file, bytes] : SoundFiles()) {
     const std::string ending = std::filesystem::path(file).extension().string();
     ASSERT_TRUE(IsObject(ending, bytes)) << file;
-    for (std::size_t size = 0; size < bytes.size(); ++size) {
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / kMostCuts) {
       refused += !IsObject(ending, bytes.substr(0, size));
     }
     ++files;

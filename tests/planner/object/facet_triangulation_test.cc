@@ -64,7 +64,7 @@ TEST(FacetTriangulation, TrianglesCoverTheirFacetAndFaceAsItDoesHoweverItLies) {
     const WeldedSoup soup = FacetsOf(kOutlines, turn);
     const TriangleMesh mesh = TriangulateFacets(soup, 5, "facets");
     EXPECT_EQ(mesh.vertices, soup.vertices);
-    EXPECT_EQ(mesh.facet_count, 3);
+    EXPECT_EQ(mesh.flat_count, 3);
     std::vector<double> areas(3, 0);
     std::vector<int> counts(3, 0);
     for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
@@ -87,9 +87,14 @@ TEST(FacetTriangulation, ACornerMayLieOffThePlaneByAShareOfTheDiameter) {
   // Lifting one corner of a square puts each a quarter of that off the plane between them.
   WeldedSoup soup = FacetsOf({kOutlines[0]});
   const double diameter = 100;
-  soup.vertices[2].z() = 3.9 * kPlanarTolerance * diameter;
-  EXPECT_EQ(DefectOf(soup, diameter), std::nullopt);
-  soup.vertices[2].z() = 4.1 * kPlanarTolerance * diameter;
+  const auto flat_parts = [&](double off_plane) {
+    soup.vertices[2].z() = 4 * off_plane * diameter;
+    return TriangulateFacets(soup, diameter, "facets").flat_count;
+  };
+  EXPECT_EQ(flat_parts(0.99 * kPlanarTolerance), 1);
+  EXPECT_EQ(flat_parts(1.01 * kPlanarTolerance), 2) << "bent: each triangle is flat by itself";
+  EXPECT_EQ(flat_parts(0.99 * kBentTolerance), 2);
+  soup.vertices[2].z() = 4 * 1.1 * kBentTolerance * diameter;
   EXPECT_EQ(DefectOf(soup, diameter), MeshDefect::kNotPlanar);
 }
 

@@ -21,7 +21,7 @@ TriangleMesh MeshOf(const PolygonSoup& soup) {
   mesh.vertices = soup.vertices;
   for (int v = 0; v < std::ssize(soup.vertices); ++v) mesh.vertex_in_file.push_back(v);
   for (const auto& facet : soup.facets) {
-    mesh.facet_of_triangle.push_back(mesh.facet_count++);
+    mesh.facet_of_triangle.push_back(static_cast<int>(mesh.facet_of_triangle.size()));
     mesh.triangles.push_back({facet[0], facet[1], facet[2]});
   }
   return mesh;
@@ -96,7 +96,7 @@ TEST(SurfaceTopology, RefusesWhatIsNotOneClosedSheetAndNamesTheEdgeOrVertex) {
 
   TriangleMesh fin = good;
   fin.triangles.push_back(fin.triangles[3]);
-  fin.facet_of_triangle.push_back(fin.facet_count++);
+  fin.facet_of_triangle.push_back(static_cast<int>(fin.facet_of_triangle.size()));
   defect = DefectOf(fin);
   ASSERT_TRUE(defect);
   EXPECT_EQ(defect->first, MeshDefect::kNotManifold);

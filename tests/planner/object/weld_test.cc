@@ -69,6 +69,17 @@ TEST(WeldVertices, TakesMinusZeroForZero) {
   }
 }
 
+TEST(WeldVertices, DropsCornersThatRepeatTheOneBeforeAndFacetsThatThatLeavesWithTwo) {
+  const PolygonSoup soup = {
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {7, 7, 7}},
+      {{0, 1, 3, 2}, {0, 1, 2, 0}, {0, 1, 3}, {5, 5, 5}, {}, {0, 1}, {0, 4, 2, 4}}};
+  const WeldedSoup welded = WeldVertices(soup, "soup");
+  EXPECT_THAT(welded.facets,
+              ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 2), ElementsAre(), ElementsAre(),
+                          ElementsAre(), ElementsAre(), ElementsAre(0, 3, 2, 3)));
+  EXPECT_THAT(welded.vertex_in_file, ElementsAre(0, 1, 2, 4)) << "without those of what is dropped";
+}
+
 TEST(WeldVertices, NamesWhatIsWrong) {
   const auto refusal = [](const PolygonSoup& soup) {
     try {
@@ -84,10 +95,6 @@ TEST(WeldVertices, NamesWhatIsWrong) {
   EXPECT_THAT(refusal({corners, {{0, 1, 2}, {0, 1, 4}}}),
               HasSubstr("facet 1: vertex index 4 is out of range (4 vertices)"));
   EXPECT_THAT(refusal({corners, {{0, 1, -1}}}), HasSubstr("vertex index -1 is out of range"));
-  EXPECT_THAT(refusal({corners, {{0, 1}}}), HasSubstr("fewer than three corners (2)"));
-  EXPECT_THAT(refusal({corners, {{}}}), HasSubstr("fewer than three corners (0)"));
-  // Two of the file's vertices at one point: the first is named.
-  EXPECT_THAT(refusal({corners, {{0, 1, 3}}}), HasSubstr("two of its corners are vertex 1"));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity(), -2 * kMaxCoordinate}) {
     EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, bad, 0}}, {{0, 1, 2}}}),

@@ -1,0 +1,217 @@
+#include "planner/object/mend_soup.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container_hash/hash.hpp>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "planner/object/edge_sides.h"
+#include "planner/object/facet_triangulation.h"
+#include "planner/object/object.h"
+#include "planner/object/same_corners.h"
+
+namespace regrasp::object {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The first of the points so far within a distance of each, by cells of that width.
+class NearPoints {
+ public:
+  NearPoints(const std::vector<Vector3d>& points, double within)
+      : points_(points), within_(within) {}
+
+  /// @returns the point itself, and knows it from here on, where there is none.
+  int FirstNear(int point) {
+    const Vector3d& p = points_[point];
+    const Cell cell = CellOf(p);
+    for (std::int64_t i = 0; i < 27; ++i) {
+      const auto found = known_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1,
+                                      cell[2] + i / 9 - 1});
+      if (found == known_.end()) continue;
+      for (const int other : found->second) {
+        if ((points_[other] - p).norm() <= within_) return other;
+      }
+    }
+    known_[cell].push_back(point);
+    return point;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  [[nodiscard]] Cell CellOf(const Vector3d& p) const {
+    const auto at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / within_)); };
+    return {at(p.x()), at(p.y()), at(p.z())};
+  }
+
+  const std::vector<Vector3d>& points_;
+  double within_;
+  std::unordered_map<Cell, std::vector<int>, boost::hash<Cell>> known_;
+};
+
+bool WeldBorders(WeldedSoup& soup, double diameter) {
+  std::vector<bool> on_border(soup.vertices.size(), false);
+  const auto sides = SortedEdgeSides(soup.facets, soup.vertices.size());
+  ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
+    if (edge.size() == 1) on_border[edge[0].low] = on_border[edge[0].high] = true;
+  });
+  NearPoints near(soup.vertices, kPointTolerance * diameter);
+  std::vector<int> becomes(soup.vertices.size());
+  bool changed = false;
+  for (int v = 0; v < std::ssize(becomes); ++v) {
+    becomes[v] = on_border[v] ? near.FirstNear(v) : v;
+    changed = changed || becomes[v] != v;
+  }
+  if (!changed) return false;
+  for (auto& facet : soup.facets) {
+    for (int& v : facet) v = becomes[v];
+    DropRepeated(facet);
+  }
+  return true;
+}
+
+std::vector<bool> FindFlattened(const WeldedSoup& soup) {
+  std::vector<bool> flattened;
+  std::vector<Vector3d> corners;
+  for (const auto& facet : soup.facets) {
+    corners.clear();
+    for (const int v : facet) corners.push_back(soup.vertices[v]);
+    flattened.push_back(!facet.empty() && AreCollinear(corners));
+  }
+  return flattened;
+}
+
+/// Along any line its points are in this order.
+auto Place(const WeldedSoup& soup, int vertex) {
+  const Vector3d& p = soup.vertices[vertex];
+  return std::tuple(p.x(), p.y(), p.z());
+}
+
+/// For each facet without area the vertices of all that hang together with it on a line, in order;
+/// kept at one of them.
+class Lines {
+ public:
+  Lines(const WeldedSoup& soup, const std::vector<EdgeSide>& sides,
+        const std::vector<bool>& flattened)
+      : joined_(soup.facets.size()) {
+    ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
+      int first = -1;
+      for (const EdgeSide& side : edge) {
+        if (!flattened[side.facet]) continue;
+        if (first < 0) first = side.facet;
+        joined_.union_set(first, side.facet);
+      }
+    });
+    for (int f = 0; f < std::ssize(soup.facets); ++f) {
+      if (!flattened[f]) continue;
+      std::vector<int>& line = lines_[joined_.find_set(f)];
+      line.insert(line.end(), soup.facets[f].begin(), soup.facets[f].end());
+    }
+    for (auto& [facet, line] : lines_) {
+      std::ranges::sort(line, {}, [&](int v) { return Place(soup, v); });
+      line.erase(std::unique(line.begin(), line.end()), line.end());
+    }
+  }
+
+  [[nodiscard]] const std::vector<int>& Of(int facet) { return lines_.at(joined_.find_set(facet)); }
+
+ private:
+  boost::disjoint_sets_with_storage<> joined_;
+  std::map<std::size_t, std::vector<int>> lines_;
+};
+
+using Edge = std::pair<int, int>;  ///< the lower vertex first
+
+/// What lies between the ends of edges of facets without area, in the order of Place.
+/// @returns nullopt where that is far more than there are edges.
+std::optional<std::map<Edge, std::vector<int>>> FindSplits(const WeldedSoup& soup,
+                                                           const std::vector<bool>& flattened) {
+  const std::vector<EdgeSide> sides = SortedEdgeSides(soup.facets, soup.vertices.size());
+  Lines lines(soup, sides, flattened);
+  std::map<Edge, std::vector<int>> splits;
+  std::size_t count = 0;
+  ForEachEdge(sides, [&](std::span<const EdgeSide> edge) {
+    const auto on_line = std::ranges::find_if(
+        edge, [&](const EdgeSide& side) { return bool(flattened[side.facet]); });
+    if (on_line == edge.end() || count > sides.size()) return;
+    const std::vector<int>& line = lines.Of(on_line->facet);
+    const auto place = [&](int v) { return Place(soup, v); };
+    const auto [from, to] = std::minmax({place(on_line->low), place(on_line->high)});
+    const auto first = std::ranges::upper_bound(line, from, {}, place);
+    const auto last = std::ranges::lower_bound(line, to, {}, place);
+    if (first == last) return;
+    count += static_cast<std::size_t>(last - first);
+    splits[{on_line->low, on_line->high}].assign(first, last);
+  });
+  if (count > sides.size()) return std::nullopt;
+  return splits;
+}
+
+/// Drops facets without area. About such a facet its edges cancel piece by piece, so that the
+/// surface stays closed where the facets beside it get its corners on the edges that they share.
+bool DropFlattened(WeldedSoup& soup) {
+  const std::vector<bool> flattened = FindFlattened(soup);
+  if (std::ranges::find(flattened, true) == flattened.end()) return false;
+  const auto splits = FindSplits(soup, flattened);
+  if (!splits) return false;
+  for (std::size_t f = 0; f < flattened.size(); ++f) {
+    std::vector<int> corners;
+    for (std::size_t k = 0; !flattened[f] && k < soup.facets[f].size(); ++k) {
+      const int from = soup.facets[f][k], to = soup.facets[f][(k + 1) % soup.facets[f].size()];
+      corners.push_back(from);
+      const auto split = splits->find(std::minmax(from, to));
+      if (split == splits->end()) continue;
+      const std::vector<int>& between = split->second;
+      if (Place(soup, from) < Place(soup, to)) {
+        corners.insert(corners.end(), between.begin(), between.end());
+      } else {
+        corners.insert(corners.end(), between.rbegin(), between.rend());
+      }
+    }
+    soup.facets[f] = std::move(corners);
+  }
+  return true;
+}
+
+/// Of facets with the same corners keeps the first of those that are more, of one orientation or
+/// the other; none where they are equally many.
+bool DropRepeatedFacets(WeldedSoup& soup) {
+  const std::vector<RepeatedFacet> repeated = FindRepeatedFacets(soup.facets);
+  for (auto first = repeated.begin(), last = first; first != repeated.end(); first = last) {
+    last = std::find_if(first, repeated.end(),
+                        [&](const RepeatedFacet& r) { return r.first != first->first; });
+    const auto same = 1 + std::count_if(first, last, [](const RepeatedFacet& r) { return r.same_way; });
+    const auto opposite = last - first + 1 - same;
+    const auto turned = std::find_if(first, last, [](const RepeatedFacet& r) { return !r.same_way; });
+    const int kept = same > opposite ? first->first : same < opposite ? turned->facet : -1;
+    if (kept != first->first) soup.facets[first->first].clear();
+    for (auto r = first; r != last; ++r) {
+      if (r->facet != kept) soup.facets[r->facet].clear();
+    }
+  }
+  return !repeated.empty();
+}
+
+}  // namespace
+
+bool MendSoup(WeldedSoup& soup, double diameter) {
+  const bool welded = WeldBorders(soup, diameter);
+  const bool flattened = DropFlattened(soup);
+  const bool repeated = DropRepeatedFacets(soup);
+  if (!welded && !flattened && !repeated) return false;
+  DropUnused(soup);
+  return true;
+}
+
+}  // namespace regrasp::object
