@@ -200,7 +200,8 @@ int PlanProgram::Run() const {
   const object::ObjectFile object = common.ReadObjectFile();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
-  const std::vector<std::string> doubts = {object::SizeWarning(body), common.friction.warning()};
+  const std::vector<std::string> doubts = {object::SizeWarning(body, common.scale),
+                                           common.friction.warning()};
   planning::PlanResult result = Find(object);
   if (!result.plan) {
     PrintError(kProgram, result.message);

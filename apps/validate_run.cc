@@ -380,7 +380,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);
   const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
-  for (const std::string& warning : {object::SizeWarning(body), options.friction.warning()}) {
+  for (const std::string& warning :
+       {object::SizeWarning(body, task.plan.scale), options.friction.warning()}) {
     if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
   }
   for (const std::string& warning : report.warnings()) {

@@ -1,8 +1,28 @@
 #include "planner/object/body_measures.h"
 
+#include <algorithm>
+#include <array>
+
+#include "planner/base/number.h"
 #include "planner/base/quantity_text.h"
 
 namespace regrasp::object {
+
+namespace {
+
+struct Unit {
+  const char* name;
+  double metres;
+};
+
+/// What files are usually in, the likeliest first.
+constexpr std::array<Unit, 4> kUnits = {
+    {{"millimetres", 0.001}, {"centimetres", 0.01}, {"inches", 0.0254}, {"metres", 1}}};
+
+/// What hands grasp is mostly this wide, metres.
+constexpr double kSmallestGuess = 0.02, kLargestGuess = 0.4;
+
+}  // namespace
 
 BodyMeasures MeasureBody(const Object& object, double scale, double density_kg_m3,
                          std::optional<double> thickness) {
@@ -20,11 +40,20 @@ std::string MeasuresText(const BodyMeasures& body) {
   return FormatLength(body.diameter_m) + " across, " + thick + FormatMass(body.mass_kg);
 }
 
-std::string SizeWarning(const BodyMeasures& body) {
+std::string SizeWarning(const BodyMeasures& body, double scale) {
   if (body.diameter_m >= kSmallestUsual && body.diameter_m <= kLargestUsual) return "";
-  return "the object is " + MeasuresText(body) +
-         ": is that meant? --scale says how many metres a unit of length of its file is, 0.001 for "
-         "millimetres";
+  const double units = body.diameter_m / scale;
+  const auto unit = std::ranges::find_if(kUnits, [&](const Unit& guess) {
+    return units * guess.metres >= kSmallestGuess && units * guess.metres <= kLargestGuess;
+  });
+  const std::string size = "the object is " + MeasuresText(body) + ": ";
+  if (unit == kUnits.end()) {
+    return size +
+           "is that meant? --scale says how many metres a unit of length of its file is, 0.001 for "
+           "millimetres";
+  }
+  return size + unit->name + "? use --scale " + FormatShort(unit->metres) + " (" +
+         FormatLength(units * unit->metres) + " across)";
 }
 
 }  // namespace regrasp::object

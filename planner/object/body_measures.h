@@ -30,7 +30,9 @@ inline constexpr double kLargestUsual = 2;
 /// "10.4 cm across, 216 g".
 [[nodiscard]] std::string MeasuresText(const BodyMeasures& body);
 
-/// Of a body below kSmallestUsual or above kLargestUsual, what to look at; otherwise empty.
-[[nodiscard]] std::string SizeWarning(const BodyMeasures& body);
+/// Of a body below kSmallestUsual or above kLargestUsual, what to look at; otherwise empty. A unit
+/// of length in which it is 2 to 40 cm across is guessed: "millimetres? use --scale 0.001".
+/// @param scale  metres per unit of the object, as the body was measured with.
+[[nodiscard]] std::string SizeWarning(const BodyMeasures& body, double scale);
 
 }  // namespace regrasp::object

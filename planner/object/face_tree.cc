@@ -217,6 +217,15 @@ FaceTree::FaceTree(const Polyhedron& solid) {
   for (const Vector3d& vertex : solid.vertices()) farthest = std::max(farthest, vertex.norm());
   impl->rounding = kRounding * impl->diameter + kCoordinateRounding * farthest;
   std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
+  const auto faces = static_cast<std::size_t>(solid.face_count());
+  std::size_t borders = 0;
+  for (FaceIndex f{0}; f < solid.face_count(); ++f) borders += solid.BordersOf(f).size();
+  impl->triangles.reserve(solid.triangles().size());
+  impl->face_of_triangle.reserve(solid.triangles().size());
+  impl->segments.reserve(borders);
+  impl->normals.reserve(faces);
+  impl->surface.reserve(faces);
+  impl->border.reserve(faces);
   for (FaceIndex f{0}; f < solid.face_count(); ++f) {
     impl->normals.push_back(solid.inward_normal(f));
     for (const TriangleIndex t : solid.TrianglesOf(f)) {

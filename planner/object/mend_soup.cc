@@ -36,8 +36,8 @@ class NearPoints {
     const Vector3d& p = points_[point];
     const Cell cell = CellOf(p);
     for (std::int64_t i = 0; i < 27; ++i) {
-      const auto found = known_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1,
-                                      cell[2] + i / 9 - 1});
+      const auto found =
+          known_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
       if (found == known_.end()) continue;
       for (const int other : found->second) {
         if ((points_[other] - p).norm() <= within_) return other;
@@ -191,9 +191,11 @@ bool DropRepeatedFacets(WeldedSoup& soup) {
   for (auto first = repeated.begin(), last = first; first != repeated.end(); first = last) {
     last = std::find_if(first, repeated.end(),
                         [&](const RepeatedFacet& r) { return r.first != first->first; });
-    const auto same = 1 + std::count_if(first, last, [](const RepeatedFacet& r) { return r.same_way; });
+    const auto same =
+        1 + std::count_if(first, last, [](const RepeatedFacet& r) { return r.same_way; });
     const auto opposite = last - first + 1 - same;
-    const auto turned = std::find_if(first, last, [](const RepeatedFacet& r) { return !r.same_way; });
+    const auto turned =
+        std::find_if(first, last, [](const RepeatedFacet& r) { return !r.same_way; });
     const int kept = same > opposite ? first->first : same < opposite ? turned->facet : -1;
     if (kept != first->first) soup.facets[first->first].clear();
     for (auto r = first; r != last; ++r) {

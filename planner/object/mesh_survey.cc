@@ -148,13 +148,14 @@ double VolumeOf(const WeldedSoup& soup, const std::vector<int>& facets) {
 
 /// How often a closed shell winds about a point that is not on it: the sum of the solid angles
 /// (Van Oosterom, Strackee 1983) over 4π.
-double WindingNumber(const WeldedSoup& soup, const std::vector<int>& facets, const Vector3d& point) {
+double WindingNumber(const WeldedSoup& soup, const std::vector<int>& facets,
+                     const Vector3d& point) {
   double half_angles = 0;
   ForEachFanTriangle(soup, facets, [&](const Vector3d& p, const Vector3d& q, const Vector3d& r) {
     const Vector3d a = p - point, b = q - point, c = r - point;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles += std::atan2(a.dot(b.cross(c)),
-                              la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   });
   return half_angles / (2 * std::numbers::pi);
 }
@@ -227,8 +228,8 @@ void SurveyCrossings(const TriangleMesh& mesh, const Parts& parts, const std::ve
     }
     return true;
   };
-  survey.all_pairs_seen = VisitCrossings(mesh, kMostPairsSurveyed, deadline, count) &&
-                          pairs.size() < kMostCrossings;
+  survey.all_pairs_seen =
+      VisitCrossings(mesh, kMostPairsSurveyed, deadline, count) && pairs.size() < kMostCrossings;
   survey.crossing_pairs = static_cast<int>(pairs.size());
 }
 

@@ -45,6 +45,16 @@ void CheckEdges(const TriangleMesh& mesh, double diameter, const std::string& na
 std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
                             const std::vector<FaceIndex>& face_of_triangle, int outside) {
   std::vector<Face> faces(1 + *std::ranges::max_element(face_of_triangle));
+  const auto face_beyond = [&](TriangleIndex t, int k) {
+    return face_of_triangle[topology.neighbor[t][k]];
+  };
+  // Borders are most of a large body's memory: no more is taken than they need.
+  std::vector<std::size_t> borders(faces.size(), 0);
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
+    for (int k = 0; k < 3; ++k)
+      borders[face_of_triangle[t]] += face_beyond(t, k) != face_of_triangle[t];
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) faces[f].borders.reserve(borders[f]);
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     Face& face = faces[face_of_triangle[t]];
     const Vector3d vector = DoubleAreaVector(mesh, t) / 2;
@@ -53,7 +63,7 @@ std::vector<Face> AddFacets(const TriangleMesh& mesh, const SurfaceTopology& top
     face.enclosed = topology.shell[t] != outside;
     for (int k = 0; k < 3; ++k) {
       const int from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-      const FaceIndex beyond = face_of_triangle[topology.neighbor[t][k]];
+      const FaceIndex beyond = face_beyond(t, k);
       if (beyond != face_of_triangle[t]) {
         face.borders.push_back({mesh.vertices[from], mesh.vertices[to], beyond});
       }

@@ -43,13 +43,14 @@ PolygonSoup ReadSoup(const std::filesystem::path& path, const std::string& endin
 
 ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   reading.Begin("reading " + path.string());
-  const std::string bytes = ReadFile(path);
+  std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
   ObjectFile file{path.filename().string(), Sha256(bytes), nullptr};
   if (ending == ".wkt") {
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
     const PolygonSoup soup = ReadSoup(path, ending, bytes, reading.deadline);
+    std::string().swap(bytes);  // large files are read in little memory
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }
   reading.deadline.Check();

@@ -24,7 +24,8 @@ class Cycle {
 
   /// Any order that puts equal ones beside each other.
   friend std::weak_ordering operator<=>(const Cycle& a, const Cycle& b) {
-    const auto rough = std::pair(a.hash_, a.corners_->size()) <=> std::pair(b.hash_, b.corners_->size());
+    const auto rough =
+        std::pair(a.hash_, a.corners_->size()) <=> std::pair(b.hash_, b.corners_->size());
     if (rough != 0) return rough;
     for (std::size_t k = 0; k < a.corners_->size(); ++k) {
       if (a.at(k) != b.at(k)) return a.at(k) <=> b.at(k);
@@ -65,7 +66,8 @@ std::vector<RepeatedFacet> FindRepeatedFacets(const std::vector<std::vector<int>
       first = i;
     }
   }
-  std::ranges::sort(repeated, {}, [](const RepeatedFacet& r) { return std::pair(r.first, r.facet); });
+  std::ranges::sort(repeated, {},
+                    [](const RepeatedFacet& r) { return std::pair(r.first, r.facet); });
   return repeated;
 }
 

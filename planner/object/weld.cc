@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container_hash/hash.hpp>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
@@ -70,7 +71,8 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
   }
   WeldedSoup welded;
   welded.facets.reserve(soup.facets.size());
-  std::map<std::array<double, 3>, int> at_coordinates;
+  using Coordinates = std::array<double, 3>;
+  std::unordered_map<Coordinates, int, boost::hash<Coordinates>> at_coordinates;
   for (std::size_t f = 0; f < soup.facets.size(); ++f) {
     std::vector<int> corners;
     for (const int index : soup.facets[f]) {

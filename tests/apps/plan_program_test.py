@@ -273,7 +273,7 @@ class Plan(ProgramCase):
         for scale, size in (("1000", "104 m across, 2.16e+08 kg"), ("0.01", "1.04 mm across")):
             done = self.assert_done(*self.arguments(scale=scale), "--quiet")
             self.assertRegex(done.stderr, f"^plan: warning: the object is {re.escape(size)}.*"
-                                          "--scale says")
+                                          r"metres\? use --scale 1 \(10.4 cm across\)$")
             self.assertEqual(done.stderr.count("\n"), 1)
 
     def test_warns_of_a_coefficient_of_friction_that_is_an_angle(self):

@@ -37,11 +37,27 @@ TEST(BodyMeasures, GrowWithTheScaleAndSaySoInOtherUnits) {
 
 TEST(BodyMeasures, WarnOfASizeThatHandsDoNotGraspAndNameTheScale) {
   for (const double usual : {kSmallestUsual, 0.1, kLargestUsual}) {
-    EXPECT_EQ(SizeWarning({usual, 0, 1}), "") << usual;
+    EXPECT_EQ(SizeWarning({usual, 0, 1}, 1), "") << usual;
   }
   for (const double unusual : {0.99 * kSmallestUsual, 1.01 * kLargestUsual}) {
-    EXPECT_THAT(SizeWarning({unusual, 0, 1}), HasSubstr("--scale")) << unusual;
+    EXPECT_THAT(SizeWarning({unusual, 0, 1}, 1), HasSubstr("--scale")) << unusual;
   }
+}
+
+TEST(BodyMeasures, TheWarningGuessesTheUnitInWhichAHandWouldGraspIt) {
+  const auto guess = [](double units, double scale) {
+    return SizeWarning({units * scale, 0, 1}, scale);
+  };
+  EXPECT_THAT(guess(163, 1),
+              HasSubstr("163 m across, 1 kg: millimetres? use --scale 0.001 (16.3 cm"));
+  EXPECT_THAT(guess(20, 1), HasSubstr("millimetres? use --scale 0.001 (2 cm"));
+  EXPECT_THAT(guess(19, 1), HasSubstr("centimetres? use --scale 0.01 (19 cm"));
+  EXPECT_THAT(guess(400, 1), HasSubstr("millimetres?"));
+  EXPECT_THAT(guess(0.1, 0.001), HasSubstr("metres? use --scale 1 (10 cm"));
+  EXPECT_THAT(guess(401, 1), HasSubstr("is that meant? --scale says"));
+  EXPECT_THAT(guess(0.001, 1), HasSubstr("is that meant? --scale says"));
+  // Millimetres would be 1 mm: it is no longer asked for inches where centimetres do.
+  EXPECT_THAT(guess(3, 1), HasSubstr("centimetres? use --scale 0.01 (3 cm"));
 }
 
 }  // namespace

@@ -39,15 +39,15 @@ TEST(MeshSurvey, CountsFacetsByWhatIsWrongWithThem) {
   PolygonSoup soup = UnitCubeSoup();
   soup.vertices.push_back({0, -0.5, -0.5});
   soup.vertices.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
-  soup.vertices[7].z() += 0.01;            // facet 1 is bent, 0.0025 off its plane
-  soup.facets.push_back({0, 8, 1});        // no area
-  soup.facets.push_back({3, 3, 1});        // fewer than three corners
-  soup.facets.push_back({2, 3, 1, 0});     // facet 0 again
-  soup.facets.push_back({6, 4, 0, 2});     // facet 5 turned
-  soup.facets.push_back({0, 1, 2, 3});     // a bow tie
-  soup.facets.push_back({0, 1, 9});        // NaN
-  soup.facets.push_back({0, 1, 10});       // no such vertex
-  soup.facets.push_back({0, -1, 2});       // nor this
+  soup.vertices[7].z() += 0.01;         // facet 1 is bent, 0.0025 off its plane
+  soup.facets.push_back({0, 8, 1});     // no area
+  soup.facets.push_back({3, 3, 1});     // fewer than three corners
+  soup.facets.push_back({2, 3, 1, 0});  // facet 0 again
+  soup.facets.push_back({6, 4, 0, 2});  // facet 5 turned
+  soup.facets.push_back({0, 1, 2, 3});  // a bow tie
+  soup.facets.push_back({0, 1, 9});     // NaN
+  soup.facets.push_back({0, 1, 10});    // no such vertex
+  soup.facets.push_back({0, -1, 2});    // nor this
   const MeshSurvey survey = SurveyMesh(soup);
   EXPECT_EQ(survey.facets, 14);
   EXPECT_EQ(survey.vertices, 9);
@@ -115,7 +115,8 @@ TEST(MeshSurvey, TellsShellsThatOverlapFromThoseInsideAndBeside) {
 
 /// Bodies that have an edge or a side in common are shells by themselves where that can be told.
 TEST(MeshSurvey, BodiesThatShareAnEdgeAreTwoShells) {
-  const MeshSurvey survey = SurveyMesh(Join(UnitCubeSoup(), BoxSoup({0.5, 0.5, -0.5}, {1, 1, 0.5})));
+  const MeshSurvey survey =
+      SurveyMesh(Join(UnitCubeSoup(), BoxSoup({0.5, 0.5, -0.5}, {1, 1, 0.5})));
   EXPECT_EQ(survey.crowded_edges, 1);
   EXPECT_EQ(survey.shells.size(), 2U);
   EXPECT_EQ(survey.open_parts, 0);
