@@ -3,7 +3,9 @@
 #include "planner/base/error.h"
 #include "planner/object/assimp_scene.h"
 #include "planner/object/limited_child.h"
+#include "planner/object/read_3mf.h"
 #include "planner/object/soup_bytes.h"
+#include "planner/object/text_scanner.h"
 
 namespace regrasp::object {
 
@@ -24,7 +26,11 @@ PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& 
                            const AssimpLimits& limits) {
   const std::string name = path.string();
   const ChildResult result = RunInLimitedChild(
-      [&] { return SoupToBytes(ReadAssimpScene(bytes, path.filename().string())); },
+      [&] {
+        const bool package = LowerCase(path.extension().string()) == ".3mf";
+        return SoupToBytes(package ? Read3mf(bytes)
+                                   : ReadAssimpScene(bytes, path.filename().string()));
+      },
       {limits.memory_bytes, limits.processor, limits.wall});
   switch (result.end) {
     case ChildEnd::kDone:

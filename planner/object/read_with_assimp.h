@@ -16,8 +16,8 @@ struct AssimpLimits {
   std::chrono::milliseconds wall{30'000};
 };
 
-/// Reads the bytes of any surface format that assimp knows (glTF, 3MF, COLLADA, …), in a child
-/// process.
+/// Reads the bytes of any surface format that assimp knows (glTF, COLLADA, …), and of 3MF
+/// (Read3mf), in a child process.
 ///
 /// assimp 5.2 crashes, hangs or exhausts memory on some hostile files: the child has limits of
 /// memory, processor and wall time, and what it sends back is checked. It is asked for nothing but

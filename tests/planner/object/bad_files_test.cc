@@ -33,6 +33,8 @@ const std::map<std::string, std::string> kBadFiles = {
     {"beside.obj", "facet 4: several solids"},
     {"bow_tie.obj", "facet 0: self-intersecting"},
     {"comma.obj", "line 3: vertex 2: \"1,5\" is not a finite number"},
+    {"components_in_a_ring.3mf", "its components are too many, or contain each other"},
+    {"components_without_end.3mf", "its components are too many, or contain each other"},
     {"control_character.ply", "the file ends inside \"a?b\" 0"},
     {"corner_twice.obj", "facet 0: not closed: no other facet"},
     {"crossing.obj", "self-intersecting: meets facet"},
@@ -56,6 +58,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"huge_counts.ply", "ends inside vertex 4"},
     {"huge_facet.off", "ends where facet 0 should be"},
     {"huge_list_binary.ply", "ends inside facet 0"},
+    {"index_beyond.3mf", "3D/3dmodel.model: line 3: triangle: v3: \"4\" is out of range"},
     {"index_beyond.gltf", "not closed"},  // assimp moves the index into range
     {"index_beyond.obj", "facet 3: vertex index 99 is out of range (1 to 4)"},
     {"index_beyond.off", "line 10: facet 3: vertex index 4 is out of range (4 vertices)"},
@@ -89,7 +92,10 @@ const std::map<std::string, std::string> kBadFiles = {
     {"no_format.xyz", "No suitable reader"},
     {"no_header.ply", "line 1: not the start of a PLY file"},
     {"no_list.ply", "lacks an integer list"},
+    {"no_model.3mf", "the archive has no 3D/3dmodel.model"},
+    {"no_object.3mf", "there is no object \"2\""},
     {"no_properties.ply", "element \"nothing\" has no properties"},
+    {"no_xml.3mf", "3D/3dmodel.model: line 1: mismatched tag"},
     {"no_z.ply", "lacks x, y or z"},
     {"noise.3mf", "noise.3mf"},
     {"noise.gltf", "No suitable reader"},
@@ -117,6 +123,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"truncated_binary.stl", "the file has 283 bytes"},
     {"two_coordinates.obj", "line 1: vertex 0: fewer than three coordinates"},
     {"unknown_statement.obj", "line 1: \"hello\" is not a statement"},
+    {"unknown_unit.3mf", "its unit \"parsec\" is not one of 3MF"},
     {"vertex_on_facet.obj", "self-intersecting: meets facet"},
     {"word.stl", "line 30: \"hello\" where a facet"},
     {"wrong_header.off", "\"ofg\" is not the start"},
@@ -151,7 +158,7 @@ TEST(BadFiles, TheirSoundRelativesAreRead) {
     EXPECT_NEAR(file.object->mass_properties().volume, (placed ? 8 : 1) / 6.0, 1e-6);
     ++read;
   }
-  EXPECT_EQ(read, 16u);
+  EXPECT_EQ(read, 19u);
 }
 
 TEST(BadFiles, AFileThatIsMissingOrAFolderIsRefused) {
