@@ -1,11 +1,10 @@
 #include "render/figures/figure_mark.h"
 
-#include <zlib.h>
-
 #include <cassert>
 #include <cstddef>
-#include <cstdint>
 #include <string_view>
+
+#include "render/picture/png_chunk.h"
 
 namespace regrasp::render {
 
@@ -20,24 +19,8 @@ std::string SvgMark() { return "<!-- Creator: " + std::string(kFigureMaker) + " 
 
 std::string PdfMark() { return "/Creator (" + std::string(kFigureMaker) + ")"; }
 
-/// The type of a text chunk, and its data: the registered keyword, a zero, the text.
-std::string PngMark() { return "tEXtSoftware"s + '\0' + kFigureMaker; }
-
-/// PNG's integers have their highest byte first.
-std::string FourBytes(std::uint32_t number) {
-  std::string bytes;
-  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xff);
-  return bytes;
-}
-
-/// A chunk's length leaves out its type, its check sum does not.
-std::string PngChunk(const std::string& typed) {
-  constexpr std::uint32_t kType = 4;
-  const auto size = static_cast<std::uint32_t>(typed.size());
-  const auto sum =
-      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(typed.data()), size));
-  return FourBytes(size - kType) + typed + FourBytes(sum);
-}
+/// A text chunk: the registered keyword, a zero, the text.
+std::string PngMark() { return PngChunk("tEXt", "Software"s + '\0' + kFigureMaker); }
 
 }  // namespace
 
@@ -48,7 +31,7 @@ void MarkFigure(FigureFormat format, std::string& bytes) {
       break;
     case FigureFormat::kPng:
       assert(bytes.size() > kEndOfPngHeader);
-      bytes.insert(kEndOfPngHeader, PngChunk(PngMark()));
+      bytes.insert(kEndOfPngHeader, PngMark());
       break;
     case FigureFormat::kPdf:
       break;

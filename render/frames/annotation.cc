@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <sstream>
 #include <vector>
 
 #include "planner/base/quantity_text.h"
 #include "render/picture/cairo_image.h"
 #include "render/picture/cairo_paint.h"
-#include "render/picture/label_layout.h"
 #include "render/picture/plane_geometry.h"
 #include "render/picture/round_length.h"
 
@@ -29,6 +30,7 @@ constexpr double kLongestBar = 0.20;  ///< of the image's width
 constexpr double kMargin = 1.33;
 constexpr double kLineHeight = 1.25;
 constexpr double kNumberSize = 1.2;
+constexpr double kOrdinalSize = 0.85;
 constexpr double kLabelRadius = 0.66;
 constexpr double kHalo = 0.32;
 constexpr double kLeaderWidth = 0.08;
@@ -79,7 +81,7 @@ class Writer {
   /// what it covers.
   [[nodiscard]] std::vector<Obstacle> DrawCaption(const std::string& caption) const;
   [[nodiscard]] std::vector<Obstacle> DrawScaleBar(double metres_per_unit) const;
-  void DrawNumbers(std::span<const FingerGlyph> fingers, std::vector<Obstacle> text) const;
+  void DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered) const;
 
  private:
   void DrawCentred(const std::string& text, const Vector2d& centre, Color color) const {
@@ -95,25 +97,6 @@ class Writer {
   const Ground& ground_;
   double font_;
 };
-
-std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
-  std::vector<Obstacle> obstacles;
-  for (const FingerGlyph& glyph : fingers) {
-    const double pixels = camera.PixelsPerUnit(glyph.ball);
-    const Vector2d ball = camera.Project(glyph.ball);
-    obstacles.push_back({ball, ball, glyph.ball_radius * pixels, kFingerWeight});
-    obstacles.push_back(
-        {ball, camera.Project(glyph.end), glyph.ball_radius / 2 * pixels, kFingerWeight});
-    obstacles.push_back({camera.Project(glyph.contact),
-                         camera.Project(glyph.contact - glyph.outward * kConeLength),
-                         kConeStrip * kConeLength * pixels, kConeWeight});
-    for (std::size_t i = 1; i < glyph.path.size(); ++i) {
-      obstacles.push_back(
-          {camera.Project(glyph.path[i - 1]), camera.Project(glyph.path[i]), 0, kFingerWeight});
-    }
-  }
-  return obstacles;
-}
 
 /// A line from a number to its finger's ball, where it does not stand beside the finger.
 void Writer::DrawLeader(const FingerGlyph& glyph, const Vector2d& number, double font) const {
@@ -131,23 +114,52 @@ void Writer::DrawLeader(const FingerGlyph& glyph, const Vector2d& number, double
   }
 }
 
-void Writer::DrawNumbers(std::span<const FingerGlyph> fingers, std::vector<Obstacle> text) const {
+/// "1st", … of each finger that aligns, where they do not begin together; empty otherwise.
+std::vector<std::string> OrdinalsOf(std::span<const FingerGlyph> fingers) {
+  constexpr std::array<const char*, 5> kOrdinals = {"1st", "2nd", "3rd", "4th", "5th"};
+  std::set<int> starts;
+  for (const FingerGlyph& glyph : fingers) {
+    if (const auto leg = FirstLeg(glyph)) starts.insert(*leg);
+  }
+  std::vector<std::string> ordinals(fingers.size());
+  if (starts.size() < 2 || starts.size() > kOrdinals.size()) return ordinals;
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    const auto leg = FirstLeg(fingers[i]);
+    if (leg) ordinals[i] = kOrdinals[std::distance(starts.begin(), starts.find(*leg))];
+  }
+  return ordinals;
+}
+
+void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
+                         std::span<const Obstacle> covered) const {
   const double font = std::max(font_, kSmallestFont);
   std::vector<LabelAnchor> anchors;
+  std::vector<std::string> texts;
+  std::vector<Color> colors;
   for (const FingerGlyph& glyph : fingers) {
     const Vector2d anchor = camera_.Project(glyph.end);
     anchors.push_back(
         {anchor, anchor - camera_.Project(glyph.contact), camera_.Project(glyph.ball)});
+    texts.push_back(std::to_string(glyph.finger));
+    colors.push_back(NumberColor(glyph.color, ground_));
+  }
+  const std::vector<std::string> ordinals = OrdinalsOf(fingers);
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    if (ordinals[i].empty()) continue;
+    const Vector2d ghost = camera_.Project(fingers[i].path.front());
+    anchors.push_back({ghost, ghost - camera_.Project(fingers[i].contact)});
+    texts.push_back(ordinals[i]);
+    colors.push_back(colors[i]);
   }
   std::vector<Obstacle> obstacles = ObstaclesOf(camera_, fingers);
-  obstacles.insert(obstacles.end(), text.begin(), text.end());
+  obstacles.insert(obstacles.end(), covered.begin(), covered.end());
   const std::vector<Vector2d> centres =
       PlaceLabels(anchors, obstacles, kLabelRadius * font, camera_.width, camera_.height);
   SelectFont(cr_, kNumberSize * font, /*bold=*/true);
   for (std::size_t i = 0; i < fingers.size(); ++i) DrawLeader(fingers[i], centres[i], font);
-  for (std::size_t i = 0; i < fingers.size(); ++i) {
-    DrawCentred(std::to_string(fingers[i].finger), centres[i],
-                NumberColor(fingers[i].color, ground_));
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (i == fingers.size()) SelectFont(cr_, kOrdinalSize * font, /*bold=*/true);
+    DrawCentred(texts[i], centres[i], colors[i]);
   }
 }
 
@@ -226,18 +238,51 @@ double FontSize(int width, int height) {
   return kFontSize * std::sqrt(static_cast<double>(width) * height);
 }
 
-Image Annotate(const Image& image, const Camera& camera, std::span<const FingerGlyph> fingers,
-               const std::string& caption, double metres_per_unit, const TextStyle& style) {
-  const CairoImage page(image);
+void DrawRings(const CairoImage& page, const Camera& camera, std::span<const FingerGlyph> fingers,
+               const TextStyle& style) {
   const Writer writer(page.context(), camera, style);
   for (const FingerGlyph& glyph : fingers) {
     if (glyph.role == plan::FingerRole::kPlaced) writer.DrawRing(glyph);
   }
+}
+
+std::vector<Obstacle> DrawCaption(const CairoImage& page, const Camera& camera,
+                                  const std::string& caption, double metres_per_unit,
+                                  const TextStyle& style) {
+  const Writer writer(page.context(), camera, style);
   cairo_set_line_join(page.context(), CAIRO_LINE_JOIN_ROUND);
-  std::vector<Obstacle> text = writer.DrawCaption(caption);
-  for (const Obstacle& bar : writer.DrawScaleBar(metres_per_unit)) text.push_back(bar);
-  writer.DrawNumbers(fingers, text);
-  return page.ToImage();
+  std::vector<Obstacle> covered = writer.DrawCaption(caption);
+  for (const Obstacle& bar : writer.DrawScaleBar(metres_per_unit)) covered.push_back(bar);
+  return covered;
+}
+
+std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
+  std::vector<Obstacle> obstacles;
+  for (const FingerGlyph& glyph : fingers) {
+    const double pixels = camera.PixelsPerUnit(glyph.ball);
+    const Vector2d ball = camera.Project(glyph.ball);
+    obstacles.push_back({ball, ball, glyph.ball_radius * pixels, kFingerWeight});
+    obstacles.push_back(
+        {ball, camera.Project(glyph.end), glyph.ball_radius / 2 * pixels, kFingerWeight});
+    obstacles.push_back({camera.Project(glyph.contact),
+                         camera.Project(glyph.contact - glyph.outward * kConeLength),
+                         kConeStrip * kConeLength * pixels, kConeWeight});
+    if (FirstLeg(glyph)) {
+      const Vector2d ghost = camera.Project(glyph.path.front());
+      obstacles.push_back({ghost, ghost, glyph.ball_radius * pixels, kFingerWeight});
+    }
+    for (std::size_t i = 1; i < glyph.path.size(); ++i) {
+      obstacles.push_back(
+          {camera.Project(glyph.path[i - 1]), camera.Project(glyph.path[i]), 0, kFingerWeight});
+    }
+  }
+  return obstacles;
+}
+
+void DrawNumbers(const CairoImage& page, const Camera& camera, std::span<const FingerGlyph> fingers,
+                 std::span<const Obstacle> covered, const TextStyle& style) {
+  cairo_set_line_join(page.context(), CAIRO_LINE_JOIN_ROUND);
+  Writer(page.context(), camera, style).DrawNumbers(fingers, covered);
 }
 
 }  // namespace regrasp::render

@@ -56,10 +56,8 @@ struct Box {
 
 class Overlay {
  public:
-  Overlay(const Image& image, const Camera& camera, const PictureFrame& frame,
-          const TextStyle& style)
-      : page_(image),
-        cr_(page_.context()),
+  Overlay(cairo_t* cr, const Camera& camera, const PictureFrame& frame, const TextStyle& style)
+      : cr_(cr),
         camera_(camera),
         frame_(frame),
         style_(style),
@@ -244,7 +242,16 @@ class Overlay {
     for (const auto& [at, text, color, gap] : labels_) PlaceLabel(at, text, color, gap);
   }
 
-  [[nodiscard]] Image ToImage() const { return page_.ToImage(); }
+  [[nodiscard]] std::vector<Obstacle> Covered() const {
+    constexpr double kTextWeight = 3;
+    std::vector<Obstacle> covered = lines_;
+    for (const auto& [low, high] : taken_) {
+      const double half = (high.y() - low.y()) / 2;
+      const double middle = (low.y() + high.y()) / 2;
+      covered.push_back({{low.x() + half, middle}, {high.x() - half, middle}, half, kTextWeight});
+    }
+    return covered;
+  }
 
  private:
   struct LabelText {
@@ -306,6 +313,7 @@ class Overlay {
   void Occupy(const Vector2d& a, const Vector2d& b) {
     constexpr int kParts = 8;
     for (int i = 0; i <= kParts; ++i) busy_.push_back(a + i * (b - a) / kParts);
+    lines_.push_back({a, b, kLineWidth * font_});
   }
 
   void Line(const Vector2d& a, const Vector2d& b, bool halo) {
@@ -342,17 +350,7 @@ class Overlay {
 
   void ArrowAlong(const std::vector<Vector2d>& path, Color color, double weight) {
     for (std::size_t i = 0; i + 1 < path.size(); ++i) Occupy(path[i], path[i + 1]);
-    // Arrowheads are of one size: the page is scaled instead.
-    const double scale = weight * kLineWidth * font_;
-    std::vector<Vector2d> scaled = path;
-    for (Vector2d& p : scaled) p /= scale;
-    cairo_save(cr_);
-    cairo_scale(cr_, scale, scale);
-    SetColor(cr_, style_.ground.halo);
-    StrokeArrow(cr_, scaled, 1.9);
-    SetColor(cr_, color);
-    StrokeArrow(cr_, scaled, 1);
-    cairo_restore(cr_);
+    regrasp::render::DrawArrow(cr_, path, weight * kLineWidth * font_, color, style_.ground.halo);
   }
 
   /// Near `at` where it covers least, with a line to it where it is not beside it.
@@ -403,14 +401,14 @@ class Overlay {
     return covered;
   }
 
-  CairoImage page_;
   cairo_t* cr_;
   const Camera& camera_;
   const PictureFrame& frame_;
   const TextStyle& style_;
   double font_;
-  std::vector<Vector2d> busy_;  ///< what texts should not cover
-  std::vector<Box> taken_;      ///< by texts
+  std::vector<Vector2d> busy_;   ///< what texts should not cover
+  std::vector<Obstacle> lines_;  ///< of marks
+  std::vector<Box> taken_;       ///< by texts
   std::vector<LabelText> labels_;
   double base_ = 0;  ///< of what is written at the top left
 };
@@ -443,10 +441,11 @@ std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
   return points;
 }
 
-Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFrame& frame,
-                     const BodyShape& body, std::span<const FingerGlyph> fingers,
-                     const FaultMarks& marks, const TextStyle& style) {
-  Overlay overlay(image, camera, frame, style);
+std::vector<Obstacle> DrawFaultMarks(const CairoImage& page, const Camera& camera,
+                                     const PictureFrame& frame, const BodyShape& body,
+                                     std::span<const FingerGlyph> fingers, const FaultMarks& marks,
+                                     const TextStyle& style) {
+  Overlay overlay(page.context(), camera, frame, style);
   overlay.Avoid(fingers);
   if (marks.X_WO_before) overlay.DrawGhost(body, *marks.X_WO_before, marks.ghost_text);
   for (const FingerGlyph& glyph : fingers) {
@@ -467,7 +466,7 @@ Image DrawFaultMarks(const Image& image, const Camera& camera, const PictureFram
     }
   }
   overlay.DrawLabels();
-  return overlay.ToImage();
+  return overlay.Covered();
 }
 
 }  // namespace regrasp::render

@@ -21,6 +21,8 @@ constexpr double kArrowSpace = kMotionGap + kMotionLength;
 constexpr double kMotionRadius = 0.009;
 constexpr double kTrackRadius = 0.007;
 constexpr double kTrackDash = 0.030;
+constexpr double kBeforeBall =
+    1.7;  ///< where a track ends, in radii of the ball that hides its end
 
 /// Shares of the free space in front of a contact that ball and stem may take: less than half, so
 /// that there is space for the finger on the other side.
@@ -71,7 +73,7 @@ void AddDashes(const Vector3d& a, const Vector3d& b, double before, Color color,
 /// arrowhead before its ball where the path is longer than that.
 void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
               std::vector<Shape>& shapes) {
-  if (glyph.path.size() < 2 || glyph.path.front() == glyph.path.back()) return;
+  if (!FirstLeg(glyph)) return;
   const Vector3d lift = glyph.outward * kTrackRadius;
   // Which way it stood there is not known.
   shapes.push_back({Ball{glyph.path.front(), glyph.ball_radius}, color, kGhostOpacity});
@@ -81,10 +83,12 @@ void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
     AddDashes(glyph.path[i - 1] + lift, glyph.path[i] + lift, before, color, shapes);
     before += (glyph.path[i] - glyph.path[i - 1]).norm();
   }
-  const Vector3d& last = glyph.path[glyph.path.size() - 2];
-  const Vector3d leg = glyph.contact - last;
+  // It may stay while others go on.
+  const auto last = std::find_if(glyph.path.rbegin(), glyph.path.rend(),
+                                 [&](const Vector3d& p) { return p != glyph.path.back(); });
+  const Vector3d leg = glyph.contact - *last;
   if (leg.norm() < kArrowHeadLength) return;
-  const double back = std::min(glyph.ball_radius, leg.norm() - kArrowHeadLength);
+  const double back = std::min(kBeforeBall * glyph.ball_radius, leg.norm() - kArrowHeadLength);
   const Vector3d tip = glyph.contact - leg.normalized() * back + lift;
   shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -leg.normalized())}, color});
 }
@@ -153,6 +157,13 @@ std::optional<Vector3d> ForceTip(const FingerGlyph& glyph, double largest_force)
   }
   const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
   return glyph.contact + glyph.force / size * length;
+}
+
+std::optional<int> FirstLeg(const FingerGlyph& glyph) {
+  const auto leaves =
+      std::ranges::find_if(glyph.path, [&](const Vector3d& p) { return p != glyph.path.front(); });
+  if (glyph.role != plan::FingerRole::kMoved || leaves == glyph.path.end()) return std::nullopt;
+  return static_cast<int>(leaves - glyph.path.begin());
 }
 
 void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const GlyphMeshes& meshes,

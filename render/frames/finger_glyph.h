@@ -71,6 +71,9 @@ struct GlyphOptions {
 [[nodiscard]] std::optional<Eigen::Vector3d> ForceTip(const FingerGlyph& glyph,
                                                       double largest_force);
 
+/// Of the legs of an align the one in which a finger leaves its place; none of a finger that stays.
+[[nodiscard]] std::optional<int> FirstLeg(const FingerGlyph& glyph);
+
 /// Space for a finger's number beyond its end, in diameters.
 inline constexpr double kLabelSpace = 0.05;
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "planner/sets/polyhedron/focus_view.h"
+#include "render/frames/align_inset.h"
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
@@ -14,6 +15,7 @@
 #include "render/frames/fault_overlay.h"
 #include "render/frames/finger_glyph.h"
 #include "render/frames/viewpoint.h"
+#include "render/picture/cairo_image.h"
 #include "render/picture/palette.h"
 
 namespace regrasp::render {
@@ -199,24 +201,28 @@ class FrameRenderer::Impl {
     for (FingerGlyph& glyph : fingers) glyph.force_color = style_.ground.force;
     if (fault != nullptr) PaintRed(fault->fingers, fingers);
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
-    Drawing drawing;
-    drawing.shapes = FingerShapes(fingers);
-    AddLines(body_.edges, pose, drawing.shapes);
+    Drawing drawing = DrawBody(pose, camera);
+    for (Shape& shape : FingerShapes(fingers)) drawing.shapes.push_back(std::move(shape));
     if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
     if (options_.clusters) AddRepresentatives(snapshot, drawing.shapes);
-    drawing.layers = {{{{MeshInstance{kInsideMesh, pose}, kBodyInside}}, kInsideOpacity},
-                      {NearSurface(pose), NearOpacity()}};
-    drawing.hiding = {{kOutsideMesh, pose}};
-    AddLines(FindOutline(body_,
-                         [&](const Vector3d& p) -> Vector3d {
-                           return pose.linear().transpose() * camera.ToEye(pose * p);
-                         }),
-             pose, drawing.outline);
     const auto draw = [&](Color paper) {
-      const Image image = Annotate(canvas_.Draw(camera, drawing, paper), camera, fingers, caption,
-                                   frame_.diameter_m, style_);
-      if (fault == nullptr) return image;
-      return DrawFaultMarks(image, camera, frame_, body_, fingers, *fault, style_);
+      const CairoImage page(canvas_.Draw(camera, drawing, paper));
+      DrawRings(page, camera, fingers, style_);
+      std::vector<Obstacle> covered = DrawCaption(page, camera, caption, frame_.diameter_m, style_);
+      const auto cover = [&covered](const std::vector<Obstacle>& more) {
+        covered.insert(covered.end(), more.begin(), more.end());
+      };
+      if (fault != nullptr) {
+        cover(DrawFaultMarks(page, camera, frame_, body_, fingers, *fault, style_));
+      }
+      if (options_.gaps == GapView::kNone) {
+        for (const AlignInset& inset : PlaceInsets(camera, fingers, covered, style_)) {
+          const Drawing body = DrawBody(pose, inset.camera, inset.magnification);
+          cover(DrawInset(page, inset, canvas_.Draw(inset.camera, body, paper), style_));
+        }
+      }
+      DrawNumbers(page, camera, fingers, covered, style_);
+      return page.ToImage();
     };
     if (options_.background != Background::kTransparent) return draw(style_.ground.paper);
     return MakeTransparent(draw(kWhite), draw(kBlack));
@@ -243,6 +249,22 @@ class FrameRenderer::Impl {
 
   /// The body is translucent in two layers, its far side and its near side: what it hides, edges
   /// too, comes out paler by itself.
+  /// @param magnification  that its lines do not share.
+  [[nodiscard]] Drawing DrawBody(const Eigen::Isometry3d& pose, const Camera& camera,
+                                 double magnification = 1) const {
+    Drawing drawing;
+    AddLines(body_.edges, pose, magnification, drawing.shapes);
+    drawing.layers = {{{{MeshInstance{kInsideMesh, pose}, kBodyInside}}, kInsideOpacity},
+                      {NearSurface(pose), NearOpacity()}};
+    drawing.hiding = {{kOutsideMesh, pose}};
+    AddLines(FindOutline(body_,
+                         [&](const Vector3d& p) -> Vector3d {
+                           return pose.linear().transpose() * camera.ToEye(pose * p);
+                         }),
+             pose, magnification, drawing.outline);
+    return drawing;
+  }
+
   [[nodiscard]] std::vector<Shape> NearSurface(const Eigen::Isometry3d& pose) const {
     if (!options_.clusters) {
       return {{MeshInstance{kOutsideMesh, pose}, planar_ ? kPrism : kBodyOutside}};
@@ -267,9 +289,10 @@ class FrameRenderer::Impl {
   }
 
   void AddLines(const std::vector<std::array<Vector3d, 2>>& lines, const Eigen::Isometry3d& pose,
-                std::vector<Shape>& shapes) const {
+                double magnification, std::vector<Shape>& shapes) const {
     const auto edges = static_cast<double>(body_.edges.size());
-    const double radius = kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges));
+    const double radius =
+        kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges)) / magnification;
     for (const auto& [a, b] : lines) {
       shapes.push_back({Line{pose * a, pose * b, radius}, style_.ground.ink});
     }

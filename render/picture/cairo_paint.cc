@@ -137,4 +137,18 @@ void StrokeArrow(cairo_t* cr, std::span<const Vector2d> path, double width) {
   cairo_fill(cr);
 }
 
+void DrawArrow(cairo_t* cr, std::span<const Vector2d> path, double width, Color color, Color halo) {
+  constexpr double kHaloWidth = 1.9;
+  // Arrowheads are of one size: the page is scaled instead.
+  std::vector<Vector2d> scaled(path.begin(), path.end());
+  for (Vector2d& p : scaled) p /= width;
+  cairo_save(cr);
+  cairo_scale(cr, width, width);
+  SetColor(cr, halo);
+  StrokeArrow(cr, scaled, kHaloWidth);
+  SetColor(cr, color);
+  StrokeArrow(cr, scaled, 1);
+  cairo_restore(cr);
+}
+
 }  // namespace regrasp::render

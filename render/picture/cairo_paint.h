@@ -67,4 +67,8 @@ inline constexpr double kArrowHead = 4.2;
 /// last point. A path shorter than the head gets a head that fits it.
 void StrokeArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double width);
 
+/// The same with a head in proportion to the width, on a halo.
+void DrawArrow(cairo_t* cr, std::span<const Eigen::Vector2d> path, double width, Color color,
+               Color halo);
+
 }  // namespace regrasp::render

@@ -1,6 +1,7 @@
 #include "render/picture/caption.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "planner/base/quantity_text.h"
@@ -25,26 +26,30 @@ std::vector<FingerIndex> FingersOf(const plan::FingerGrasp& grasp) {
 struct Travel {
   FingerIndex finger;
   double length;  ///< from waypoint to waypoint, the object's unit of length
+  int begin;      ///< the first waypoint where it is somewhere else
 };
 
-/// The fingers whose last waypoint is not their first, by number.
+/// The fingers whose last waypoint is not their first, as they begin to move, then by number.
 std::vector<Travel> MovedFingers(const plan::Align& align) {
   std::vector<Travel> moved;
   if (align.waypoints.empty()) return moved;
   for (const plan::FingerContact& first : align.waypoints.front()) {
     const plan::FingerContact* last = plan::FindFinger(align.waypoints.back(), first.finger);
     if (last == nullptr || first.contact.p == last->contact.p) continue;
-    Travel travel = {first.finger, 0};
+    Travel travel = {first.finger, 0, 0};
+    int index = 0;
     const plan::FingerContact* before = &first;
     for (const plan::FingerGrasp& waypoint : align.waypoints) {
       const plan::FingerContact* here = plan::FindFinger(waypoint, first.finger);
+      ++index;
       if (here == nullptr) continue;
       travel.length += (here->contact.p - before->contact.p).norm();
+      if (travel.begin == 0 && here->contact.p != first.contact.p) travel.begin = index;
       before = here;
     }
     moved.push_back(travel);
   }
-  std::ranges::sort(moved, {}, &Travel::finger);
+  std::ranges::sort(moved, {}, [](const Travel& t) { return std::pair(t.begin, t.finger); });
   return moved;
 }
 
@@ -63,15 +68,21 @@ std::string Describe(const plan::Align& step) {
   return fingers.empty() ? "align" : "align: move " + List(fingers);
 }
 
-/// "move 1 by 12 mm, 3 by 0.8 mm along the surface"; empty where nothing moves.
+/// "move 1 by 12 mm, 3 by 0.8 mm together along the surface", or "… then 3 by …" where it begins
+/// later; empty where nothing moves.
 std::string DescribeTravel(const plan::Align& step, double scale) {
+  const std::vector<Travel> moved = MovedFingers(step);
+  if (moved.empty()) return "";
   std::string text;
-  for (const auto& [finger, length] : MovedFingers(step)) {
+  int before = moved.front().begin;
+  for (const auto& [finger, length, begin] : moved) {
     constexpr int kDigits = 2;
-    text += (text.empty() ? "move " : ", ") + std::to_string(finger) + " by " +
-            FormatLength(length * scale, kDigits);
+    text += text.empty() ? "move " : begin == before ? ", " : ", then ";
+    text += std::to_string(finger) + " by " + FormatLength(length * scale, kDigits);
+    before = begin;
   }
-  return text.empty() ? text : text + " along the surface";
+  const bool together = moved.size() > 1 && moved.front().begin == moved.back().begin;
+  return text + (together ? " together" : "") + " along the surface";
 }
 
 }  // namespace

@@ -3,9 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <tuple>
+#include <vector>
 
 #include "planner/base/angle.h"
+#include "render/frames/annotation.h"
+#include "render/frames/fault_overlay.h"
 #include "render/frames/frame.h"
+#include "render/picture/cairo_image.h"
 #include "tests/fixtures/solids.h"
 #include "tests/render/frames/scenes.h"
 
@@ -151,6 +158,60 @@ TEST(FaultPicture, AFingerAtFaultThatIsNowhereIsInTheFrame) {
   const FaultMarks absent{.heading = "", .fingers = {FingerIndex(7)}};
   EXPECT_EQ(CountRed(snapshot, &none), 0);
   EXPECT_GT(CountRed(snapshot, &absent), 30);
+}
+
+/// Pixels of numbers that are clearly of another colour in `all`: what is behind shines through at
+/// the rims of thin lines alone.
+int CountCovered(const Image& numbers, const Image& all) {
+  constexpr int kClearly = 48;
+  int covered = 0;
+  for (std::size_t i = 0; i < numbers.rgb.size(); i += 3) {
+    int change = 0;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      change = std::max(change, std::abs(int{numbers.rgb[k]} - int{all.rgb[k]}));
+    }
+    const bool number = std::min(numbers.rgb[i], numbers.rgb[i + 1]) < 128;
+    covered += number && change > kClearly;
+  }
+  return covered;
+}
+
+TEST(FaultPicture, NumbersStandOverTheMarks) {
+  // Where numbers go first, the arc of a twist passes over one of them.
+  const object::Polyhedron cube = MakeCube();
+  const BodyShape body = MakeBodyShape(cube);
+  const PictureFrame frame = {cube.diameter(), Vector3d::Zero()};
+  plan::Snapshot snapshot;
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d along(std::cos(Radians(30.0 * i)), 0, std::sin(Radians(30.0 * i)));
+    snapshot.fingers.push_back(
+        MakeFinger(i, plan::FingerRole::kHolding, 0.01 * cube.diameter() * along, -along));
+  }
+  const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame, RayTree());
+  Camera camera;
+  camera.axes = CameraAxes(-Vector3d::UnitY());
+  camera.position = 10 * camera.axes.col(2);
+  camera.projection = Projection::kOrthographic;
+  camera.half_height = 0.25;
+  camera.width = camera.height = 480;
+  const TextStyle style = {16, {}};
+  FaultMarks twist{.heading = "", .fingers = {}};
+  twist.push = plan::FaultPush{.name = "a twist"};
+  twist.push->torque_Nm = Vector3d::UnitY();
+  const auto covered = [&](bool numbers_first) {
+    const CairoImage alone(MakeImage(480, 480)), all(MakeImage(480, 480));
+    const auto draw_marks = [&] {
+      return DrawFaultMarks(all, camera, frame, body, fingers, twist, style);
+    };
+    const std::vector<Obstacle> marks = numbers_first ? std::vector<Obstacle>() : draw_marks();
+    for (const CairoImage* page : {&alone, &all}) {
+      DrawNumbers(*page, camera, fingers, marks, style);
+    }
+    if (numbers_first) std::ignore = draw_marks();
+    return CountCovered(alone.ToImage(), all.ToImage());
+  };
+  EXPECT_GT(covered(/*numbers_first=*/true), 50);
+  EXPECT_EQ(covered(/*numbers_first=*/false), 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
@@ -38,6 +39,28 @@ TEST(ImageTest, ComesBackFromPngUnchanged) {
   ASSERT_NE(png_image_finish_read(&header, nullptr, rgb.data(), 0, nullptr), 0) << header.message;
   EXPECT_EQ(rgb, image.rgb);
   std::filesystem::remove(path);
+}
+
+TEST(ImageTest, APictureOfFewColoursIsAboutAsSmallAsLibpngMakesIt) {
+  Image image = MakeImage(640, 480);
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const double away = std::hypot(x - 300, y - 200);
+      if (away > 150) continue;
+      for (int i = 0; i < 3; ++i) {
+        image.rgb[3 * (640 * y + x) + i] = static_cast<unsigned char>(250 - (1 + i) * away / 3);
+      }
+    }
+  }
+  png_image header = {};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = 640;
+  header.height = 480;
+  header.format = PNG_FORMAT_RGB;
+  png_alloc_size_t usual = 0;
+  ASSERT_NE(png_image_write_to_memory(&header, nullptr, &usual, 0, image.rgb.data(), 0, nullptr),
+            0);
+  EXPECT_LT(EncodePng(image).size(), 1.3 * static_cast<double>(usual));
 }
 
 TEST(ImageTest, TransparencyComesFromTheSameDrawingOnWhiteAndOnBlack) {

@@ -1,0 +1,42 @@
+#include "render/picture/caption.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace regrasp::render {
+namespace {
+
+/// A plan whose one step aligns fingers 1 and 2; each has a place, in centimetres, at every
+/// waypoint.
+std::string CaptionOf(const std::vector<std::array<double, 2>>& waypoints) {
+  plan::Align align;
+  for (const auto& places : waypoints) {
+    plan::FingerGrasp& grasp = align.waypoints.emplace_back();
+    for (const int i : {0, 1}) {
+      plan::FingerContact& contact = grasp.emplace_back();
+      contact.finger = FingerIndex(i + 1);
+      contact.contact.p = Eigen::Vector3d(0.01 * places[i], i, 0);
+    }
+  }
+  plan::Plan plan;
+  plan.initial = align.waypoints.front();
+  plan.steps = {align};
+  return FrameCaption(plan, plan::EntryIndex(1));
+}
+
+TEST(CaptionTest, SaysHowFarFingersAlignAndInWhichOrder) {
+  EXPECT_EQ(CaptionOf({{0, 0}, {1, 0}}), "step 1/1 · align: move 1 by 1 cm along the surface");
+  EXPECT_EQ(CaptionOf({{0, 0}, {1, 2}}),
+            "step 1/1 · align: move 1 by 1 cm, 2 by 2 cm together along the surface");
+  EXPECT_EQ(CaptionOf({{0, 0}, {1, 0}, {1, 2}}),
+            "step 1/1 · align: move 1 by 1 cm, then 2 by 2 cm along the surface");
+  EXPECT_EQ(CaptionOf({{0, 0}, {0, 2}, {1, 2}}),
+            "step 1/1 · align: move 2 by 2 cm, then 1 by 1 cm along the surface");
+  EXPECT_EQ(CaptionOf({{0, 0}, {0, 0}}), "step 1/1 · align");
+}
+
+}  // namespace
+}  // namespace regrasp::render
