@@ -263,6 +263,32 @@ class Validate(ProgramCase):
             self.assertRegex(done.stderr, f"validate: warning: the object is {re.escape(size)}.*"
                                           "--scale")
 
+    def test_bodies_of_all_sizes_get_the_same_verdicts_for_the_same_reasons(self):
+        def replayed(scale, *options):
+            self.plan["object"]["scale"] = scale
+            self.write_plan()
+            done = self.run_program(*self.arguments("--no-frames", *options))
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+            return done.returncode, self.report()["steps"]
+
+        for options, code in ((), 0), (("--shake", "0.6"), 1):
+            expected = replayed(1, *options)
+            self.assertEqual(expected[0], code)
+            for scale in (1e-6, 1e-4, 1e3, 1e6):
+                with self.subTest(scale=scale, options=options):
+                    got = replayed(scale, *options)
+                    self.assertEqual(got[0], code)
+                    self.assertEqual(len(got[1]), len(expected[1]))
+                    for one, other in zip(expected[1], got[1]):
+                        self.assertEqual((one["verdict"], one["reason"]),
+                                         (other["verdict"], other["reason"]))
+                        if one["simulation"] is None:
+                            self.assertIsNone(other["simulation"])
+                            continue
+                        moved = one["simulation"]["displacement_m"]
+                        self.assertLess(abs(other["simulation"]["displacement_m"] / scale - moved),
+                                        0.01 * moved + 1e-9)
+
     def test_a_plan_comes_by_standard_input_and_the_report_goes_to_standard_output(self):
         arguments = self.arguments("--no-frames", "--json", "-", plan="-", out=None)
         done = subprocess.run(
