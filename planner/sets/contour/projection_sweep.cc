@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <string>
 
 #include "planner/sets/contour/grasp_pieces.h"
 
@@ -81,6 +82,7 @@ class Sweep {
         active.push_back(event.set);
       }
     }
+    if (tell) tell("ordering " + std::to_string(pairs.size()) + " overlaps of sets");
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
