@@ -159,7 +159,9 @@ std::string FormatHelpAs(std::string_view format, const CLI::App& app) {
   if (format == "bash") return BashCompletion(app);
   if (format == "zsh") return ZshCompletion(app);
   if (format == "fish") return FishCompletion(app);
-  throw InputError("help comes as man, bash, zsh or fish, not as \"" + std::string(format) + "\"");
+  if (format == "markdown") return MarkdownHelp(app);
+  throw InputError("help comes as man, bash, zsh, fish or markdown, not as \"" +
+                   std::string(format) + "\"");
 }
 
 }  // namespace regrasp::apps

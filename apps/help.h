@@ -42,7 +42,7 @@ void BeginGroup(CLI::App& app, const std::string& name);
 [[nodiscard]] int HelpWidth();
 
 /// What makes the manual page and the completions of the shells from the same options; `format` is
-/// "man", "bash", "zsh" or "fish".
+/// "man", "bash", "zsh", "fish" or "markdown".
 /// @throws InputError  another format.
 [[nodiscard]] std::string FormatHelpAs(std::string_view format, const CLI::App& app);
 
@@ -51,5 +51,6 @@ void BeginGroup(CLI::App& app, const std::string& name);
 [[nodiscard]] std::string BashCompletion(const CLI::App& app);
 [[nodiscard]] std::string ZshCompletion(const CLI::App& app);
 [[nodiscard]] std::string FishCompletion(const CLI::App& app);
+[[nodiscard]] std::string MarkdownHelp(const CLI::App& app);
 
 }  // namespace regrasp::apps

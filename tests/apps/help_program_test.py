@@ -1,5 +1,6 @@
 """What all programs say of their options: --help, manual page, completions, and mistyped ones."""
 
+import os
 import re
 import shlex
 import shutil
@@ -48,6 +49,22 @@ class Help(ProgramCase):
             self.assertRegex(texts[80], r"\nGeneral:\n")
             text = texts[80]
             self.assertEqual(text.split("Examples:\n")[1].count("  " + program + " --"), 2)
+
+    def test_the_documents_list_every_option_as_help_does_and_no_other(self):
+        path = os.path.join(program_case.ARGUMENTS.source, "docs", "options.md")
+        with open(path, encoding="utf-8") as file:
+            pages = dict(re.findall(r"^## (\w+)\n(.*?)(?=^## |\Z)", file.read(), re.DOTALL | re.M))
+        self.assertEqual(sorted(pages), sorted(PROGRAMS))
+        for program in PROGRAMS:
+            page = pages[program]
+            listed = re.findall(r"^- `(--[a-z-]+)", page, re.M)
+            self.assertEqual(listed, options_in(self.help(program)))
+            made = self.help_as("markdown", program)
+            self.assertEqual(f"## {program}\n{page}".rstrip(), made.rstrip(),
+                             "docs/options.md is out of date: docs/developing.md says how it is made")
+            # Negative controls: one that is left out, and one that is no more.
+            self.assertNotEqual(listed[1:], options_in(self.help(program)))
+            self.assertNotEqual(["--gone", *listed], options_in(self.help(program)))
 
     def test_a_mistyped_option_is_told_before_a_missing_one(self):
         for self.program in PROGRAMS:
@@ -158,7 +175,7 @@ class Help(ProgramCase):
 
     def test_another_kind_of_help_is_bad_usage(self):
         for self.program in PROGRAMS:
-            self.assert_refused(2, "man, bash, zsh or fish", "--help-as", "html")
+            self.assert_refused(2, "man, bash, zsh, fish or markdown", "--help-as", "html")
 
     def test_errors_and_warnings_have_colour_on_a_terminal_alone(self):
         self.program = "plan"
