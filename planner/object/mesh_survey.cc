@@ -179,13 +179,13 @@ void FindInside(const WeldedSoup& soup, const Parts& parts, const std::vector<in
     if (survey.shells[inner].overlaps) continue;
     const Vector3d& point = soup.vertices[soup.facets[parts.facets[part[inner]][0]][0]];
     for (std::size_t outer = 0; outer < inner && !survey.shells[inner].inside; ++outer) {
-      ++work;
-      if (!boxes[outer].contains(boxes[inner])) continue;
-      work += parts.facets[part[outer]].size();
+      const bool within = boxes[outer].contains(boxes[inner]);
+      work += within ? parts.facets[part[outer]].size() : 1;
       if (work > kMostSolidAngles) {
         survey.all_pairs_seen = false;
         return;
       }
+      if (!within) continue;
       constexpr double kHalf = 0.5;  // between 0, outside, and ±1
       survey.shells[inner].inside =
           std::abs(WindingNumber(soup, parts.facets[part[outer]], point)) > kHalf;

@@ -139,6 +139,27 @@ TEST(MeshSurvey, StopsCountingWhereThereIsTooMuch) {
   EXPECT_THAT(SurveyText(survey), ::testing::HasSubstr("at least 10000 crossing pairs"));
 }
 
+TEST(MeshSurvey, OfShellsWithoutNumberNotEachPairIsLookedAt) {
+  const auto row = [](int bodies) {
+    PolygonSoup soup;
+    for (int i = 0; i < bodies; ++i) {
+      const int first = 4 * i;
+      for (const Vector3d& p : CornerTetrahedronSoup().vertices) {
+        soup.vertices.push_back(p + Vector3d(2 * i, 0, 0));
+      }
+      for (auto facet : CornerTetrahedronSoup().facets) {
+        for (int& v : facet) v += first;
+        soup.facets.push_back(facet);
+      }
+    }
+    return SurveyMesh(soup);
+  };
+  EXPECT_EQ(row(100).shells.size(), 100U);
+  EXPECT_TRUE(row(100).all_pairs_seen);
+  EXPECT_EQ(row(6000).shells.size(), 6000U);
+  EXPECT_FALSE(row(6000).all_pairs_seen);
+}
+
 TEST(MeshSurvey, TheCountsDoNotDependOnTheOrderOfFacetsAndWhereTheyBegin) {
   PolygonSoup soup = Join(Join(Box(0, 1), Box(0.5, 1.4)), SphereSoup(5));
   soup.facets.resize(soup.facets.size() - 4);
