@@ -80,7 +80,7 @@ struct FigureProgram {
  private:
   void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const;
   void CheckOut() const;
-  [[nodiscard]] object::ObjectFile ReadTold() const;
+  [[nodiscard]] object::ObjectFile ReadTold(const plan::Plan& plan) const;
   [[nodiscard]] plan::Plan Located(const plan::Plan& plan, const object::Object& object) const;
   void CheckHasContactSpace(const plan::Plan& plan) const;
   [[nodiscard]] std::unique_ptr<render::FigurePanels> MakePanels(const object::Object& object,
@@ -308,15 +308,15 @@ void FigureProgram::CheckOut() const {
   CheckOutputsWritable(outputs);
 }
 
-object::ObjectFile FigureProgram::ReadTold() const {
+object::ObjectFile FigureProgram::ReadTold(const plan::Plan& plan) const {
   ProgressLine progress(quiet);
-  return object::ReadObject(object_path, {progress.reporter(), {}});
+  return ReadObjectOf(plan, object_path, {progress.reporter(), {}});
 }
 
 int FigureProgram::Run() {
   CheckOut();
-  const object::ObjectFile object = ReadTold();
   const plan::Plan plan = plan::ReadPlan(plan_path);
+  const object::ObjectFile object = ReadTold(plan);
   CheckPlanFits(plan, object);
   const plan::Plan located = Located(plan, *object.object);
   if (contact_space) CheckHasContactSpace(located);

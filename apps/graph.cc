@@ -112,7 +112,7 @@ std::string GraphProgram::Title(const planning::Planner& planner,
 
 int GraphProgram::Run() const {
   CheckUsage();
-  const object::ObjectFile object = common.ReadObjectFile();
+  const object::ObjectFile object = common.ReadObjectFile(kProgram);
   planning::PlanRequest request = common.RequestFor(*object.object);
   request.last_resort = !no_lazy;
   request.graph = tasks;

@@ -18,10 +18,12 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
+#include "planner/object/mesh_defect.h"
 #include "planner/plan/check.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
+#include "planner/repair/repair.h"
 #include "planner/tree/tree_planner.h"
 
 namespace {
@@ -82,6 +84,7 @@ struct PlanProgram {
   planning::PlanRequest RequestFor(const object::Object& object) const;
   planning::PlanResult Find(const object::ObjectFile& object) const;
   void CheckOutput() const;
+  object::ObjectFile ReadObject() const;
   void PrintSummary(const planning::PlanResult& result, const plan::PlanCheck& check) const;
 };
 
@@ -195,9 +198,19 @@ void PlanProgram::CheckOutput() const {
   CheckOutputsWritable(outputs);
 }
 
+/// A surface that is refused is told what a repair would make of it.
+object::ObjectFile PlanProgram::ReadObject() const {
+  try {
+    return common.ReadObjectFile(kProgram);
+  } catch (const object::MeshError& error) {
+    ProgressLine progress(common.quiet);
+    throw InputError(error.what() + repair::RepairHint(common.object, {progress.reporter(), {}}));
+  }
+}
+
 int PlanProgram::Run() const {
   CheckOutput();
-  const object::ObjectFile object = common.ReadObjectFile();
+  const object::ObjectFile object = ReadObject();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
   const std::vector<std::string> doubts = {object::SizeWarning(body, common.scale),
@@ -209,6 +222,8 @@ int PlanProgram::Run() const {
   }
   result.plan->object_file = object.file;
   result.plan->object_sha256 = object.sha256;
+  result.plan->repair = object.repair;
+  result.plan->half_angle = common.friction.required_half_angle();
   result.plan->scale = common.scale;
   certificate::AddCertificates(*object.object, *result.plan);
   const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan);

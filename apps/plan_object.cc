@@ -1,9 +1,42 @@
 #include "apps/plan_object.h"
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/repair/repair.h"
 
 namespace regrasp::apps {
+
+namespace {
+
+/// Whether the plan was made for this object, or for the one that this is the repaired form of.
+bool IsFor(const plan::Plan& plan, const object::ObjectFile& object) {
+  if (plan.repair && !object.repair) return plan.repair->sha256 == object.sha256;
+  return plan.object_sha256 == object.sha256 && plan.repair == object.repair;
+}
+
+std::string WrongObject(const plan::Plan& plan, const object::ObjectFile& object,
+                        const PlanAndObject& given) {
+  if (plan.object_sha256 == object.sha256 && plan.repair && object.repair) {
+    return given.plan_path +
+           ": /object/repair/sha256: the plan was made for a repaired solid with "
+           "digest " +
+           plan.repair->sha256 + ", but this version makes one with " + object.repair->sha256 +
+           " of " + given.object_path;
+  }
+  return given.plan_path + ": /object/sha256: the plan was made for an object with digest " +
+         plan.object_sha256 + ", but " + given.object_path + " has " + object.sha256;
+}
+
+}  // namespace
+
+object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
+                                const object::Reading& reading) {
+  if (!plan.repair || Sha256(ReadFile(path)) == plan.repair->sha256) {
+    return object::ReadObject(path, reading);
+  }
+  return repair::ReadRepaired(path, plan.repair->options, reading);
+}
 
 void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
                    const PlanAndObject& given) {
@@ -12,11 +45,8 @@ void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
                      ", but " + given.object_path + " has dimension " +
                      std::to_string(object.object->dimension()));
   }
-  if (plan.object_sha256 != object.sha256 && !given.allow_object_change) {
-    throw InputError(given.plan_path +
-                     ": /object/sha256: the plan was made for an object with digest " +
-                     plan.object_sha256 + ", but " + given.object_path + " has " + object.sha256 +
-                     " (--allow-object-change accepts it)");
+  if (!IsFor(plan, object) && !given.allow_object_change) {
+    throw InputError(WrongObject(plan, object, given) + " (--allow-object-change accepts it)");
   }
   if (given.scale && *given.scale != plan.scale) {
     throw InputError("--scale " + FormatDouble(*given.scale) + ": the plan's scale is " +

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planner/object/object.h"
+#include "planner/object/reading.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp::apps {
@@ -15,6 +16,12 @@ struct PlanAndObject {
   bool allow_object_change = false;
   std::optional<double> scale;  ///< of --scale
 };
+
+/// Reads the object of a plan; where the plan is for a repaired one, repairs it in the same way
+/// again. The solid that the program `repair` wrote does as well.
+/// @throws InputError  as ReadObject and ReadRepaired.
+[[nodiscard]] object::ObjectFile ReadObjectOf(const plan::Plan& plan, const std::string& path,
+                                              const object::Reading& reading);
 
 /// @throws InputError  the plan is for another dimension, another object (unless that is allowed),
 /// or

@@ -4,11 +4,15 @@
 
 #include "apps/help.h"
 #include "apps/nearest_word.h"
+#include "apps/program.h"
 #include "apps/progress.h"
+#include "planner/base/angle.h"
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
+#include "planner/base/number.h"
 #include "planner/object/reading.h"
 #include "planner/registry/registry.h"
+#include "planner/repair/repair.h"
 #include "planner/roadmap/build_roadmap.h"
 
 namespace regrasp::apps {
@@ -47,6 +51,16 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
       ->type_name("FILE")
       ->required();
   AddScale(app, scale);
+  repair.AddWithSwitch(app);
+  AddNumber(app, "--patch", patch, NumberRange::NotNegative(),
+            "Radius of the patch that a fingertip touches; in the object file's unit of length: "
+            "fingers keep off facets whose normal is not the patch's, and grasps hold with either "
+            "(default: 2 % of the diameter with --repair, otherwise 0: facets are as they are)",
+            "R");
+  AddNumber(app, "--roughness", roughness_deg, {0, 45, false, true},
+            "Degrees by which a facet's normal may differ from its patch's; with so much less "
+            "friction is planned (default 5)",
+            "DEG");
   friction.AddTo(app);
   BeginGroup(app, "Planner");
   std::string type;
@@ -84,7 +98,7 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   planning::PlanRequest request;
   request.object = &of;
   request.object_name = object;
-  request.criteria.half_angle = friction.required_half_angle();
+  request.criteria.half_angle = PlannedHalfAngle();
   request.seed = seed;
   request.deadline = deadline();
   request.spanning = spanning;
@@ -93,13 +107,41 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   return request;
 }
 
+std::optional<object::FeltPatch> PlannerOptions::patch_felt() const {
+  if (patch ? *patch == 0 : !repair.wanted()) return std::nullopt;
+  return object::FeltPatch{patch, Radians(roughness_deg)};
+}
+
+double PlannerOptions::PlannedHalfAngle() const {
+  const double half_angle = friction.required_half_angle();
+  if (!patch_felt()) return half_angle;
+  // A cone about a facet's normal, narrower by the angle to the patch's, lies within the patch's.
+  const double planned = half_angle - Radians(roughness_deg);
+  if (planned > 0) return planned;
+  throw InputError("--roughness: of the friction's half-angle, " +
+                   FormatShort(Degrees(half_angle)) + "°, nothing is left to plan with; ask for less "
+                   "than that");
+}
+
 Deadline PlannerOptions::deadline() const {
   return time_limit_s ? DeadlineAfter(begin, *time_limit_s) : Deadline();
 }
 
-object::ObjectFile PlannerOptions::ReadObjectFile() const {
+object::ObjectFile PlannerOptions::ReadObjectFile(const std::string& program) const {
   ProgressLine progress(quiet);
-  return object::ReadObject(object, {progress.reporter(), deadline()});
+  const object::Reading reading{progress.reporter(), deadline(), patch_felt()};
+  if (!repair.wanted()) {
+    object::ObjectFile file = object::ReadObject(object, reading);
+    if (patch && *patch > 0 && file.object->dimension() == 2) {
+      throw InputError("--patch: " + object + " is a polygon; only solids have rough surfaces");
+    }
+    return file;
+  }
+  std::string text;
+  object::ObjectFile repaired = repair::ReadRepaired(object, repair.Get(), reading, &text);
+  progress.Clear();
+  if (!quiet) PrintMessage(program, object + ": " + text);
+  return repaired;
 }
 
 const planning::Planner& PlannerOptions::PlannerFor(const planning::PlanRequest& request) const {

@@ -6,8 +6,10 @@
 #include <string>
 
 #include "apps/options.h"
+#include "apps/repair_options.h"
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
+#include "planner/object/reading.h"
 #include "planner/planning/planner.h"
 
 namespace regrasp::apps {
@@ -15,6 +17,9 @@ namespace regrasp::apps {
 /// The options that `plan` and `graph` have in common.
 struct PlannerOptions {
   std::string object;
+  RepairOptions repair;
+  std::optional<double> patch;  ///< radius, the object's unit; 0: none; nullopt: by the object
+  double roughness_deg = 5;
   FrictionOptions friction;
   std::string planner = "auto";
   planning::Spanning spanning = planning::Spanning::kAdaptive;
@@ -30,9 +35,14 @@ struct PlannerOptions {
   /// @param automatic  what `--planner auto` takes, for the help.
   void AddTo(CLI::App& app, const std::string& automatic);
 
-  /// Reads the object and says so while it does.
+  /// Reads the object, repairs it where that is asked, and says so.
   /// @throws TimeUp  the time limit came.
-  [[nodiscard]] object::ObjectFile ReadObjectFile() const;
+  /// @param program  that says so.
+  [[nodiscard]] object::ObjectFile ReadObjectFile(const std::string& program) const;
+
+  /// What a fingertip feels of the surface, where normals are to be taken with caution: --patch, and
+  /// of repaired objects.
+  [[nodiscard]] std::optional<object::FeltPatch> patch_felt() const;
 
   /// What the options ask for, on an object; start and goal are left open.
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a
@@ -45,6 +55,8 @@ struct PlannerOptions {
   [[nodiscard]] const planning::Planner& PlannerFor(const planning::PlanRequest& request) const;
 
  private:
+  /// Radians: what is left of the friction once the patch's normals may be its facets'.
+  [[nodiscard]] double PlannedHalfAngle() const;
   [[nodiscard]] Deadline deadline() const;
 };
 

@@ -96,6 +96,7 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
   AddScale(app, options.scale,
            "Metres per unit of length of the object file; must be the plan's, 1 for a grasp where "
            "left out");
+  options.repair.AddWithSwitch(app);
   CLI::Option* mass = AddNumber(app, "--mass", options.replay.mass_kg, NumberRange::Positive(),
                                 "Mass of the object, kg; instead of --density", "KG");
   AddNumber(app, "--density", options.replay.density_kg_m3, NumberRange::Positive(),

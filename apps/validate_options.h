@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/options.h"
+#include "apps/repair_options.h"
 #include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
 #include "sim/replay/trials.h"
@@ -36,6 +37,7 @@ struct ValidateOptions {
   std::string goal;
   std::string verify;  ///< a report whose proofs are checked; nothing else is done
   FrictionOptions friction;
+  RepairOptions repair;  ///< of a grasp's object; a plan holds its own
   std::optional<double> scale;
   sim::ReplayOptions replay;
   sim::TrialOptions trials;  ///< a count of 0: none

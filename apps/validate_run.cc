@@ -23,6 +23,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/object/reading.h"
 #include "planner/plan/plan_io.h"
+#include "planner/repair/repair.h"
 #include "report/failure.h"
 #include "report/junit.h"
 #include "report/page/report_page.h"
@@ -77,19 +78,30 @@ void CheckOutputs(const ValidateOptions& options) {
   CheckOutputsWritable(outputs);
 }
 
-/// The object is read first, where the plan is not needed to find it.
+/// A plan says itself how its object was repaired.
+void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
+  if (!options.repair.wanted()) return;
+  if (!plan.repair) {
+    throw InputError("--repair: " + options.plan_path +
+                     " was made for an object as its file has it");
+  }
+  const object::RepairOptions given = options.repair.Get();
+  if (given != object::RepairOptions() && given != plan.repair->options) {
+    throw InputError("--repair: " + options.plan_path +
+                     ": /object/repair says how its object was repaired, and it was otherwise");
+  }
+}
+
 void ReadPlanTask(const ValidateOptions& options, const object::Reading& reading, Task& task) {
   std::error_code error;
   const bool named_by_plan = std::filesystem::is_directory(options.object_path, error);
-  if (!named_by_plan) task.object = object::ReadObject(options.object_path, reading);
   task.file_text =
       options.plan_path == kStandardStream ? ReadFile("/dev/stdin") : ReadFile(options.plan_path);
   task.plan = plan::ParsePlan(task.file_text, options.plan_path);
+  CheckRepair(options, task.plan);
   const std::string object_path = ObjectPathOf(options, task.plan.object_file);
-  if (named_by_plan) {
-    CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
-    task.object = object::ReadObject(object_path, reading);
-  }
+  if (named_by_plan) CheckOutputsDiffer({{"--object", object_path}}, OutputsOf(options));
+  task.object = ReadObjectOf(task.plan, object_path, reading);
   CheckPlanFits(task.plan, task.object,
                 {options.plan_path, object_path, options.allow_object_change, options.scale});
 }
@@ -99,7 +111,9 @@ Task ReadTask(const ValidateOptions& options) {
   const object::Reading reading = {progress.reporter(), {}};
   Task task;
   if (options.for_grasp()) {
-    task.object = object::ReadObject(options.object_path, reading);
+    task.object = options.repair.wanted()
+                      ? repair::ReadRepaired(options.object_path, options.repair.Get(), reading)
+                      : object::ReadObject(options.object_path, reading);
     task.file_text = ReadFile(options.grasp_path);
     task.grasp = plan::ParseGrasp(task.file_text, options.grasp_path, *task.object.object);
     task.plan =

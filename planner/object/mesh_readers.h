@@ -28,4 +28,13 @@ namespace regrasp::object {
 /// STL, ASCII or binary. Facets share no vertices here: equal coordinates are merged later.
 [[nodiscard]] PolygonSoup ReadStl(std::string_view bytes, const std::string& name);
 
+// Clouds of points: vertices without facets, of which only a repair makes a body. Normals, colours
+// and what else a file has of a point are skipped.
+
+/// XYZ (also PWN): a point a line, its first three numbers.
+[[nodiscard]] PolygonSoup ReadXyz(std::string_view text, const std::string& name);
+
+/// PCD 0.7, ascii and binary; points that are not finite are left out.
+[[nodiscard]] PolygonSoup ReadPcd(std::string_view bytes, const std::string& name);
+
 }  // namespace regrasp::object

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Face {
   /// face on the left seen from outside; in the plane where the edge begins, then where it ends.
   std::vector<FaceBorder> borders;
   bool enclosed = false;  ///< as Object::IsEnclosed
+  bool invented = false;  ///< as Object::IsInvented
+  bool rough = false;     ///< as Object::IsRough
 };
 
 /// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
@@ -103,6 +106,19 @@ class Object {
   /// finger comes there, however thin. Never in the plane, where a finger comes from above.
   [[nodiscard]] bool IsEnclosed(FaceIndex face) const { return faces_[face].enclosed; }
 
+  /// True iff a repair invented the face, where the original surface has a gap (repair/repair.h).
+  [[nodiscard]] bool IsInvented(FaceIndex face) const { return faces_[face].invented; }
+
+  /// True iff the face's normal is not that of the surface about it, as scans have it (rough_faces.h);
+  /// never unless Reading::patch asks for it.
+  [[nodiscard]] bool IsRough(FaceIndex face) const { return faces_[face].rough; }
+
+  /// True iff planners place fingers on the face: it can be reached, it is known to be there, and so
+  /// is its normal.
+  [[nodiscard]] bool TakesFingers(FaceIndex face) const {
+    return !IsEnclosed(face) && !IsInvented(face) && !IsRough(face);
+  }
+
   /// Largest distance between two vertices, D.
   [[nodiscard]] double diameter() const { return diameter_; }
 
@@ -145,11 +161,33 @@ inline constexpr double kCoplanarAngle = 1e-4;
   return normal.cross(next).dot(along) > -kCoplanarAngle;
 }
 
+/// What is asked of the repair of a surface that is no solid (repair/repair.h): with it the same
+/// file gives the same solid again.
+struct RepairOptions {
+  /// 95 % of the surface that is seen from outside lies within this of the solid; over the
+  /// diameter.
+  double max_deviation = 0.01;
+  std::optional<int> facets;        ///< at most so many triangles
+  std::optional<int> part;          ///< of several solids the one so many-th by volume, from 1
+  std::optional<double> thickness;  ///< of the wall that an open sheet becomes, the object's unit
+
+  bool operator==(const RepairOptions&) const = default;
+};
+
+/// That an object was made of a file by a repair.
+struct RepairRecord {
+  RepairOptions options;
+  std::string sha256;  ///< of the solid's bytes, as the program `repair` writes it
+
+  bool operator==(const RepairRecord&) const = default;
+};
+
 /// An object together with the file that it was read from.
 struct ObjectFile {
   std::string file;    ///< name without folders, as plans name it
   std::string sha256;  ///< of the file's bytes
   std::unique_ptr<const Object> object;
+  std::optional<RepairRecord> repair = std::nullopt;  ///< where it is not the file's own surface
 };
 
 /// Reads a solid (OBJ, OFF, PLY, STL in double precision; every other format through assimp in a

@@ -10,6 +10,9 @@ namespace regrasp::object {
 struct PolygonSoup {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::vector<int>> facets;
+  /// Of each facet whether it is no part of what was scanned or drawn: it fills a gap of a repaired
+  /// surface. Empty where none is.
+  std::vector<bool> invented = {};
 };
 
 }  // namespace regrasp::object

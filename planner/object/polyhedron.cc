@@ -11,6 +11,7 @@
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/mend_soup.h"
 #include "planner/object/mesh_survey.h"
+#include "planner/object/rough_faces.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/size_limits.h"
 #include "planner/object/solid.h"
@@ -153,12 +154,21 @@ bool IsSurveyed(MeshDefect defect) {
 /// What was found first, and then all that is wrong.
 MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Reading& reading) {
   try {
-    if (!IsSurveyed(first.defect())) return first;
+    if (!reading.counts_defects || !IsSurveyed(first.defect())) return first;
     reading.Begin("counting what is wrong with " + std::to_string(soup.facets.size()) + " facets");
     const std::string all = SurveyText(SurveyMesh(soup, reading.deadline));
     return {first.defect(), first.what() + ("; in all " + all)};
   } catch (const TimeUp&) {
     return first;
+  }
+}
+
+/// @param invented  of each of the file's facets; empty where none is.
+void MarkInvented(const TriangleMesh& mesh, const std::vector<FaceIndex>& face_of_triangle,
+                  const std::vector<bool>& invented, std::vector<Face>& faces) {
+  if (invented.empty()) return;
+  for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
+    if (invented[mesh.facet_of_triangle[t]]) faces[face_of_triangle[t]].invented = true;
   }
 }
 
@@ -185,8 +195,16 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
   const int outside = OrientSolid(mesh, topology, name);
-  std::vector<FaceIndex> face_of_triangle = JoinCoplanarFacets(mesh, topology, diameter);
+  std::vector<FaceIndex> face_of_triangle =
+      JoinCoplanarFacets(mesh, topology, diameter, soup.invented);
   std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, outside, name);
+  MarkInvented(mesh, face_of_triangle, soup.invented, faces);
+  if (reading.patch) {
+    const std::vector<bool> rough = FindRoughFaces(
+        mesh, topology, face_of_triangle, faces,
+        reading.patch->radius.value_or(kUsualPatch * diameter), reading.patch->most_angle);
+    for (FaceIndex f{0}; f < std::ssize(faces); ++f) faces[f].rough = rough[f];
+  }
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
   return Polyhedron(std::move(mesh), std::move(face_of_triangle), std::move(faces), diameter);
 }

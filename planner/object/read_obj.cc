@@ -13,11 +13,14 @@ namespace {
 
 /// Statements of the format that say nothing about flat facets.
 constexpr auto kIgnored = std::to_array<std::string_view>(
-    {"vt",        "vn",       "vp",    "cstype", "deg",    "bmat",   "step",   "p",
-     "l",         "curv",     "curv2", "surf",   "parm",   "trim",   "hole",   "scrv",
-     "sp",        "end",      "con",   "g",      "s",      "mg",     "o",      "bevel",
-     "c_interp",  "d_interp", "lod",   "usemap", "maplib", "usemtl", "mtllib", "shadow_obj",
-     "trace_obj", "ctech",    "stech", "call",   "csh"});
+    {"vt",       "vn",    "vp",     "cstype", "deg",    "bmat",   "step",       "p",
+     "l",        "curv",  "curv2",  "surf",   "parm",   "trim",   "hole",       "scrv",
+     "sp",       "end",   "con",    "s",      "mg",     "o",      "bevel",      "c_interp",
+     "d_interp", "lod",   "usemap", "maplib", "usemtl", "mtllib", "shadow_obj", "trace_obj",
+     "ctech",    "stech", "call",   "csh"});
+
+/// The group of facets that a repair invented (repair/repair.h).
+constexpr std::string_view kInventedGroup = "invented";
 
 /// The first three numbers; a weight or a colour may follow.
 Eigen::Vector3d ReadVertex(TextScanner& scanner, std::size_t index) {
@@ -70,16 +73,21 @@ void CheckIndices(const PolygonSoup& soup, const std::string& name) {
 PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(text, name);
+  bool invented = false;
   while (const auto statement = scanner.Next()) {
     if (*statement == "v") {
       soup.vertices.push_back(ReadVertex(scanner, soup.vertices.size()));
     } else if (*statement == "f") {
+      if (invented) soup.invented.resize(soup.facets.size());
+      if (invented || !soup.invented.empty()) soup.invented.push_back(invented);
       std::vector<int>& facet = soup.facets.emplace_back();
       const std::size_t index = soup.facets.size() - 1;
       while (const auto word = scanner.NextOnLine()) {
         const long long corner = ReadCorner(scanner, *word, index);
         facet.push_back(ResolveIndex(scanner, corner, soup.vertices.size(), index));
       }
+    } else if (*statement == "g") {
+      invented = scanner.NextOnLine() == kInventedGroup;
     } else if (std::ranges::find(kIgnored, *statement) == kIgnored.end()) {
       scanner.Fail(Quoted(*statement) + " is not a statement of OBJ");
     }

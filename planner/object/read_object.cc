@@ -8,6 +8,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_soup.h"
 #include "planner/object/read_with_assimp.h"
 #include "planner/object/reading.h"
 #include "planner/object/text_scanner.h"
@@ -31,13 +32,15 @@ PolygonSoup ReadWithAssimp(const std::string& bytes, const std::filesystem::path
   }
 }
 
-PolygonSoup ReadSoup(const std::filesystem::path& path, const std::string& ending,
-                     const std::string& bytes, const Deadline& deadline) {
+PolygonSoup ParseSoup(const std::filesystem::path& path, const std::string& ending,
+                      const std::string& bytes, const Deadline& deadline) {
   const std::string name = path.string();
   if (ending == ".obj") return ReadObj(bytes, name);
   if (ending == ".off") return ReadOff(bytes, name);
   if (ending == ".ply") return ReadPly(bytes, name);
   if (ending == ".stl") return ReadStl(bytes, name);
+  if (ending == ".xyz" || ending == ".pwn") return ReadXyz(bytes, name);
+  if (ending == ".pcd") return ReadPcd(bytes, name);
   return ReadWithAssimp(bytes, path, deadline);
 }
 
@@ -49,7 +52,7 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
   if (ending == ".wkt") {
     file.object = std::make_unique<Polygon>(Polygon::FromWkt(bytes, path.string()));
   } else {
-    const PolygonSoup soup = ReadSoup(path, ending, bytes, reading.deadline);
+    const PolygonSoup soup = ParseSoup(path, ending, bytes, reading.deadline);
     std::string().swap(bytes);  // large files are read in little memory
     file.object = std::make_unique<Polyhedron>(Polyhedron::FromSoup(soup, path.string(), reading));
   }
@@ -58,6 +61,15 @@ ObjectFile Read(const std::filesystem::path& path, const Reading& reading) {
 }
 
 }  // namespace
+
+SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
+  reading.Begin("reading " + path.string());
+  const std::string bytes = ReadFile(path);
+  const std::string ending = LowerCase(path.extension().string());
+  if (ending == ".wkt") throw InputError(path.string() + ": a polygon; only surfaces are repaired");
+  return {path.filename().string(), Sha256(bytes),
+          ParseSoup(path, ending, bytes, reading.deadline)};
+}
 
 ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading) {
   try {

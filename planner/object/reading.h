@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,11 +11,22 @@
 
 namespace regrasp::object {
 
+/// What a fingertip feels of a surface: not a facet, but what lies under it.
+struct FeltPatch {
+  std::optional<double> radius;  ///< the object's unit of length; kUsualPatch · D where left out
+  double most_angle = 0;         ///< between a face's normal and the mean normal about it, radians
+};
+
+/// Over the diameter: a finger's breadth on what one hand holds.
+inline constexpr double kUsualPatch = 0.02;
+
 /// What is told while an object is read, and when that makes an end.
 struct Reading {
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   Deadline deadline;
+  std::optional<FeltPatch> patch = std::nullopt;  ///< faces that are rough by it take no fingers
+  bool counts_defects = true;  ///< a refusal counts all that is wrong (mesh_survey.h)
 
   /// Between two stages; they are not interrupted, but for assimp, whose process is ended.
   /// @throws TimeUp  the deadline came.

@@ -8,6 +8,7 @@
 
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
+#include "planner/object/object.h"
 
 namespace regrasp::plan {
 
@@ -57,6 +58,8 @@ struct RoadmapNote {
 struct Plan {
   std::string object_file;
   std::string object_sha256;
+  /// Where the object is a solid that a repair made of the file's surface.
+  std::optional<object::RepairRecord> repair = std::nullopt;
   double scale = 1;  ///< metres per unit of the object's file
   int dimension = 3;
   double half_angle = 0;  ///< friction half-angle, radians

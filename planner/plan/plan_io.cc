@@ -86,6 +86,28 @@ std::string ReadSha256(const JsonReader& json) {
   return digits;
 }
 
+object::RepairRecord ReadRepair(const JsonReader& json) {
+  object::RepairRecord repair;
+  repair.sha256 = ReadSha256(json.Member("sha256"));
+  repair.options.max_deviation = json.Member("max_deviation").Number();
+  if (json.Has("facets")) {
+    repair.options.facets = json.Member("facets").Integer(1, std::numeric_limits<int>::max());
+  }
+  if (json.Has("part")) {
+    repair.options.part = json.Member("part").Integer(1, std::numeric_limits<int>::max());
+  }
+  if (json.Has("thickness")) repair.options.thickness = json.Member("thickness").Number();
+  return repair;
+}
+
+Json RepairJson(const object::RepairRecord& repair) {
+  Json json = {{"sha256", repair.sha256}, {"max_deviation", repair.options.max_deviation}};
+  if (repair.options.facets) json["facets"] = *repair.options.facets;
+  if (repair.options.part) json["part"] = *repair.options.part;
+  if (repair.options.thickness) json["thickness"] = *repair.options.thickness;
+  return json;
+}
+
 void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.object_file = json.Member("file").String();
   if (plan.object_file.find('\0') != std::string::npos) {
@@ -96,6 +118,7 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
   plan.scale = json.Member("scale").Number();
   if (!(plan.scale > 0)) json.Member("scale").Fail("must be positive");
   plan.dimension = json.Member("dimension").Integer(2, 3);
+  if (json.Has("repair")) plan.repair = ReadRepair(json.Member("repair"));
 }
 
 double ReadHalfAngle(const JsonReader& json) {
@@ -217,6 +240,7 @@ std::string FormatPlan(const Plan& plan) {
                     {"sha256", plan.object_sha256},
                     {"scale", plan.scale},
                     {"dimension", plan.dimension}};
+  if (plan.repair) json["object"]["repair"] = RepairJson(*plan.repair);
   json["friction"]["half_angle_deg"] = WrittenDegrees(plan.half_angle);
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;

@@ -81,7 +81,7 @@ std::vector<grasp::Contact> MeshContacts(const object::Polyhedron& solid, int mo
   if (triangles > most || few_faces) return SpreadContactPoints(solid, most, seed);
   std::vector<grasp::Contact> points;
   for (object::TriangleIndex i{0}; i < triangles; ++i) {
-    if (solid.IsEnclosed(solid.face_of_triangle(i))) continue;
+    if (!solid.TakesFingers(solid.face_of_triangle(i))) continue;
     points.push_back(TriangleCentroid(solid, i));
   }
   return points;

@@ -46,7 +46,7 @@ SurfaceSampler::SurfaceSampler(const object::Object& object, double finger_radiu
       polygon_(dynamic_cast<const object::Polygon*>(&object)) {
   for (FaceIndex face{0}; face < object.face_count(); ++face) {
     first_facet_.push_back(static_cast<int>(facets_.size()));
-    if (object.IsEnclosed(face)) continue;
+    if (!object.TakesFingers(face)) continue;
     if (solid_ == nullptr) {
       facets_.push_back(face);
     } else {
@@ -156,7 +156,7 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
   // Looking for the nearest face far away is dear, and most are near.
   for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
     std::vector<FaceIndex> faces = object_.FacesNear(p, radius);
-    std::erase_if(faces, [&](FaceIndex face) { return object_.IsEnclosed(face); });
+    std::erase_if(faces, [&](FaceIndex face) { return !object_.TakesFingers(face); });
     if (faces.empty()) continue;
     // Where an edge is nearest, so are both of its faces.
     const auto distance = [&](FaceIndex face) {

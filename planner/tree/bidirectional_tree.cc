@@ -250,7 +250,7 @@ void BidirectionalTree::GrowAcross(int side, std::int64_t until) {
     FaceTuple tuple;
     for (int i = 0; i < set.size(); ++i) tuple.push_back(i == leaving ? face : before[i].face);
     std::sort(tuple.begin(), tuple.end());
-    if (IsSmall(face, space_.object()) || space_.object().IsEnclosed(face) ||
+    if (IsSmall(face, space_.object()) || !space_.object().TakesFingers(face) ||
         !trees_[side].reached.OnTuple(tuple).empty())
       continue;
     const auto found =

@@ -184,8 +184,7 @@ class SolidPainter {
     return glyph.role == plan::FingerRole::kMoved && glyph.path.size() > 1;
   }
   [[nodiscard]] bool IsBehind(const FingerGlyph& glyph) const {
-    return IsHidden(body_.rays, glyph.contact + glyph.ball_radius * glyph.outward,
-                    camera_.back());
+    return IsHidden(body_.rays, glyph.contact + glyph.ball_radius * glyph.outward, camera_.back());
   }
 
   /// Counter-clockwise, so that outlines that overlap fill what any of them covers.
@@ -229,8 +228,10 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
     fingers_.push_back(MakeFingerGlyphs(snapshot, frame_, body_.rays));
     captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry));
   }
-  axes_ = CameraAxes(options.view ? options.view->ToCamera()
-                                  : ChooseViewpoints(body_, /*planar=*/false, fingers_, /*largest_force=*/0).common);
+  axes_ = CameraAxes(
+      options.view
+          ? options.view->ToCamera()
+          : ChooseViewpoints(body_, /*planar=*/false, fingers_, /*largest_force=*/0).common);
   Eigen::AlignedBox2d box;
   const auto extend = [&](const Vector3d& p) {
     box.extend(Vector2d((axes_.transpose() * p).head<2>()));

@@ -15,7 +15,7 @@ struct PagePicture {
   int width = 0;      ///< pixels, as is the height
   int height = 0;
   std::string_view media_type = "image/webp";  ///< of an image, or of a video that browsers play
-  bool own_view = false;  ///< not taken from where the others are
+  bool own_view = false;                       ///< not taken from where the others are
 };
 
 /// The text of report.html: what a report says, for people, as one HTML page that needs no other

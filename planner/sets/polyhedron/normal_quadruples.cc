@@ -145,7 +145,7 @@ std::vector<QuadrupleCandidate> FindQuadrupleCandidates(const object::Polyhedron
   std::vector<FaceIndex> faces;
   std::vector<Vector3d> normals;
   for (FaceIndex face{0}; face < solid.face_count(); ++face) {
-    if (solid.IsEnclosed(face)) continue;
+    if (!solid.TakesFingers(face)) continue;
     faces.push_back(face);
     normals.push_back(solid.inward_normal(face));
   }

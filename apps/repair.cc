@@ -1,0 +1,85 @@
+// repair: makes a solid of a scan, of a broken mesh or of several shells, and says what it changed.
+
+#include "planner/repair/repair.h"
+
+#include <string>
+
+#include "apps/help.h"
+#include "apps/options.h"
+#include "apps/output_files.h"
+#include "apps/program.h"
+#include "apps/progress.h"
+#include "apps/repair_options.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
+#include "planner/object/read_soup.h"
+
+namespace {
+
+using namespace regrasp::apps;
+using namespace regrasp;
+
+constexpr char kProgram[] = "repair";
+
+struct RepairProgram {
+  std::string object;
+  std::string output;
+  std::string report;
+  RepairOptions options;
+  bool quiet = false;
+
+  void AddTo(CLI::App& app);
+  int Run() const;
+};
+
+void RepairProgram::AddTo(CLI::App& app) {
+  BeginGroup(app, "Files");
+  app.add_option("--object", object, "The scan or mesh (OBJ, OFF, PLY, STL, glTF, …)")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--output", output,
+                 "Where the solid goes, as OBJ; facets that were invented are in its group "
+                 "invented, where planners place no finger")
+      ->type_name("FILE.obj")
+      ->required();
+  app.add_option("--report", report, "Where a report of each stage and what it changed goes (JSON)")
+      ->type_name("FILE");
+  BeginGroup(app, "What the solid is like");
+  options.AddTo(app);
+  BeginGroup(app, "Messages");
+  AddQuiet(app, quiet);
+  app.footer(
+      "  repair --object scan.ply --output solid.obj --report repair.json\n"
+      "  repair --object pieces.obj --output solid.obj --part 1 --faces 5000\n");
+}
+
+int RepairProgram::Run() const {
+  OutputFiles outputs;
+  outputs.Add("--output", output);
+  outputs.Add("--report", report);
+  CheckOutputsDiffer({{"--object", object}}, outputs);
+  CheckOutputsWritable(outputs);
+  ProgressLine progress(quiet);
+  const object::Reading reading{progress.reporter(), {}};
+  const object::SoupFile file = object::ReadSoup(object, reading);
+  const repair::Repaired repaired = repair::Repair(file.soup, object, options.Get(), reading);
+  progress.Clear();
+  WriteFile(output, repair::FormatSolid(repaired.solid));
+  if (!report.empty()) {
+    WriteFile(report,
+              FormatJson(repair::RepairReport(repaired, file.file, file.sha256, options.Get())));
+  }
+  if (!quiet) PrintMessage(kProgram, object + ": " + repair::RepairText(repaired));
+  return kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Makes a solid of a scan, a broken mesh or several shells, and says what it changed.",
+      kProgram);
+  RepairProgram program;
+  program.AddTo(app);
+  return RunProgram(app, argc, argv, [&] { return program.Run(); });
+}

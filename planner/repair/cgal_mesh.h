@@ -1,0 +1,25 @@
+#pragma once
+
+#include "planner/object/polygon_soup.h"
+#include "planner/object/surface_mesh.h"
+
+namespace regrasp::repair {
+
+using Kernel = object::SurfaceKernel;
+using Mesh = object::SurfaceMesh;
+
+/// A surface of triangles as CGAL's mesh; only for .cc files.
+/// @throws std::runtime_error  an edge has more than two of them, or they run along it the same
+/// way.
+[[nodiscard]] Mesh MeshOf(const object::PolygonSoup& soup);
+
+/// The triangles of a mesh, in its order.
+[[nodiscard]] object::PolygonSoup SoupOf(const Mesh& mesh);
+
+/// The connected parts of a mesh, each a mesh of its own, in the order of their first facets.
+[[nodiscard]] std::vector<Mesh> PartsOf(const Mesh& mesh);
+
+/// @pre closed.
+[[nodiscard]] double VolumeOf(const Mesh& mesh);
+
+}  // namespace regrasp::repair

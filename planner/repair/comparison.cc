@@ -1,0 +1,250 @@
+#include "planner/repair/comparison.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <queue>
+
+#include "planner/repair/surface_distance.h"
+
+namespace regrasp::repair {
+
+using Eigen::Vector3d;
+using object::PolygonSoup;
+
+namespace {
+
+constexpr int kSamples = 20000;
+
+/// Points of these that are looked at from outside, and whose wall is measured.
+constexpr int kSeenSamples = 3000;
+
+/// Steps of a sequence that fills the square evenly: 1/p and 1/p², p³ = p + 1 (Roberts 2018).
+constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
+
+/// A ray from a point of the surface begins this far off, over the diameter.
+constexpr double kOff = 1e-6;
+
+/// Directions in which the outside is looked for.
+constexpr int kDirections = 64;
+
+/// So many of them see a point that is seen: fewer look through a crack between two pieces.
+constexpr int kSeenBy = 3;
+
+/// The bound is within this of the largest distance, over the diameter, or what so many pieces of
+/// facets give.
+constexpr double kBoundAccuracy = 1e-3;
+constexpr int kMostPieces = 400'000;
+
+/// Facets are looked at for invented parts at every so many diameters.
+constexpr double kInventedStep = 0.01;
+
+using Triangle = std::array<Vector3d, 3>;
+
+Triangle TriangleOf(const PolygonSoup& soup, std::size_t facet) {
+  const auto& f = soup.facets[facet];
+  return {soup.vertices[f[0]], soup.vertices[f[1]], soup.vertices[f[2]]};
+}
+
+Vector3d AreaVector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+
+Vector3d Centre(const Triangle& t) { return (t[0] + t[1] + t[2]) / 3; }
+
+double Radius(const Triangle& t) {
+  const Vector3d centre = Centre(t);
+  return std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
+}
+
+/// Its four similar parts.
+std::array<Triangle, 4> Quarters(const Triangle& t) {
+  const Vector3d a = (t[1] + t[2]) / 2, b = (t[2] + t[0]) / 2, c = (t[0] + t[1]) / 2;
+  return {Triangle{t[0], c, b}, Triangle{c, t[1], a}, Triangle{b, a, t[2]}, Triangle{a, b, c}};
+}
+
+struct Sample {
+  Vector3d point;
+  Vector3d normal;  ///< of length 1, outward where the facet is oriented
+};
+
+/// Evenly over the area: one from each of `count` equal parts of it.
+std::vector<Sample> DrawSamples(const PolygonSoup& soup, int count) {
+  std::vector<double> up_to;
+  double area = 0;
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    up_to.push_back(area += AreaVector(TriangleOf(soup, f)).norm());
+  }
+  std::vector<Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    const double at = (i + 0.5) / count * area;
+    const auto found = std::ranges::upper_bound(up_to, at);
+    const auto facet = std::min<std::ptrdiff_t>(found - up_to.begin(), std::ssize(up_to) - 1);
+    const Triangle t = TriangleOf(soup, static_cast<std::size_t>(facet));
+    double u = std::fmod((i + 1) * kStepU, 1), v = std::fmod((i + 1) * kStepV, 1);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    samples.push_back(
+        {t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]), AreaVector(t).stableNormalized()});
+  }
+  return samples;
+}
+
+/// The value that 95 % are no larger than.
+double NinetyFifth(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto nth = values.begin() + std::ptrdiff_t(0.95 * double(values.size() - 1));
+  std::ranges::nth_element(values, nth);
+  return *nth;
+}
+
+double Mean(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+/// The largest distance from above. The distance to a surface changes by no more than one goes, so
+/// that a piece of a facet has none beyond its centre's plus its radius; the piece that may have
+/// the largest is cut into four until it cannot matter.
+double BoundDistance(const PolygonSoup& from, const SurfaceDistance& to, double least,
+                     double accuracy) {
+  struct Piece {
+    double bound;
+    Triangle triangle;
+    bool operator<(const Piece& other) const { return bound < other.bound; }
+  };
+  std::priority_queue<Piece> pieces;
+  double largest = least;
+  int looked = 0;
+  const auto look = [&](const Triangle& t) {
+    ++looked;
+    const double distance = to.DistanceTo(Centre(t));
+    largest = std::max(largest, distance);
+    const double bound = distance + Radius(t);
+    if (bound > largest + accuracy) pieces.push({bound, t});
+  };
+  for (std::size_t f = 0; f < from.facets.size(); ++f) look(TriangleOf(from, f));
+  while (!pieces.empty() && pieces.top().bound > largest + accuracy) {
+    if (looked > kMostPieces) return pieces.top().bound;
+    const Triangle t = pieces.top().triangle;
+    pieces.pop();
+    for (const Triangle& quarter : Quarters(t)) look(quarter);
+  }
+  return largest + accuracy;
+}
+
+DistanceSummary Summarize(const PolygonSoup& from, const std::vector<Sample>& samples,
+                          const std::vector<double>& distances, const SurfaceDistance& to,
+                          double diameter) {
+  DistanceSummary summary;
+  summary.mean = Mean(distances);
+  summary.most = NinetyFifth(distances);
+  const auto farthest = std::ranges::max_element(distances);
+  summary.largest = *farthest;
+  summary.where = samples[static_cast<std::size_t>(farthest - distances.begin())].point;
+  summary.bound = BoundDistance(from, to, summary.largest, kBoundAccuracy * diameter);
+  return summary;
+}
+
+/// Evenly over the sphere (Fibonacci's spiral).
+std::vector<Vector3d> MakeDirections() {
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kDirections;
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+  }
+  return directions;
+}
+
+bool IsSeen(const Sample& sample, const SurfaceDistance& surface,
+            const std::vector<Vector3d>& directions, double off) {
+  int free = 0;
+  for (const Vector3d& d : directions) {
+    const double side = sample.normal.dot(d) >= 0 ? 1 : -1;
+    free += !surface.IsHit(sample.point + side * off * sample.normal, d);
+    if (free == kSeenBy) return true;
+  }
+  return false;
+}
+
+void CompareSeen(const PolygonSoup& solid, const std::vector<Sample>& samples,
+                 const SurfaceDistance& to_original, const SurfaceDistance& to_solid, double off,
+                 Comparison& comparison) {
+  const std::vector<Vector3d> directions = MakeDirections();
+  std::vector<double> distances, angles;
+  for (const Sample& sample : samples) {
+    if (!IsSeen(sample, to_original, directions, off)) continue;
+    const SurfaceDistance::Closest closest = to_solid.FindClosest(sample.point);
+    distances.push_back((closest.point - sample.point).norm());
+    const Vector3d normal =
+        AreaVector(TriangleOf(solid, static_cast<std::size_t>(closest.facet))).stableNormalized();
+    // Which way the original's facets are turned is not always known.
+    angles.push_back(std::acos(std::min(1.0, std::abs(normal.dot(sample.normal)))));
+  }
+  comparison.seen_share = double(distances.size()) / double(samples.size());
+  comparison.seen_most = NinetyFifth(distances);
+  comparison.normal_mean = Mean(angles);
+  comparison.normal_most = NinetyFifth(angles);
+}
+
+/// True iff a point of the triangle, of those looked at, is farther than `distance`.
+bool ReachesBeyond(const Triangle& t, const SurfaceDistance& surface, double distance,
+                   double step) {
+  const double at_centre = surface.DistanceTo(Centre(t));
+  if (at_centre > distance) return true;
+  const double radius = Radius(t);
+  if (at_centre + radius <= distance || radius <= step) return false;
+  return std::ranges::any_of(
+      Quarters(t), [&](const Triangle& q) { return ReachesBeyond(q, surface, distance, step); });
+}
+
+void FindInvented(const PolygonSoup& solid, const SurfaceDistance& to_original, double diameter,
+                  Comparison& comparison) {
+  double area = 0, invented = 0;
+  for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+    const Triangle t = TriangleOf(solid, f);
+    const bool is_invented =
+        ReachesBeyond(t, to_original, kInventedDistance * diameter, kInventedStep * diameter);
+    comparison.invented.push_back(is_invented);
+    area += AreaVector(t).norm();
+    if (is_invented) invented += AreaVector(t).norm();
+  }
+  comparison.invented_share = invented / area;
+}
+
+double ThinShare(const std::vector<Sample>& samples, const SurfaceDistance& solid,
+                 double diameter) {
+  const auto thin = std::ranges::count_if(samples, [&](const Sample& sample) {
+    const Vector3d start = sample.point - kOff * diameter * sample.normal;
+    return solid.FirstHit(start, -sample.normal) < kThinWall * diameter;
+  });
+  return double(thin) / double(samples.size());
+}
+
+std::vector<double> Distances(const std::vector<Sample>& samples, const SurfaceDistance& to) {
+  std::vector<double> distances;
+  for (const Sample& sample : samples) distances.push_back(to.DistanceTo(sample.point));
+  return distances;
+}
+
+}  // namespace
+
+Comparison Compare(const PolygonSoup& original, const PolygonSoup& solid, double diameter) {
+  const SurfaceDistance to_original(original), to_solid(solid);
+  Comparison comparison;
+  const std::vector<Sample> old_samples = DrawSamples(original, kSamples);
+  comparison.to_solid =
+      Summarize(original, old_samples, Distances(old_samples, to_solid), to_solid, diameter);
+  const std::vector<Sample> new_samples = DrawSamples(solid, kSamples);
+  comparison.to_original =
+      Summarize(solid, new_samples, Distances(new_samples, to_original), to_original, diameter);
+  CompareSeen(solid, DrawSamples(original, kSeenSamples), to_original, to_solid, kOff * diameter,
+              comparison);
+  FindInvented(solid, to_original, diameter, comparison);
+  comparison.thin_share = ThinShare(DrawSamples(solid, kSeenSamples), to_solid, diameter);
+  return comparison;
+}
+
+}  // namespace regrasp::repair

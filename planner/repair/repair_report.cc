@@ -1,0 +1,79 @@
+#include "planner/base/number.h"
+#include "planner/repair/repair.h"
+
+namespace regrasp::repair {
+
+namespace {
+
+Json SummaryJson(const DistanceSummary& summary, double diameter) {
+  const auto length = [&](double value) {
+    return Json{{"units", value}, {"over_diameter", value / diameter}};
+  };
+  return {{"mean", length(summary.mean)},
+          {"p95", length(summary.most)},
+          {"largest", length(summary.largest)},
+          {"bound", length(summary.bound)},
+          {"where", {summary.where.x(), summary.where.y(), summary.where.z()}}};
+}
+
+Json StagesJson(const std::vector<StageReport>& stages) {
+  Json list = Json::array();
+  for (const StageReport& stage : stages) {
+    list.push_back({{"stage", stage.stage},
+                    {"outcome", stage.outcome},
+                    {"facets", stage.facets},
+                    {"did", stage.facts}});
+  }
+  return list;
+}
+
+template <class T>
+Json OrNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+Json RepairReport(const Repaired& repaired, const std::string& file, const std::string& sha256,
+                  const object::RepairOptions& options) {
+  const Comparison& c = repaired.comparison;
+  constexpr double kDegrees = 57.29577951308232;
+  Json report;
+  report["object"] = {{"file", file}, {"sha256", sha256}};
+  report["options"] = {{"max_deviation", options.max_deviation},
+                       {"facets", OrNull(options.facets)},
+                       {"part", OrNull(options.part)},
+                       {"thickness", OrNull(options.thickness)}};
+  report["stages"] = StagesJson(repaired.stages);
+  report["facets_before"] = repaired.facets_before;
+  report["facets_after"] = repaired.solid.facets.size();
+  report["diameter"] = repaired.diameter;
+  report["volume"] = repaired.volume;
+  report["deviation_over_diameter"] = c.seen_most / repaired.diameter;
+  report["seen_share"] = c.seen_share;
+  report["original_to_solid"] = SummaryJson(c.to_solid, repaired.diameter);
+  report["solid_to_original"] = SummaryJson(c.to_original, repaired.diameter);
+  report["normals"] = {{"mean_deg", c.normal_mean * kDegrees},
+                       {"p95_deg", c.normal_most * kDegrees}};
+  report["invented_share"] = c.invented_share;
+  return report;
+}
+
+std::string RepairText(const Repaired& repaired) {
+  const std::string& stage = repaired.stages.back().stage;
+  if (stage == "read") return "a solid as it is";
+  std::string text = std::to_string(repaired.facets_before) + " facets, " +
+                     std::to_string(repaired.solid.facets.size()) + " after the repair (";
+  bool first = true;
+  for (const StageReport& tried : repaired.stages) {
+    if (tried.stage == "read" || tried.facets == 0) continue;
+    text += (first ? "" : ", ") + tried.stage;
+    first = false;
+  }
+  const double d = repaired.diameter;
+  return text + "); deviation " + FormatShort(100 * repaired.comparison.seen_most / d, 3) +
+         " % of the diameter, " + FormatShort(100 * repaired.comparison.invented_share, 3) +
+         " % of the surface invented";
+}
+
+}  // namespace regrasp::repair

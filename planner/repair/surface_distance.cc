@@ -1,0 +1,64 @@
+#include "planner/repair/surface_distance.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <limits>
+#include <vector>
+
+namespace regrasp::repair {
+
+namespace {
+
+/// Distances here are measured, not decided: doubles will do.
+using Measuring = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Measuring::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Measuring, Triangles::const_iterator>;
+
+Measuring::Point_3 ToPoint(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Measuring::Ray_3 ToRay(const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
+  return {ToPoint(p), Measuring::Vector_3(d.x(), d.y(), d.z())};
+}
+
+}  // namespace
+
+struct SurfaceDistance::Tree {
+  Triangles triangles;
+  CGAL::AABB_tree<CGAL::AABB_traits<Measuring, Primitive>> tree;
+};
+
+SurfaceDistance::SurfaceDistance(const object::PolygonSoup& soup) : tree_(new Tree) {
+  for (const auto& f : soup.facets) {
+    tree_->triangles.emplace_back(ToPoint(soup.vertices[f[0]]), ToPoint(soup.vertices[f[1]]),
+                                  ToPoint(soup.vertices[f[2]]));
+  }
+  tree_->tree.rebuild(tree_->triangles.begin(), tree_->triangles.end());
+  tree_->tree.accelerate_distance_queries();
+}
+
+SurfaceDistance::~SurfaceDistance() = default;
+SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
+
+SurfaceDistance::Closest SurfaceDistance::FindClosest(const Eigen::Vector3d& point) const {
+  const auto [p, triangle] = tree_->tree.closest_point_and_primitive(ToPoint(point));
+  return {{p.x(), p.y(), p.z()}, static_cast<int>(triangle - tree_->triangles.cbegin())};
+}
+
+bool SurfaceDistance::IsHit(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {
+  return tree_->tree.do_intersect(ToRay(point, direction));
+}
+
+double SurfaceDistance::FirstHit(const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& direction) const {
+  const auto hit = tree_->tree.first_intersection(ToRay(point, direction));
+  if (!hit) return std::numeric_limits<double>::infinity();
+  if (const auto* p = boost::get<Measuring::Point_3>(&hit->first)) {
+    return (Eigen::Vector3d(p->x(), p->y(), p->z()) - point).norm();
+  }
+  return 0;  // along a triangle's plane
+}
+
+}  // namespace regrasp::repair

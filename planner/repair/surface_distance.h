@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "planner/object/polygon_soup.h"
+
+namespace regrasp::repair {
+
+/// The distance of points to a set of triangles, and what rays meet of them.
+class SurfaceDistance {
+ public:
+  /// @param triangles  facets of three corners.
+  explicit SurfaceDistance(const object::PolygonSoup& triangles);
+  ~SurfaceDistance();
+  SurfaceDistance(SurfaceDistance&&) noexcept;
+
+  struct Closest {
+    Eigen::Vector3d point;
+    int facet;
+  };
+  [[nodiscard]] Closest FindClosest(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& point) const {
+    return FindClosest(point).point;
+  }
+  [[nodiscard]] double DistanceTo(const Eigen::Vector3d& point) const {
+    return (ClosestPoint(point) - point).norm();
+  }
+  /// True iff a ray from `point` meets a triangle.
+  [[nodiscard]] bool IsHit(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+  /// How far along a ray, whose direction has length 1, the first triangle is; infinity without.
+  [[nodiscard]] double FirstHit(const Eigen::Vector3d& point,
+                                const Eigen::Vector3d& direction) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace regrasp::repair

@@ -1,0 +1,99 @@
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planner/repair/cgal_mesh.h"
+#include "planner/repair/stages.h"
+
+namespace regrasp::repair {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+namespace {
+
+/// A chain of unions in rounded coordinates would cut where it has cut before.
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactMesh = CGAL::Surface_mesh<ExactKernel::Point_3>;
+
+struct Shell {
+  Mesh mesh;
+  double volume = 0;
+  CGAL::Bbox_3 box;
+};
+
+bool IsInside(const Shell& shell, const Shell& other) {
+  if (!CGAL::do_overlap(shell.box, other.box)) return false;
+  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(other.mesh);
+  return std::ranges::all_of(shell.mesh.vertices(), [&](const auto v) {
+    return side(shell.mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
+  });
+}
+
+/// Largest first, all turned outwards but for cavities: those that turn inwards inside another.
+std::vector<Shell> ShellsOf(const Mesh& mesh) {
+  std::vector<Shell> shells;
+  for (Mesh& part : PartsOf(mesh)) {
+    if (!CGAL::is_closed(part)) throw std::runtime_error("not all of its shells are closed");
+    if (pmp::does_self_intersect(part)) throw std::runtime_error("a shell meets itself");
+    const double volume = VolumeOf(part);
+    const CGAL::Bbox_3 box = pmp::bbox(part);
+    shells.push_back({std::move(part), volume, box});
+  }
+  std::ranges::stable_sort(shells, std::ranges::greater(),
+                           [](const Shell& shell) { return std::abs(shell.volume); });
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    if (shells[i].volume >= 0) continue;
+    const bool cavity = std::any_of(shells.begin(), shells.begin() + std::ptrdiff_t(i),
+                                    [&](const Shell& o) { return IsInside(shells[i], o); });
+    if (cavity) continue;
+    pmp::reverse_face_orientations(shells[i].mesh);
+    shells[i].volume = -shells[i].volume;
+  }
+  return shells;
+}
+
+ExactMesh Exact(const Mesh& mesh) {
+  ExactMesh exact;
+  CGAL::copy_face_graph(mesh, exact);
+  return exact;
+}
+
+Mesh Rounded(const ExactMesh& exact) {
+  Mesh mesh;
+  CGAL::copy_face_graph(exact, mesh);
+  return mesh;
+}
+
+void Add(ExactMesh& body, const Shell& shell) {
+  ExactMesh other = Exact(shell.mesh);
+  const bool solid = shell.volume >= 0;
+  if (!solid) pmp::reverse_face_orientations(other);
+  ExactMesh sum;
+  const bool done = solid ? pmp::corefine_and_compute_union(body, other, sum)
+                          : pmp::corefine_and_compute_difference(body, other, sum);
+  if (!done) throw std::runtime_error("its shells cannot be united");
+  body = std::move(sum);
+}
+
+}  // namespace
+
+StageResult UniteShells(const object::PolygonSoup& soup) {
+  const std::vector<Shell> shells = ShellsOf(MeshOf(soup));
+  ExactMesh body = Exact(shells[0].mesh);
+  for (std::size_t i = 1; i < shells.size(); ++i) Add(body, shells[i]);
+  StageResult result{SoupOf(Rounded(body))};
+  result.facts["shells"] = shells.size();
+  result.facts["cavities"] =
+      std::ranges::count_if(shells, [](const Shell& shell) { return shell.volume < 0; });
+  return result;
+}
+
+}  // namespace regrasp::repair

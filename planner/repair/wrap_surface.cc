@@ -1,0 +1,134 @@
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "planner/object/diameter.h"
+#include "planner/repair/cgal_mesh.h"
+#include "planner/repair/stages.h"
+#include "planner/repair/surface_distance.h"
+
+namespace regrasp::repair {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+namespace {
+
+using Point = Kernel::Point_3;
+
+/// Coarser wraps than the one that is taken: what their ball cannot enter counts as volume.
+constexpr double kCoarserWraps[] = {4, 2};
+
+/// A vertex whose facets meet others once it is drawn back returns to the wrap; so often is looked.
+constexpr int kLooks = 20;
+
+std::vector<Point> PointsOf(const object::PolygonSoup& soup) {
+  std::vector<Point> points;
+  for (const auto& v : soup.vertices) points.emplace_back(v.x(), v.y(), v.z());
+  return points;
+}
+
+Mesh Wrap(const object::PolygonSoup& soup, double radius, double offset) {
+  Mesh mesh;
+  CGAL::alpha_wrap_3(PointsOf(soup), soup.facets, radius, offset, mesh);
+  mesh.collect_garbage();
+  return mesh;
+}
+
+Eigen::Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+using Faces = std::set<Mesh::Face_index>;
+
+/// Those of `faces` that meet others of them or have turned over since `before`.
+Faces FindBad(const Faces& faces, const Mesh& mesh, const std::vector<Kernel::Vector_3>& before) {
+  Faces bad;
+  for (const auto f : faces) {
+    const auto h = mesh.halfedge(f);
+    const Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+                &c = mesh.point(mesh.target(mesh.next(h)));
+    const auto normal = CGAL::cross_product(b - a, c - a);
+    if (CGAL::collinear(a, b, c) || normal * before[f] <= 0) bad.insert(f);
+  }
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  pmp::self_intersections(faces, mesh, std::back_inserter(pairs));
+  for (const auto& [one, other] : pairs) {
+    bad.insert(one);
+    bad.insert(other);
+  }
+  return bad;
+}
+
+/// `faces` and all about them, ring after ring.
+Faces Widened(Faces faces, const Mesh& mesh) {
+  constexpr int kRings = 4;
+  for (int ring = 0; ring < kRings; ++ring) {
+    Faces wider = faces;
+    for (const auto f : faces) {
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
+        for (const auto next : mesh.faces_around_target(mesh.halfedge(v))) wider.insert(next);
+      }
+    }
+    faces = std::move(wider);
+  }
+  return faces;
+}
+
+/// Draws vertices onto the surface, but for those where facets would meet.
+/// @returns how many stay outside.
+int DrawBack(Mesh& mesh, const SurfaceDistance& surface) {
+  std::vector<Point> wrapped;
+  std::vector<Kernel::Vector_3> normals;
+  for (const auto v : mesh.vertices()) wrapped.push_back(mesh.point(v));
+  for (const auto f : mesh.faces()) normals.push_back(pmp::compute_face_normal(f, mesh));
+  for (const auto v : mesh.vertices()) {
+    const Eigen::Vector3d p = surface.ClosestPoint(ToVector(wrapped[v]));
+    mesh.point(v) = Point(p.x(), p.y(), p.z());
+  }
+  const Faces all(mesh.faces().begin(), mesh.faces().end());
+  std::set<Mesh::Vertex_index> outside;
+  // What goes back disturbs only what is about it; all facets are looked at where nothing is left.
+  Faces looked = all;
+  for (int look = 0; look < kLooks; ++look) {
+    const Faces bad = FindBad(looked, mesh, normals);
+    if (bad.empty() && looked.size() == all.size()) return static_cast<int>(outside.size());
+    for (const auto f : bad) {
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
+        mesh.point(v) = wrapped[v];
+        outside.insert(v);
+      }
+    }
+    looked = bad.empty() ? all : Widened(bad, mesh);
+  }
+  for (const auto v : mesh.vertices()) mesh.point(v) = wrapped[v];
+  return static_cast<int>(wrapped.size());
+}
+
+}  // namespace
+
+StageResult WrapSurface(const object::PolygonSoup& soup) {
+  const double radius = kWrapDetail * object::ComputeDiameter(soup.vertices);
+  StageResult result;
+  Json& volumes = result.facts["volumes"] = Json::array();
+  for (const double coarser : kCoarserWraps) {
+    const Mesh coarse = Wrap(soup, coarser * radius, kWrapOffset * radius);
+    volumes.push_back({{"radius", coarser * radius}, {"volume", VolumeOf(coarse)}});
+  }
+  Mesh mesh = Wrap(soup, radius, kWrapOffset * radius);
+  volumes.push_back({{"radius", radius}, {"volume", VolumeOf(mesh)}});
+  result.facts["vertices"] = mesh.num_vertices();
+  result.facts["vertices_outside"] = DrawBack(mesh, SurfaceDistance(soup));
+  result.soup = SoupOf(mesh);
+  return result;
+}
+
+StageResult Solidify(const object::PolygonSoup& soup, double thickness) {
+  /// The ball that makes a sheet's surface smooth, over its thickness.
+  constexpr double kBall = 1;
+  StageResult result{SoupOf(Wrap(soup, kBall * thickness, thickness / 2))};
+  result.facts["thickness"] = thickness;
+  return result;
+}
+
+}  // namespace regrasp::repair

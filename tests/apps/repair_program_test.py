@@ -1,0 +1,102 @@
+"""The program repair from the shell, and plans on what it repairs."""
+
+import json
+
+import program_case
+from program_case import ProgramCase
+
+# A box of 6 × 4 × 4 cm without its bottom.
+OPEN_BOX = """v 0 0 0
+v 0.06 0 0
+v 0.06 0.04 0
+v 0 0.04 0
+v 0 0 0.04
+v 0.06 0 0.04
+v 0.06 0.04 0.04
+v 0 0.04 0.04
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
+
+class Repair(ProgramCase):
+    program = "repair"
+
+    def setUp(self):
+        super().setUp()
+        self.write("open.obj", OPEN_BOX)
+
+    def repair(self, *more):
+        return self.assert_done("--object", "open.obj", "--output", "solid.obj", *more)
+
+    def test_a_hole_is_filled_and_the_report_says_so(self):
+        done = self.repair("--report", "repair.json")
+        self.assertIn("fill-holes", done.stderr)
+        self.assertIn("18.7 % of the surface invented", done.stderr)
+        report = json.loads(self.read("repair.json"))
+        self.assertEqual(report["stages"][-1]["outcome"], "solid")
+        self.assertAlmostEqual(report["volume"], 0.06 * 0.04 * 0.04)
+        self.assertIn(b"g invented", self.read("solid.obj"))
+
+    def test_the_same_input_gives_the_same_bytes_and_nothing_is_overwritten(self):
+        self.repair()
+        first = self.read("solid.obj")
+        self.repair()
+        self.assertEqual(self.read("solid.obj"), first)
+        self.assert_refused(2, "open.obj", "--object", "open.obj", "--output", "open.obj")
+
+    def test_a_sheet_is_refused_with_what_would_help(self):
+        self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.assert_refused(2, "--solidify", "--object", "sheet.obj", "--output", "s.obj")
+        self.assert_done("--object", "sheet.obj", "--output", "s.obj", "--solidify", "0.05")
+
+    def plan(self, *more, output="plan.json"):
+        return self.assert_done("--object", "open.obj", "--mu", "0.6", "--start", "random",
+                                "--goal", "random", "--seed", "3", "--output", output, *more,
+                                program="plan")
+
+    def test_a_plan_on_a_repaired_object_is_validated_on_it(self):
+        done = self.plan("--repair")
+        self.assertIn("fill-holes", done.stderr)
+        plan = json.loads(self.read("plan.json"))
+        self.assertEqual(set(plan["object"]["repair"]), {"sha256", "max_deviation"})
+        for grasp in (plan["initial"], plan["goal"]):
+            for contact in grasp["contacts"]:
+                self.assertGreater(contact["point"][2], 0, "a finger on the invented bottom")
+        validate = ["--plan", "plan.json", "--no-frames", "--out", "result"]
+        self.assert_done("--object", "open.obj", *validate, program="validate")
+        self.assert_done("--object", "open.obj", "--repair", *validate, program="validate")
+        # The solid itself does too.
+        self.repair()
+        self.assert_done("--object", "solid.obj", *validate, program="validate")
+
+    def test_a_plan_for_another_repair_is_refused(self):
+        self.plan("--repair")
+        plan = json.loads(self.read("plan.json"))
+        plan["object"]["repair"]["sha256"] = "0" * 64
+        self.write_json("plan.json", plan)
+        self.assert_refused(2, "/object/repair/sha256", "--object", "open.obj", "--plan",
+                            "plan.json", "--out", "result", program="validate")
+
+    def test_a_plan_that_was_made_without_repair_is_not_validated_with_it(self):
+        self.write_json("cube_plan.json", self.plan_of_cube())
+        self.assert_refused(2, "was made for an object as its file has it", "--object",
+                            self.model("cube.obj"), "--plan", "cube_plan.json", "--repair",
+                            "--out", "result", program="validate")
+
+    def test_a_refusal_says_what_a_repair_would_make_of_it(self):
+        words = ["1 border", "--repair makes a solid of it", "fill-holes", "deviation 0 %"]
+        self.assert_refused(2, words, "--object", "open.obj", "--mu", "0.6", "--start", "random",
+                            "--goal", "random", "--output", "p.json", program="plan")
+
+    def test_options_of_a_repair_need_it(self):
+        self.assert_refused(2, "--repair", "--object", "open.obj", "--mu", "0.6", "--start",
+                            "random", "--goal", "random", "--output", "p.json", "--part", "1",
+                            program="plan")
+
+
+if __name__ == "__main__":
+    program_case.main()

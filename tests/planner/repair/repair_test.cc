@@ -1,0 +1,255 @@
+#include "planner/repair/repair.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/error.h"
+#include "planner/object/mesh_defect.h"
+#include "planner/object/mesh_readers.h"
+#include "planner/sampling/surface_sampler.h"
+#include "tests/fixtures/soups.h"
+
+namespace regrasp::repair {
+namespace {
+
+using Eigen::Vector3d;
+using object::PolygonSoup;
+using object::Polyhedron;
+using object::RepairOptions;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using namespace regrasp::testing;  // NOLINT: the meshes of objects
+
+constexpr double kTight = 1e-9;
+
+Polyhedron SolidOf(const Repaired& repaired) {
+  return Polyhedron::FromSoup(repaired.solid, "repaired");
+}
+
+std::string LastStage(const Repaired& repaired) { return repaired.stages.back().stage; }
+
+std::string Refusal(const PolygonSoup& soup, const RepairOptions& options = {}) {
+  try {
+    (void)Repair(soup, "soup", options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+/// Facets `first` and behind it of a sphere of 20 rows, from its south to its north in columns.
+PolygonSoup SphereAbove(double height) {
+  PolygonSoup soup = SphereSoup(20);
+  std::erase_if(soup.facets, [&](const std::vector<int>& facet) {
+    return std::ranges::any_of(facet, [&](int v) { return soup.vertices[v].z() < height; });
+  });
+  return soup;
+}
+
+TEST(Repair, ASolidStaysAsItIs) {
+  const Repaired repaired = Repair(UnitCubeSoup(), "cube", {});
+  EXPECT_EQ(LastStage(repaired), "read");
+  EXPECT_NEAR(repaired.volume, 1, kTight);
+  EXPECT_EQ(repaired.comparison.to_solid.largest, 0);
+  EXPECT_EQ(repaired.comparison.invented_share, 0);
+}
+
+TEST(Repair, ACubeWithoutAFaceGetsItBackAsInvented) {
+  PolygonSoup cube = UnitCubeSoup();
+  const std::vector<int> lost = cube.facets.back();
+  cube.facets.pop_back();
+  const Repaired repaired = Repair(cube, "cube", {});
+  EXPECT_EQ(LastStage(repaired), "fill-holes");
+  EXPECT_NEAR(repaired.volume, 1, kTight);
+  EXPECT_NEAR(repaired.comparison.invented_share, 1.0 / 6, kTight);
+  const Polyhedron solid = SolidOf(repaired);
+  int invented = 0;
+  for (FaceIndex face{0}; face < solid.face_count(); ++face) {
+    if (!solid.IsInvented(face)) continue;
+    ++invented;
+    EXPECT_NEAR(solid.CentroidOf(face).x(), cube.vertices[lost[0]].x(), kTight);
+  }
+  EXPECT_EQ(invented, 1);
+  EXPECT_EQ(repaired.stages.back().facts["holes"], 1);
+  EXPECT_NEAR(repaired.stages.back().facts["widest"][0]["border_length"], 4, kTight);
+  EXPECT_NEAR(repaired.stages.back().facts["widest"][0]["width"], std::sqrt(2), kTight);
+}
+
+TEST(Repair, NoContactIsDrawnOnInventedSurface) {
+  PolygonSoup cube = UnitCubeSoup();
+  cube.facets.pop_back();
+  const Polyhedron solid = SolidOf(Repair(cube, "cube", {}));
+  const sampling::SurfaceSampler sampler(solid);
+  EXPECT_NEAR(sampler.measure(), 5, kTight);
+  // Control: without the marks all six faces are drawn on.
+  PolygonSoup unmarked = Repair(cube, "cube", {}).solid;
+  unmarked.invented.clear();
+  const Polyhedron whole = Polyhedron::FromSoup(unmarked, "whole");
+  EXPECT_NEAR(sampling::SurfaceSampler(whole).measure(), 6, kTight);
+}
+
+TEST(Repair, InventedSurfaceJoinsNoFaceOfTheOriginal) {
+  // A gap in the middle of a flat face: coplanar, and yet a face of its own.
+  PolygonSoup block = HoleBlockSoup();
+  std::erase_if(block.facets, [](const std::vector<int>& f) {
+    return f[0] % 8 >= 4 && f[1] % 8 >= 4 && f[2] % 8 >= 4 && f[3] % 8 >= 4;
+  });
+  const Repaired repaired = Repair(block, "block", {});
+  EXPECT_NEAR(repaired.volume, 9, kTight);
+  EXPECT_EQ(SolidOf(repaired).face_count(), 8);  // six of the box, two of them with a lid
+}
+
+TEST(Repair, OverlappingShellsBecomeTheirUnion) {
+  const PolygonSoup two =
+      Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({1, 0.25, 0.25}, {3, 0.75, 0.75}));
+  const Repaired repaired = Repair(two, "two", {});
+  EXPECT_EQ(LastStage(repaired), "unite-shells");
+  EXPECT_NEAR(repaired.volume, 2.25, kTight);
+  EXPECT_EQ(repaired.comparison.invented_share, 0);
+  EXPECT_EQ(repaired.stages.back().facts["shells"], 2);
+}
+
+TEST(Repair, AShellThatTurnsInwardsBesideOthersIsTurned) {
+  PolygonSoup inward = BoxSoup({1, 0.25, 0.25}, {3, 0.75, 0.75});
+  Turn(inward);
+  EXPECT_NEAR(Repair(Join(BoxSoup({0, 0, 0}, {2, 1, 1}), inward), "two", {}).volume, 2.25, kTight);
+}
+
+TEST(Repair, FacetsThatAreTurnedTheWrongWayAreTurned) {
+  PolygonSoup cube = UnitCubeSoup();
+  std::ranges::reverse(cube.facets[2]);
+  const Repaired repaired = Repair(cube, "cube", {});
+  EXPECT_EQ(LastStage(repaired), "clean");
+  EXPECT_NEAR(repaired.volume, 1, kTight);
+}
+
+TEST(Repair, SolidsBesideEachOtherAreRefusedUnlessOneIsChosen) {
+  const PolygonSoup two = Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({5, 0, 0}, {6, 1, 1}));
+  EXPECT_THAT(Refusal(two), AllOf(HasSubstr("2 solids beside each other"), HasSubstr("66.7 %"),
+                                  HasSubstr("33.3 %"), HasSubstr("--part")));
+  RepairOptions options;
+  options.max_deviation = 10;  // the other one is lost
+  options.part = 1;
+  EXPECT_NEAR(Repair(two, "two", options).volume, 2, kTight);
+  options.part = 2;
+  EXPECT_NEAR(Repair(two, "two", options).volume, 1, kTight);
+  options.part = 3;
+  EXPECT_THAT(Refusal(two, options), HasSubstr("no part 3"));
+}
+
+TEST(Repair, ASpeckBesideASolidIsDropped) {
+  const PolygonSoup two =
+      Join(BoxSoup({0, 0, 0}, {2, 1, 1}), BoxSoup({2.1, 0, 0}, {2.15, 0.05, 0.05}));
+  EXPECT_NEAR(Repair(two, "two", {}).volume, 2, kTight);
+}
+
+TEST(Repair, AnOpenSheetIsRefusedAndGetsAWallWhereOneIsAsked) {
+  PolygonSoup sheet = BoxSoup({0, 0, 0}, {2, 2, 1});
+  sheet.facets.resize(1);
+  EXPECT_THAT(Refusal(sheet), HasSubstr("--solidify"));
+  RepairOptions options;
+  options.thickness = 0.1;
+  const Repaired repaired = Repair(sheet, "sheet", options);
+  EXPECT_NEAR(repaired.volume, 4 * 0.1, 0.1 * 4 * 0.1);
+  EXPECT_EQ(LastStage(repaired), "solidify");
+}
+
+TEST(Repair, AScanOfOneSideIsRefusedWithTheShareThatIsMissing) {
+  EXPECT_THAT(Refusal(SphereAbove(-0.01)),
+              AllOf(HasSubstr("not all there"), HasSubstr("invented"), HasSubstr("25 %")));
+  // Control: most of the sphere is enough.
+  const Repaired most = Repair(SphereAbove(-0.75), "most", {});
+  EXPECT_GT(most.comparison.invented_share, 0.05);
+  EXPECT_LT(most.comparison.invented_share, 0.25);
+}
+
+TEST(Repair, AStrayFacetIsDropped) {
+  PolygonSoup soup = UnitCubeSoup();
+  soup.vertices.push_back({-0.2, 0.3, -0.8});
+  soup.vertices.push_back({0.2, 0.1, 0.8});
+  soup.vertices.push_back({0.3, 0.3, 0.8});
+  soup.facets.push_back({8, 9, 10});
+  RepairOptions options;
+  options.max_deviation = 0.1;  // its ends stand out
+  const Repaired repaired = Repair(soup, "soup", options);
+  EXPECT_NEAR(repaired.volume, 1, kTight);
+  EXPECT_EQ(SolidOf(repaired).face_count(), 6);
+}
+
+TEST(Repair, WhatFormsNoSurfaceIsWrapped) {
+  // Six squares that pass through each other a little: no two have a corner in common.
+  PolygonSoup soup;
+  for (const auto& facet : UnitCubeSoup().facets) {
+    Vector3d centre = Vector3d::Zero();
+    for (const int v : facet) centre += UnitCubeSoup().vertices[v] / 4;
+    std::vector<int>& square = soup.facets.emplace_back();
+    for (const int v : facet) {
+      square.push_back(static_cast<int>(soup.vertices.size()));
+      soup.vertices.push_back(centre + 1.01 * (UnitCubeSoup().vertices[v] - centre));
+    }
+  }
+  const Repaired repaired = Repair(soup, "soup", {});
+  EXPECT_EQ(LastStage(repaired), "wrap");
+  EXPECT_NEAR(repaired.volume, 1, 0.03);
+  EXPECT_LT(repaired.comparison.seen_most, 0.01 * repaired.diameter);
+  const auto& volumes = repaired.stages.back().facts["volumes"];
+  ASSERT_EQ(volumes.size(), 3u);
+  // A finer ball enters more.
+  EXPECT_GE(volumes[0]["volume"], volumes[1]["volume"]);
+  EXPECT_GE(volumes[1]["volume"], volumes[2]["volume"]);
+}
+
+TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
+  PolygonSoup cloud{SphereSoup(40).vertices, {}};
+  const Repaired repaired = Repair(cloud, "cloud", {});
+  EXPECT_NEAR(repaired.volume, 4.0 / 3 * 3.14159265, 0.05);
+  EXPECT_LT(repaired.comparison.invented_share, 0.01);
+  std::erase_if(cloud.vertices, [](const Vector3d& v) { return v.z() < 0; });
+  EXPECT_THAT(Refusal(cloud), HasSubstr("not all there"));
+}
+
+TEST(Repair, TheSameSurfaceGivesTheSameBytesAndTheFileHoldsTheSameSolid) {
+  const PolygonSoup soup = SphereAbove(-0.75);
+  const Repaired repaired = Repair(soup, "sphere", {});
+  const std::string text = FormatSolid(repaired.solid);
+  EXPECT_EQ(FormatSolid(Repair(soup, "sphere", {}).solid), text);
+  const PolygonSoup read = object::ReadObj(text, "file");
+  EXPECT_EQ(read.vertices, repaired.solid.vertices);
+  EXPECT_EQ(read.facets, repaired.solid.facets);
+  EXPECT_EQ(read.invented, repaired.solid.invented);
+}
+
+TEST(Repair, ACoarserSolidHasNoMoreFacetsThanAskedAndKeepsToTheDeviation) {
+  RepairOptions options;
+  options.facets = 500;
+  const Repaired repaired = Repair(SphereSoup(30), "sphere", options);
+  EXPECT_LE(repaired.solid.facets.size(), 500u);
+  EXPECT_LT(repaired.comparison.seen_most, 0.01 * repaired.diameter);
+  options.facets = 20;
+  EXPECT_THAT(Refusal(SphereSoup(30), options), HasSubstr("--max-deviation"));
+}
+
+TEST(Repair, LengthsScaleWithTheObjectAndSharesStay) {
+  PolygonSoup cube = UnitCubeSoup();
+  cube.facets.pop_back();
+  const Repaired one = Repair(cube, "cube", {});
+  Transform(cube, Eigen::Affine3d(Eigen::Scaling(1e-3)));
+  const Repaired small = Repair(cube, "cube", {});
+  EXPECT_NEAR(small.volume, 1e-9, 1e-9 * kTight);
+  EXPECT_NEAR(small.diameter, 1e-3 * one.diameter, kTight);
+  EXPECT_NEAR(small.comparison.invented_share, one.comparison.invented_share, kTight);
+}
+
+TEST(Repair, TheTimeLimitEndsIt) {
+  object::Reading reading;
+  reading.deadline = Deadline(Deadline::Clock::now());
+  PolygonSoup cube = UnitCubeSoup();
+  cube.facets.pop_back();
+  EXPECT_THROW((void)Repair(cube, "cube", {}, reading), TimeUp);
+}
+
+}  // namespace
+}  // namespace regrasp::repair

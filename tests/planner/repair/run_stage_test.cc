@@ -1,0 +1,39 @@
+#include "planner/repair/run_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "tests/fixtures/soups.h"
+
+namespace regrasp::repair {
+namespace {
+
+StageResult CubeWithFacts() {
+  StageResult result{testing::UnitCubeSoup()};
+  result.facts["holes"] = 3;
+  return result;
+}
+
+TEST(RunStage, ResultAndFactsComeBack) {
+  const StageRun run = RunStage(CubeWithFacts, {});
+  ASSERT_TRUE(run.result);
+  EXPECT_EQ(run.result->facts["holes"], 3);
+  EXPECT_EQ(run.result->soup.facets, testing::UnitCubeSoup().facets);
+}
+
+TEST(RunStage, AStageThatCannotGoOnSaysWhy) {
+  const StageRun run = RunStage([]() -> StageResult { throw std::runtime_error("no"); }, {});
+  EXPECT_FALSE(run.result);
+  EXPECT_EQ(run.failure, "no");
+}
+
+TEST(RunStage, AStageThatCrashesTakesNothingWithIt) {
+  const StageRun run = RunStage([]() -> StageResult { std::abort(); }, {});
+  EXPECT_FALSE(run.result);
+  EXPECT_EQ(run.failure, "it crashed or ran out of memory");
+}
+
+}  // namespace
+}  // namespace regrasp::repair
