@@ -119,7 +119,8 @@ double PlannerOptions::PlannedHalfAngle() const {
   const double planned = half_angle - Radians(roughness_deg);
   if (planned > 0) return planned;
   throw InputError("--roughness: of the friction's half-angle, " +
-                   FormatShort(Degrees(half_angle)) + "°, nothing is left to plan with; ask for less "
+                   FormatShort(Degrees(half_angle)) +
+                   "°, nothing is left to plan with; ask for less "
                    "than that");
 }
 

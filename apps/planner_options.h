@@ -40,8 +40,8 @@ struct PlannerOptions {
   /// @param program  that says so.
   [[nodiscard]] object::ObjectFile ReadObjectFile(const std::string& program) const;
 
-  /// What a fingertip feels of the surface, where normals are to be taken with caution: --patch, and
-  /// of repaired objects.
+  /// What a fingertip feels of the surface, where normals are to be taken with caution: --patch,
+  /// and of repaired objects.
   [[nodiscard]] std::optional<object::FeltPatch> patch_felt() const;
 
   /// What the options ask for, on an object; start and goal are left open.

@@ -4,6 +4,7 @@
 set(regrasp_slow_tests
   apps.animation
   apps.batch
+  apps.corpus
   apps.endurance
   apps.failing_frames
   apps.frames
@@ -14,6 +15,7 @@ set(regrasp_slow_tests
   apps.polyhedra
   apps.reach
   apps.real_meshes
+  apps.repair
   apps.smooth_models
   apps.trials
   apps.validate
@@ -23,6 +25,7 @@ set(regrasp_slow_tests
   fuzz.off
   fuzz.plan
   fuzz.ply
+  fuzz.points
   fuzz.report
   fuzz.soup
   fuzz.stl

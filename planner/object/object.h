@@ -109,12 +109,12 @@ class Object {
   /// True iff a repair invented the face, where the original surface has a gap (repair/repair.h).
   [[nodiscard]] bool IsInvented(FaceIndex face) const { return faces_[face].invented; }
 
-  /// True iff the face's normal is not that of the surface about it, as scans have it (rough_faces.h);
-  /// never unless Reading::patch asks for it.
+  /// True iff the face's normal is not that of the surface about it, as scans have it
+  /// (rough_faces.h); never unless Reading::patch asks for it.
   [[nodiscard]] bool IsRough(FaceIndex face) const { return faces_[face].rough; }
 
-  /// True iff planners place fingers on the face: it can be reached, it is known to be there, and so
-  /// is its normal.
+  /// True iff planners place fingers on the face: it can be reached, it is known to be there, and
+  /// so is its normal.
   [[nodiscard]] bool TakesFingers(FaceIndex face) const {
     return !IsEnclosed(face) && !IsInvented(face) && !IsRough(face);
   }

@@ -69,8 +69,7 @@ class PatchSum {
 
 std::vector<bool> FindRoughFaces(const TriangleMesh& mesh, const SurfaceTopology& topology,
                                  const std::vector<FaceIndex>& face_of_triangle,
-                                 const std::vector<Face>& faces, double radius,
-                                 double most_angle) {
+                                 const std::vector<Face>& faces, double radius, double most_angle) {
   std::vector<std::vector<TriangleIndex>> triangles_of(faces.size());
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     triangles_of[face_of_triangle[t]].push_back(t);

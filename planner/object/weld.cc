@@ -64,7 +64,14 @@ void DropUnused(WeldedSoup& soup) {
 }
 
 WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
-  if (soup.facets.empty()) throw MeshError(MeshDefect::kEmpty, name + ": empty: no facet");
+  if (soup.facets.empty()) {
+    throw MeshError(
+        MeshDefect::kEmpty,
+        name + ": empty: no facet" +
+            (soup.vertices.empty() ? ""
+                                   : ", but a cloud of " + std::to_string(soup.vertices.size()) +
+                                         " points, of which a repair may make a body"));
+  }
   if (soup.facets.size() > kMaxFacets) {
     throw MeshError(MeshDefect::kTooLarge, name + ": " + std::to_string(soup.facets.size()) +
                                                " facets, more than " + std::to_string(kMaxFacets));
