@@ -4,7 +4,6 @@
 set(regrasp_slow_tests
   apps.animation
   apps.batch
-  apps.corpus
   apps.endurance
   apps.failing_frames
   apps.frames
