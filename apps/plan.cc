@@ -21,6 +21,7 @@
 #include "planner/object/mesh_defect.h"
 #include "planner/plan/check.h"
 #include "planner/plan/grasp_io.h"
+#include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/solve.h"
 #include "planner/repair/repair.h"
@@ -228,6 +229,7 @@ int PlanProgram::Run() const {
   certificate::AddCertificates(*object.object, *result.plan);
   const plan::PlanCheck check = plan::CheckPlan(*object.object, *result.plan);
   if (!check.passed()) result.warnings.push_back(CheckerComplaint(check));
+  result.warnings.push_back(plan::InventedContactsWarning(*object.object, check.located));
   const std::string text = plan::FormatPlan(*result.plan);
   if (output == "-") {
     std::cout << text;

@@ -22,6 +22,7 @@
 #include "planner/base/stopwatch.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/reading.h"
+#include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
 #include "planner/repair/repair.h"
 #include "report/failure.h"
@@ -395,7 +396,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   WriteResults(options, frame, task, samples, folder, report);
   const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
   for (const std::string& warning :
-       {object::SizeWarning(body, task.plan.scale), options.friction.warning()}) {
+       {object::SizeWarning(body, task.plan.scale), options.friction.warning(),
+        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan))}) {
     if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
   }
   for (const std::string& warning : report.warnings()) {

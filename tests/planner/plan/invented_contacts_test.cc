@@ -1,0 +1,54 @@
+#include "planner/plan/invented_contacts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/locate.h"
+#include "tests/fixtures/soups.h"
+
+namespace regrasp::plan {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A cube whose side at x = 0.5 was invented.
+object::Polyhedron CubeWithInventedSide() {
+  object::PolygonSoup cube = testing::UnitCubeSoup();
+  cube.invented.assign(cube.facets.size(), false);
+  cube.invented[3] = true;
+  return object::Polyhedron::FromSoup(cube, "cube");
+}
+
+FingerContact Contact(int finger, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+  return {FingerIndex(finger), {p, n, {}}};
+}
+
+const FingerContact kLeft = Contact(0, {-0.5, 0, 0}, {1, 0, 0});
+const FingerContact kRight = Contact(1, {0.5, 0, 0}, {-1, 0, 0});
+const FingerContact kTop = Contact(2, {0, 0, 0.5}, {0, 0, -1});
+
+std::string WarningOf(const Plan& plan) {
+  const object::Polyhedron cube = CubeWithInventedSide();
+  return InventedContactsWarning(cube, LocatePlan(cube, plan));
+}
+
+TEST(InventedContacts, FingersOnTheOriginalSurfaceAreNoneToWarnOf) {
+  Plan plan;
+  plan.initial = {kLeft, kTop};
+  EXPECT_EQ(WarningOf(plan), "");
+}
+
+TEST(InventedContacts, TheFirstIsNamedAndAllAreCounted) {
+  Plan plan;
+  plan.initial = {kLeft, kRight};
+  EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact lies on surface that a repair invented "
+                                         "(finger 1 in the initial grasp)"));
+  plan.initial = {kLeft, kTop};
+  plan.steps = {Switch{{kRight}, {}}, Align{{{kLeft, kTop, kRight}, {kLeft, kTop, kRight}}}};
+  EXPECT_THAT(WarningOf(plan), HasSubstr("2 contacts lie on surface that a repair invented "
+                                         "(finger 1 in step 1)"));
+}
+
+}  // namespace
+}  // namespace regrasp::plan
