@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -24,8 +25,10 @@ using Pairs = std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>;
 /// Gaps are made wider by a ring of facets until what fills them meets nothing; so often at most.
 constexpr int kMostRings = 4;
 
-/// What is cut off by a gap is dropped where it has no more facets than this.
+/// What is cut off by a gap is dropped where it has no more facets than this, nor more than a
+/// hundredth of all.
 constexpr std::size_t kScrapFacets = 20;
+constexpr std::size_t kScrapShare = 100;
 
 Pairs FindPairs(const Mesh& mesh) {
   /// More than this many pairs are no blemishes: shells that pass through each other.
@@ -56,7 +59,8 @@ std::set<Mesh::Face_index> FacetsAbout(const Pairs& pairs, int rings, const Mesh
 /// Cuts facets out and fills the gaps. @returns whether they could be filled.
 bool Refill(Mesh& mesh, const std::set<Mesh::Face_index>& facets) {
   for (const auto f : facets) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
-  pmp::keep_large_connected_components(mesh, kScrapFacets + 1);
+  pmp::keep_large_connected_components(
+      mesh, 1 + std::min(kScrapFacets, faces(mesh).size() / kScrapShare));
   pmp::duplicate_non_manifold_vertices(mesh);
   std::vector<Mesh::Halfedge_index> borders;
   pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
@@ -66,7 +70,7 @@ bool Refill(Mesh& mesh, const std::set<Mesh::Face_index>& facets) {
     if (patch.empty()) return false;
   }
   mesh.collect_garbage();
-  return !pmp::does_self_intersect(mesh);
+  return mesh.num_faces() > 0 && !pmp::does_self_intersect(mesh);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(FingerMarkerTest, AReleasedFingerIsSeenBelowTheOneThatTakesItsPlaceAndOnIt)
 
 TEST(FingerMarkerTest, ThoseThatAreApartKeepTheirSize) {
   for (const bool ring : {false, true}) {
-    std::vector<FingerMarker> markers = SideBySide(0, 1, 2.01 * kMarkerRadius, ring);
+    std::vector<FingerMarker> markers = SideBySide(0, 1, 2.5 * kMarkerRadius, ring);
     EnlargeCovered(markers);
     for (const FingerMarker& marker : markers) EXPECT_EQ(marker.radius, kMarkerRadius);
   }
