@@ -25,6 +25,10 @@ using Pairs = std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>;
 /// Gaps are made wider by a ring of facets until what fills them meets nothing; so often at most.
 constexpr int kMostRings = 4;
 
+/// No more than this share of the facets is cut out: where more meet, bodies pass through each
+/// other.
+constexpr double kMostCutOut = 0.1;
+
 /// What is cut off by a gap is dropped where it has no more facets than this, nor more than a
 /// hundredth of all.
 constexpr std::size_t kScrapFacets = 20;
@@ -79,9 +83,12 @@ StageResult RemoveCrossings(const object::PolygonSoup& soup) {
   const Mesh whole = MeshOf(soup);
   if (!CGAL::is_closed(whole)) throw std::runtime_error("it is not closed");
   const Pairs pairs = FindPairs(whole);
+  if (pairs.empty()) throw std::runtime_error("no two facets meet");
   for (int rings = 0; rings <= kMostRings; ++rings) {
     Mesh mesh = whole;
-    if (!Refill(mesh, FacetsAbout(pairs, rings, mesh))) continue;
+    const std::set<Mesh::Face_index> facets = FacetsAbout(pairs, rings, mesh);
+    if (double(facets.size()) > kMostCutOut * double(mesh.num_faces())) break;
+    if (!Refill(mesh, facets)) continue;
     StageResult result{SoupOf(mesh)};
     result.facts["crossing_pairs"] = pairs.size();
     result.facts["rings_cut_out"] = rings;

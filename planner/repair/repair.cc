@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "planner/base/error.h"
@@ -110,7 +112,8 @@ class Ladder {
       const auto result = Run(name, [&] { return stage(best); });
       if (!result) continue;
       if (Accepts(result->soup)) return;
-      best = result->soup;
+      // What was cut out is not to be missed by the wrap.
+      if (std::string_view(name) != "remove-crossings") best = result->soup;
     }
     Refuse();
   }
@@ -223,9 +226,21 @@ class Ladder {
 
   /// Whether a stage can do anything about a surface.
   bool Applies(const std::string& stage, const PolygonSoup& best) {
-    if (stage == "wrap") return true;
+    if (stage == "fill-holes") return HasOpenEdges(best);
     if (stage == "unite-shells") return CountShells(best) > 1;
     return true;
+  }
+
+  /// @param soup  as CleanSurface makes it: no edge has more than two facets.
+  static bool HasOpenEdges(const PolygonSoup& soup) {
+    std::set<std::pair<int, int>> edges;
+    for (const auto& facet : soup.facets) {
+      for (std::size_t k = 0; k < facet.size(); ++k) {
+        const int from = facet[k], to = facet[(k + 1) % facet.size()];
+        if (edges.erase({to, from}) == 0) edges.insert({from, to});
+      }
+    }
+    return !edges.empty();
   }
 
   static int CountShells(const PolygonSoup& soup) {

@@ -16,6 +16,12 @@ Json SummaryJson(const DistanceSummary& summary, double diameter) {
           {"where", {summary.where.x(), summary.where.y(), summary.where.z()}}};
 }
 
+/// Below a thousandth of a percent is rounding.
+std::string Percent(double share) {
+  constexpr double kRounding = 1e-5;
+  return share < kRounding ? "0 %" : FormatShort(100 * share, 3) + " %";
+}
+
 Json StagesJson(const std::vector<StageReport>& stages) {
   Json list = Json::array();
   for (const StageReport& stage : stages) {
@@ -71,9 +77,9 @@ std::string RepairText(const Repaired& repaired) {
     first = false;
   }
   const double d = repaired.diameter;
-  return text + "); deviation " + FormatShort(100 * repaired.comparison.seen_most / d, 3) +
-         " % of the diameter, " + FormatShort(100 * repaired.comparison.invented_share, 3) +
-         " % of the surface invented";
+  return text + "); deviation " + Percent(repaired.comparison.seen_most / d) +
+         " of the diameter, " + Percent(repaired.comparison.invented_share) +
+         " of the surface invented";
 }
 
 }  // namespace regrasp::repair
