@@ -4,6 +4,7 @@
 set(regrasp_slow_tests
   apps.animation
   apps.batch
+  apps.corpus
   apps.endurance
   apps.failing_frames
   apps.frames

@@ -1,0 +1,114 @@
+"""What becomes of meshes that others made: each file of Debian's packages libcgal-demo and
+assimp-testmodels with the outcome that is expected of it, so that a change of behaviour is seen.
+
+tests/data/corpus.tsv has a line a file: package, file, and "accepted", "repaired STAGE" or "refused
+WORDS". `python3 tests/apps/corpus_program_test.py --programs DIR --source DIR --write` writes it
+anew; read the difference before you commit it. Where a package is missing its files are skipped.
+"""
+
+import concurrent.futures
+import json
+import os
+import subprocess
+import sys
+import tarfile
+import tempfile
+import unittest
+
+import program_case
+from program_case import ProgramCase
+
+CGAL_ARCHIVE = "/usr/share/doc/libcgal-demo/data.tar.gz"
+ASSIMP_MODELS = "/usr/share/assimp/models"
+SURFACES = (".3mf", ".dae", ".glb", ".gltf", ".obj", ".off", ".pcd", ".ply", ".pwn", ".stl", ".xyz")
+LARGEST = 100_000  # bytes: the whole takes a minute
+
+
+def surfaces(folder):
+    """Paths below a folder, in order."""
+    found = [os.path.join(base, name) for base, _, names in os.walk(folder) for name in names]
+    return sorted(os.path.relpath(path, folder) for path in found
+                  if path.lower().endswith(SURFACES) and os.path.getsize(path) <= LARGEST)
+
+
+def outcome_of(path):
+    """What `repair` says of a file, without numbers that may change."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = os.path.join(folder, "report.json")
+        done = subprocess.run(
+            [os.path.join(program_case.ARGUMENTS.programs, "repair"), "--quiet", "--object", path,
+             "--output", os.path.join(folder, "solid.obj"), "--report", report],
+            capture_output=True, text=True, timeout=program_case.HANG_SECONDS, check=False)
+        if done.returncode == 0:
+            with open(report, encoding="utf-8") as file:
+                stage = json.load(file)["stages"][-1]["stage"]
+            return "accepted" if stage == "read" else "repaired " + stage
+        if done.returncode != 2:
+            return f"exit {done.returncode}: {done.stderr.strip()}"
+        return "refused " + reason_in(done.stderr.strip().split(path + ": ")[-1])
+
+
+def reason_in(message):
+    """The words of a refusal before its first number."""
+    words = []
+    for word in message.split():
+        if any(character.isdigit() for character in word):
+            break
+        words.append(word)
+    return " ".join(words)[:60].rstrip(":;, ")
+
+
+class Corpus(ProgramCase):
+    program = "repair"
+
+    def folders(self):
+        found = {}
+        if os.path.exists(CGAL_ARCHIVE):
+            with tarfile.open(CGAL_ARCHIVE) as archive:
+                archive.extractall(self.folder)
+            found["libcgal-demo"] = self.folder
+        if os.path.isdir(ASSIMP_MODELS):
+            found["assimp-testmodels"] = ASSIMP_MODELS
+        if not found:
+            self.skipTest("neither libcgal-demo nor assimp-testmodels is installed")
+        return found
+
+    def outcomes(self):
+        files = [(package, name, os.path.join(folder, name))
+                 for package, folder in self.folders().items() for name in surfaces(folder)]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            found = pool.map(outcome_of, [path for _, _, path in files])
+            return {(package, name): outcome
+                    for (package, name, _), outcome in zip(files, found)}
+
+    def table(self):
+        return os.path.join(program_case.ARGUMENTS.source, "tests", "data", "corpus.tsv")
+
+    def test_every_file_ends_as_expected(self):
+        with open(self.table(), encoding="utf-8") as file:
+            lines = [line.rstrip("\n").split("\t") for line in file]
+        found = self.outcomes()
+        packages = {package for package, _ in found}
+        expected = {(package, name): outcome for package, name, outcome in lines
+                    if package in packages}
+        self.maxDiff = None
+        self.assertEqual(found, expected)
+        self.assertGreater(len(found), 100)
+
+
+class Write(Corpus):
+    """Not a test: writes the table."""
+
+    def test_every_file_ends_as_expected(self):
+        with open(self.table(), "w", encoding="utf-8") as file:
+            for (package, name), outcome in sorted(self.outcomes().items()):
+                file.write(f"{package}\t{name}\t{outcome}\n")
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        sys.argv.remove("--write")
+        sys.argv.append("Write")
+    else:
+        sys.argv.append("Corpus")
+    program_case.main()
