@@ -88,12 +88,13 @@ class Ladder {
     repaired_.stages.push_back(
         {"read", complaint.empty() ? kIsSolid : complaint, Json::object(), soup_.facets.size()});
     if (!complaint.empty()) return false;
+    repaired_.solid = soup_;              // with the marks of an earlier repair
+    repaired_.comparison.seen_share = 1;  // and all differences are none
+    if (!options_.facets) return true;
     const auto clean = Run("clean", [&] { return CleanSurface(soup_); });
     if (!clean) return false;
-    original_ = clean->soup;
     repaired_.stages.pop_back();
-    repaired_.solid = original_;
-    repaired_.comparison.seen_share = 1;  // and all differences are none
+    repaired_.solid = original_ = clean->soup;
     return true;
   }
 
@@ -264,7 +265,8 @@ class Ladder {
   }
 
   void Finish() {
-    if (!options_.thickness) repaired_.solid.invented = repaired_.comparison.invented;
+    const std::vector<bool>& invented = repaired_.comparison.invented;
+    if (!options_.thickness && !invented.empty()) repaired_.solid.invented = invented;
     InventedLast(repaired_.solid);
     const auto solid = object::Polyhedron::FromSoup(repaired_.solid, name_, Silently());
     repaired_.volume = solid.mass_properties().volume;

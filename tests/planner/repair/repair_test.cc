@@ -78,6 +78,16 @@ TEST(Repair, ACubeWithoutAFaceGetsItBackAsInvented) {
   EXPECT_NEAR(repaired.stages.back().facts["widest"][0]["width"], std::sqrt(2), kTight);
 }
 
+TEST(Repair, WhatWasInventedStaysInventedWhenItIsRepairedAgain) {
+  PolygonSoup cube = UnitCubeSoup();
+  cube.facets.pop_back();
+  const Repaired once = Repair(cube, "cube", {});
+  const Repaired again = Repair(once.solid, "cube", {});
+  EXPECT_EQ(LastStage(again), "read");
+  EXPECT_EQ(again.solid.invented, once.solid.invented);
+  EXPECT_EQ(FormatSolid(again.solid), FormatSolid(once.solid));
+}
+
 TEST(Repair, NoContactIsDrawnOnInventedSurface) {
   PolygonSoup cube = UnitCubeSoup();
   cube.facets.pop_back();
