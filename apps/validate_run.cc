@@ -15,6 +15,7 @@
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
+#include "apps/run_date.h"
 #include "apps/run_digest.h"
 #include "apps/verify_report.h"
 #include "planner/base/error.h"
@@ -372,6 +373,7 @@ std::string FilesText(const std::filesystem::path& folder, const report::Report&
 ValidationRun RunValidation(const ValidateOptions& options) {
   Samples samples;
   CheckOutputs(options);
+  const std::string date = RunDate();
   const Task task = ReadTask(options);
   if (!options.verify.empty()) return {Verify(options, task), {}};
   const render::FrameOptions frame = FrameOptionsFor(options, task);
@@ -390,7 +392,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   report.run = report::RunRecord{RunDigest(options, inputs),
                                  {},
                                  std::string(kValidateName) + " " + ProgramVersion(),
-                                 CommandText(options, inputs)};
+                                 CommandText(options, inputs),
+                                 date};
   AddTrials(options, task, report);
   if (options.certificates) report::AddProofs(plan::LocatePlan(object, task.plan), report);
   WriteResults(options, frame, task, samples, folder, report);

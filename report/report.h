@@ -73,6 +73,7 @@ struct RunRecord {
   std::vector<FileDigest> files;  ///< the other results of the same run
   std::string program = {};       ///< and its version
   std::string command = {};       ///< files and options that change the results
+  std::string date = {};          ///< of the run, "2026-11-23"; on the page alone
 };
 
 /// Everything that `validate` says of a plan; report.json is this.

@@ -64,6 +64,7 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   if (report.settings) AddSettings(*report.settings, facts);
   if (report.run && !report.run->program.empty()) {
     facts.Add("Program", report.run->program);
+    if (!report.run->date.empty()) facts.Add("Validated on", report.run->date + " (UTC)");
     facts.Add("Command, but for where results go", report.run->command, kLong);
   }
   facts.Add("Object, SHA-256", report.object_sha256, kLong);

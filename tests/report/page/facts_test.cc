@@ -46,8 +46,11 @@ TEST(FactsTest, TheProgramAndTheCommandAreTold) {
   Report report;
   EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Command")));
   report.run = RunRecord{"", {}, "validate 1.2", "validate --object <cube>.obj"};
+  EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Validated on")));
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>validate 1.2</dd>"));
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>validate --object &lt;cube&gt;.obj</dd>"));
+  report.run->date = "2026-02-28";
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Validated on</dt><dd>2026-02-28 (UTC)</dd>"));
 }
 
 }  // namespace
