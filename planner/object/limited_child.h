@@ -24,12 +24,13 @@ struct ChildLimits {
   std::size_t memory_bytes;
   std::chrono::seconds processor;
   std::chrono::milliseconds wall;
+  bool opens_files = false;  ///< otherwise it may use what is open already, and no more
 };
 
 /// Runs `task` in a forked child with limits and returns the bytes that it returned there.
 ///
-/// For code that may crash, hang or exhaust memory. The child prints nothing, opens no file, leaves
-/// no core file and runs no destructor or exit handler of this process. Where the program is built
+/// For code that may crash, hang or exhaust memory. The child prints nothing, leaves no core
+/// file and runs no destructor or exit handler of this process. Where the program is built
 /// with the address sanitizer, neither memory nor files are limited: it reserves more than any
 /// limit and opens pipes.
 /// @throws EnvironmentError  the process or the pipe cannot be made.

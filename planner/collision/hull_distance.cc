@@ -1,0 +1,66 @@
+#include "planner/collision/hull_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/collision/nearest_on_simplex.h"
+
+namespace regrasp::collision {
+namespace {
+
+using Eigen::Vector3d;
+using Points = std::span<const Vector3d>;
+
+constexpr double kConverged = 1e-9;  // of the distance
+constexpr int kMostIterations = 100;
+/// Of the size of the points: what rounding of differences and products may be off.
+constexpr double kRounding = 1e-14;
+
+const Vector3d& Farthest(Points points, const Vector3d& direction) {
+  const Vector3d* best = points.data();
+  double most = best->dot(direction);
+  for (const Vector3d& point : points) {
+    const double reached = point.dot(direction);
+    if (reached > most) {
+      most = reached;
+      best = &point;
+    }
+  }
+  return *best;
+}
+
+double SizeOf(Points points) {
+  double size = 0;
+  for (const Vector3d& point : points) size = std::max(size, point.lpNorm<1>());
+  return size;
+}
+
+}  // namespace
+
+DistanceBounds HullDistance(Points a, Points b, std::optional<double> decided) {
+  const double slack = kRounding * (SizeOf(a) + SizeOf(b));
+  DistanceBounds bounds;
+  Simplex simplex;
+  // Points of the difference a − b; the nearest one to the origin is looked for.
+  Vector3d nearest = a.front() - b.front();
+  simplex.points[0] = nearest;
+  simplex.size = 1;
+  bounds.upper = nearest.norm();
+  for (int i = 0; i < kMostIterations; ++i) {
+    if (bounds.upper <= slack) return {0, bounds.upper};
+    const Vector3d support = Farthest(a, -nearest) - Farthest(b, nearest);
+    bounds.lower = std::max(bounds.lower, support.dot(nearest) / bounds.upper - slack);
+    if (decided && (bounds.lower > *decided || bounds.upper <= *decided)) return bounds;
+    if (bounds.upper - bounds.lower <= kConverged * bounds.upper + slack) return bounds;
+    simplex.points[simplex.size++] = support;
+    nearest = ReduceToNearest(simplex);
+    if (simplex.size == 4) return {0, 0};
+    const double upper = nearest.norm();
+    // Only rounding is left.
+    if (upper >= bounds.upper) return bounds;
+    bounds.upper = upper;
+  }
+  return bounds;
+}
+
+}  // namespace regrasp::collision

@@ -1,0 +1,97 @@
+#include "planner/kinematics/finger_kinematics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace regrasp::kinematics {
+namespace {
+
+using Eigen::Vector3d;
+
+double AngleOf(const Joint& joint, const Posture& posture) {
+  return joint.ratio * posture[joint.drive];
+}
+
+/// From the frame of a joint to that of the next one.
+void GoOn(const Joint& joint, const Posture& posture, Eigen::Isometry3d& frame) {
+  frame.translation() += frame.linear() * joint.offset;
+  const Eigen::AngleAxisd turn(AngleOf(joint, posture) - joint.rest, joint.axis);
+  frame.linear() *= turn.toRotationMatrix();
+}
+
+}  // namespace
+
+std::vector<double> JointAngles(const Finger& finger, const Posture& posture) {
+  std::vector<double> angles;
+  angles.reserve(finger.joints.size());
+  for (const Joint& joint : finger.joints) angles.push_back(AngleOf(joint, posture));
+  return angles;
+}
+
+JointFrames FramesOf(const Finger& finger, const Posture& posture) {
+  JointFrames frames;
+  frames.reserve(finger.joints.size());
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  for (const Joint& joint : finger.joints) {
+    GoOn(joint, posture, frame);
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+TipState TipAt(const Finger& finger, const Posture& posture) {
+  std::array<Vector3d, kMostJoints> origins;
+  std::array<Vector3d, kMostJoints> axes;
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const int count = static_cast<int>(finger.joints.size());
+  for (int i = 0; i < count; ++i) {
+    const Joint& joint = finger.joints[i];
+    GoOn(joint, posture, frame);
+    origins[i] = frame.translation();
+    axes[i] = frame.linear() * joint.axis;
+  }
+  TipState state;
+  state.centre = frame * finger.tip.centre;
+  state.axis = frame.linear() * finger.tip.axis;
+  state.jacobian.setZero(3, finger.drives);
+  for (int i = 0; i < count; ++i) {
+    const Joint& joint = finger.joints[i];
+    state.jacobian.col(joint.drive) += joint.ratio * axes[i].cross(state.centre - origins[i]);
+  }
+  return state;
+}
+
+double MotionBound(const Finger& finger, const Posture& from, const Posture& to, int after,
+                   const std::vector<double>& reach) {
+  double bound = 0;
+  for (int i = 0; i < after; ++i) {
+    const Joint& joint = finger.joints[i];
+    bound += std::abs(joint.ratio * (to[joint.drive] - from[joint.drive])) * reach[i];
+  }
+  return bound;
+}
+
+std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape) {
+  double farthest = 0;
+  for (const Vector3d& point : shape.shape.points) farthest = std::max(farthest, point.norm());
+  farthest += shape.shape.radius;
+  std::vector<double> reach(shape.after);
+  for (int i = shape.after - 1; i >= 0; --i) {
+    reach[i] = farthest;
+    farthest += finger.joints[i].offset.norm();
+  }
+  return reach;
+}
+
+bool KeepsLimits(const Finger& finger, const Posture& posture, double margin) {
+  for (int i = 0; i < finger.drives; ++i) {
+    const double inside = std::min(margin, (finger.upper[i] - finger.lower[i]) / 2);
+    if (posture[i] < finger.lower[i] + inside || posture[i] > finger.upper[i] - inside) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace regrasp::kinematics

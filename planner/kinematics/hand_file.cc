@@ -1,0 +1,294 @@
+#include "planner/kinematics/hand_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/mujoco_model.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+namespace fs = std::filesystem;
+using collision::ConvexShape;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kWorld = 0;
+/// Shapes that are nearer than this while the hand is at rest are so by construction, metres.
+constexpr double kNearAtRest = 1e-3;
+
+Vector3d VectorAt(const mjtNum* numbers, int index) {
+  return Eigen::Map<const Vector3d>(numbers + std::ptrdiff_t{3} * index);
+}
+
+Isometry3d PoseAt(const mjtNum* positions, const mjtNum* matrices, int index) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = VectorAt(positions, index);
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  pose.linear() = Eigen::Map<const RowMajor>(matrices + std::ptrdiff_t{9} * index);
+  return pose;
+}
+
+/// Makes a HandModel of a description and a compiled model, everything at rest in the palm's frame.
+class HandBuilder {
+ public:
+  HandBuilder(const HandDescription& description, std::string file, const mjModel& model)
+      : description_(description),
+        file_(std::move(file)),
+        model_(model),
+        rest_(AtRest(model)),
+        palm_(FindBody(description.palm, "/palm")),
+        from_world_(PoseAt(rest_->xpos, rest_->xmat, palm_).inverse()) {}
+
+  HandModel Build() {
+    hand_.name = description_.name;
+    hand_.up = description_.up;
+    for (int i = 0; i < static_cast<int>(description_.tips.size()); ++i) AddFinger(i);
+    for (int geom = 0; geom < model_.ngeom; ++geom) AddGeom(geom);
+    for (int i = 0; i < static_cast<int>(hand_.fingers.size()); ++i) AddTipShape(i);
+    FindIgnored();
+    return std::move(hand_);
+  }
+
+ private:
+  /// What moves a body: so many joints of a finger.
+  struct Place {
+    int finger = -1;
+    int after = 0;
+  };
+
+  [[noreturn]] void Fail(const std::string& where, const std::string& what) const {
+    throw InputError(file_ + ": " + where + ": " + what);
+  }
+
+  int FindBody(const std::string& name, const std::string& where) const {
+    const int body = mj_name2id(&model_, mjOBJ_BODY, name.c_str());
+    if (body > kWorld) return body;
+    std::string bodies;
+    for (int i = 1; i < std::min(model_.nbody, 40); ++i) {
+      bodies += (bodies.empty() ? "" : ", ") + BodyName(i);
+    }
+    Fail(where, "the model has no body \"" + name + "\"; it has " + bodies);
+  }
+  std::string BodyName(int body) const {
+    const char* name = mj_id2name(&model_, mjOBJ_BODY, body);
+    return name != nullptr ? name : "body " + std::to_string(body);
+  }
+  std::string JointName(int joint) const {
+    const char* name = mj_id2name(&model_, mjOBJ_JOINT, joint);
+    return name != nullptr ? name : "joint " + std::to_string(joint);
+  }
+
+  void AddFinger(int index);
+  void AddJoints(int body, const std::string& where, Vector3d& last, Finger& finger);
+  void Couple(const std::string& where, Finger& finger) const;
+  void SetLimits(const std::string& where, Finger& finger) const;
+  void AddGeom(int geom);
+  void AddTipShape(int index);
+  void FindIgnored();
+  /// The nearest of a body and those above it that a finger or the palm is made of.
+  Place PlaceOf(int body) const;
+  /// Where the frame of a finger's joint is at rest; of the palm for 0.
+  Vector3d OriginAtRest(const Place& place) const {
+    return place.after == 0 ? Vector3d(Vector3d::Zero()) : anchors_[place.finger][place.after - 1];
+  }
+
+  const HandDescription& description_;
+  std::string file_;
+  const mjModel& model_;
+  DataPtr rest_;
+  int palm_;
+  Isometry3d from_world_;
+  HandModel hand_;
+  std::map<int, Place> places_;                 ///< of bodies between the palm and the tips
+  std::map<int, int> tip_bodies_;               ///< their fingers
+  std::vector<std::vector<Vector3d>> anchors_;  ///< of joints at rest, by finger
+};
+
+void HandBuilder::AddFinger(int index) {
+  const HandDescription::Tip& tip = description_.tips[index];
+  const std::string where = "/fingers/" + std::to_string(index);
+  const int tip_body = FindBody(tip.body, where + "/tip/body");
+  std::vector<int> bodies;
+  for (int body = tip_body; body != palm_; body = model_.body_parentid[body]) {
+    if (body == kWorld) {
+      Fail(where, "body " + tip.body + " is not below the palm " + description_.palm);
+    }
+    bodies.push_back(body);
+  }
+  std::ranges::reverse(bodies);
+  Finger finger;
+  finger.name = tip.name;
+  anchors_.emplace_back();
+  Vector3d last = Vector3d::Zero();
+  for (const int body : bodies) {
+    if (model_.body_jntnum[body] > 0 && places_.contains(body)) {
+      Fail(where, "shares joint " + JointName(model_.body_jntadr[body]) + " with finger " +
+                      hand_.fingers[places_[body].finger].name + "; each finger needs its own");
+    }
+    AddJoints(body, where, last, finger);
+    places_.try_emplace(body, Place{index, static_cast<int>(finger.joints.size())});
+  }
+  if (finger.joints.empty()) Fail(where, "no joint between the palm and body " + tip.body);
+  if (finger.joints.size() > kMostJoints) {
+    Fail(where, "has " + std::to_string(finger.joints.size()) + " joints; at most " +
+                    std::to_string(kMostJoints) + " are taken");
+  }
+  Couple(where, finger);
+  SetLimits(where, finger);
+  const Isometry3d pose = from_world_ * PoseAt(rest_->xpos, rest_->xmat, tip_body);
+  finger.tip = {tip.body, pose * tip.centre - last, tip.radius, Vector3d::UnitZ()};
+  if (finger.tip.centre.norm() > 0) finger.tip.axis = finger.tip.centre.normalized();
+  tip_bodies_[tip_body] = index;
+  hand_.fingers.push_back(std::move(finger));
+}
+
+void HandBuilder::AddJoints(int body, const std::string& where, Vector3d& last, Finger& finger) {
+  for (int i = 0; i < model_.body_jntnum[body]; ++i) {
+    const int id = model_.body_jntadr[body] + i;
+    if (model_.jnt_type[id] != mjJNT_HINGE) {
+      Fail(where, "joint " + JointName(id) + " is no hinge; fingers are chains of hinges");
+    }
+    if (model_.jnt_limited[id] == 0) Fail(where, "joint " + JointName(id) + " has no limits");
+    const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, id);
+    Joint joint;
+    joint.name = JointName(id);
+    joint.offset = anchor - last;
+    joint.axis = (from_world_.linear() * VectorAt(rest_->xaxis, id)).normalized();
+    joint.rest = model_.qpos0[model_.jnt_qposadr[id]];
+    joint.lower = model_.jnt_range[2 * id];
+    joint.upper = model_.jnt_range[2 * id + 1];
+    finger.joints.push_back(joint);
+    anchors_.back().push_back(anchor);
+    last = anchor;
+  }
+}
+
+void HandBuilder::Couple(const std::string& where, Finger& finger) const {
+  const auto find = [&](const std::string& name) {
+    return std::ranges::find(finger.joints, name, &Joint::name);
+  };
+  const auto coupling_of = [&](const Joint& joint) {
+    return std::ranges::find(description_.couplings, joint.name, &HandDescription::Coupling::joint);
+  };
+  for (Joint& joint : finger.joints) {
+    if (coupling_of(joint) == description_.couplings.end()) joint.drive = finger.drives++;
+  }
+  for (Joint& joint : finger.joints) {
+    const auto coupling = coupling_of(joint);
+    if (coupling == description_.couplings.end()) continue;
+    const auto leader = find(coupling->follows);
+    if (leader == finger.joints.end() || coupling_of(*leader) != description_.couplings.end()) {
+      Fail(where, "joint " + joint.name + " follows \"" + coupling->follows +
+                      "\", which is no joint of the same finger that moves by itself");
+    }
+    joint.drive = leader->drive;
+    joint.ratio = coupling->ratio;
+  }
+}
+
+void HandBuilder::SetLimits(const std::string& where, Finger& finger) const {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  finger.lower = Eigen::VectorXd::Constant(finger.drives, -kTurn);
+  finger.upper = Eigen::VectorXd::Constant(finger.drives, kTurn);
+  for (const Joint& joint : finger.joints) {
+    const double a = joint.lower / joint.ratio;
+    const double b = joint.upper / joint.ratio;
+    double& lower = finger.lower[joint.drive];
+    double& upper = finger.upper[joint.drive];
+    lower = std::max(lower, std::min(a, b));
+    upper = std::min(upper, std::max(a, b));
+    if (!(lower < upper)) Fail(where, "the limits of joint " + joint.name + " leave no angle");
+  }
+}
+
+HandBuilder::Place HandBuilder::PlaceOf(int body) const {
+  for (; body != kWorld; body = model_.body_parentid[body]) {
+    const auto found = places_.find(body);
+    if (found != places_.end()) return found->second;
+  }
+  return {};
+}
+
+void HandBuilder::AddGeom(int geom) {
+  const int body = model_.geom_bodyid[geom];
+  if (model_.geom_contype[geom] == 0 && model_.geom_conaffinity[geom] == 0) return;
+  // Of another tree of bodies: a table, say.
+  if (model_.body_rootid[body] != model_.body_rootid[palm_]) return;
+  if (tip_bodies_.contains(body)) return;
+  ConvexShape shape = ShapeOfGeom(model_, geom);
+  if (shape.points.empty()) return;
+  const Place place = PlaceOf(body);
+  Isometry3d pose = from_world_ * PoseAt(rest_->geom_xpos, rest_->geom_xmat, geom);
+  pose.translation() -= OriginAtRest(place);
+  LinkShape link{BodyName(body), place.after, false, Moved(pose, shape)};
+  (place.after == 0 ? hand_.palm : hand_.fingers[place.finger].shapes).push_back(std::move(link));
+}
+
+void HandBuilder::AddTipShape(int index) {
+  Finger& finger = hand_.fingers[index];
+  const int after = static_cast<int>(finger.joints.size());
+  const int body = FindBody(finger.tip.body, "/fingers");
+  const Vector3d origin = from_world_ * VectorAt(rest_->xpos, body) - OriginAtRest({index, after});
+  ConvexShape capsule{{finger.tip.centre}, finger.tip.radius};
+  if (!origin.isApprox(finger.tip.centre)) capsule.points.push_back(origin);
+  finger.shapes.push_back({finger.tip.body, after, true, std::move(capsule)});
+}
+
+/// Neighbours along a finger, and what is near each other at rest.
+void HandBuilder::FindIgnored() {
+  struct Placed {
+    HandModel::Part part;
+    int after;
+    ConvexShape shape;
+  };
+  std::vector<Placed> all;
+  const auto add = [&](int finger, const std::vector<LinkShape>& shapes) {
+    for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
+      Isometry3d pose = Isometry3d::Identity();
+      pose.translation() = OriginAtRest({finger, shapes[i].after});
+      all.push_back({{finger < 0 ? FingerIndex{} : FingerIndex(finger), i},
+                     shapes[i].after,
+                     Moved(pose, shapes[i].shape)});
+    }
+  };
+  add(-1, hand_.palm);
+  for (int i = 0; i < static_cast<int>(hand_.fingers.size()); ++i) add(i, hand_.fingers[i].shapes);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const Placed& a = all[i];
+      const Placed& b = all[j];
+      const bool same_chain =
+          a.part.finger == b.part.finger || !a.part.finger.valid() || !b.part.finger.valid();
+      const bool neighbours = same_chain && std::abs(a.after - b.after) <= 1;
+      if (neighbours || !AreApart(a.shape, b.shape, kNearAtRest)) {
+        hand_.ignored.emplace_back(a.part, b.part);
+      }
+    }
+  }
+  std::ranges::sort(hand_.ignored);
+}
+
+}  // namespace
+
+HandModel ReadHand(const fs::path& path) {
+  const std::string text = ReadFile(path);
+  const HandDescription description = ParseHandDescription(text, path.string());
+  const fs::path model_path = path.parent_path() / description.model;
+  const ModelPtr model = CompileModel(model_path);
+  HandModel hand = HandBuilder(description, path.string(), *model).Build();
+  hand.file = path.filename().string();
+  hand.sha256 = Sha256(text + ReadFile(model_path));
+  return hand;
+}
+
+}  // namespace regrasp::kinematics

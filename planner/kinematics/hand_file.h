@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "planner/kinematics/hand_model.h"
+
+namespace regrasp::kinematics {
+
+/// Reads a hand: a file `hand.json` (docs/formats.md) and the MJCF or URDF model beside it.
+///
+/// Joints between the model's root and the palm stay as the model has them at rest. Colliding geoms
+/// become convex shapes: a box its eight corners, a mesh the hull of its vertices, a cylinder or an
+/// ellipsoid a polyhedron around it; those of the tip's body are replaced by a capsule from the
+/// body's origin to the ball.
+/// @throws InputError  names the file, the element and what is wrong: the model cannot be compiled,
+///                     a body or joint is not there, fingers share a joint, a joint is no hinge or
+///                     has no limits.
+[[nodiscard]] HandModel ReadHand(const std::filesystem::path& path);
+
+}  // namespace regrasp::kinematics

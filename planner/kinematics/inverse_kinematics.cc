@@ -1,0 +1,179 @@
+#include "planner/kinematics/inverse_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace regrasp::kinematics {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+using Drives = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostJoints, 1>;
+
+constexpr int kMostSamples = 12'000;
+constexpr double kCell = 0.010;  // metres
+/// What a radian off the middle costs a sample, in metres that its tip is off the target.
+constexpr double kPostureWeight = 0.004;
+/// More than the approach allows that a sample may be off: the solver turns it.
+constexpr double kApproachSlack = 0.35;
+
+constexpr int kIterations = 40;
+constexpr double kDamping = 1e-7;  // m²/rad²: a singular direction moves no more than this allows
+constexpr double kMostTurn = 0.4;  // radians in one iteration
+constexpr double kTowardsMiddle = 0.5;
+/// The second task has come to its end when it moves no drive by more than this, radians.
+constexpr double kSettled = 2e-3;
+
+/// One step of damped least squares towards a tip `error` away, with the middle as the second task.
+/// Drives at a limit that they would go beyond stay where they are.
+struct Step {
+  Drives step;
+  double second_task = 0;  ///< largest part of it that only serves the second task
+};
+
+Step StepTo(const TipState& state, const Vector3d& error, const Posture& posture,
+            const Drives& to_middle, const Posture& lower, const Posture& upper) {
+  auto jacobian = state.jacobian;
+  Drives second = to_middle;
+  Step result;
+  for (int pass = 0; pass <= posture.size(); ++pass) {
+    const Matrix3d square = jacobian * jacobian.transpose() + kDamping * Matrix3d::Identity();
+    const Matrix3d inverse = square.inverse();
+    const Drives first = jacobian.transpose() * (inverse * error);
+    const Drives null = second - jacobian.transpose() * (inverse * (jacobian * second));
+    result.step = first + null;
+    result.second_task = null.size() > 0 ? null.cwiseAbs().maxCoeff() : 0;
+    bool changed = false;
+    for (Eigen::Index i = 0; i < posture.size(); ++i) {
+      const bool beyond = (posture[i] <= lower[i] && result.step[i] < 0) ||
+                          (posture[i] >= upper[i] && result.step[i] > 0);
+      if (!beyond || jacobian.col(i).isZero(0)) continue;
+      jacobian.col(i).setZero();
+      second[i] = 0;
+      changed = true;
+    }
+    if (!changed) break;
+  }
+  const double most = result.step.cwiseAbs().maxCoeff();
+  if (most > kMostTurn) result.step *= kMostTurn / most;
+  return result;
+}
+
+}  // namespace
+
+InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& limits)
+    : finger_(finger), limits_(limits), range_(finger.upper - finger.lower) {
+  lower_ = finger.lower;
+  upper_ = finger.upper;
+  for (int i = 0; i < finger.drives; ++i) {
+    const double inside = std::min(limits.from_limits, range_[i] / 2);
+    lower_[i] += inside;
+    upper_[i] -= inside;
+  }
+  middle_ = (lower_ + upper_) / 2;
+  const int steps =
+      std::max(2, static_cast<int>(std::floor(std::pow(kMostSamples, 1.0 / finger.drives) + 1e-9)));
+  int count = 1;
+  for (int i = 0; i < finger.drives; ++i) count *= steps;
+  std::vector<Posture> postures;
+  std::vector<TipState> tips;
+  Eigen::AlignedBox3d box;
+  for (int index = 0; index < count; ++index) {
+    Posture posture(finger.drives);
+    for (int i = 0, rest = index; i < finger.drives; ++i, rest /= steps) {
+      posture[i] = lower_[i] + (upper_[i] - lower_[i]) * (rest % steps + 0.5) / steps;
+    }
+    tips.push_back(TipAt(finger, posture));
+    postures.push_back(std::move(posture));
+    box.extend(tips.back().centre);
+  }
+  corner_ = box.min();
+  cells_ = (box.sizes() / kCell).array().floor().cast<int>() + 1;
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> cell(count);
+  for (int i = 0; i < count; ++i) cell[i] = CellOf(CellAt(tips[i].centre));
+  std::ranges::stable_sort(order, {}, [&](int i) { return cell[i]; });
+  first_of_cell_.assign(static_cast<std::size_t>(cells_.prod()) + 1, 0);
+  for (const int i : order) ++first_of_cell_[cell[i] + 1];
+  std::partial_sum(first_of_cell_.begin(), first_of_cell_.end(), first_of_cell_.begin());
+  for (const int i : order) {
+    samples_.push_back(postures[i]);
+    centres_.push_back(tips[i].centre);
+    axes_.push_back(tips[i].axis);
+  }
+}
+
+Vector3i InverseKinematics::CellAt(const Vector3d& point) const {
+  const Vector3d cell = (point - corner_) / kCell;
+  // Far away is far away, whatever an int holds.
+  return cell.cwiseMax(-10)
+      .cwiseMin(cells_.cast<double>() + Vector3d::Constant(10))
+      .array()
+      .floor()
+      .cast<int>();
+}
+
+int InverseKinematics::CellOf(const Vector3i& cell) const {
+  return (cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0];
+}
+
+int InverseKinematics::NearestSample(const TipTarget& target) const {
+  const Vector3i at = CellAt(target.centre);
+  const double least_cosine = std::cos(std::min(limits_.approach + kApproachSlack, 3.14));
+  int best = -1;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (int z = std::max(0, at[2] - 1); z <= std::min(cells_[2] - 1, at[2] + 1); ++z) {
+    for (int y = std::max(0, at[1] - 1); y <= std::min(cells_[1] - 1, at[1] + 1); ++y) {
+      const int left = std::max(0, at[0] - 1);
+      const int right = std::min(cells_[0] - 1, at[0] + 1);
+      if (left > right) continue;
+      const int end = first_of_cell_[CellOf({right, y, z}) + 1];
+      for (int i = first_of_cell_[CellOf({left, y, z})]; i < end; ++i) {
+        if (axes_[i].dot(target.towards) < least_cosine) continue;
+        const double cost = (centres_[i] - target.centre).squaredNorm() +
+                            kPostureWeight * kPostureWeight * (samples_[i] - middle_).squaredNorm();
+        if (cost >= best_cost) continue;
+        best_cost = cost;
+        best = i;
+      }
+    }
+  }
+  return best;
+}
+
+bool InverseKinematics::Fits(const TipTarget& target, const Posture& posture) const {
+  return TipAt(finger_, posture).axis.dot(target.towards) >= std::cos(limits_.approach);
+}
+
+std::optional<Posture> InverseKinematics::Solve(const TipTarget& target) const {
+  const int sample = NearestSample(target);
+  if (sample < 0) return std::nullopt;
+  return SolveFrom(target, samples_[sample]);
+}
+
+std::optional<Posture> InverseKinematics::SolveFrom(const TipTarget& target,
+                                                    const Posture& start) const {
+  Posture posture = start;
+  bool settled = false;
+  for (int i = 0; i < kIterations; ++i) {
+    const TipState state = TipAt(finger_, posture);
+    const Vector3d error = target.centre - state.centre;
+    if (settled && error.norm() <= kTipTolerance) {
+      return Fits(target, posture) ? std::optional(posture) : std::nullopt;
+    }
+    // The middle is given up in the last iterations, for the tip's sake.
+    const bool to_middle = !settled && i < kIterations - 10;
+    const Drives second = to_middle ? Drives(kTowardsMiddle * (middle_ - posture))
+                                    : Drives(Drives::Zero(posture.size()));
+    const Step step = StepTo(state, error, posture, second, lower_, upper_);
+    posture = (posture + step.step).cwiseMax(lower_).cwiseMin(upper_);
+    if (!to_middle || step.second_task < kSettled) settled = true;
+  }
+  return std::nullopt;
+}
+
+}  // namespace regrasp::kinematics

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace regrasp::kinematics {
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
+using DataPtr = std::unique_ptr<mjData, DeleteData>;
+
+/// Compiles an MJCF or URDF model with the meshes that it names. That is done in a limited child
+/// process: whatever is in the files, this one goes on.
+/// @throws InputError  names the file and says what MuJoCo says of it.
+[[nodiscard]] ModelPtr CompileModel(const std::filesystem::path& path);
+
+/// Bodies, geoms and joints as the model has them at rest (qpos0), in world coordinates.
+[[nodiscard]] DataPtr AtRest(const mjModel& model);
+
+}  // namespace regrasp::kinematics

@@ -1,0 +1,151 @@
+#include "planner/collision/convex_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/random.h"
+
+namespace regrasp::collision {
+namespace {
+
+using Eigen::Vector3d;
+
+ConvexShape Box(const Vector3d& centre, const Vector3d& half) {
+  ConvexShape box;
+  for (int i = 0; i < 8; ++i) {
+    box.points.push_back(centre + Vector3d((i & 1) != 0 ? half.x() : -half.x(),
+                                           (i & 2) != 0 ? half.y() : -half.y(),
+                                           (i & 4) != 0 ? half.z() : -half.z()));
+  }
+  return box;
+}
+
+Vector3d RandomVector(RandomStream& random) {
+  return {random.Normal(), random.Normal(), random.Normal()};
+}
+
+ConvexShape RandomHull(RandomStream& random, int points) {
+  ConvexShape shape;
+  for (int i = 0; i < points; ++i) shape.points.push_back(RandomVector(random));
+  return shape;
+}
+
+Eigen::Isometry3d RandomPose(RandomStream& random) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+          .normalized()
+          .toRotationMatrix();
+  pose.translation() = 3 * RandomVector(random);
+  return pose;
+}
+
+TEST(ConvexShapeTest, KnownDistances) {
+  const ConvexShape ball{{Vector3d(0, 0, 3)}, 1};
+  const ConvexShape capsule{{Vector3d(-5, 0, 0), Vector3d(5, 0, 0)}, 0.5};
+  EXPECT_NEAR(Distance(ball, capsule).lower, 1.5, 1e-12);
+  EXPECT_NEAR(Distance(ball, capsule).upper, 1.5, 1e-12);
+  const ConvexShape box = Box({0, 0, 0}, {1, 1, 1});
+  // Vertex to vertex, edge to edge, face to face, and a corner to the middle of a face.
+  EXPECT_NEAR(Distance(box, Box({4, 4, 4}, {1, 1, 1})).lower, 2 * std::sqrt(3.0), 1e-8);
+  EXPECT_NEAR(Distance(box, Box({4, 4, 0}, {1, 1, 5})).lower, 2 * std::sqrt(2.0), 1e-8);
+  EXPECT_NEAR(Distance(box, Box({0.3, 0.2, 4}, {1, 1, 1})).lower, 2, 1e-8);
+  EXPECT_NEAR(Distance(box, {{Vector3d(0.1, 0.2, 1.25), Vector3d(7, 7, 9)}, 0}).lower, 0.25, 1e-8);
+}
+
+TEST(ConvexShapeTest, ShapesThatOverlapHaveNoDistance) {
+  const ConvexShape box = Box({0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(Distance(box, Box({1.5, 0.3, 0.1}, {1, 1, 1})).upper, 0);
+  EXPECT_EQ(Distance(box, Box({0, 0, 0}, {0.1, 0.1, 0.1})).upper, 0);
+  EXPECT_EQ(Distance(box, {{Vector3d(0, 0, 1.4)}, 0.5}).upper, 0);
+  EXPECT_EQ(Distance(box, box).upper, 0);
+  EXPECT_FALSE(AreApart(box, box, 0));
+  // Touching is not apart.
+  EXPECT_FALSE(AreApart(box, Box({2, 0, 0}, {1, 1, 1}), 0));
+}
+
+/// The separation along a direction is a lower bound whatever finds it, and points of the shapes an
+/// upper one: both by other means than the algorithm's.
+TEST(ConvexShapeTest, BoundsHoldAndMeetOnRandomHulls) {
+  RandomStream random(1, RandomUse::kCandidates);
+  int apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const ConvexShape a = RandomHull(random, 1 + static_cast<int>(random.Index(12)));
+    const ConvexShape b =
+        Moved(RandomPose(random), RandomHull(random, 1 + static_cast<int>(random.Index(12))));
+    const DistanceBounds bounds = Distance(a, b);
+    ASSERT_LE(bounds.lower, bounds.upper);
+    ASSERT_NEAR(bounds.lower, bounds.upper, 1e-8 * bounds.upper + 1e-12);
+    // No convex combination of both is nearer.
+    for (int j = 0; j < 20; ++j) {
+      const auto draw = [&](const ConvexShape& shape) {
+        Vector3d sum = Vector3d::Zero();
+        double weights = 0;
+        for (const Vector3d& point : shape.points) {
+          const double weight = std::pow(random.Uniform(), 8);
+          sum += weight * point;
+          weights += weight;
+        }
+        return Vector3d(sum / weights);
+      };
+      ASSERT_GE((draw(a) - draw(b)).norm(), bounds.lower * (1 - 1e-12));
+    }
+    apart += static_cast<int>(bounds.lower > 0);
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_LT(apart, 2000);
+}
+
+TEST(ConvexShapeTest, TheAnswerWhetherTheyAreApartIsThatOfTheDistance) {
+  RandomStream random(2, RandomUse::kCandidates);
+  int yes = 0;
+  for (int i = 0; i < 2000; ++i) {
+    ConvexShape a = RandomHull(random, 5);
+    a.radius = random.Uniform();
+    const ConvexShape b = Moved(RandomPose(random), RandomHull(random, 3));
+    const double distance = Distance(a, b).lower;
+    ASSERT_EQ(AreApart(a, b, 0.5), distance > 0.5) << i;
+    if (distance > 0) {
+      ASSERT_TRUE(AreApart(a, b, distance * (1 - 1e-6)));
+      ASSERT_FALSE(AreApart(a, b, distance * (1 + 1e-6)));
+    }
+    yes += static_cast<int>(distance > 0.5);
+  }
+  EXPECT_GT(yes, 500);
+  EXPECT_LT(yes, 2000);
+}
+
+TEST(ConvexShapeTest, MotionOrderAndExchangeChangeNothing) {
+  RandomStream random(3, RandomUse::kCandidates);
+  for (int i = 0; i < 300; ++i) {
+    const ConvexShape a = RandomHull(random, 6);
+    const ConvexShape b = Moved(RandomPose(random), RandomHull(random, 7));
+    const double distance = Distance(a, b).lower;
+    const Eigen::Isometry3d pose = RandomPose(random);
+    EXPECT_NEAR(Distance(Moved(pose, a), Moved(pose, b)).lower, distance, 1e-7 * (1 + distance));
+    EXPECT_NEAR(Distance(b, a).lower, distance, 1e-7 * (1 + distance));
+    ConvexShape turned = a;
+    std::reverse(turned.points.begin(), turned.points.end());
+    EXPECT_NEAR(Distance(turned, b).lower, distance, 1e-7 * (1 + distance));
+    ConvexShape larger = a;
+    larger.points.push_back(RandomVector(random));
+    EXPECT_LE(Distance(larger, b).lower, distance * (1 + 1e-7));
+  }
+}
+
+TEST(ConvexShapeTest, TheBallContainsTheShape) {
+  RandomStream random(4, RandomUse::kCandidates);
+  for (int i = 0; i < 100; ++i) {
+    ConvexShape shape = RandomHull(random, 9);
+    shape.radius = 0.25;
+    const Ball ball = BallAround(shape);
+    for (const Vector3d& point : shape.points) {
+      EXPECT_LE((point - ball.centre).norm() + shape.radius, ball.radius * (1 + 1e-12));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace regrasp::collision
