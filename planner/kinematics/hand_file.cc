@@ -278,16 +278,24 @@ void HandBuilder::FindIgnored() {
   std::ranges::sort(hand_.ignored);
 }
 
+/// Of all that says what the hand is, each piece's digest after the one before.
+std::string Digest(const std::string& description, const ModelText& model) {
+  std::string digests = Sha256(description);
+  for (const fs::path& file : model.files) digests += Sha256(ReadFile(file));
+  for (const MeshFile& mesh : model.meshes) digests += Sha256(ReadFile(mesh.path));
+  return Sha256(digests);
+}
+
 }  // namespace
 
 HandModel ReadHand(const fs::path& path) {
   const std::string text = ReadFile(path);
   const HandDescription description = ParseHandDescription(text, path.string());
   const fs::path model_path = path.parent_path() / description.model;
-  const ModelPtr model = CompileModel(model_path);
-  HandModel hand = HandBuilder(description, path.string(), *model).Build();
+  const CompiledModel compiled = CompileModel(model_path);
+  HandModel hand = HandBuilder(description, path.string(), *compiled.model).Build();
   hand.file = path.filename().string();
-  hand.sha256 = Sha256(text + ReadFile(model_path));
+  hand.sha256 = Digest(text, compiled.text);
   return hand;
 }
 

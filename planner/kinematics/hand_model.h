@@ -60,8 +60,10 @@ struct Finger {
 /// A hand with fingers that are chains of hinges, in the frame of its palm; metres and radians.
 struct HandModel {
   std::string name;
-  std::string file;    ///< of the hand, without folders, as plans name it
-  std::string sha256;  ///< of the hand's file and the model's
+  std::string file;  ///< of the hand, without folders, as plans name it
+  /// Of the bytes of the hand's file, of the model's with what it includes, and of all meshes that
+  /// it names.
+  std::string sha256;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< against gravity, of length 1
   std::vector<Finger> fingers;
   std::vector<LinkShape> palm;  ///< `after` is 0

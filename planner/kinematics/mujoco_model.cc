@@ -2,11 +2,14 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/kinematics/convert_mjcf.h"
+#include "planner/kinematics/convert_urdf.h"
 #include "planner/object/limited_child.h"
 
 namespace regrasp::kinematics {
@@ -39,12 +42,40 @@ std::string OneLine(std::string text) {
   return line;
 }
 
-std::string CompileToBytes(const fs::path& path) {
+/// Files that MuJoCo finds in memory before it looks for them on the disk, by the last part of
+/// their paths.
+class MemoryFiles {
+ public:
+  MemoryFiles() { mj_defaultVFS(files_.get()); }
+  MemoryFiles(const MemoryFiles&) = delete;
+  MemoryFiles& operator=(const MemoryFiles&) = delete;
+  ~MemoryFiles() { mj_deleteVFS(files_.get()); }
+
+  void Add(const std::string& name, const std::string& bytes) {
+    if (mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(bytes.size())) != 0) {
+      throw std::runtime_error("too many files, or two of the name " + name);
+    }
+    std::memcpy(files_->filedata[mj_findFileVFS(files_.get(), name.c_str())], bytes.data(),
+                bytes.size());
+  }
+  const mjVFS* get() const { return files_.get(); }
+
+ private:
+  std::unique_ptr<mjVFS> files_ = std::make_unique<mjVFS>();
+};
+
+std::string CompileToBytes(const fs::path& path, const ModelText& text) {
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
+  MemoryFiles files;
+  // Under the model's own name, so that meshes are looked for beside it.
+  files.Add(path.filename().string(), FormatXml(text.root));
+  for (const MeshFile& mesh : text.meshes) {
+    if (!mesh.alias.empty()) files.Add(mesh.alias, ReadFile(mesh.path));
+  }
   std::array<char, 1000> error{};
   const ModelPtr model(
-      mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+      mj_loadXML(path.c_str(), files.get(), error.data(), static_cast<int>(error.size())));
   if (!model) throw std::runtime_error(error.data());
   std::string bytes(static_cast<std::size_t>(mj_sizeModel(model.get())), '\0');
   mj_saveModel(model.get(), nullptr, bytes.data(), static_cast<int>(bytes.size()));
@@ -52,43 +83,76 @@ std::string CompileToBytes(const fs::path& path) {
 }
 
 ModelPtr FromBytes(const std::string& bytes) {
-  struct DeleteVfs {
-    void operator()(mjVFS* vfs) const {
-      mj_deleteVFS(vfs);
-      delete vfs;
+  MemoryFiles files;
+  files.Add(kBinaryName, bytes);
+  ModelPtr model(mj_loadModel(kBinaryName, files.get()));
+  if (!model) throw EnvironmentError("MuJoCo cannot read back a model that it compiled");
+  return model;
+}
+
+/// @throws std::runtime_error  what MuJoCo says against the model.
+ModelPtr Compile(const fs::path& path, const ModelText& text) {
+  const object::ChildResult result =
+      object::RunInLimitedChild([&] { return CompileToBytes(path, text); }, kLimits);
+  switch (result.end) {
+    case object::ChildEnd::kDone:
+      return FromBytes(result.bytes);
+    case object::ChildEnd::kThrew:
+      throw std::runtime_error(OneLine(result.bytes));
+    case object::ChildEnd::kTookTooLong:
+      throw std::runtime_error("it takes longer than two minutes to read the model");
+    case object::ChildEnd::kCrashed:
+      throw std::runtime_error("it crashes on the model, or needs more than 4 GiB");
+  }
+  throw std::logic_error("CompileModel: a child's end");
+}
+
+/// As newer versions do it: critical damping of the inertia at rest that an actuator moves, times
+/// the ratio.
+std::vector<double> DampingsOf(const mjModel& model, const std::vector<DampingRatio>& ratios) {
+  const DataPtr data(mj_makeData(&model));
+  if (!data) throw EnvironmentError("MuJoCo cannot make the data of a hand's model");
+  mj_kinematics(&model, data.get());
+  mj_comPos(&model, data.get());
+  mj_tendon(&model, data.get());
+  mj_transmission(&model, data.get());
+  std::vector<double> dampings;
+  for (const DampingRatio& wanted : ratios) {
+    double inertia = 0;
+    for (int dof = 0; dof < model.nv; ++dof) {
+      const double moment = data->actuator_moment[wanted.actuator * model.nv + dof];
+      if (std::abs(moment) > mjMINVAL) inertia += model.dof_M0[dof] / (moment * moment);
     }
-  };
-  const std::unique_ptr<mjVFS, DeleteVfs> vfs([] {
-    auto* fresh = new mjVFS;
-    mj_defaultVFS(fresh);
-    return fresh;
-  }());
-  mj_makeEmptyFileVFS(vfs.get(), kBinaryName, static_cast<int>(bytes.size()));
-  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), kBinaryName)], bytes.data(), bytes.size());
-  return ModelPtr(mj_loadModel(kBinaryName, vfs.get()));
+    const double stiffness = model.actuator_gainprm[wanted.actuator * mjNGAIN];
+    dampings.push_back(2 * wanted.ratio * std::sqrt(stiffness * inertia));
+  }
+  return dampings;
 }
 
 }  // namespace
 
-ModelPtr CompileModel(const fs::path& path) {
-  // A file that cannot be read is said in our words.
-  (void)ReadFile(path);
-  const object::ChildResult result =
-      object::RunInLimitedChild([&path] { return CompileToBytes(path); }, kLimits);
-  switch (result.end) {
-    case object::ChildEnd::kDone:
-      break;
-    case object::ChildEnd::kThrew:
-      throw InputError(path.string() +
-                       ": MuJoCo does not take the model: " + OneLine(result.bytes));
-    case object::ChildEnd::kTookTooLong:
-      throw InputError(path.string() + ": MuJoCo takes longer than two minutes to read the model");
-    case object::ChildEnd::kCrashed:
-      throw InputError(path.string() + ": MuJoCo crashes on the model, or needs more than 4 GiB");
+CompiledModel CompileModel(const fs::path& path) {
+  CompiledModel compiled{nullptr, ReadModelText(path)};
+  ModelText& text = compiled.text;
+  try {
+    try {
+      compiled.model = Compile(path, text);
+    } catch (const std::runtime_error& error) {
+      // MuJoCo demands more of meshes than looks need.
+      if (text.root.name != "robot") throw;
+      DiscardLooks(error.what(), text);
+      compiled.model = Compile(path, text);
+    }
+    if (!text.damping_ratios.empty()) {
+      SetDampings(DampingsOf(*compiled.model, text.damping_ratios), text);
+      compiled.model = Compile(path, text);
+    }
+  } catch (const EnvironmentError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(path.string() + ": MuJoCo does not take the model: " + error.what());
   }
-  ModelPtr model = FromBytes(result.bytes);
-  if (!model) throw EnvironmentError("MuJoCo cannot read back a model that it compiled");
-  return model;
+  return compiled;
 }
 
 DataPtr AtRest(const mjModel& model) {

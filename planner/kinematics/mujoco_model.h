@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "planner/kinematics/model_text.h"
+
 namespace regrasp::kinematics {
 
 struct DeleteModel {
@@ -17,10 +19,16 @@ struct DeleteData {
 using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
 using DataPtr = std::unique_ptr<mjData, DeleteData>;
 
-/// Compiles an MJCF or URDF model with the meshes that it names. That is done in a limited child
-/// process: whatever is in the files, this one goes on.
-/// @throws InputError  names the file and says what MuJoCo says of it.
-[[nodiscard]] ModelPtr CompileModel(const std::filesystem::path& path);
+struct CompiledModel {
+  ModelPtr model;
+  ModelText text;  ///< of which it was compiled
+};
+
+/// Compiles an MJCF or URDF model with the meshes that it names, converted to what the linked
+/// MuJoCo knows (model_text.h). That is done in a limited child process: whatever is in the files,
+/// this one goes on.
+/// @throws InputError  names the file and says what is wrong, or what MuJoCo says of it.
+[[nodiscard]] CompiledModel CompileModel(const std::filesystem::path& path);
 
 /// Bodies, geoms and joints as the model has them at rest (qpos0), in world coordinates.
 [[nodiscard]] DataPtr AtRest(const mjModel& model);

@@ -1,0 +1,170 @@
+#include "planner/kinematics/convert_urdf.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kPackage[] = "package://";
+constexpr char kFile[] = "file://";
+
+std::string LowerCase(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool IsReadByMujoco(const fs::path& path) {
+  const std::string ending = LowerCase(path.extension().string());
+  return ending == ".stl" || ending == ".obj" || ending == ".msh";
+}
+
+class UrdfConverter {
+ public:
+  UrdfConverter(fs::path folder, ModelText& text) : folder_(std::move(folder)), text_(text) {}
+
+  void Convert() {
+    SetCompiler();
+    for (XmlElement& element : text_.root.children) {
+      if (element.name == "link") ConvertLink(element);
+      if (element.name == "joint") TakeMimic(element);
+    }
+  }
+
+ private:
+  void Record(const XmlElement& element, const XmlElement& of, const std::string& attribute,
+              const std::string& outcome) {
+    const std::string* name = of.Find("name");
+    text_.conversions.push_back({element.file, element.line, element.name,
+                                 name != nullptr ? *name : "", attribute, outcome});
+  }
+
+  void SetCompiler();
+  void ConvertLink(XmlElement& link);
+  bool ConvertShape(const XmlElement& link, XmlElement& shape);
+  void TakeMimic(const XmlElement& joint);
+  fs::path Locate(const std::string& name) const;
+  std::string Alias(const fs::path& path, const std::string& scale);
+
+  fs::path folder_;
+  ModelText& text_;
+  std::map<std::pair<std::string, std::string>, std::string> aliases_;  ///< by path and scale
+  std::map<std::string, int> stems_;                                    ///< how often each is used
+};
+
+void UrdfConverter::SetCompiler() {
+  auto& children = text_.root.children;
+  const auto child = [](std::vector<XmlElement>& elements, const char* name) -> XmlElement& {
+    const auto found = std::ranges::find(elements, name, &XmlElement::name);
+    if (found != elements.end()) return *found;
+    return *elements.insert(elements.begin(), XmlElement{name, {}, {}, "", 0});
+  };
+  XmlElement& compiler = child(child(children, "mujoco").children, "compiler");
+  compiler.file = text_.root.file;
+  if (compiler.line == 0) compiler.line = text_.root.line;
+  constexpr std::pair<const char*, const char*> kSettings[] = {{"strippath", "false"},
+                                                               {"balanceinertia", "true"},
+                                                               {"fusestatic", "false"},
+                                                               {"discardvisual", "false"}};
+  for (const auto& [attribute, value] : kSettings) {
+    if (compiler.Find(attribute) != nullptr) continue;
+    compiler.Set(attribute, value);
+    Record(compiler, compiler, attribute, std::string("added as ") + value);
+  }
+}
+
+void UrdfConverter::ConvertLink(XmlElement& link) {
+  std::vector<XmlElement> kept;
+  for (XmlElement& shape : link.children) {
+    const bool is_shape = shape.name == "visual" || shape.name == "collision";
+    if (!is_shape || ConvertShape(link, shape)) kept.push_back(std::move(shape));
+  }
+  link.children = std::move(kept);
+}
+
+/// @returns whether MuJoCo can read it.
+bool UrdfConverter::ConvertShape(const XmlElement& link, XmlElement& shape) {
+  for (XmlElement& geometry : shape.children) {
+    for (XmlElement& mesh : geometry.children) {
+      const std::string* name = mesh.Find("filename");
+      if (mesh.name != "mesh" || name == nullptr) continue;
+      const fs::path path = Locate(*name);
+      if (!IsReadByMujoco(path)) {
+        const std::string said = "MuJoCo reads STL, OBJ and MSH";
+        if (shape.name == "collision") {
+          throw InputError(mesh.file + ": line " + std::to_string(mesh.line) + ": mesh " + *name +
+                           ": " + said);
+        }
+        Record(mesh, link, "filename", "left out, a look: " + said);
+        return false;
+      }
+      const std::string* scale = mesh.Find("scale");
+      mesh.Set("filename", Alias(path, scale != nullptr ? *scale : ""));
+    }
+  }
+  return true;
+}
+
+/// The file of a mesh, beside the model or in a package, which is a folder above or beside it.
+fs::path UrdfConverter::Locate(const std::string& name) const {
+  if (name.starts_with(kFile)) return name.substr(sizeof kFile - 1);
+  if (!name.starts_with(kPackage)) return folder_ / name;
+  const fs::path in_packages = name.substr(sizeof kPackage - 1);
+  const fs::path package = *in_packages.begin();
+  const fs::path in_package = in_packages.lexically_relative(package);
+  const fs::path start = fs::absolute(folder_).lexically_normal();
+  for (fs::path above = start;; above = above.parent_path()) {
+    for (const fs::path& candidate : {above / in_package, above / in_packages}) {
+      if (fs::exists(candidate)) return candidate;
+    }
+    if (above == above.root_path()) break;
+  }
+  return folder_ / in_package;
+}
+
+std::string UrdfConverter::Alias(const fs::path& path, const std::string& scale) {
+  std::string& alias = aliases_[{path.lexically_normal().string(), scale}];
+  if (!alias.empty()) return alias;
+  const std::string stem = path.stem().string();
+  const int used = ++stems_[stem];
+  alias = stem + (used == 1 ? "" : "__" + std::to_string(used)) + path.extension().string();
+  text_.meshes.push_back({path, alias});
+  return alias;
+}
+
+void UrdfConverter::TakeMimic(const XmlElement& joint) {
+  const XmlElement* mimic = joint.Child("mimic");
+  const std::string* name = joint.Find("name");
+  const std::string* follows = mimic == nullptr ? nullptr : mimic->Find("joint");
+  if (name == nullptr || follows == nullptr) return;
+  const auto number = [&](const char* attribute, double otherwise) {
+    const std::string* text = mimic->Find(attribute);
+    return text == nullptr ? otherwise : ParseDouble(*text).value_or(otherwise);
+  };
+  text_.mimics.push_back({*name, *follows, number("multiplier", 1), number("offset", 0)});
+}
+
+}  // namespace
+
+void ConvertUrdf(const fs::path& folder, ModelText& text) { UrdfConverter(folder, text).Convert(); }
+
+void DiscardLooks(const std::string& why, ModelText& text) {
+  for (XmlElement& link : text.root.children) {
+    if (link.name == "link") {
+      std::erase_if(link.children, [](const XmlElement& e) { return e.name == "visual"; });
+    }
+  }
+  text.conversions.push_back(
+      {text.root.file, text.root.line, "visual", "", "", "left out, all looks: " + why});
+}
+
+}  // namespace regrasp::kinematics

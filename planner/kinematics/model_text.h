@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planner/kinematics/xml_tree.h"
+
+namespace regrasp::kinematics {
+
+/// What became of something in a model's file that MuJoCo, in the version that is linked here, does
+/// not know.
+struct Conversion {
+  std::string file;
+  int line = 0;
+  std::string element;    ///< "position", "joint"
+  std::string name;       ///< of the element, or its class; may be empty
+  std::string attribute;  ///< empty: the whole element
+  std::string outcome;    ///< "left out: …", "to ctrlrange, from the joint's range"
+};
+
+/// A joint of a URDF that follows another one: its angle is multiplier · other + offset.
+struct Mimic {
+  std::string joint;
+  std::string follows;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+/// An actuator whose damping is given as a share of the critical one, which is known when the model
+/// is compiled.
+struct DampingRatio {
+  int actuator = 0;  ///< in the order of the model
+  double ratio = 1;
+};
+
+/// A file of a mesh that the model names.
+struct MeshFile {
+  std::filesystem::path path;
+  /// What the model's text calls it, where MuJoCo is handed its bytes under that name; empty where
+  /// MuJoCo finds it.
+  std::string alias;
+};
+
+/// The text of a model, as MuJoCo is given it.
+struct ModelText {
+  XmlElement root;
+  std::vector<std::filesystem::path> files;  ///< of the model and what it includes
+  std::vector<Conversion> conversions;
+  std::vector<MeshFile> meshes;  ///< in the order of the text, each once
+  std::vector<Mimic> mimics;
+  std::vector<DampingRatio> damping_ratios;
+};
+
+/// Reads an MJCF (with the files that it includes) or URDF model and converts it to what MuJoCo,
+/// as it is linked here, can read: newer versions have more.
+///
+/// What has an effect is converted (convert_mjcf.h, convert_urdf.h), what has none on how a hand
+/// moves and what it looks like is left out, and all of it is listed. A model that needs nothing of
+/// it stays word for word what it is, but for its layout.
+/// @throws InputError  names the file and line: no XML, neither MJCF nor URDF, an include that
+///                     leads to itself, an element that cannot be converted (replicate, attach).
+[[nodiscard]] ModelText ReadModelText(const std::filesystem::path& path);
+
+}  // namespace regrasp::kinematics

@@ -1,0 +1,243 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "planner/base/error.h"
+#include "planner/base/write_file.h"
+#include "planner/kinematics/mujoco_model.h"
+#include "planner/kinematics/mujoco_schema.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A folder that is gone after the test.
+class ConvertModelTest : public testing::Test {
+ protected:
+  ConvertModelTest() {
+    std::string name = (fs::temp_directory_path() / "regrasp_model_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+  }
+  ~ConvertModelTest() override { fs::remove_all(folder_); }
+
+  fs::path Write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    WriteFile(folder_ / name, text);
+    return folder_ / name;
+  }
+  CompiledModel Compile(const std::string& text) const {
+    return CompileModel(Write("model.xml", text));
+  }
+  std::string Refusal(const std::string& text) const {
+    try {
+      (void)Compile(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  }
+
+  fs::path folder_;
+};
+
+/// One hinge of inertia 0.04 kg m² about the axis with one actuator, and what stands about them.
+std::string Hinge(const std::string& settings, const std::string& joint,
+                  const std::string& actuator) {
+  return "<mujoco>" + settings + R"(<worldbody><body name="b"><inertial pos="0 0 0" mass="1"
+    diaginertia="0.04 0.04 0.04"/><joint name="j" axis="0 0 1" )" +
+         joint + R"(/><geom type="sphere" size="0.1"/></body></worldbody><actuator>)" + actuator +
+         "</actuator></mujoco>";
+}
+
+std::vector<std::string> Attributes(const ModelText& text) {
+  std::vector<std::string> attributes;
+  for (const Conversion& conversion : text.conversions) {
+    attributes.push_back(conversion.element + " " + conversion.attribute);
+  }
+  return attributes;
+}
+
+double Bias(const CompiledModel& compiled, int i) { return compiled.model->actuator_biasprm[i]; }
+
+TEST_F(ConvertModelTest, AModelOfThisVersionIsLeftAsItIs) {
+  const CompiledModel compiled =
+      Compile(Hinge("", R"(range="-30 60" limited="true")", R"(<position joint="j" kp="2"/>)"));
+  EXPECT_THAT(compiled.text.conversions, IsEmpty());
+  EXPECT_EQ(Bias(compiled, 1), -2);
+}
+
+TEST_F(ConvertModelTest, PositionGainsOfAClassBecomeAGeneralActuator) {
+  const std::string defaults =
+      R"(<default><position kp="3" kv="0.5"/><default class="soft"><position kp="2"/></default>
+         </default>)";
+  const CompiledModel compiled =
+      Compile(Hinge(defaults, "", R"(<position name="a" joint="j" class="soft"/>)"));
+  EXPECT_EQ(compiled.model->actuator_gainprm[0], 2);
+  EXPECT_EQ(Bias(compiled, 1), -2);
+  EXPECT_EQ(Bias(compiled, 2), -0.5);
+  EXPECT_THAT(Attributes(compiled.text), Contains("position kv"));
+}
+
+/// The other route: the critical damping of a mass m on a spring k is 2 √(k m).
+TEST_F(ConvertModelTest, ADampingRatioIsThatOfTheInertiaThatTheActuatorMoves) {
+  const CompiledModel compiled =
+      Compile(Hinge("", R"(armature="0.05")", R"(<position joint="j" kp="4" dampratio="0.5"/>)"));
+  EXPECT_NEAR(Bias(compiled, 2), -0.5 * 2 * std::sqrt(4 * 0.09), 1e-9);
+  const CompiledModel geared = Compile(
+      Hinge("", R"(armature="0.05")", R"(<position joint="j" kp="4" gear="3" dampratio="0.5"/>)"));
+  EXPECT_NEAR(Bias(geared, 2), -0.5 * 2 * std::sqrt(4 * 0.09 / 9), 1e-9);
+}
+
+TEST_F(ConvertModelTest, InheritedRangesAreRadians) {
+  const CompiledModel compiled =
+      Compile(Hinge("", R"(range="-30 60")", R"(<position joint="j" inheritrange="1"/>)"));
+  EXPECT_NEAR(compiled.model->actuator_ctrlrange[0], compiled.model->jnt_range[0], 1e-12);
+  EXPECT_NEAR(compiled.model->actuator_ctrlrange[1], compiled.model->jnt_range[1], 1e-12);
+  EXPECT_NEAR(compiled.model->jnt_range[1], std::numbers::pi / 3, 1e-12);
+  EXPECT_EQ(compiled.model->actuator_ctrllimited[0], 1);
+  EXPECT_EQ(compiled.model->jnt_limited[0], 1);
+  EXPECT_THAT(Attributes(compiled.text), Contains("compiler autolimits"));
+}
+
+TEST_F(ConvertModelTest, ForcesOfAJointLimitItsActuatorByTheGear) {
+  const CompiledModel compiled =
+      Compile(Hinge("", R"(actuatorfrcrange="-1 2")", R"(<motor joint="j" gear="-2" name="a"/>)"));
+  EXPECT_EQ(compiled.model->actuator_forcerange[0], -1);
+  EXPECT_EQ(compiled.model->actuator_forcerange[1], 0.5);
+  EXPECT_THAT(Attributes(compiled.text), Contains("joint actuatorfrcrange"));
+}
+
+TEST_F(ConvertModelTest, SettingsAreRenamedOrLeftOutAndListed) {
+  const CompiledModel compiled =
+      Compile(Hinge(R"(<option integrator="implicitfast" ccd_iterations="70" ls_iterations="9">
+               <flag eulerdamp="disable"/></option>)",
+                    "", R"(<motor joint="j"/>)"));
+  EXPECT_EQ(compiled.model->opt.integrator, mjINT_IMPLICIT);
+  EXPECT_EQ(compiled.model->opt.mpr_iterations, 70);
+  EXPECT_THAT(Attributes(compiled.text),
+              testing::UnorderedElementsAre("option integrator", "option ccd_iterations",
+                                            "option ls_iterations", "flag eulerdamp"));
+  EXPECT_EQ(compiled.text.conversions[0].line, 1);
+}
+
+TEST_F(ConvertModelTest, FramesPlaceWhatIsInThem) {
+  const CompiledModel compiled = Compile(R"(<mujoco><worldbody>
+      <frame name="f" pos="1 0 0" euler="0 0 90"><body name="b" pos="1 0 0"><geom size="0.1"/></body></frame>
+      </worldbody></mujoco>)");
+  const DataPtr data = AtRest(*compiled.model);
+  const int body = mj_name2id(compiled.model.get(), mjOBJ_BODY, "b");
+  ASSERT_GT(body, 0);
+  EXPECT_NEAR(data->xpos[3 * body], 1, 1e-12);
+  EXPECT_NEAR(data->xpos[3 * body + 1], 1, 1e-12);
+}
+
+TEST_F(ConvertModelTest, ActuatorsThatAreLeftOutTakeTheirControlsOfKeyframesAlong) {
+  const CompiledModel compiled = Compile(
+      R"(<mujoco><extension><plugin plugin="p"/></extension><worldbody><body><joint name="j"/>
+         <geom size="0.1"/></body></worldbody><actuator><plugin plugin="p" joint="j"/></actuator>
+         <keyframe><key name="k" qpos="0.5" ctrl="1"/></keyframe></mujoco>)");
+  EXPECT_EQ(compiled.model->nu, 0);
+  EXPECT_EQ(compiled.model->key_qpos[0], 0.5);
+  EXPECT_THAT(Attributes(compiled.text),
+              testing::UnorderedElementsAre("extension ", "plugin ", "key ctrl"));
+}
+
+TEST_F(ConvertModelTest, WhatIsPartOfTheHandIsRefusedInOneLine) {
+  const std::string refusal = Refusal(
+      R"(<mujoco><worldbody>
+         <replicate count="3"><geom size="0.1"/></replicate></worldbody></mujoco>)");
+  EXPECT_THAT(refusal, HasSubstr("model.xml: line 2: <replicate> is not known to MuJoCo"));
+  EXPECT_THAT(refusal, testing::Not(HasSubstr("\n")));
+  EXPECT_THAT(Refusal("<mujoco><worldbody>"), HasSubstr("line 1: "));
+  EXPECT_THAT(Refusal("<sdf/>"), HasSubstr("expected a model as MJCF"));
+  EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"), HasSubstr("<include> names no file"));
+  EXPECT_THAT(Refusal("<mujoco><include file=\"model.xml\"/></mujoco>"),
+              HasSubstr("is included twice, or by itself"));
+  EXPECT_THAT(Refusal("<mujoco><worldbody><body><joint type=\"odd\"/></body></worldbody></mujoco>"),
+              HasSubstr("MuJoCo does not take the model"));
+}
+
+TEST_F(ConvertModelTest, IncludedFilesStandInTheirPlaces) {
+  Write("parts/gains.xml",
+        R"(<mujocoinclude><default><position kp="3" kv="0.5"/></default></mujocoinclude>)");
+  const CompiledModel compiled =
+      Compile(Hinge(R"(<include file="parts/gains.xml"/>)", "", R"(<position joint="j"/>)"));
+  EXPECT_EQ(Bias(compiled, 2), -0.5);
+  ASSERT_EQ(compiled.text.files.size(), 2U);
+  EXPECT_EQ(compiled.text.files[1], folder_ / "parts/gains.xml");
+}
+
+constexpr char kTetrahedron[] =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+constexpr char kPyramid[] =
+    "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nv 0 0 2\n"
+    "f 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+
+TEST_F(ConvertModelTest, MeshesOfOneNameInTwoFoldersAreTwo) {
+  Write("looks/part.obj", kTetrahedron);
+  Write("shapes/part.obj", kPyramid);
+  const CompiledModel compiled = Compile(
+      R"(<robot name="r"><link name="a">
+         <visual><geometry><mesh filename="package://hand/looks/part.obj"/></geometry></visual>
+         <visual><geometry><mesh filename="looks/part.glb"/></geometry></visual>
+         <collision><geometry><mesh filename="shapes/part.obj"/></geometry></collision>
+         </link></robot>)");
+  const mjModel& model = *compiled.model;
+  ASSERT_EQ(model.ngeom, 2);
+  EXPECT_EQ(model.nbody, 2) << "links that are fixed stay bodies";
+  for (int geom = 0; geom < 2; ++geom) {
+    const int mesh = model.geom_dataid[geom];
+    EXPECT_EQ(model.mesh_facenum[mesh], model.geom_contype[geom] == 0 ? 4 : 6);
+  }
+  EXPECT_EQ(compiled.text.meshes.size(), 2U);
+  EXPECT_THAT(Attributes(compiled.text), Contains("mesh filename"));
+}
+
+TEST_F(ConvertModelTest, LooksThatMujocoDoesNotTakeAreLeftOut) {
+  // One facet is the wrong way round.
+  Write("look.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const CompiledModel compiled = Compile(
+      R"(<robot name="r"><link name="a">
+         <visual><geometry><mesh filename="look.obj"/></geometry></visual>
+         <collision><geometry><sphere radius="1"/></geometry></collision></link></robot>)");
+  EXPECT_EQ(compiled.model->ngeom, 1);
+  EXPECT_THAT(Attributes(compiled.text), Contains("visual "));
+}
+
+TEST_F(ConvertModelTest, MimicsAreTaken) {
+  const CompiledModel compiled = Compile(
+      R"(<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
+         <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+         <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+         <limit lower="0" upper="1"/><mimic joint="i" multiplier="1.5" offset="0.1"/></joint>
+         </robot>)");
+  ASSERT_EQ(compiled.text.mimics.size(), 1U);
+  EXPECT_EQ(compiled.text.mimics[0].follows, "i");
+  EXPECT_EQ(compiled.text.mimics[0].multiplier, 1.5);
+}
+
+TEST(MujocoSchemaTest, KnowsWhatMayStandWhere) {
+  const SchemaElement& schema = MujocoSchema();
+  const SchemaElement* body = schema.Child("mujoco", "worldbody");
+  ASSERT_NE(body, nullptr);
+  EXPECT_EQ(body->Child("worldbody", "body"), body);
+  EXPECT_EQ(body->Child("body", "worldbody"), body) << "one node stands for both";
+  ASSERT_NE(body->Child("body", "joint"), nullptr);
+  EXPECT_TRUE(body->Child("body", "joint")->attributes.contains("frictionloss"));
+  EXPECT_FALSE(body->Child("body", "joint")->attributes.contains("kp"));
+  EXPECT_EQ(body->Child("body", "actuator"), nullptr);
+  EXPECT_GT(schema.Child("mujoco", "actuator")->children.size(), 5U);
+}
+
+}  // namespace
+}  // namespace regrasp::kinematics
