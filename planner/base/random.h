@@ -19,6 +19,8 @@ enum class RandomUse : std::uint32_t {
   kCandidates = 8,
   kCountedEdges = 9,
   kCountedFaces = 10,
+  kHomes = 11,
+  kGaits = 12,
 };
 
 /// Random numbers that are the same on every machine: the engine and its seeding are fixed by the

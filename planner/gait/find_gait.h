@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/base/deadline.h"
+#include "planner/criteria/grasp_criteria.h"
+#include "planner/gait/gait.h"
+#include "planner/gait/gait_search.h"
+#include "planner/gait/home.h"
+#include "planner/kinematics/hand_model.h"
+#include "planner/object/polyhedron.h"
+#include "planner/planning/plan_request.h"
+
+namespace regrasp::gait {
+
+/// What is asked of a hand.
+struct GaitRequest {
+  const kinematics::HandModel* hand = nullptr;
+  const object::Polyhedron* solid = nullptr;
+  double scale = 1;  ///< metres per unit of the solid's file
+  criteria::GraspCriteria criteria;
+  double margin = 1e-3;  ///< between links, palm and object, metres
+  Turn turn;
+  std::uint64_t seed = 0;
+  int most_expanded = 400;  ///< rests expanded from one home
+  Deadline deadline = {};
+  planning::Progress progress = [](std::string_view) {};
+};
+
+struct GaitResult {
+  std::optional<Gait> gait;
+  std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
+  std::string message;                   ///< where there is none: what stopped it, counted
+  std::vector<GaitCounts> counts;        ///< by home
+};
+
+/// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with
+/// which grasp.
+///
+/// Laws: without a deadline the same request gives the same gait, bit for bit; every rest is force
+/// closure and meets the criteria where it can; every path is certified (certified_path.h).
+[[nodiscard]] GaitResult FindGait(const GaitRequest& request);
+
+}  // namespace regrasp::gait

@@ -1,0 +1,150 @@
+#include "planner/gait/finger_path.h"
+
+#include <algorithm>
+#include <array>
+
+#include "planner/gait/certified_path.h"
+
+namespace regrasp::gait {
+namespace {
+
+constexpr int kMostExtensions = 150;
+constexpr double kStride = 0.35;  // radians, over all drives
+constexpr int kShortcuts = 30;
+
+/// Above the contact, metres: as high as the finger can go, but not lower than the first.
+constexpr double kLowestAbove = 0.003;
+constexpr double kHighestAbove = 0.008;
+constexpr double kDescent = 0.001;  // between postures of the way down
+
+struct Tree {
+  std::vector<Posture> nodes;
+  std::vector<int> parents;
+
+  int Nearest(const Posture& posture) const {
+    int best = 0;
+    for (int i = 1; i < static_cast<int>(nodes.size()); ++i) {
+      if ((nodes[i] - posture).squaredNorm() < (nodes[best] - posture).squaredNorm()) best = i;
+    }
+    return best;
+  }
+  [[nodiscard]] FingerPath PathTo(int node) const {
+    FingerPath path;
+    for (; node >= 0; node = parents[node]) path.push_back(nodes[node]);
+    std::ranges::reverse(path);
+    return path;
+  }
+};
+
+/// One finger that moves through its surroundings.
+class Connector {
+ public:
+  Connector(const HandScene& scene, FingerIndex finger, const Surroundings& around,
+            RandomStream& random)
+      : scene_(scene), finger_(finger), around_(around), random_(random) {}
+
+  std::optional<FingerPath> Find(const Posture& from, const Posture& to) {
+    if (IsFree(from, to)) return FingerPath{from, to};
+    std::array<Tree, 2> trees = {Tree{{from}, {-1}}, Tree{{to}, {-1}}};
+    for (int i = 0; i < kMostExtensions; ++i) {
+      Tree& growing = trees[i % 2];
+      Tree& other = trees[1 - i % 2];
+      if (!Extend(growing, Draw())) continue;
+      const Posture reached = growing.nodes.back();
+      // As far as it goes.
+      while (Extend(other, reached)) {
+        if ((other.nodes.back() - reached).norm() > 0) continue;
+        FingerPath path = trees[0].PathTo(static_cast<int>(trees[0].nodes.size()) - 1);
+        FingerPath back = trees[1].PathTo(static_cast<int>(trees[1].nodes.size()) - 1);
+        path.insert(path.end(), back.rbegin() + 1, back.rend());
+        return Shortened(std::move(path));
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] bool IsFree(const Posture& from, const Posture& to) const {
+    return IsClear(scene_, finger_, from, to, around_.pose, TipContact::kFree, around_.others);
+  }
+  Posture Draw() {
+    const kinematics::Finger& finger = scene_.finger(finger_);
+    Posture posture(finger.drives);
+    for (int i = 0; i < finger.drives; ++i) {
+      posture[i] = finger.lower[i] + random_.Uniform() * (finger.upper[i] - finger.lower[i]);
+    }
+    return posture;
+  }
+  /// One stride from the tree's nearest node towards a posture.
+  bool Extend(Tree& tree, const Posture& towards) const {
+    const int nearest = tree.Nearest(towards);
+    const Posture step = towards - tree.nodes[nearest];
+    const double length = step.norm();
+    if (length == 0) return false;
+    const Posture next =
+        length <= kStride ? towards : Posture(tree.nodes[nearest] + (kStride / length) * step);
+    if (!IsFree(tree.nodes[nearest], next)) return false;
+    tree.nodes.push_back(next);
+    tree.parents.push_back(nearest);
+    return true;
+  }
+  FingerPath Shortened(FingerPath path) {
+    for (int i = 0; i < kShortcuts && path.size() > 2; ++i) {
+      const auto a = static_cast<std::ptrdiff_t>(random_.Index(path.size() - 2));
+      const auto b = a + 2 + static_cast<std::ptrdiff_t>(random_.Index(path.size() - a - 2));
+      if (IsFree(path[a], path[b])) path.erase(path.begin() + a + 1, path.begin() + b);
+    }
+    return path;
+  }
+
+  const HandScene& scene_;
+  FingerIndex finger_;
+  const Surroundings& around_;
+  RandomStream& random_;
+};
+
+/// From a contact straight up along the normal, as high as the finger goes; empty where that is not
+/// high enough.
+FingerPath WayUp(const HandScene& scene, const kinematics::InverseKinematics& inverse,
+                 FingerIndex finger, const kinematics::TipTarget& target, const Posture& touching,
+                 const Surroundings& around) {
+  FingerPath path = {touching};
+  double height = 0;
+  while (height < kHighestAbove - kDescent / 2) {
+    const kinematics::TipTarget above{target.centre - (height + kDescent) * target.towards,
+                                      target.towards};
+    const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
+    if (!next || !IsClear(scene, finger, path.back(), *next, around.pose, TipContact::kTouching,
+                          around.others)) {
+      break;
+    }
+    path.push_back(*next);
+    height += kDescent;
+  }
+  if (height < kLowestAbove - kDescent / 2) return {};
+  return path;
+}
+
+}  // namespace
+
+std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
+                                       const Posture& from, const Posture& to,
+                                       const Surroundings& around, RandomStream& random) {
+  return Connector(scene, finger, around, random).Find(from, to);
+}
+
+std::optional<FingerPath> FindPathToContact(const HandScene& scene,
+                                            const kinematics::InverseKinematics& inverse,
+                                            FingerIndex finger, const Posture& from,
+                                            const kinematics::TipTarget& target,
+                                            const Posture& touching, const Surroundings& around,
+                                            RandomStream& random) {
+  const FingerPath up = WayUp(scene, inverse, finger, target, touching, around);
+  if (up.empty()) return std::nullopt;
+  std::optional<FingerPath> path = FindFreePath(scene, finger, from, up.back(), around, random);
+  if (!path) return std::nullopt;
+  path->insert(path->end(), up.rbegin() + 1, up.rend());
+  return path;
+}
+
+}  // namespace regrasp::gait

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/base/random.h"
+#include "planner/gait/hand_scene.h"
+#include "planner/kinematics/inverse_kinematics.h"
+
+namespace regrasp::gait {
+
+/// Where a finger goes, posture by posture; between them its drives go straight.
+using FingerPath = std::vector<Posture>;
+
+/// All that stands still while one finger moves.
+struct Surroundings {
+  Eigen::Isometry3d pose;            ///< of the object
+  std::vector<PlacedFinger> others;  ///< all other fingers
+};
+
+/// A certified path of a free finger between two postures, by RRT-Connect (Kuffner and LaValle
+/// 2000) over its drives, then shortened.
+/// @returns nullopt where none was found.
+[[nodiscard]] std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
+                                                     const Posture& from, const Posture& to,
+                                                     const Surroundings& around,
+                                                     RandomStream& random);
+
+/// A certified path from a free posture to a contact: freely to a place some millimetres above it,
+/// then straight down along the normal.
+/// @param target   of the tip at the contact.
+/// @param touching the posture there.
+[[nodiscard]] std::optional<FingerPath> FindPathToContact(
+    const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
+    const Posture& from, const kinematics::TipTarget& target, const Posture& touching,
+    const Surroundings& around, RandomStream& random);
+
+}  // namespace regrasp::gait

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/gait/keyframe.h"
+
+namespace regrasp::gait {
+
+/// By finger: the contact that it holds, by number; kNone where it is free.
+using Holding = std::vector<int>;
+inline constexpr int kNone = -1;
+
+/// A stretch of a gait: keyframes, the first of which is the last one of the stretch before.
+struct Stretch {
+  enum class Kind {
+    kMove,     ///< the object moves, held by all fingers that hold
+    kPlace,    ///< a free finger comes to its contact
+    kRelease,  ///< a finger leaves its contact
+  };
+  Kind kind = Kind::kMove;
+  FingerIndex finger;  ///< of kPlace and kRelease
+  int contact = kNone;
+  std::vector<Keyframe> path;
+};
+
+/// A way of fingers and object from a rest to another one.
+struct Gait {
+  Holding initial;
+  Keyframe start;
+  std::vector<Stretch> stretches;
+};
+
+}  // namespace regrasp::gait

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "planner/collision/convex_shape.h"
+#include "planner/collision/surface_tree.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/hand_model.h"
+
+namespace regrasp::gait {
+
+using kinematics::Posture;
+
+/// How near a fingertip may be to the object.
+enum class TipContact {
+  kFree,      ///< as far off as any other link
+  kTouching,  ///< it touches: its ball and the link behind it may be in the surface by kTipDepth
+};
+
+/// What a touching fingertip is allowed to overlap with the object, metres: a contact is exact, and
+/// what is certified between samples is not.
+inline constexpr double kTipDepth = 2e-4;
+
+/// The shapes of a finger in some posture, in the palm's frame.
+struct PlacedFinger {
+  FingerIndex finger;
+  std::vector<collision::ConvexShape> shapes;  ///< as Finger::shapes
+  std::vector<collision::Ball> balls;          ///< around them
+};
+
+/// What postures keep beside the margin, metres.
+inline constexpr double kSpare = 5e-4;
+
+/// A hand and an object that run into each other or do not. Lengths in metres; poses of the object
+/// are from its own frame (the file's axes and origin, scaled) to the palm's.
+class HandScene {
+ public:
+  using Motion = std::optional<double>;
+
+  /// @param hand, surface  outlive this object.
+  /// @param margin  that links keep from each other, from the palm and from the object. Postures
+  ///                keep kSpare more, so that paths between them can be certified.
+  HandScene(const kinematics::HandModel& hand, const collision::SurfaceTree& surface,
+            double margin);
+
+  [[nodiscard]] const kinematics::HandModel& hand() const { return hand_; }
+  [[nodiscard]] const kinematics::Finger& finger(FingerIndex finger) const {
+    return hand_.fingers[finger];
+  }
+  [[nodiscard]] int finger_count() const { return static_cast<int>(hand_.fingers.size()); }
+  [[nodiscard]] double margin() const { return margin_; }
+
+  [[nodiscard]] PlacedFinger Place(FingerIndex finger, const Posture& posture) const;
+
+  // Of a posture on a path, `motion` says how far the shapes may come nearer than they are in it,
+  // metres: where the answer is yes, everything within that keeps the margin.
+
+  /// Whether a finger keeps off the palm and off itself.
+  [[nodiscard]] bool KeepsOffHand(const PlacedFinger& placed, Motion motion = {}) const;
+  /// Whether it keeps off the object.
+  [[nodiscard]] bool KeepsOffObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
+                                    TipContact tip, Motion motion = {}) const;
+  /// How far a finger is from the object, no more than `limit`.
+  [[nodiscard]] double DistanceFromObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
+                                          double limit) const;
+  [[nodiscard]] bool KeepApart(const PlacedFinger& a, const PlacedFinger& b,
+                               Motion motion = {}) const;
+  /// Whether the object keeps off the palm.
+  [[nodiscard]] bool KeepsOffPalm(const Eigen::Isometry3d& pose, Motion motion = {}) const;
+
+  /// A bound on how far any point of the finger's links moves between two postures, metres.
+  [[nodiscard]] double MotionBound(FingerIndex finger, const Posture& from,
+                                   const Posture& to) const;
+  /// The same of the object between two poses, the shorter screwless way: its origin straight, its
+  /// orientation about one axis.
+  [[nodiscard]] double MotionBound(const Eigen::Isometry3d& from,
+                                   const Eigen::Isometry3d& to) const;
+
+ private:
+  using Part = kinematics::HandModel::Part;
+  [[nodiscard]] double Needed(Motion motion) const { return margin_ + motion.value_or(kSpare); }
+  [[nodiscard]] bool IsIgnored(const Part& a, const Part& b) const;
+
+  const kinematics::HandModel& hand_;
+  const collision::SurfaceTree& surface_;
+  double margin_;
+  double object_reach_;  ///< of its points from its origin
+  std::vector<collision::Ball> palm_balls_;
+  std::vector<std::vector<std::vector<double>>> reach_;  ///< LinkReach by finger and shape
+};
+
+}  // namespace regrasp::gait

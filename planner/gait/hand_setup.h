@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/gait/hand_scene.h"
+#include "planner/gait/reach_map.h"
+#include "planner/kinematics/inverse_kinematics.h"
+
+namespace regrasp::gait {
+
+/// A hand ready to work with an object: its inverse kinematics, and points of the surface.
+struct HandSetup {
+  const HandScene& scene;
+  const std::vector<kinematics::InverseKinematics>& inverse;  ///< by finger
+  const std::vector<SurfacePoint>& points;
+};
+
+/// How all fingers stand that hold nothing, by finger.
+using Parking = std::vector<Posture>;
+
+}  // namespace regrasp::gait
