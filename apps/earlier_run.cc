@@ -36,7 +36,8 @@ std::string DigestOfNow(const ValidateOptions& options) {
                    {{fs::path(options.plan_path).filename().string(), Sha256(plan)},
                     {fs::path(object_path).filename().string(), Sha256(ReadFile(object_path))},
                     digest_of(options.start),
-                    digest_of(options.goal)});
+                    digest_of(options.goal),
+                    digest_of(options.hand)});
 }
 
 bool IsFile(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/hand_options.h"
 #include "apps/help.h"
 #include "apps/nearest_word.h"
 #include "apps/output_files.h"
@@ -17,6 +18,8 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/plan/check.h"
@@ -46,7 +49,8 @@ bool IsRandom(const std::string& grasp) { return grasp == kRandom || grasp == kR
 /// "2 switches, 1 align".
 std::string StepCounts(const std::vector<plan::Step>& steps) {
   std::string text;
-  for (const auto& [kind, several] : {std::pair("switch", "switches"), {"align", "aligns"}}) {
+  for (const auto& [kind, several] :
+       {std::pair("switch", "switches"), {"align", "aligns"}, {"move", "moves"}}) {
     const auto n = std::ranges::count(steps, std::string(kind), plan::StepKind);
     if (n == 0) continue;
     text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + (n == 1 ? kind : several);
@@ -73,6 +77,7 @@ struct PlanProgram {
   bool no_lazy = false;
   std::optional<std::int64_t> effort;
   bool explain = false;
+  HandOptions hand;
 
   void AddTo(CLI::App& app);
   int Run() const;
@@ -84,6 +89,8 @@ struct PlanProgram {
                                const object::Object& object) const;
   planning::PlanRequest RequestFor(const object::Object& object) const;
   planning::PlanResult Find(const object::ObjectFile& object) const;
+  planning::PlanResult FindInHand(const object::ObjectFile& object) const;
+  void CheckEnds() const;
   void CheckOutput() const;
   object::ObjectFile ReadObject() const;
   void PrintSummary(const planning::PlanResult& result, const plan::PlanCheck& check) const;
@@ -104,6 +111,7 @@ void PlanProgram::AddTo(CLI::App& app) {
             "overlap, are avoided (default: fingers are points)",
             "R");
   AddSearch(app);
+  hand.AddTo(app);
   app.footer(
       "  plan --object cube.obj --friction-angle 20 --start start.json --goal goal.json \\\n"
       "       --output plan.json\n"
@@ -115,12 +123,8 @@ void PlanProgram::AddEnds(CLI::App& app) {
   const std::string kinds =
       ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
       "or random-any (evenly over the surface)";
-  app.add_option("--start", start, "Start grasp" + kinds)
-      ->type_name("FILE|random|random-any")
-      ->required();
-  app.add_option("--goal", goal, "Goal grasp" + kinds)
-      ->type_name("FILE|random|random-any")
-      ->required();
+  app.add_option("--start", start, "Start grasp" + kinds)->type_name("FILE|random|random-any");
+  app.add_option("--goal", goal, "Goal grasp" + kinds)->type_name("FILE|random|random-any");
   app.add_option("--output", output, "Where the plan goes; - is standard output")
       ->type_name("FILE")
       ->required();
@@ -188,15 +192,68 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object) const {
   return result;
 }
 
+/// Without a hand a plan is from a grasp to a grasp, with one from a pose to a pose.
+void PlanProgram::CheckEnds() const {
+  for (const auto& [option, value] : {std::pair("--start", start), {"--goal", goal}}) {
+    if (hand.given() && !value.empty()) {
+      throw InputError(std::string(option) +
+                       ": with --hand the grasps are chosen by the program; leave it out");
+    }
+    if (!hand.given() && value.empty()) throw InputError(std::string(option) + " is required");
+  }
+  if (hand.given() && hand.turn.empty()) {
+    throw InputError("--hand: --turn says what the hand is to do, as in --turn \"z 90\"");
+  }
+  if (!hand.given() && !hand.turn.empty()) {
+    throw InputError("--turn: --hand says which hand is to turn the object");
+  }
+  if (hand.given() && common.planner != "auto") {
+    throw InputError("--planner: " + common.planner + " plans for fingers without a hand");
+  }
+}
+
 void PlanProgram::CheckOutput() const {
   if (output == "-") return;
   std::vector<NamedFile> inputs = {{"--object", common.object}};
-  if (!IsRandom(start)) inputs.push_back({"--start", start});
-  if (!IsRandom(goal)) inputs.push_back({"--goal", goal});
+  for (const NamedFile& end :
+       {NamedFile{"--start", start}, {"--goal", goal}, {"--hand", hand.hand}}) {
+    if (!end.path.empty() && !IsRandom(end.path.string())) inputs.push_back(end);
+  }
   OutputFiles outputs;
   outputs.Add("--output", output);
   CheckOutputsDiffer(inputs, outputs);
   CheckOutputsWritable(outputs);
+}
+
+planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) const {
+  const planning::PlanRequest asked = RequestFor(*object.object);
+  for (const planning::PlanOption option : planning::OptionsOf(asked)) {
+    throw InputError(planning::OptionName(option) + ": no option of plans for a hand");
+  }
+  const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
+  if (solid == nullptr) throw InputError("--hand: hands hold solids, and no planar objects");
+  const kinematics::HandModel model = kinematics::ReadHand(hand.hand);
+  ProgressLine progress(common.quiet);
+  gait::GaitRequest request;
+  request.hand = &model;
+  request.solid = solid;
+  request.scale = common.scale;
+  request.criteria = asked.criteria;
+  request.margin = hand.clearance_m;
+  request.turn = hand.ParseTurn();
+  request.seed = common.seed;
+  request.deadline = asked.deadline;
+  request.progress = progress.reporter();
+  const gait::GaitResult found = gait::FindGait(request);
+  progress.Clear();
+  planning::PlanResult result;
+  result.message = found.message;
+  if (!found.gait) {
+    result.status = planning::PlanResult::Status::kNoSequence;
+    return result;
+  }
+  result.plan = gait::PlanOf(*found.gait, request, found.contacts);
+  return result;
 }
 
 /// A surface that is refused is told what a repair would make of it.
@@ -210,13 +267,15 @@ object::ObjectFile PlanProgram::ReadObject() const {
 }
 
 int PlanProgram::Run() const {
+  CheckEnds();
   CheckOutput();
+  if (hand.given()) (void)hand.ParseTurn();  // before the object is read
   const object::ObjectFile object = ReadObject();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
   const std::vector<std::string> doubts = {object::SizeWarning(body, common.scale),
                                            common.friction.warning()};
-  planning::PlanResult result = Find(object);
+  planning::PlanResult result = hand.given() ? FindInHand(object) : Find(object);
   if (!result.plan) {
     PrintError(kProgram, result.message);
     return kExitNegative;

@@ -39,6 +39,7 @@ std::string CommandText(const ValidateOptions& options, const RunInputs& inputs)
   // Their names change no result.
   if (!options.start.empty()) text += " --start …";
   if (!options.goal.empty()) text += " --goal …";
+  if (!options.hand.empty()) text += " --hand …";
   for (const auto& [name, values] : options.given) {
     text += " " + name;
     // A flag has a value too, which nobody types.
@@ -57,6 +58,7 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
                      {"object", FileJson(inputs.object)},
                      {"start", report::TextOrNull(inputs.start_sha256)},
                      {"goal", report::TextOrNull(inputs.goal_sha256)},
+                     {"hand", report::TextOrNull(inputs.hand_sha256)},
                      {"options", options.given}};
   // File names and values may be any bytes.
   return Sha256(json.dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));

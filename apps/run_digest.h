@@ -18,6 +18,7 @@ struct RunInputs {
   report::FileDigest object;
   std::string start_sha256;  ///< of the bytes of --start; empty where it is not given
   std::string goal_sha256;   ///< of --goal, likewise
+  std::string hand_sha256;   ///< of the file of --hand, likewise
 };
 
 /// SHA-256 over all that the results of a validation depend on: the program's build and the engine,

@@ -91,8 +91,10 @@ std::string WhyStopped(const ChildExit& exit, const ValidateOptions& options) {
 
 /// In a folder of objects each file may be that of a plan.
 std::vector<NamedFile> InputsOf(const ValidateOptions& options, const PlanLibrary& library) {
-  std::vector<NamedFile> inputs = {
-      {"--object", options.object_path}, {"--start", options.start}, {"--goal", options.goal}};
+  std::vector<NamedFile> inputs = {{"--object", options.object_path},
+                                   {"--start", options.start},
+                                   {"--goal", options.goal},
+                                   {"--hand", options.hand}};
   std::error_code error;
   for (fs::directory_iterator entry(options.object_path, error), end; !error && entry != end;
        entry.increment(error)) {

@@ -63,6 +63,14 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   add("--start", options.start, "Grasp file that the plan's initial grasp must be")
       ->excludes(grasp);
   add("--goal", options.goal, "Grasp file that the plan's goal must be")->excludes(grasp);
+  add("--hand", options.hand,
+      "Hand file, of a plan for a hand: also check joints, limits, tips and collisions along all "
+      "paths of the hand")
+      ->excludes(grasp);
+  AddNumber(app, "--clearance", options.clearance_m, {0, 0.05, true, true},
+            "What links keep from each other, from the palm and from the object; in metres, with "
+            "--hand (default 0.001)",
+            "M");
   add("--verify", options.verify,
       "Check the proofs of a report that --certificates wrote: in exact rational arithmetic, "
       "against this plan and object, at the plan's friction or the one that is given, and all else "
@@ -254,9 +262,9 @@ void AddBatch(CLI::App& app, ValidateOptions& options) {
 /// by what their files hold.
 bool ChangesResults(const std::string& name) {
   static const std::set<std::string> kOthers = {
-      "--help",   "--version", "--object",      "--plan",       "--grasp", "--out",
-      "--junit",  "--json",    "--export-mjcf", "--trajectory", "--start", "--goal",
-      "--verify", "--jobs",    "--fresh",       "--time-limit", "--quiet", "--video"};
+      "--help", "--version",     "--object",     "--plan",  "--grasp", "--out",  "--junit",
+      "--json", "--export-mjcf", "--trajectory", "--start", "--goal",  "--hand", "--verify",
+      "--jobs", "--fresh",       "--time-limit", "--quiet", "--video"};
   return !kOthers.contains(name);
 }
 

@@ -11,6 +11,7 @@
 #include "apps/repair_options.h"
 #include "render/frames/contact_sheet.h"
 #include "render/frames/frame.h"
+#include "sim/hand/check_hand.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
 
@@ -35,6 +36,8 @@ struct ValidateOptions {
   std::string trajectory;
   std::string start;
   std::string goal;
+  std::string hand;  ///< of a plan for a hand: its file; empty: the hand is not checked
+  double clearance_m = sim::HandCheckOptions().clearance_m;
   std::string verify;  ///< a report whose proofs are checked; nothing else is done
   FrictionOptions friction;
   RepairOptions repair;  ///< of a grasp's object; a plan holds its own

@@ -30,6 +30,7 @@
 #include "report/junit.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
+#include "sim/hand/check_hand.h"
 #include "sim/replay/trajectory.h"
 #include "sim/scene/scaling.h"
 
@@ -75,7 +76,8 @@ void CheckOutputs(const ValidateOptions& options) {
   CheckOutputsDiffer({{"--object", options.object_path},
                       {options.for_grasp() ? "--grasp" : "--plan", options.InputPath()},
                       {"--start", options.start},
-                      {"--goal", options.goal}},
+                      {"--goal", options.goal},
+                      {"--hand", options.hand}},
                      outputs);
   CheckOutputsWritable(outputs);
 }
@@ -176,6 +178,15 @@ struct CheckTask {
       check.goal = &goal;
     }
   }
+  /// Of a plan for a hand.
+  void CheckHand(const ValidateOptions& options, const Task& task) {
+    const auto* solid = dynamic_cast<const object::Polyhedron*>(task.object.object.get());
+    if (solid == nullptr || options.for_grasp()) {
+      throw InputError("--hand: checks plans for solids that were made for a hand");
+    }
+    check.hand_faults = sim::CheckHand(options.hand, *solid, plan::LocatePlan(*solid, task.plan),
+                                       {options.clearance_m});
+  }
   CheckTask(const CheckTask&) = delete;
   CheckTask& operator=(const CheckTask&) = delete;
 
@@ -186,14 +197,24 @@ struct CheckTask {
 
 report::Report Check(const ValidateOptions& options, const Task& task, Samples& samples) {
   const object::Object& object = *task.object.object;
-  const CheckTask given(options, task);
+  CheckTask given(options, task);
   ProgressLine progress(options.quiet);
+  if (!options.hand.empty()) {
+    progress.Report("checking the hand");
+    given.CheckHand(options, task);
+  }
   progress.Report(options.for_grasp() ? "checking the grasp" : "checking the plan");
   const sim::ReplayObserver observer = MakeObserver(options, progress, samples);
   if (!options.for_grasp())
     return report::Validate(object, task.plan, given.check, options.replay, observer);
   return report::ValidateGrasp(object, task.grasp, task.plan.half_angle, task.plan.scale,
                                options.replay, observer);
+}
+
+std::string UncheckedHandWarning(const ValidateOptions& options, const plan::Plan& plan) {
+  if (!plan.hand || !options.hand.empty()) return "";
+  return "the plan is for the hand " + plan.hand->name + "; --hand " + plan.hand->file +
+         " checks its joints and paths, too";
 }
 
 /// Of a plan whose replay passes.
@@ -388,7 +409,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   const RunInputs inputs = {{report.plan_file, report.plan_sha256},
                             {report.object_file, report.object_sha256},
                             options.start.empty() ? "" : Sha256(task.start_text),
-                            options.goal.empty() ? "" : Sha256(task.goal_text)};
+                            options.goal.empty() ? "" : Sha256(task.goal_text),
+                            options.hand.empty() ? "" : Sha256(ReadFile(options.hand))};
   report.run = report::RunRecord{RunDigest(options, inputs),
                                  {},
                                  std::string(kValidateName) + " " + ProgramVersion(),
@@ -400,7 +422,8 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
   for (const std::string& warning :
        {object::SizeWarning(body, task.plan.scale), options.friction.warning(),
-        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan))}) {
+        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan)),
+        UncheckedHandWarning(options, task.plan)}) {
     if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
   }
   for (const std::string& warning : report.warnings()) {

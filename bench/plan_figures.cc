@@ -46,8 +46,9 @@ double TravelOf(const plan::Plan& plan) {
   plan::FingerGrasp holding = plan.initial;
   for (const plan::Step& step : plan.steps) {
     const auto* change = std::get_if<plan::Switch>(&step);
-    travel +=
-        change != nullptr ? TravelOf(*change, holding) : TravelOf(std::get<plan::Align>(step));
+    const auto* align = std::get_if<plan::Align>(&step);
+    if (change != nullptr) travel += TravelOf(*change, holding);
+    if (align != nullptr) travel += TravelOf(*align);
     holding = plan::GraspAfter(holding, step);
   }
   return travel;

@@ -108,6 +108,15 @@ std::string MendOf(const ReportStep& step, const Report& report) {
              "few";
     case Reason::kUnreachable:
       return MendReach(step.fault());
+    case Reason::kHandJumps:
+      return "paths of the hand that begin where those before them end";
+    case Reason::kTipOffContact:
+      return "joints that put the tips where the contacts are, and more states on the path where "
+             "they leave them between two";
+    case Reason::kJointLimit:
+      return "a posture within the limits, or a contact that the finger reaches within them";
+    case Reason::kHandCollides:
+      return "a way around, other contacts, or less --clearance";
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
              "object is of no usual size";
@@ -161,6 +170,16 @@ std::string RuleOf(Reason reason, const Report& report) {
     case Reason::kUnreachable:
       return "a finger comes straight along the normal, and keeps clear of the object and the "
              "others";
+    case Reason::kHandJumps:
+      return "hand and object go on from where they are";
+    case Reason::kTipOffContact:
+      return "the tip of a finger that holds touches its contact, all along a move too";
+    case Reason::kJointLimit:
+      return "joints stay within the limits of the hand's model";
+    case Reason::kHandCollides:
+      return "the links of the hand keep the clearance from each other, the palm and the object, "
+             "on "
+             "all of the path; a tip that touches may be 0.3 mm in the surface";
     case Reason::kSimulationUnstable:
       return "the simulation came to no end, so nothing is known of the step";
     case Reason::kContactLost:

@@ -11,7 +11,7 @@ namespace regrasp::report {
 /// report.json and JUnit say it in these words. A plan that passes has none.
 struct Failure {
   plan::EntryIndex entry{0};
-  std::string kind;    ///< "hold", "switch" or "align"
+  std::string kind;    ///< "hold", or as StepKind
   std::string reason;  ///< "slipped"
   /// With its number and unit: "finger 2 slipped by 300 µm under a push of 5.3 N along +x".
   std::string what;

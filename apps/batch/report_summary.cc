@@ -16,7 +16,7 @@ std::string TextOrNothing(const plan::JsonReader& parent, const char* key) {
 }
 
 ReportSummary::Entry ReadEntry(const plan::JsonReader& step) {
-  return {step.Member("kind").OneOf({"hold", "switch", "align"}),
+  return {step.Member("kind").OneOf({"hold", "switch", "align", "move"}),
           step.Member("verdict").OneOf({"pass", "fail", "skipped"}),
           TextOrNothing(step, "reason"),
           TextOrNothing(step, "detail"),

@@ -20,7 +20,7 @@ namespace regrasp::certificate {
 /// What exact arithmetic says of the proofs of one entry.
 struct EntryVerdict {
   plan::EntryIndex index{0};
-  std::string kind;  ///< "hold", "switch" or "align"
+  std::string kind;  ///< "hold", or as StepKind
   motion::ProofVerdict rest;
   std::vector<motion::ProofVerdict> motions;
 

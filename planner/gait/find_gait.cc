@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <memory>
 
 #include "planner/base/angle.h"
 #include "planner/base/number.h"
@@ -16,6 +16,24 @@ constexpr int kContacts = 400;
 constexpr double kFromBorder = 0.02;
 /// Of a track, radians.
 constexpr double kStep = 0.06;
+
+/// Of each place in the hand at first.
+constexpr int kFirstExpanded = 25;
+
+/// A place in the hand to turn the object in.
+struct PlaceInHand {
+  PoseTrack track;
+  Parking parking;
+  RandomStream random;
+  GaitSearch search;
+
+  PlaceInHand(const HandSetup& setup, const PoseTrack& poses, Parking postures,
+              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
+      : track(poses),
+        parking(std::move(postures)),
+        random(seed, RandomUse::kGaits, index),
+        search(setup, track, parking, memory, random) {}
+};
 
 double LargestTip(const kinematics::HandModel& hand) {
   double radius = 0;
@@ -77,23 +95,30 @@ GaitResult FindGait(const GaitRequest& request) {
   memory.Append(result.contacts);
 
   const Eigen::Vector3d centre = request.scale * request.solid->mass_properties().centroid;
-  RandomStream homes(request.seed, RandomUse::kHomes);
+  RandomStream random(request.seed, RandomUse::kHomes);
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)));
-  for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, homes)) {
-    if (request.deadline.IsOver()) break;
+  std::vector<std::unique_ptr<PlaceInHand>> places;
+  for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, random)) {
     const PoseTrack track(home, centre, request.turn.axis, request.turn.angle,
                           Eigen::Vector3d::Zero(), steps);
-    const std::optional<Parking> parking = FindParking(setup, track, homes);
+    const std::optional<Parking> parking = FindParking(setup, track, random);
     if (!parking) continue;
-    RandomStream random(request.seed, RandomUse::kGaits, result.counts.size());
-    GaitSearch search(setup, track, *parking, memory, random);
-    result.gait = search.Run(request.most_expanded, request.deadline);
-    result.counts.push_back(search.counts());
-    if (result.gait) return result;
-    request.progress("place " + std::to_string(result.counts.size()) +
-                     " in the hand: " + std::to_string(search.counts().farthest) + " of " +
-                     std::to_string(steps) + " steps");
+    places.push_back(
+        std::make_unique<PlaceInHand>(setup, track, *parking, memory, request.seed, places.size()));
   }
+  // A good place shows soon; all get a little, then all more.
+  for (int expanded = kFirstExpanded; expanded <= request.most_expanded && !result.gait;
+       expanded *= 2) {
+    for (const auto& place : places) {
+      if (request.deadline.IsOver() || place->search.IsExhausted()) continue;
+      result.gait = place->search.Run(expanded, request.deadline);
+      if (result.gait) break;
+      request.progress("searching a gait, " + std::to_string(expanded) + " grasps from each of " +
+                       std::to_string(places.size()) + " places in the hand");
+    }
+  }
+  for (const auto& place : places) result.counts.push_back(place->search.counts());
+  if (result.gait) return result;
   result.message = WhatStopped(result.counts, request.turn, steps);
   return result;
 }

@@ -25,7 +25,7 @@ struct GaitRequest {
   double margin = 1e-3;  ///< between links, palm and object, metres
   Turn turn;
   std::uint64_t seed = 0;
-  int most_expanded = 400;  ///< rests expanded from one home
+  int most_expanded = 1600;  ///< rests expanded from one place in the hand
   Deadline deadline = {};
   planning::Progress progress = [](std::string_view) {};
 };
@@ -34,7 +34,7 @@ struct GaitResult {
   std::optional<Gait> gait;
   std::vector<grasp::Contact> contacts;  ///< by the numbers that the gait has, the object's units
   std::string message;                   ///< where there is none: what stopped it, counted
-  std::vector<GaitCounts> counts;        ///< by home
+  std::vector<GaitCounts> counts;        ///< by place in the hand
 };
 
 /// Finds a gait of the hand that turns the object: chooses where in the hand it begins and with

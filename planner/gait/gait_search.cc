@@ -233,22 +233,35 @@ bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<S
   return true;
 }
 
+const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int step) {
+  const auto [found, is_new] = rest.moves.try_emplace(step);
+  if (!is_new) return found->second;
+  // What lies beyond a step that can't be reached can't be reached either.
+  const bool beyond = std::ranges::any_of(rest.moves, [&](const auto& move) {
+    const bool between = (move.first - rest.step) * (step - move.first) > 0;
+    return between && move.second.empty();
+  });
+  if (!beyond) {
+    auto move = FindMove(setup_, track_, rest.holding, rest.at, rest.step, step);
+    if (move) found->second = std::move(*move);
+  }
+  if (found->second.empty()) ++counts_.no_move;
+  return found->second;
+}
+
 /// From the parent's rest along the track, then the switch.
 bool GaitSearch::WorkOutWay(Rest& rest) {
   if (rest.parent < 0) {
     rest.at = FrameAt(rest.holding, rest.step);
     return true;
   }
-  const Rest& parent = rests_[rest.parent];
+  Rest& parent = rests_[rest.parent];
   Keyframe frame = parent.at;
   if (parent.step != rest.step) {
-    auto move = FindMove(setup_, track_, parent.holding, frame, parent.step, rest.step);
-    if (!move) {
-      ++counts_.no_move;
-      return false;
-    }
-    frame = move->back();
-    rest.way.push_back({Stretch::Kind::kMove, {}, kNone, std::move(*move)});
+    const std::vector<Keyframe>& move = MoveFrom(parent, rest.step);
+    if (move.empty()) return false;
+    frame = move.back();
+    rest.way.push_back({Stretch::Kind::kMove, {}, kNone, move});
   }
   Keyframe placed;
   if (!Place(rest, frame, placed) || !Release(rest, placed, rest.way)) {
@@ -274,20 +287,21 @@ Gait GaitSearch::GaitTo(int index, std::vector<Keyframe> last_move) const {
 }
 
 std::optional<Gait> GaitSearch::Run(int most_expanded, const Deadline& deadline) {
-  AddFirstRests();
+  if (!begun_) AddFirstRests();
+  begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
     const int index = queue_.top().rest;
     queue_.pop();
-    Rest rest = rests_[index];
+    Rest& rest = rests_[index];
     if (!WorkOutWay(rest)) continue;
-    rests_[index] = rest;
-    counts_.farthest = std::max(counts_.farthest, rest.last);
     if (rest.last == track_.steps()) {
-      auto move = FindMove(setup_, track_, rest.holding, rest.at, rest.step, rest.last);
-      if (move) return GaitTo(index, std::move(*move));
-      ++counts_.no_move;
+      if (rest.step == rest.last) return GaitTo(index, {});
+      const std::vector<Keyframe>& move = MoveFrom(rest, rest.last);
+      if (!move.empty()) return GaitTo(index, move);
+      --rest.last;
     }
+    counts_.farthest = std::max(counts_.farthest, rest.last);
     ++counts_.expanded;
     Expand(index);
   }

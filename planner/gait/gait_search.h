@@ -42,8 +42,11 @@ class GaitSearch {
   GaitSearch(const HandSetup& setup, const PoseTrack& track, const Parking& parking,
              criteria::GraspMemory& memory, RandomStream& random);
 
-  /// @returns nullopt where none was found with so many rests expanded, or until the deadline.
+  /// Goes on until so many rests were expanded in all calls together.
+  /// @returns nullopt where none was found until then, or until the deadline.
   [[nodiscard]] std::optional<Gait> Run(int most_expanded, const Deadline& deadline);
+  /// Whether nothing is left to expand.
+  [[nodiscard]] bool IsExhausted() const { return begun_ && queue_.empty(); }
 
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
   [[nodiscard]] const ReachMap::Counts& reach_counts() const { return reach_.counts(); }
@@ -60,6 +63,8 @@ class GaitSearch {
     FingerIndex placed = {}, released = {};
     /// Worked out when its turn comes: from the parent's rest to this one.
     std::vector<Stretch> way = {};
+    /// Moves from `step` on that were worked out, by where they lead; empty ones can't be done.
+    std::map<int, std::vector<Keyframe>> moves = {};
     Keyframe at = {};  ///< at `step`
   };
   struct Waiting {
@@ -85,6 +90,8 @@ class GaitSearch {
   [[nodiscard]] bool FingersKeepApart(const Holding& holding, int step);
   [[nodiscard]] Keyframe FrameAt(const Holding& holding, int step);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
+  /// The move with a rest's grasp to a step; empty where it can't be done.
+  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int step);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
   [[nodiscard]] bool Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way);
   [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
@@ -103,6 +110,7 @@ class GaitSearch {
   std::set<std::pair<Holding, int>> known_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
   GaitCounts counts_;
+  bool begun_ = false;
 };
 
 }  // namespace regrasp::gait

@@ -23,6 +23,7 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   if (const auto* finger_switch = std::get_if<Switch>(&step)) {
     return CheckSwitch(context, before, *finger_switch);
   }
+  if (std::holds_alternative<Move>(step)) return CheckMove(context, before);
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
@@ -78,6 +79,15 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
     last.fault = CompareGrasps(end, *options.goal, context.tolerance());
     last.detail = "the plan's goal is not the given goal grasp" + ElsewhereText(last.fault);
   }
+}
+
+/// What the hand's check found of an entry that has no other fault.
+void TakeHandFault(const CheckOptions& options, StepCheck& check) {
+  if (!Passed(check)) return;
+  const auto found = std::ranges::find(options.hand_faults, check.index, &HandFault::entry);
+  if (found == options.hand_faults.end()) return;
+  check.reason = found->reason;
+  check.detail = found->detail;
 }
 
 StepCheck Skipped(EntryIndex index, const char* kind) {
@@ -149,6 +159,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
       options.judge_force_closure};
   result.steps.push_back(CheckHold(context));
   CheckStart(context, options, result.steps.back());
+  TakeHandFault(options, result.steps.back());
   FingerGrasp holding = context.plan.initial;
   for (const Step& step : context.plan.steps) {
     const EntryIndex index(static_cast<int>(result.steps.size()));
@@ -158,6 +169,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
     }
     result.steps.push_back(CheckStep(context, holding, step));
     result.steps.back().index = index;
+    TakeHandFault(options, result.steps.back());
     holding = GraspAfter(holding, step);
   }
   CheckGoal(context, options, holding, result.steps.back());

@@ -15,7 +15,7 @@ namespace regrasp::plan {
 /// What the analytic check says of one entry of the report: the initial hold or a step.
 struct StepCheck {
   EntryIndex index{0};
-  std::string kind;  ///< "hold", "switch" or "align"
+  std::string kind;  ///< "hold", or as StepKind
   Reason reason = Reason::kNone;
   std::string detail;    ///< for people: which finger, which waypoint, how far off
   Fault fault;           ///< the same for a picture
@@ -34,6 +34,13 @@ struct StepCheck {
   int undecided = 0;
 };
 
+/// What a check of a plan's hand found: the first fault of an entry.
+struct HandFault {
+  EntryIndex entry{0};
+  Reason reason = Reason::kNone;
+  std::string detail;
+};
+
 struct CheckOptions {
   std::optional<double> half_angle = std::nullopt;  ///< instead of the plan's friction, radians
   /// Fingers have this radius (reach.h), the object's unit of length, instead of the plan's; points
@@ -43,6 +50,9 @@ struct CheckOptions {
   bool judge_force_closure = true;
   const grasp::Grasp* start = nullptr;  ///< the plan's initial grasp must be this one
   const grasp::Grasp* goal = nullptr;   ///< and its goal this one
+  /// Found by whoever checks the hand that the plan is for (sim/hand/check_hand.h); each fails its
+  /// entry, where that has no other fault.
+  std::vector<HandFault> hand_faults = {};
   /// Aligns pass with up to kMostUndecided undecided intervals in each motion between waypoints.
   bool allow_undecided = false;
 };

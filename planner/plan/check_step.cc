@@ -376,6 +376,15 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   return Finish(check, fault);
 }
 
+StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before) {
+  StepCheck check;
+  check.kind = StepKind(Move{});
+  StepFault fault;
+  BeginForceClosure(context, check);
+  IncludeRest(context, before, "the grasp that moves", check, fault);
+  return Finish(check, fault);
+}
+
 StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, const Align& step) {
   StepCheck check;
   check.kind = StepKind(step);

@@ -52,6 +52,8 @@ struct CheckContext {
 [[nodiscard]] StepCheck CheckHold(const CheckContext& context);
 [[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,
                                     const Switch& step);
+/// The contacts stay: whether the hand can move them so is not asked here.
+[[nodiscard]] StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before);
 [[nodiscard]] StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before,
                                    const Align& step);
 

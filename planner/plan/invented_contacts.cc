@@ -26,8 +26,8 @@ std::string InventedContactsWarning(const object::Object& object, const Plan& lo
     const std::string where = "step " + std::to_string(i + 1);
     if (const auto* step = std::get_if<Switch>(&located.steps[i])) {
       found.Add(object, step->place, where);
-    } else {
-      found.Add(object, std::get<Align>(located.steps[i]).waypoints.back(), where);
+    } else if (const auto* align = std::get_if<Align>(&located.steps[i])) {
+      found.Add(object, align->waypoints.back(), where);
     }
   }
   if (found.count == 0) return "";

@@ -110,8 +110,8 @@ Plan LocatePlan(const object::Object& object, const Plan& plan) {
   for (Step& step : located.steps) {
     if (auto* finger_switch = std::get_if<Switch>(&step)) {
       LocateAll(object, finger_switch->place);
-    } else {
-      LocateAlign(object, std::get<Align>(step));
+    } else if (auto* align = std::get_if<Align>(&step)) {
+      LocateAlign(object, *align);
     }
   }
   for (grasp::Contact& contact : located.goal) contact = LocateContact(object, contact).contact;

@@ -5,7 +5,8 @@
 namespace regrasp::plan {
 
 const char* StepKind(const Step& step) {
-  return std::holds_alternative<Switch>(step) ? "switch" : "align";
+  if (std::holds_alternative<Switch>(step)) return "switch";
+  return std::holds_alternative<Align>(step) ? "align" : "move";
 }
 
 const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger) {
@@ -17,6 +18,7 @@ FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   if (const auto* align = std::get_if<Align>(&step)) {
     return align->waypoints.empty() ? before : align->waypoints.back();
   }
+  if (std::holds_alternative<Move>(step)) return before;
   const auto& finger_switch = std::get<Switch>(step);
   FingerGrasp after = before;
   std::erase_if(after, [&](const FingerContact& held) {

@@ -9,6 +9,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
+#include "planner/plan/hand_motion.h"
 
 namespace regrasp::plan {
 
@@ -30,6 +31,7 @@ using FingerGrasp = std::vector<FingerContact>;
 struct Switch {
   FingerGrasp place;
   std::vector<FingerIndex> release;
+  std::optional<SwitchMotion> motion = std::nullopt;  ///< of a plan for a hand
 };
 
 /// A claim that an align is force closure everywhere on the path, with its proof: for each pair of
@@ -43,7 +45,13 @@ struct Align {
   std::optional<AlignCertificate> certificate = std::nullopt;
 };
 
-using Step = std::variant<Switch, Align>;
+/// The object moves in the hand: all fingers keep their contacts and go with it. To fingers without
+/// a hand nothing happens.
+struct Move {
+  HandPath path;
+};
+
+using Step = std::variant<Switch, Align, Move>;
 
 /// How a plan over a roadmap of clustered contact points came about.
 struct RoadmapNote {
@@ -68,6 +76,7 @@ struct Plan {
   /// Radius that the fingers were planned with, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
   std::optional<RoadmapNote> roadmap = std::nullopt;
+  std::optional<HandUse> hand = std::nullopt;  ///< that it is for; none: fingers without one
   FingerGrasp initial;
   std::vector<Step> steps;
   grasp::Grasp goal;
@@ -82,7 +91,7 @@ using EntryIndex = Index<struct EntryTag>;
   return plan.steps[entry - 1];
 }
 
-/// "hold" for entry 0 of a report, "switch" or "align" for a step.
+/// "hold" for entry 0 of a report, "switch", "align" or "move" for a step.
 [[nodiscard]] const char* StepKind(const Step& step);
 
 /// The contact of a finger; null where it does not hold.

@@ -1,7 +1,6 @@
 #include "planner/plan/plan_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,13 +8,12 @@
 #include "planner/base/angle.h"
 #include "planner/base/file.h"
 #include "planner/plan/contact_json.h"
+#include "planner/plan/hand_motion_json.h"
 #include "planner/plan/motion_segment_json.h"
 
 namespace regrasp::plan {
 
 namespace {
-
-constexpr std::size_t kSha256Digits = 64;
 
 Switch ReadSwitch(const JsonReader& json, int dimension) {
   Switch step;
@@ -26,6 +24,7 @@ Switch ReadSwitch(const JsonReader& json, int dimension) {
   if (step.place.empty() && step.release.empty()) {
     json.Fail("a switch must place or release a finger");
   }
+  if (json.Has("motion")) step.motion = ReadSwitchMotion(json.Member("motion"));
   return step;
 }
 
@@ -72,18 +71,10 @@ Align ReadAlign(const JsonReader& json, int dimension) {
 }
 
 Step ReadStep(const JsonReader& json, int dimension) {
-  const std::string kind = json.Member("kind").OneOf({"switch", "align"});
+  const std::string kind = json.Member("kind").OneOf({"switch", "align", "move"});
   if (kind == "switch") return ReadSwitch(json, dimension);
+  if (kind == "move") return Move{ReadHandPath(json.Member("path"))};
   return ReadAlign(json, dimension);
-}
-
-std::string ReadSha256(const JsonReader& json) {
-  std::string digits = json.String();
-  const auto is_digit = [](unsigned char c) { return std::isxdigit(c) && !std::isupper(c); };
-  if (digits.size() != kSha256Digits || !std::ranges::all_of(digits, is_digit)) {
-    json.Fail("expected 64 lower-case hexadecimal digits, found " + json.Quoted());
-  }
-  return digits;
 }
 
 object::RepairRecord ReadRepair(const JsonReader& json) {
@@ -175,6 +166,7 @@ Json SwitchJson(const Switch& step, int dimension) {
   json["kind"] = "switch";
   json["place"] = FingerGraspJson(step.place, dimension);
   json["release"] = step.release;
+  if (step.motion) json["motion"] = SwitchMotionJson(*step.motion);
   return json;
 }
 
@@ -201,6 +193,9 @@ Json StepJson(const Step& step, int dimension) {
   if (const auto* finger_switch = std::get_if<Switch>(&step)) {
     return SwitchJson(*finger_switch, dimension);
   }
+  if (const auto* move = std::get_if<Move>(&step)) {
+    return {{"kind", "move"}, {"path", HandPathJson(move->path)}};
+  }
   return AlignJson(std::get<Align>(step), dimension);
 }
 
@@ -218,6 +213,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   if (root.Has("finger_radius"))
     plan.finger_radius = ReadFingerRadius(root.Member("finger_radius"));
   if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
+  if (root.Has("hand")) plan.hand = ReadHandUse(root.Member("hand"));
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
   for (const JsonReader& step : root.Member("steps").Elements()) {
     plan.steps.push_back(ReadStep(step, plan.dimension));
@@ -246,6 +242,7 @@ std::string FormatPlan(const Plan& plan) {
   json["planner"] = plan.planner;
   if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;
   if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);
+  if (plan.hand) json["hand"] = HandUseJson(*plan.hand);
   json["initial"]["contacts"] = FingerGraspJson(plan.initial, plan.dimension);
   json["steps"] = Json::array();
   for (const Step& step : plan.steps) json["steps"].push_back(StepJson(step, plan.dimension));

@@ -173,6 +173,7 @@ std::optional<Obstacle> FindStepObstacle(const object::Object& object, const Fin
   if (const auto* align = std::get_if<Align>(&step)) {
     return FindAlignObstacle(object, *align, radius);
   }
+  if (std::holds_alternative<Move>(step)) return std::nullopt;
   const FingerGrasp& placed = std::get<Switch>(step).place;
   FingerGrasp during = before;
   during.insert(during.end(), placed.begin(), placed.end());

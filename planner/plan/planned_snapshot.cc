@@ -65,9 +65,9 @@ std::vector<FingerState> DuringAlign(const FingerGrasp& before, const Align& ste
   return states;
 }
 
-std::vector<FingerState> AtHold(const FingerGrasp& initial, const Fault& fault) {
+std::vector<FingerState> AtHold(const FingerGrasp& grasp, const Fault& fault) {
   std::vector<FingerState> states;
-  for (const FingerContact& held : Select(initial, fault)) {
+  for (const FingerContact& held : Select(grasp, fault)) {
     states.push_back(StateOf(held, FingerRole::kHolding));
   }
   return states;
@@ -78,7 +78,8 @@ std::vector<FingerState> DuringEntry(const Plan& plan, int entry, const Fault& f
   const Step& step = plan.steps[entry - 1];
   const FingerGrasp before = GraspBefore(plan, entry);
   if (const auto* change = std::get_if<Switch>(&step)) return DuringSwitch(before, *change, fault);
-  return DuringAlign(before, std::get<Align>(step), fault);
+  if (const auto* align = std::get_if<Align>(&step)) return DuringAlign(before, *align, fault);
+  return AtHold(before, fault);
 }
 
 }  // namespace

@@ -28,6 +28,14 @@ std::string_view ReasonName(Reason reason) {
       return "not-proved";
     case Reason::kUnreachable:
       return "unreachable";
+    case Reason::kHandJumps:
+      return "hand-jumps";
+    case Reason::kTipOffContact:
+      return "tip-off-contact";
+    case Reason::kJointLimit:
+      return "joint-limit";
+    case Reason::kHandCollides:
+      return "hand-collides";
     case Reason::kSimulationUnstable:
       return "simulation-unstable";
     case Reason::kContactLost:

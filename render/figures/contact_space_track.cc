@@ -35,6 +35,10 @@ void Follow(const plan::Switch& step, const AxisGrasp& before, TrackEntry& entry
   }
 }
 
+void Follow(const plan::Move& /*step*/, const AxisGrasp& before, TrackEntry& entry) {
+  entry.grasp = before;
+}
+
 }  // namespace
 
 std::optional<RestSize> FindOtherThanTwoFingers(const plan::Plan& plan) {

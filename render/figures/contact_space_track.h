@@ -22,7 +22,7 @@ struct SpacePoint {
 
 /// What one entry of a plan is in contact space.
 struct TrackEntry {
-  const char* kind = "";           ///< "hold", "switch" or "align"
+  const char* kind = "";           ///< "hold", or as StepKind
   AxisGrasp grasp;                 ///< after it
   std::vector<AxisGrasp> path;     ///< the waypoints of an align
   std::optional<int> shared_axis;  ///< of a switch: where the contact is that stays, 0 or 1

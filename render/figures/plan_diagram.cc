@@ -76,6 +76,9 @@ void AddActions(const plan::FingerGrasp& before, const plan::Switch& step,
   }
 }
 
+void AddActions(const plan::FingerGrasp& /*before*/, const plan::Move& /*step*/,
+                std::vector<DiagramFinger>& /*fingers*/) {}
+
 }  // namespace
 
 std::string PanelLabel(int index) {

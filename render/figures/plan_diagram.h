@@ -28,7 +28,7 @@ struct DiagramFinger {
 
 /// What a figure shows of one entry of a plan: the grasp after it, and what the fingers did.
 struct StepDiagram {
-  std::string kind;     ///< "hold", "switch" or "align"
+  std::string kind;     ///< "hold", or as StepKind
   std::string caption;  ///< "(a) hold: fingers 0, 1, 2; concurrent grasp"
   GraspDiagram grasp;   ///< its cones belong to the first of `fingers`, in their order
   std::vector<DiagramFinger> fingers;  ///< those that hold after the step, then released ones

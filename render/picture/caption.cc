@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/angle.h"
 #include "planner/base/quantity_text.h"
 
 namespace regrasp::render {
@@ -66,6 +67,15 @@ std::string Describe(const plan::Align& step) {
   std::vector<FingerIndex> fingers;
   for (const Travel& travel : MovedFingers(step)) fingers.push_back(travel.finger);
   return fingers.empty() ? "align" : "align: move " + List(fingers);
+}
+
+/// "move: turn by 38°, by 2.1 mm".
+std::string Describe(const plan::Move& step) {
+  if (step.path.empty()) return "move";
+  const Eigen::Isometry3d& from = step.path.front().pose;
+  const Eigen::Isometry3d& to = step.path.back().pose;
+  const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
+  return "move: turn the object by " + FormatDegrees(Degrees(turn.angle()));
 }
 
 /// "move 1 by 12 mm, 3 by 0.8 mm together along the surface", or "… then 3 by …" where it begins

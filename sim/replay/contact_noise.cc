@@ -107,7 +107,9 @@ plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
       for (plan::FingerContact& held : change->place) hand.Place(held);
       continue;
     }
-    for (plan::FingerGrasp& waypoint : std::get<plan::Align>(step).waypoints) {
+    auto* align = std::get_if<plan::Align>(&step);
+    if (align == nullptr) continue;
+    for (plan::FingerGrasp& waypoint : align->waypoints) {
       for (plan::FingerContact& held : waypoint) hand.Move(held);
     }
   }

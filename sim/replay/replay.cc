@@ -37,7 +37,9 @@ void Perform(ReplayWorld& world, const object::Object& object, const plan::Plan&
     SwitchFingers(world, ToScene(object, plan.scale, change->place), change->release);
     return;
   }
-  const auto& waypoints = std::get<plan::Align>(step).waypoints;
+  const auto* align = std::get_if<plan::Align>(&step);
+  if (align == nullptr) return;  // a move: there is no hand to carry it out
+  const auto& waypoints = align->waypoints;
   if (waypoints.empty()) return;
   const AlignScript& script = *world.scene().entries[index].script;
   result.align_mode = PerformAlign(world, script);

@@ -98,7 +98,9 @@ struct Sequence {
     if (index == 0) return plan.initial;
     const plan::Step& step = plan::StepOf(plan, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) return change->place;
-    const auto& waypoints = std::get<plan::Align>(step).waypoints;
+    const auto* align = std::get_if<plan::Align>(&step);
+    if (align == nullptr) return {};  // a move: where they were
+    const auto& waypoints = align->waypoints;
     return waypoints.empty() ? plan::FingerGrasp() : waypoints.back();
   }
 

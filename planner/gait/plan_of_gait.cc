@@ -1,0 +1,65 @@
+#include "planner/gait/plan_of_gait.h"
+
+#include "planner/kinematics/finger_kinematics.h"
+
+namespace regrasp::gait {
+namespace {
+
+plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand) {
+  plan::HandState state{frame.pose, {}};
+  for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
+    state.joints.push_back(kinematics::JointAngles(hand.fingers[i], frame.postures[i]));
+  }
+  return state;
+}
+
+plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand) {
+  plan::HandPath path;
+  for (const Keyframe& frame : stretch.path) path.push_back(StateOf(frame, hand));
+  return path;
+}
+
+}  // namespace
+
+plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
+                  const std::vector<grasp::Contact>& contacts) {
+  const kinematics::HandModel& hand = *request.hand;
+  plan::Plan plan;
+  plan.scale = request.scale;
+  plan.dimension = 3;
+  plan.half_angle = request.criteria.half_angle;
+  plan.fingers = static_cast<int>(hand.fingers.size());
+  plan.planner = "gait";
+  plan.hand =
+      plan::HandUse{hand.name, hand.file, hand.sha256, StateOf(gait.start, hand),
+                    (gait.stretches.empty() ? gait.start : gait.stretches.back().path.back()).pose};
+  for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
+    if (gait.initial[finger] == kNone) continue;
+    plan.initial.push_back({finger, contacts[gait.initial[finger]]});
+  }
+  plan::FingerGrasp holding = plan.initial;
+  for (const Stretch& stretch : gait.stretches) {
+    switch (stretch.kind) {
+      case Stretch::Kind::kMove:
+        plan.steps.emplace_back(plan::Move{PathOf(stretch, hand)});
+        break;
+      case Stretch::Kind::kPlace: {
+        const plan::FingerContact placed{stretch.finger, contacts[stretch.contact]};
+        plan.steps.emplace_back(
+            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(stretch, hand), {}}});
+        break;
+      }
+      case Stretch::Kind::kRelease: {
+        auto& last = std::get<plan::Switch>(plan.steps.back());
+        last.release.push_back(stretch.finger);
+        last.motion->release = PathOf(stretch, hand);
+        break;
+      }
+    }
+  }
+  for (const plan::Step& step : plan.steps) holding = plan::GraspAfter(holding, step);
+  plan.goal = plan::ContactsOf(holding);
+  return plan;
+}
+
+}  // namespace regrasp::gait

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "planner/object/polyhedron.h"
+#include "planner/plan/check.h"
+#include "planner/plan/plan.h"
+
+namespace regrasp::sim {
+
+struct HandCheckOptions {
+  double clearance_m = 1e-3;  ///< that links keep from each other, from palm and object
+};
+
+/// Checks that a hand can carry out its plan, by other means than those that planned it: the engine's
+/// kinematics, and Gilbert's descent for what is near each other. Asked are:
+///
+/// - states that follow each other without a jump, each with all joints of the hand;
+/// - joints within their limits;
+/// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves; and
+///   ended there, those that are placed;
+/// - no link nearer to another one, to the palm or to the object than the clearance, everywhere
+///   along the paths: certified by a bound on how far things move between samples. A tip that holds,
+///   or is about to, may touch the object, and be in it by 0.3 mm;
+/// - the object at last where the plan says that it is to be.
+///
+/// @param plan  located (plan::LocatePlan), with a hand.
+/// @returns the first fault of each entry that has one; later entries are looked at as if the ones
+///          before them were right.
+/// @throws InputError  the hand cannot be read, or is not the one that the plan was made for.
+[[nodiscard]] std::vector<plan::HandFault> CheckHand(const std::filesystem::path& hand_file,
+                                                     const object::Polyhedron& solid,
+                                                     const plan::Plan& plan,
+                                                     const HandCheckOptions& options = {});
+
+}  // namespace regrasp::sim

@@ -1,0 +1,204 @@
+#include "sim/hand/hand_body.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner/base/file.h"
+#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/kinematics/mujoco_model.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kNearAtRest = 1e-3;
+
+Isometry3d PoseOf(const mjtNum* position, const mjtNum* matrix) {
+  Isometry3d pose = Isometry3d::Identity();
+  for (int row = 0; row < 3; ++row) {
+    pose.translation()[row] = position[row];
+    for (int column = 0; column < 3; ++column) {
+      pose.linear()(row, column) = matrix[3 * row + column];
+    }
+  }
+  return pose;
+}
+
+}  // namespace
+
+struct HandBody::Impl {
+  /// Its points in the frame of its body.
+  struct Shape {
+    int body;
+    std::vector<Vector3d> points;
+    double radius;
+  };
+
+  kinematics::HandModel hand;
+  kinematics::HandDescription description;
+  kinematics::ModelPtr model;
+  kinematics::DataPtr data;
+  int palm = 0;
+  std::vector<std::vector<int>> joint_ids;  ///< of the model, by finger
+  std::vector<int> tip_bodies;
+  std::vector<HandPart> parts;
+  std::vector<Shape> shapes;                ///< by part
+  std::vector<std::vector<double>> levers;  ///< by part and joint
+  std::set<std::pair<int, int>> may_touch;
+
+  [[nodiscard]] Isometry3d BodyPose(int body) const {
+    const Isometry3d to_world = PoseOf(data->xpos + std::ptrdiff_t{3} * palm,
+                                       data->xmat + std::ptrdiff_t{9} * palm);
+    return to_world.inverse() * PoseOf(data->xpos + std::ptrdiff_t{3} * body,
+                                       data->xmat + std::ptrdiff_t{9} * body);
+  }
+  [[nodiscard]] int BodyId(const std::string& name) const {
+    return mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
+  }
+  /// The finger that a body belongs to, and how many of its joints are at or above the body.
+  [[nodiscard]] HandPart Owner(int body) const {
+    HandPart part;
+    for (FingerIndex finger{0}; finger < std::ssize(joint_ids); ++finger) {
+      const auto above = std::ranges::count_if(joint_ids[finger], [&](int joint) {
+        int at = body;
+        while (at != 0 && at != model->jnt_bodyid[joint]) at = model->body_parentid[at];
+        return at != 0;
+      });
+      if (above > part.joints) part = {finger, static_cast<int>(above), false, ""};
+    }
+    return part;
+  }
+  void AddPart(int body, std::vector<Vector3d> points, double radius, bool is_tip) {
+    HandPart part = Owner(body);
+    part.is_tip = is_tip;
+    const char* name = mj_id2name(model.get(), mjOBJ_BODY, body);
+    part.body = name != nullptr ? name : "body " + std::to_string(body);
+    parts.push_back(part);
+    shapes.push_back({body, std::move(points), radius});
+  }
+  void AddParts() {
+    for (int geom = 0; geom < model->ngeom; ++geom) {
+      const int body = model->geom_bodyid[geom];
+      const bool collides = model->geom_contype[geom] != 0 || model->geom_conaffinity[geom] != 0;
+      if (!collides || model->body_rootid[body] != model->body_rootid[palm]) continue;
+      if (std::ranges::find(tip_bodies, body) != tip_bodies.end()) continue;
+      const collision::ConvexShape shape = kinematics::ShapeOfGeom(*model, geom);
+      if (shape.points.empty()) continue;
+      mjtNum matrix[9];
+      mju_quat2Mat(matrix, model->geom_quat + std::ptrdiff_t{4} * geom);
+      const Isometry3d in_body = PoseOf(model->geom_pos + std::ptrdiff_t{3} * geom, matrix);
+      std::vector<Vector3d> points;
+      for (const Vector3d& point : shape.points) points.push_back(in_body * point);
+      AddPart(body, std::move(points), shape.radius, false);
+    }
+    for (std::size_t i = 0; i < tip_bodies.size(); ++i) {
+      const kinematics::HandDescription::Tip& tip = description.tips[i];
+      AddPart(tip_bodies[i], {Vector3d::Zero(), tip.centre}, tip.radius, true);
+    }
+  }
+  /// At rest: from each joint to the next one, and from the last one to the farthest point.
+  void MeasureLevers() {
+    const auto anchor = [&](int joint) -> Vector3d {
+      return Eigen::Map<const Vector3d>(data->xanchor + std::ptrdiff_t{3} * joint);
+    };
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      std::vector<double> lever(parts[i].joints, 0);
+      if (!lever.empty()) {
+        const std::vector<int>& joints = joint_ids[parts[i].finger];
+        const Isometry3d pose = PoseOf(data->xpos + std::ptrdiff_t{3} * shapes[i].body,
+                                       data->xmat + std::ptrdiff_t{9} * shapes[i].body);
+        double reach = 0;
+        for (const Vector3d& point : shapes[i].points) {
+          reach = std::max(reach, (pose * point - anchor(joints[parts[i].joints - 1])).norm());
+        }
+        reach += shapes[i].radius;
+        for (int k = parts[i].joints - 1; k >= 0; --k) {
+          lever[k] = reach;
+          if (k > 0) reach += (anchor(joints[k]) - anchor(joints[k - 1])).norm();
+        }
+      }
+      levers.push_back(std::move(lever));
+    }
+  }
+};
+
+HandBody::HandBody(const std::filesystem::path& hand_file) : impl_(std::make_unique<Impl>()) {
+  Impl& impl = *impl_;
+  impl.hand = kinematics::ReadHand(hand_file);
+  impl.description =
+      kinematics::ParseHandDescription(ReadFile(hand_file), hand_file.string());
+  impl.model = kinematics::CompileModel(hand_file.parent_path() / impl.description.model);
+  impl.data = kinematics::AtRest(*impl.model);
+  impl.palm = impl.BodyId(impl.description.palm);
+  for (const kinematics::Finger& finger : impl.hand.fingers) {
+    impl.joint_ids.emplace_back();
+    for (const kinematics::Joint& joint : finger.joints) {
+      impl.joint_ids.back().push_back(
+          mj_name2id(impl.model.get(), mjOBJ_JOINT, joint.name.c_str()));
+    }
+    impl.tip_bodies.push_back(impl.BodyId(finger.tip.body));
+  }
+  impl.AddParts();
+  impl.MeasureLevers();
+  for (int a = 0; a < static_cast<int>(impl.parts.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(impl.parts.size()); ++b) {
+      const HandPart& first = impl.parts[a];
+      const HandPart& second = impl.parts[b];
+      const bool chain = first.finger == second.finger || !first.finger.valid() ||
+                         !second.finger.valid();
+      const bool neighbours = chain && std::abs(first.joints - second.joints) <= 1;
+      if (neighbours || !HaveGap(Place(a), Place(b), kNearAtRest)) impl.may_touch.insert({a, b});
+    }
+  }
+}
+
+HandBody::~HandBody() = default;
+
+const kinematics::HandModel& HandBody::hand() const { return impl_->hand; }
+
+const std::vector<HandPart>& HandBody::parts() const { return impl_->parts; }
+
+bool HandBody::MayTouch(int a, int b) const {
+  return impl_->may_touch.contains({std::min(a, b), std::max(a, b)});
+}
+
+void HandBody::SetJoints(const std::vector<std::vector<double>>& joints) {
+  for (std::size_t i = 0; i < impl_->joint_ids.size(); ++i) {
+    for (std::size_t k = 0; k < impl_->joint_ids[i].size(); ++k) {
+      impl_->data->qpos[impl_->model->jnt_qposadr[impl_->joint_ids[i][k]]] = joints[i][k];
+    }
+  }
+  mj_kinematics(impl_->model.get(), impl_->data.get());
+}
+
+Solid HandBody::Place(int part) const {
+  const Impl::Shape& shape = impl_->shapes[part];
+  const Isometry3d pose = impl_->BodyPose(shape.body);
+  std::vector<Vector3d> points;
+  for (const Vector3d& point : shape.points) points.push_back(pose * point);
+  return MakeSolid(std::move(points), shape.radius);
+}
+
+Vector3d HandBody::TipCentre(FingerIndex finger) const {
+  return impl_->BodyPose(impl_->tip_bodies[finger]) * impl_->description.tips[finger].centre;
+}
+
+double HandBody::MotionBound(int part, const std::vector<std::vector<double>>& from,
+                             const std::vector<std::vector<double>>& to) const {
+  double bound = 0;
+  const std::vector<double>& levers = impl_->levers[part];
+  for (std::size_t k = 0; k < levers.size(); ++k) {
+    const FingerIndex finger = impl_->parts[part].finger;
+    bound += std::abs(to[finger][k] - from[finger][k]) * levers[k];
+  }
+  return bound;
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/base/index.h"
+#include "planner/kinematics/hand_model.h"
+#include "sim/hand/gap.h"
+
+namespace regrasp::sim {
+
+/// A part of a hand that has a place of its own.
+struct HandPart {
+  FingerIndex finger;  ///< not valid: the palm
+  int joints = 0;      ///< of the finger that move it
+  bool is_tip = false;
+  std::string body;
+};
+
+/// A hand as the engine has it: where its parts and tips are, in the palm's frame, whatever the
+/// planner's kinematics say.
+class HandBody {
+ public:
+  /// @throws InputError  as kinematics::ReadHand.
+  explicit HandBody(const std::filesystem::path& hand_file);
+  ~HandBody();
+  HandBody(const HandBody&) = delete;
+  HandBody& operator=(const HandBody&) = delete;
+
+  [[nodiscard]] const kinematics::HandModel& hand() const;
+  [[nodiscard]] const std::vector<HandPart>& parts() const;
+  /// Pairs of parts that may touch: neighbours along a finger, and what is near at rest.
+  [[nodiscard]] bool MayTouch(int a, int b) const;
+
+  /// @param joints  by finger, from the palm to the tip, as the model has them; as many as it has.
+  void SetJoints(const std::vector<std::vector<double>>& joints);
+  [[nodiscard]] Solid Place(int part) const;
+  /// The centre of a fingertip's ball.
+  [[nodiscard]] Eigen::Vector3d TipCentre(FingerIndex finger) const;
+  /// No point of the part moves farther than this, metres, while the joints go straight from one to
+  /// the other.
+  [[nodiscard]] double MotionBound(int part, const std::vector<std::vector<double>>& from,
+                                   const std::vector<std::vector<double>>& to) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace regrasp::sim

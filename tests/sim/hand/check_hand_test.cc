@@ -1,0 +1,210 @@
+#include "sim/hand/check_hand.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/plan/locate.h"
+#include "planner/plan/plan_io.h"
+#include "sim/hand/gap.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Vector3d;
+using plan::Reason;
+
+const std::string kHand = std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring4.json";
+
+const object::Polyhedron& Cube() {
+  static const object::ObjectFile file =
+      object::ReadObject(std::string(REGRASP_SOURCE_DIR) + "/models/cube.obj");
+  return dynamic_cast<const object::Polyhedron&>(*file.object);
+}
+
+/// With moves and switches; made once.
+const plan::Plan& GoodPlan() {
+  static const plan::Plan plan = [] {
+    const kinematics::HandModel hand = kinematics::ReadHand(kHand);
+    gait::GaitRequest request;
+    request.hand = &hand;
+    request.solid = &Cube();
+    request.scale = 0.8;
+    request.criteria.half_angle = std::atan(0.8);
+    request.turn = {Vector3d::UnitZ(), Radians(200)};
+    request.seed = 1;
+    const gait::GaitResult found = gait::FindGait(request);
+    EXPECT_TRUE(found.gait) << found.message;
+    return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+  }();
+  return plan;
+}
+
+int FirstOf(const plan::Plan& plan, const std::string& kind) {
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    if (plan::StepKind(plan.steps[i]) == kind) return static_cast<int>(i);
+  }
+  ADD_FAILURE() << "no " << kind;
+  return 0;
+}
+
+plan::Move& FirstMove(plan::Plan& plan) {
+  return std::get<plan::Move>(plan.steps[FirstOf(plan, "move")]);
+}
+plan::Switch& FirstSwitch(plan::Plan& plan) {
+  return std::get<plan::Switch>(plan.steps[FirstOf(plan, "switch")]);
+}
+
+TEST(CheckHandTest, APlanOfTheSearchPasses) {
+  const auto faults = CheckHand(kHand, Cube(), GoodPlan());
+  for (const plan::HandFault& fault : faults) {
+    ADD_FAILURE() << "entry " << fault.entry << ": " << ReasonName(fault.reason) << ": "
+                  << fault.detail;
+  }
+  EXPECT_TRUE(plan::CheckPlan(Cube(), GoodPlan()).passed());
+}
+
+TEST(CheckHandTest, AFileReadAgainPassesToo) {
+  const plan::Plan again = plan::ParsePlan(plan::FormatPlan(GoodPlan()), "plan");
+  EXPECT_THAT(CheckHand(kHand, Cube(), plan::LocatePlan(Cube(), again)), testing::IsEmpty());
+  EXPECT_EQ(plan::FormatPlan(again), plan::FormatPlan(GoodPlan()));
+}
+
+struct Control {
+  const char* name;
+  Reason reason;
+  const char* words;
+  std::function<int(plan::Plan&)> change;  ///< @returns the entry at fault
+};
+
+/// Changes of one thing, each of which fails for its own reason.
+TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
+  const std::vector<Control> controls = {
+      {"a posture that is not where the contact is", Reason::kTipOffContact, "tip of finger",
+       [](plan::Plan& plan) {
+         plan.hand->initial.joints[plan.initial.front().finger][2] += 0.001;
+         return 0;
+       }},
+      {"a contact elsewhere", Reason::kTipOffContact, "tip of finger",
+       [](plan::Plan& plan) {
+         plan.initial.front().contact.p += 1e-4 * plan.initial.front().contact.n.unitOrthogonal();
+         return 0;
+       }},
+      {"a joint beyond its limit", Reason::kJointLimit, "limits are",
+       [](plan::Plan& plan) {
+         for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
+           if (plan::FindFinger(plan.initial, finger) != nullptr) continue;
+           plan.hand->initial.joints[finger][0] = 1.7;
+           return 0;
+         }
+         return -1;
+       }},
+      {"the object jumps", Reason::kHandJumps, "object begins the step",
+       [](plan::Plan& plan) {
+         FirstMove(plan).path.front().pose.translation().x() += 1e-6;
+         return FirstOf(plan, "move") + 1;
+       }},
+      {"a joint jumps", Reason::kHandJumps, "begins the step",
+       [](plan::Plan& plan) {
+         FirstSwitch(plan).motion->place.front().joints[0][0] += 1e-6;
+         return FirstOf(plan, "switch") + 1;
+       }},
+      {"a finger is missing", Reason::kHandJumps, "numbers of fingers",
+       [](plan::Plan& plan) {
+         FirstMove(plan).path.back().joints.pop_back();
+         return FirstOf(plan, "move") + 1;
+       }},
+      {"no path", Reason::kHandJumps, "no path",
+       [](plan::Plan& plan) {
+         FirstSwitch(plan).motion.reset();
+         return FirstOf(plan, "switch") + 1;
+       }},
+      {"a move of few states", Reason::kTipOffContact, "tip of finger",
+       [](plan::Plan& plan) {
+         plan::HandPath& path = FirstMove(plan).path;
+         path.erase(path.begin() + 1, path.end() - 1);
+         return FirstOf(plan, "move") + 1;
+       }},
+      {"the object is elsewhere at last", Reason::kGoalNotReached, "from its goal",
+       [](plan::Plan& plan) {
+         plan.hand->goal.translation().z() += 1e-5;
+         return static_cast<int>(plan.steps.size());
+       }},
+  };
+  for (const Control& control : controls) {
+    plan::Plan plan = GoodPlan();
+    const int entry = control.change(plan);
+    const auto faults = CheckHand(kHand, Cube(), plan);
+    ASSERT_EQ(faults.size(), 1U) << control.name;
+    EXPECT_EQ(faults.front().reason, control.reason) << control.name << ": " << faults[0].detail;
+    EXPECT_EQ(faults.front().entry, entry) << control.name;
+    EXPECT_THAT(faults.front().detail, testing::HasSubstr(control.words)) << control.name;
+  }
+}
+
+/// A free finger that swings through the object and back, and nothing else.
+TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
+  plan::Plan plan = GoodPlan();
+  plan::HandPath& path = FirstSwitch(plan).motion->place;
+  ASSERT_GE(path.size(), 3U);
+  const FingerIndex moving = FirstSwitch(plan).place.front().finger;
+  // All straight to the contact from outside: across whatever is between, or else far inside.
+  plan::HandState through = path[path.size() / 2];
+  for (double& angle : through.joints[moving]) angle = 1.2;
+  through.joints[moving][0] = 0;
+  path.insert(path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2) + 1, through);
+  const auto faults = CheckHand(kHand, Cube(), plan);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults.front().reason, Reason::kHandCollides) << faults.front().detail;
+  EXPECT_EQ(faults.front().entry, FirstOf(plan, "switch") + 1);
+}
+
+TEST(CheckHandTest, MoreClearanceThanWasPlannedForFails) {
+  EXPECT_THAT(CheckHand(kHand, Cube(), GoodPlan(), {.clearance_m = 0.02}),
+              testing::SizeIs(1));
+}
+
+TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {
+  plan::Plan plan = GoodPlan();
+  const std::string other = std::string(REGRASP_SOURCE_DIR) + "/models/hands/ring5.json";
+  EXPECT_THROW((void)CheckHand(other, Cube(), plan), InputError);
+  plan.hand.reset();
+  EXPECT_THROW((void)CheckHand(kHand, Cube(), plan), InputError);
+}
+
+TEST(GapTest, KnownGaps) {
+  const auto box = [](const Vector3d& centre) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 8; ++i) {
+      points.push_back(centre + Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                                         (i & 4) != 0 ? 1 : -1));
+    }
+    return points;
+  };
+  const Solid at_origin = MakeSolid(box({0, 0, 0}), 0);
+  for (const double gap : {0.01, 0.5, 3.0}) {
+    for (const Vector3d& along : {Vector3d(1, 0, 0), Vector3d(0, 0.6, 0.8)}) {
+      // Face to face, or edge to edge.
+      const double size = along.x() == 1 ? 2 : 0;
+      const Solid other = size > 0 ? MakeSolid(box((size + gap) * along), 0)
+                                   : MakeSolid({Vector3d(0, 1, 1) + gap * along}, 0);
+      EXPECT_TRUE(HaveGap(at_origin, other, 0.99 * gap)) << gap;
+      EXPECT_FALSE(HaveGap(at_origin, other, 1.01 * gap)) << gap;
+    }
+    const Solid ball = MakeSolid({Vector3d(0, 0, 1 + 0.25 + gap)}, 0.25);
+    EXPECT_TRUE(HaveGap(at_origin, ball, 0.999 * gap));
+    EXPECT_FALSE(HaveGap(at_origin, ball, 1.001 * gap));
+  }
+  EXPECT_FALSE(HaveGap(at_origin, at_origin, 0));
+  EXPECT_FALSE(HaveGap(at_origin, MakeSolid({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
+}
+
+}  // namespace
+}  // namespace regrasp::sim
