@@ -151,9 +151,10 @@ MaybeFault Checker::CheckContinues(const plan::HandPath& path) const {
   const HandState& first = path.front();
   const double off = (first.pose.translation() - state_.pose.translation()).norm();
   if (off > kSamePlace || TurnBetween(first.pose, state_.pose) > kSameTurn) {
-    return Fault{Reason::kHandJumps, "the object begins the step " + FormatLength(off) + " and " +
-                                         FormatDegrees(Degrees(TurnBetween(first.pose, state_.pose))) +
-                                         " from where it was"};
+    return Fault{Reason::kHandJumps,
+                 "the object begins the step " + FormatLength(off) + " and " +
+                     FormatDegrees(Degrees(TurnBetween(first.pose, state_.pose))) +
+                     " from where it was"};
   }
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
     for (std::size_t k = 0; k < first.joints[finger].size(); ++k) {
@@ -172,7 +173,8 @@ MaybeFault Checker::CheckLimits(const HandState& state) const {
     const auto& joints = body_.hand().fingers[finger].joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const double angle = state.joints[finger][k];
-      if (angle >= joints[k].lower - kLimitSlack && angle <= joints[k].upper + kLimitSlack) continue;
+      if (angle >= joints[k].lower - kLimitSlack && angle <= joints[k].upper + kLimitSlack)
+        continue;
       return Fault{Reason::kJointLimit, "joint " + joints[k].name + " is at " +
                                             FormatDegrees(Degrees(angle)) + ", its limits are " +
                                             FormatDegrees(Degrees(joints[k].lower)) + " and " +
@@ -187,15 +189,14 @@ MaybeFault Checker::CheckTips(const plan::FingerGrasp& grasp, const HandState& s
   body_.SetJoints(state.joints);
   for (const plan::FingerContact& held : grasp) {
     if (held.finger >= finger_count()) {
-      return Fault{Reason::kTipOffContact,
-                   "the hand has no finger " + std::to_string(held.finger)};
+      return Fault{Reason::kTipOffContact, "the hand has no finger " + std::to_string(held.finger)};
     }
     const double off = (body_.TipCentre(held.finger) - BallAt(held, state.pose)).norm();
     if (off <= tolerance) continue;
-    return Fault{Reason::kTipOffContact,
-                 "the tip of " + NameOf(held.finger) + " is " + FormatLength(off) +
-                     " from where it touches its contact; up to " + FormatLength(tolerance) +
-                     " is taken"};
+    return Fault{Reason::kTipOffContact, "the tip of " + NameOf(held.finger) + " is " +
+                                             FormatLength(off) +
+                                             " from where it touches its contact; up to " +
+                                             FormatLength(tolerance) + " is taken"};
   }
   return std::nullopt;
 }
@@ -209,12 +210,10 @@ MaybeFault Checker::CheckRest() {
   return CheckPath(state_, state_, touching, {});
 }
 
-double Checker::NeededFromObject(int part, const Isometry3d& pose,
-                                 const Touching& touching) const {
+double Checker::NeededFromObject(int part, const Isometry3d& pose, const Touching& touching) const {
   const HandPart& owner = body_.parts()[part];
   if (!owner.is_tip || touching[owner.finger] == nullptr) return clearance_;
-  const double off =
-      (body_.TipCentre(owner.finger) - BallAt(*touching[owner.finger], pose)).norm();
+  const double off = (body_.TipCentre(owner.finger) - BallAt(*touching[owner.finger], pose)).norm();
   return off <= kApproach ? -kTipDepth : clearance_;
 }
 

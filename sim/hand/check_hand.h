@@ -13,16 +13,16 @@ struct HandCheckOptions {
   double clearance_m = 1e-3;  ///< that links keep from each other, from palm and object
 };
 
-/// Checks that a hand can carry out its plan, by other means than those that planned it: the engine's
-/// kinematics, and Gilbert's descent for what is near each other. Asked are:
+/// Checks that a hand can carry out its plan, by other means than those that planned it: the
+/// engine's kinematics, and the Frank-Wolfe method for what is near each other. Asked are:
 ///
 /// - states that follow each other without a jump, each with all joints of the hand;
 /// - joints within their limits;
 /// - tips at the contacts of the fingers that hold: within 1e-6 m at rest, 1e-4 m in moves; and
 ///   ended there, those that are placed;
 /// - no link nearer to another one, to the palm or to the object than the clearance, everywhere
-///   along the paths: certified by a bound on how far things move between samples. A tip that holds,
-///   or is about to, may touch the object, and be in it by 0.3 mm;
+///   along the paths: certified by a bound on how far things move between samples. A tip that
+///   holds, or is about to, may touch the object, and be in it by 0.3 mm;
 /// - the object at last where the plan says that it is to be.
 ///
 /// @param plan  located (plan::LocatePlan), with a hand.

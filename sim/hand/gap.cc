@@ -8,13 +8,51 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The descent comes near slowly where faces are parallel; what is not shown by then is not shown.
+/// What is not shown by then is not shown.
 constexpr int kMostSteps = 400;
 
 const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3d& direction) {
-  return *std::ranges::max_element(
-      points, {}, [&](const Vector3d& point) { return point.dot(direction); });
+  return *std::ranges::max_element(points, {},
+                                   [&](const Vector3d& point) { return point.dot(direction); });
 }
+
+/// A point of the difference of two hulls as a mean of corners of it.
+class MeanOfCorners {
+ public:
+  explicit MeanOfCorners(const Vector3d& corner) : corners_{{corner, 1}}, mean_(corner) {}
+
+  [[nodiscard]] const Vector3d& mean() const { return mean_; }
+
+  /// Moves weight from the corner that is worst along the mean to `corner`, as far as that brings
+  /// the mean nearer to the origin. @returns whether it did.
+  bool Exchange(const Vector3d& corner) {
+    const auto worst = std::ranges::max_element(
+        corners_, {}, [&](const Weighted& held) { return held.corner.dot(mean_); });
+    const Vector3d along = corner - worst->corner;
+    const double square = along.squaredNorm();
+    if (square == 0) return false;
+    const double share = std::clamp(-mean_.dot(along) / square, 0.0, worst->weight);
+    if (share == 0) return false;
+    worst->weight -= share;
+    if (worst->weight == 0) corners_.erase(worst);
+    const auto same = std::ranges::find(corners_, corner, &Weighted::corner);
+    if (same != corners_.end()) {
+      same->weight += share;
+    } else {
+      corners_.push_back({corner, share});
+    }
+    mean_ += share * along;
+    return true;
+  }
+
+ private:
+  struct Weighted {
+    Vector3d corner;
+    double weight;
+  };
+  std::vector<Weighted> corners_;
+  Vector3d mean_;
+};
 
 }  // namespace
 
@@ -33,17 +71,15 @@ bool HaveGap(const Solid& a, const Solid& b, double gap) {
   if ((a.centre - b.centre).norm() - a.reach - b.reach > gap) return true;
   const double needed = gap + a.radius + b.radius;
   if (needed < 0) return true;
-  Vector3d between = a.points.front() - b.points.front();
+  MeanOfCorners between(a.points.front() - b.points.front());
   for (int step = 0; step < kMostSteps; ++step) {
-    const double length = between.norm();
+    const Vector3d& mean = between.mean();
+    const double length = mean.norm();
     if (length <= needed) return false;
     // All of the difference of the hulls is beyond this plane.
-    const Vector3d support = FarthestAlong(a.points, -between) - FarthestAlong(b.points, between);
-    if (support.dot(between) > needed * length) return true;
-    const Vector3d along = support - between;
-    const double square = along.squaredNorm();
-    if (square == 0) return false;
-    between += std::clamp(-between.dot(along) / square, 0.0, 1.0) * along;
+    const Vector3d support = FarthestAlong(a.points, -mean) - FarthestAlong(b.points, mean);
+    if (support.dot(mean) > needed * length) return true;
+    if (!between.Exchange(support)) return false;
   }
   return false;
 }

@@ -18,8 +18,8 @@ struct Solid {
 [[nodiscard]] Solid MakeSolid(std::vector<Eigen::Vector3d> points, double radius);
 
 /// True only where two solids are certainly more than `gap` apart (negative: overlap by less than
-/// that, as far as the radii go). By Gilbert's descent (1966) to the nearest points of the hulls,
-/// until a plane between them shows it.
+/// that, as far as the radii go). By the pairwise Frank-Wolfe method (Lacoste-Julien and Jaggi
+/// 2015), which goes to the nearest points of the hulls, until a plane between them shows it.
 [[nodiscard]] bool HaveGap(const Solid& a, const Solid& b, double gap);
 
 }  // namespace regrasp::sim

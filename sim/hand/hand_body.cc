@@ -54,10 +54,10 @@ struct HandBody::Impl {
   std::set<std::pair<int, int>> may_touch;
 
   [[nodiscard]] Isometry3d BodyPose(int body) const {
-    const Isometry3d to_world = PoseOf(data->xpos + std::ptrdiff_t{3} * palm,
-                                       data->xmat + std::ptrdiff_t{9} * palm);
-    return to_world.inverse() * PoseOf(data->xpos + std::ptrdiff_t{3} * body,
-                                       data->xmat + std::ptrdiff_t{9} * body);
+    const Isometry3d to_world =
+        PoseOf(data->xpos + std::ptrdiff_t{3} * palm, data->xmat + std::ptrdiff_t{9} * palm);
+    return to_world.inverse() *
+           PoseOf(data->xpos + std::ptrdiff_t{3} * body, data->xmat + std::ptrdiff_t{9} * body);
   }
   [[nodiscard]] int BodyId(const std::string& name) const {
     return mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
@@ -132,8 +132,7 @@ struct HandBody::Impl {
 HandBody::HandBody(const std::filesystem::path& hand_file) : impl_(std::make_unique<Impl>()) {
   Impl& impl = *impl_;
   impl.hand = kinematics::ReadHand(hand_file);
-  impl.description =
-      kinematics::ParseHandDescription(ReadFile(hand_file), hand_file.string());
+  impl.description = kinematics::ParseHandDescription(ReadFile(hand_file), hand_file.string());
   impl.model = kinematics::CompileModel(hand_file.parent_path() / impl.description.model);
   impl.data = kinematics::AtRest(*impl.model);
   impl.palm = impl.BodyId(impl.description.palm);
@@ -151,8 +150,8 @@ HandBody::HandBody(const std::filesystem::path& hand_file) : impl_(std::make_uni
     for (int b = a + 1; b < static_cast<int>(impl.parts.size()); ++b) {
       const HandPart& first = impl.parts[a];
       const HandPart& second = impl.parts[b];
-      const bool chain = first.finger == second.finger || !first.finger.valid() ||
-                         !second.finger.valid();
+      const bool chain =
+          first.finger == second.finger || !first.finger.valid() || !second.finger.valid();
       const bool neighbours = chain && std::abs(first.joints - second.joints) <= 1;
       if (neighbours || !HaveGap(Place(a), Place(b), kNearAtRest)) impl.may_touch.insert({a, b});
     }
