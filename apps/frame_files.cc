@@ -75,28 +75,36 @@ struct Shown {
 
 /// What the replay saw at the failure; what is planned where it did not come to it.
 Shown ShowFailure(const object::Object& object, const plan::Plan& plan, report::ReportStep& step,
-                  const report::Report& report) {
+                  const report::Report& report, const HandPicture* hand) {
   const plan::Reason reason = step.reason();
   const bool seen = step.replay && !step.replay->snapshot.fingers.empty() &&
                     reason != plan::Reason::kUnreachable &&
                     reason != plan::Reason::kSimulationUnstable;
   const double radius = report.settings ? report.settings->fingertip_radius_m : 0;
-  render::FaultPicture picture = render::MakeFaultPicture(
-      object, report.scale, reason, step.fault(),
-      seen ? step.replay->snapshot
-           : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan), step.check.index,
-                                       step.fault(), radius),
-      step.detail());
+  plan::Fault fault = step.fault();
+  plan::Snapshot snapshot = seen ? step.replay->snapshot
+                                 : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan),
+                                                             step.check.index, fault, radius);
+  if (hand != nullptr) hand->Place(step.check.index, snapshot, fault);
+  render::FaultPicture picture =
+      render::MakeFaultPicture(object, report.scale, reason, fault, snapshot, step.detail());
   return {&step, std::move(picture.snapshot), std::move(picture.marks)};
 }
 
+Shown ShowSound(report::ReportStep& step, const HandPicture* hand) {
+  Shown shown{&step, step.replay->snapshot};
+  plan::Fault none;
+  if (hand != nullptr) hand->Place(step.check.index, shown.snapshot, none);
+  return shown;
+}
+
 std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& plan,
-                               report::Report& report) {
+                               const HandPicture* hand, report::Report& report) {
   std::vector<Shown> shown;
   for (report::ReportStep& step : report.steps) {
     if (step.skipped) continue;
-    shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report)
-                                 : Shown{&step, step.replay->snapshot});
+    shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report, hand)
+                                 : ShowSound(step, hand));
   }
   return shown;
 }
@@ -159,10 +167,12 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
                                              const std::filesystem::path& folder,
                                              report::Report& report) {
   std::vector<report::PagePicture> pictures(report.steps.size());
-  const std::vector<Shown> shown = ShowEntries(object, plan, report);
+  const std::vector<Shown> shown = ShowEntries(object, plan, options.hand, report);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
-  const render::FrameRenderer renderer = MakeRenderer(object, report, shown, options.frame);
+  render::FrameOptions frame = options.frame;
+  if (options.hand != nullptr) frame.hand = options.hand->view();
+  const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
   render::ContactSheet sheet(count + skipped, renderer.width(), renderer.height(),
                              options.sheet_width, MakeHeading(report),
                              render::GroundOf(options.frame.background));
@@ -193,7 +203,7 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
                                    const DrawingOptions& options,
                                    const std::vector<plan::Snapshot>& samples,
                                    const std::vector<MovingFile>& files, report::Report& report) {
-  const std::vector<Shown> shown = ShowEntries(object, plan, report);
+  const std::vector<Shown> shown = ShowEntries(object, plan, nullptr, report);
   std::vector<render::AnimationRest> rests;
   for (const auto& [step, snapshot, marks] : shown) {
     rests.push_back(

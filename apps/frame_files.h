@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/hand_picture.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "render/frames/contact_sheet.h"
@@ -32,7 +33,8 @@ inline constexpr char kAnimationName[] = "replay.webp";
 
 struct DrawingOptions {
   render::FrameOptions frame;
-  int workers = 1;  ///< threads that draw
+  const HandPicture* hand = nullptr;  ///< of a plan for a hand; null: fingers without one
+  int workers = 1;                    ///< threads that draw
   int sheet_width = render::kSheetWidth;
   /// Called with the number of pictures drawn and of all, after each.
   std::function<void(int done, int all)> on_picture;

@@ -121,7 +121,8 @@ void PlanProgram::AddTo(CLI::App& app) {
 
 void PlanProgram::AddEnds(CLI::App& app) {
   const std::string kinds =
-      ": a grasp file, random (a grasp of the planner's own graph; under auto like random-any) "
+      "; needed where no --hand is given: a grasp file, random (a grasp of the planner's own "
+      "graph; under auto like random-any) "
       "or random-any (evenly over the surface)";
   app.add_option("--start", start, "Start grasp" + kinds)->type_name("FILE|random|random-any");
   app.add_option("--goal", goal, "Goal grasp" + kinds)->type_name("FILE|random|random-any");

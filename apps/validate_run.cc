@@ -311,9 +311,14 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   std::vector<report::PagePicture> pictures;
   if (!options.no_frames) {
     DrawingCount count("drawing frames", options.quiet);
-    pictures = WriteFrames(object, task.plan,
-                           {frame, options.workers, options.sheet_width, count.reporter()}, folder,
-                           report);
+    std::optional<HandPicture> hand;
+    if (!options.hand.empty()) {
+      hand.emplace(options.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
+    }
+    pictures = WriteFrames(
+        object, task.plan,
+        {frame, hand ? &*hand : nullptr, options.workers, options.sheet_width, count.reporter()},
+        folder, report);
   }
   report::PagePicture moving;
   if (options.animates()) moving = Animate(options, frame, task, samples, folder, report);

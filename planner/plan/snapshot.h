@@ -30,6 +30,9 @@ struct Snapshot {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   double fingertip_radius_m = 0;
   std::vector<FingerState> fingers;
+  /// Of a plan for a hand: where its links are, by their own order (kinematics/hand_visuals.h);
+  /// empty otherwise.
+  std::vector<Eigen::Isometry3d> links_W = {};
 };
 
 }  // namespace regrasp::plan

@@ -39,6 +39,7 @@ constexpr double kOutsideOpacity = 0.33;
 constexpr double kInsideOpacity = 0.30;
 /// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
 constexpr double kPrismOpacity = 0.9;
+constexpr Color kHandColor = {214, 206, 196};
 constexpr Color kPrism = {205, 221, 241};
 
 /// The focus point, the lines to it and the outlines of contact regions, in diameters.
@@ -70,7 +71,7 @@ constexpr double kLowest = 0.35;
 
 constexpr int kMaxSupersampling = 4;
 
-/// The clusters' meshes come last, one a colour.
+/// The clusters' meshes come next, one a colour, and then those of the hand's links.
 enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
 
 void CheckOptions(const FrameOptions& options) {
@@ -94,7 +95,8 @@ std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface,
 }
 
 std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
-                                  const std::optional<roadmap::ClusterView>& clusters) {
+                                  const std::optional<roadmap::ClusterView>& clusters,
+                                  const HandView& hand) {
   std::vector<FacetMesh> meshes = {
       body.surface, TurnInsideOut(body.surface),
       planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
@@ -104,6 +106,7 @@ std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double hal
       meshes.push_back(std::move(mesh));
     }
   }
+  meshes.insert(meshes.end(), hand.begin(), hand.end());
   return meshes;
 }
 
@@ -184,7 +187,8 @@ class FrameRenderer::Impl {
         body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         planar_(object.dimension() == 2),
-        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
+        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters, HandInPicture())),
+        hand_mesh_(static_cast<int>(meshes_.size() - options.hand.size())),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(snapshots)),
@@ -203,6 +207,9 @@ class FrameRenderer::Impl {
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing = DrawBody(pose, camera);
     for (Shape& shape : FingerShapes(fingers)) drawing.shapes.push_back(std::move(shape));
+    if (std::vector<Shape> hand = HandShapes(snapshot); !hand.empty()) {
+      drawing.layers.push_back({std::move(hand), kHandOpacity});
+    }
     if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
     if (options_.clusters) AddRepresentatives(snapshot, drawing.shapes);
     const auto draw = [&](Color paper) {
@@ -229,6 +236,28 @@ class FrameRenderer::Impl {
   }
 
  private:
+  /// The hand's meshes in the picture's unit of length.
+  [[nodiscard]] HandView HandInPicture() const {
+    HandView hand = options_.hand;
+    for (FacetMesh& mesh : hand) {
+      for (auto& corners : mesh.triangles) {
+        for (Vector3d& p : corners) p /= frame_.diameter_m;
+      }
+    }
+    return hand;
+  }
+
+  [[nodiscard]] std::vector<Shape> HandShapes(const plan::Snapshot& snapshot) const {
+    std::vector<Shape> shapes;
+    if (snapshot.links_W.size() != options_.hand.size()) return shapes;
+    for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+      Eigen::Isometry3d pose = snapshot.links_W[i];
+      pose.translation() = frame_.FromWorld(pose.translation());
+      shapes.push_back({MeshInstance{hand_mesh_ + static_cast<int>(i), pose}, kHandColor});
+    }
+    return shapes;
+  }
+
   [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
     return MakeFingerGlyphs(snapshot, frame_, body_.rays, {options_.gaps, FingerRadius()});
   }
@@ -346,6 +375,7 @@ class FrameRenderer::Impl {
   struct Sequence {
     std::vector<std::vector<FingerGlyph>> frames = {};  ///< none of what is far away
     std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
+    std::vector<Shape> hands = {};
   };
 
   [[nodiscard]] Sequence SequenceOf(const std::vector<plan::Snapshot>& snapshots) const {
@@ -355,6 +385,7 @@ class FrameRenderer::Impl {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       all.poses.push_back(pose);
+      for (Shape& link : HandShapes(snapshot)) all.hands.push_back(std::move(link));
       all.frames.back() =
           MakeFingerGlyphs(snapshot, frame_, body_.rays, {GapView::kNone, FingerRadius()});
     }
@@ -372,6 +403,7 @@ class FrameRenderer::Impl {
         extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
       }
     }
+    for (const Shape& link : all.hands) extent.Add(link.form);
     for (const Vector3d& p_W : options_.also_seen) {
       const Vector3d p = frame_.FromWorld(p_W);
       if (p.norm() < kFarMark) extent.Add(Ball{p, kLabelSpace / 2});
@@ -443,6 +475,7 @@ class FrameRenderer::Impl {
   PictureFrame frame_;
   bool planar_;
   std::vector<FacetMesh> meshes_;
+  int hand_mesh_;  ///< the first of the hand's
   double largest_force_;
   TextStyle style_;
   Cameras cameras_;

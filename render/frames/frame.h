@@ -11,6 +11,7 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/fault_picture.h"
 #include "render/frames/finger_glyph.h"
+#include "render/frames/hand_view.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/image.h"
 #include "render/picture/palette.h"
@@ -51,6 +52,8 @@ struct FrameOptions {
   std::optional<roadmap::ClusterView> clusters = std::nullopt;
   /// Frames are no larger than what is drawn in them: of the size above only one side is kept.
   bool crop = false;
+  /// Of a plan for a hand; empty: fingers without one.
+  HandView hand = {};
   Background background = Background::kWhite;
 };
 

@@ -133,7 +133,7 @@ HandBody::HandBody(const std::filesystem::path& hand_file) : impl_(std::make_uni
   Impl& impl = *impl_;
   impl.hand = kinematics::ReadHand(hand_file);
   impl.description = kinematics::ParseHandDescription(ReadFile(hand_file), hand_file.string());
-  impl.model = kinematics::CompileModel(hand_file.parent_path() / impl.description.model);
+  impl.model = kinematics::CompileModel(hand_file.parent_path() / impl.description.model).model;
   impl.data = kinematics::AtRest(*impl.model);
   impl.palm = impl.BodyId(impl.description.palm);
   for (const kinematics::Finger& finger : impl.hand.fingers) {

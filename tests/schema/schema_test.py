@@ -187,6 +187,13 @@ class SchemaTest(unittest.TestCase):
             )
             self.expect_valid("plan", [thick])
             self.assertEqual(validate_schema.load(thick)["finger_radius"], 0.004)
+            in_hand = pathlib.Path(folder) / "in_hand.json"
+            self.run_program(
+                "plan", "--object", cube, "--scale", 0.8, "--mu", 0.8, "--output", in_hand, "--hand",
+                source("models/hands/ring4.json"), "--turn", "z 100",
+            )
+            self.expect_valid("plan", [in_hand])
+            self.assertIn("move", [step["kind"] for step in validate_schema.load(in_hand)["steps"]])
             self.expect_valid("graph", [graph])
 
     def test_reports_of_plans_that_pass_and_fail_are_valid(self):

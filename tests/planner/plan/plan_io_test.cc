@@ -224,7 +224,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
       {"/steps/0/place/0/point/1", 1e300,
        "plan.json: /steps/0/place/0/point/1: the number 1e+300 is too large"},
       {"/steps/0/kind", "jump",
-       "plan.json: /steps/0/kind: expected \"switch\" or \"align\", found \"jump\""},
+       "plan.json: /steps/0/kind: expected \"switch\" or \"align\" or \"move\", found \"jump\""},
       {"/steps/1/release",
        {2.5},
        "plan.json: /steps/1/release/0: expected a whole number from 0 to 2147483647, found 2.5"},

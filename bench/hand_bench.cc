@@ -1,0 +1,234 @@
+// How often and how fast hands turn objects, each plan judged by the checker of hands; and what
+// inverse kinematics cost.
+//
+//   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] HAND.json ...
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "planner/base/angle.h"
+#include "planner/base/number.h"
+#include "planner/base/random.h"
+#include "planner/base/text_table.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/locate.h"
+#include "sim/hand/check_hand.h"
+
+namespace {
+
+using namespace regrasp;
+using Clock = std::chrono::steady_clock;
+using Eigen::Vector3d;
+
+constexpr double kMu = 0.8;
+/// Of bodies that are no cubes: their diameter, metres.
+constexpr double kSize = 0.075;
+
+double SecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Body {
+  std::string name;
+  object::Polyhedron solid;
+  double scale;
+};
+
+Body ReadBody(const std::string& name, const std::string& file, double size_m) {
+  const object::ObjectFile read =
+      object::ReadObject(std::string(REGRASP_MODELS) + "/" + file + ".obj");
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*read.object);
+  return {name, solid, size_m / solid.diameter()};
+}
+
+/// A tube along a curve in the plane x, z, closed at both ends.
+object::PolygonSoup Tube(int rings, int sides, double bend, double length, double radius) {
+  object::PolygonSoup soup;
+  for (int i = 0; i < rings; ++i) {
+    const double s = i / (rings - 1.0) - 0.5;
+    const double angle = bend * s;
+    const double curve = bend == 0 ? 0 : length / bend;
+    const Vector3d centre =
+        bend == 0 ? Vector3d(0, 0, length * s)
+                  : Vector3d(curve * (1 - std::cos(angle)), 0, curve * std::sin(angle));
+    const Vector3d across(std::cos(angle), 0, -std::sin(angle));
+    for (int k = 0; k < sides; ++k) {
+      const double turn = 2 * std::numbers::pi * k / sides;
+      soup.vertices.push_back(
+          centre + radius * (std::cos(turn) * across + std::sin(turn) * Vector3d::UnitY()));
+    }
+  }
+  std::vector<int> bottom;
+  std::vector<int> top;
+  for (int k = 0; k < sides; ++k) {
+    const int next = (k + 1) % sides;
+    for (int i = 0; i + 1 < rings; ++i) {
+      const int a = i * sides + k;
+      const int b = i * sides + next;
+      soup.facets.push_back({a, b, b + sides});
+      soup.facets.push_back({a, b + sides, a + sides});
+    }
+    bottom.insert(bottom.begin(), k);
+    top.push_back((rings - 1) * sides + k);
+  }
+  soup.facets.push_back(bottom);
+  soup.facets.push_back(top);
+  return soup;
+}
+
+std::vector<Body> MakeBodies() {
+  std::vector<Body> bodies;
+  for (const int millimetres : {40, 50, 60}) {
+    bodies.push_back(ReadBody("cube " + std::to_string(millimetres), "cube",
+                              1e-3 * millimetres * std::sqrt(3.0)));
+  }
+  bodies.push_back(
+      {"cylinder", object::Polyhedron::FromSoup(Tube(2, 32, 0, 0.06, 0.022), "cylinder"), 1});
+  bodies.push_back(ReadBody("prism", "prism", kSize));
+  bodies.push_back(ReadBody("L-block", "l_block", kSize));
+  bodies.push_back(ReadBody("duck", "duck500", kSize));
+  bodies.push_back(ReadBody("mug", "mug500", kSize));
+  bodies.push_back(ReadBody("ellipsoid", "ellipsoid500", kSize));
+  bodies.push_back(
+      {"banana", object::Polyhedron::FromSoup(Tube(13, 16, 1.2, 0.09, 0.016), "banana"), 1});
+  return bodies;
+}
+
+struct Outcome {
+  int found = 0;
+  int rejected = 0;  ///< by the checker
+  int switches = 0;
+  std::vector<double> seconds;  ///< of those that were found
+  double checking = 0;
+};
+
+/// What is asked of the hands.
+struct Contest {
+  int seeds = 5;
+  double limit_s = 10;
+  gait::Turn turn;
+};
+
+Outcome Run(const Contest& contest, const std::string& hand_file, const kinematics::HandModel& hand,
+            const Body& body) {
+  Outcome outcome;
+  for (int seed = 1; seed <= contest.seeds; ++seed) {
+    gait::GaitRequest request;
+    request.hand = &hand;
+    request.solid = &body.solid;
+    request.scale = body.scale;
+    request.criteria.half_angle = std::atan(kMu);
+    request.turn = contest.turn;
+    request.seed = seed;
+    const Clock::time_point begin = Clock::now();
+    request.deadline = DeadlineAfter(begin, contest.limit_s);
+    const gait::GaitResult found = gait::FindGait(request);
+    if (!found.gait) continue;
+    ++outcome.found;
+    outcome.seconds.push_back(SecondsSince(begin));
+    const plan::Plan plan =
+        plan::LocatePlan(body.solid, gait::PlanOf(*found.gait, request, found.contacts));
+    outcome.switches +=
+        static_cast<int>(std::ranges::count(plan.steps, std::string("switch"), plan::StepKind));
+    const Clock::time_point check = Clock::now();
+    const auto faults = sim::CheckHand(hand_file, body.solid, plan);
+    outcome.checking += SecondsSince(check);
+    if (!faults.empty() || !plan::CheckPlan(body.solid, plan).passed()) {
+      ++outcome.rejected;
+      if (!faults.empty()) std::cerr << "rejected: " << faults.front().detail << '\n';
+    }
+  }
+  return outcome;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+/// Microseconds of a solve for a place that the finger's tip can be in.
+double TimeInverse(const kinematics::Finger& finger) {
+  const kinematics::InverseKinematics inverse(finger);
+  RandomStream random(1, RandomUse::kGaits);
+  std::vector<kinematics::TipTarget> targets;
+  for (int i = 0; i < 2000; ++i) {
+    kinematics::Posture posture(finger.drives);
+    for (int k = 0; k < finger.drives; ++k) {
+      posture[k] = finger.lower[k] + random.Uniform() * (finger.upper[k] - finger.lower[k]);
+    }
+    const kinematics::TipState tip = kinematics::TipAt(finger, posture);
+    targets.push_back({tip.centre, tip.axis});
+  }
+  int solved = 0;
+  const Clock::time_point begin = Clock::now();
+  for (const kinematics::TipTarget& target : targets) {
+    solved += static_cast<int>(inverse.Solve(target).has_value());
+  }
+  const double seconds = SecondsSince(begin);
+  std::printf("inverse kinematics of %s: %.1f µs, %d of %zu places reached\n", finger.name.c_str(),
+              1e6 * seconds / static_cast<double>(targets.size()), solved, targets.size());
+  return seconds;
+}
+
+void RunHand(const Contest& contest, const std::string& file, const std::vector<Body>& bodies) {
+  const kinematics::HandModel hand = kinematics::ReadHand(file);
+  std::printf("\n%s, %zu fingers\n", hand.name.c_str(), hand.fingers.size());
+  TimeInverse(hand.fingers.front());
+  std::vector<TextRow> rows = {{"object", "found", "rejected", "median s", "longest s",
+                                "switches a plan", "check s a plan"}};
+  int found = 0;
+  int rejected = 0;
+  for (const Body& body : bodies) {
+    const Outcome outcome = Run(contest, file, hand, body);
+    found += outcome.found;
+    rejected += outcome.rejected;
+    const double plans = std::max(1, outcome.found);
+    const double longest = outcome.seconds.empty() ? 0 : *std::ranges::max_element(outcome.seconds);
+    rows.push_back({body.name,
+                    std::to_string(outcome.found) + " of " + std::to_string(contest.seeds),
+                    std::to_string(outcome.rejected), FormatFixed(Median(outcome.seconds), 2),
+                    FormatFixed(longest, 2), FormatFixed(outcome.switches / plans, 1),
+                    FormatFixed(outcome.checking / plans, 2)});
+  }
+  std::printf("%s%d of %zu found, %d rejected\n", FormatRows(rows).c_str(), found,
+              bodies.size() * contest.seeds, rejected);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Turns objects in hands.");
+  Contest contest;
+  std::string axis = "z";
+  double degrees = 90;
+  std::vector<std::string> hands;
+  app.add_option("--seeds", contest.seeds, "Plans for each hand and object");
+  app.add_option("--limit", contest.limit_s, "Seconds for each");
+  app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--degrees", degrees, "Of the turn");
+  app.add_option("hands", hands, "Hand files")->required();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    contest.turn = {Vector3d::Unit(axis[0] - 'x'), Radians(degrees)};
+    std::printf("turn of %g degrees about %s, friction %g, at most %g s, %d seeds\n", degrees,
+                axis.c_str(), kMu, contest.limit_s, contest.seeds);
+    const std::vector<Body> bodies = MakeBodies();
+    for (const std::string& hand : hands) RunHand(contest, hand, bodies);
+  } catch (const std::exception& error) {
+    std::cerr << "hand_bench: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
