@@ -26,7 +26,7 @@ void HandOptions::AddTo(CLI::App& app) {
                  "Turn the object in the hand; about an axis of its own by so many degrees, as in "
                  "\"z 90\". The hand begins where the object's z axis is upright and its fingers "
                  "reach most")
-      ->type_name("\"AXIS DEG\"");
+      ->type_name("AXIS_DEGREES");
   AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
             "What links keep from each other, from the palm and from the object; in metres "
             "(default 0.001)",
