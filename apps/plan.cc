@@ -284,6 +284,7 @@ int PlanProgram::Run() const {
   result.plan->object_file = object.file;
   result.plan->object_sha256 = object.sha256;
   result.plan->repair = object.repair;
+  result.plan->patch_radius = common.PatchRadius(*object.object);
   result.plan->half_angle = common.friction.required_half_angle();
   result.plan->scale = common.scale;
   certificate::AddCertificates(*object.object, *result.plan);

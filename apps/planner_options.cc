@@ -54,13 +54,17 @@ void PlannerOptions::AddTo(CLI::App& app, const std::string& automatic) {
   repair.AddWithSwitch(app);
   AddNumber(app, "--patch", patch, NumberRange::NotNegative(),
             "Radius of the patch that a fingertip touches; in the object file's unit of length: "
-            "fingers keep off facets whose normal is not the patch's, and grasps hold with either "
-            "(default: 2 % of the diameter with --repair, otherwise 0: facets are as they are)",
+            "fingers keep off places where the facet's normal is not the mean over the patch, and "
+            "grasps hold with either (default: 2 % of the diameter with --repair, otherwise 0: "
+            "facets are as they are)",
             "R");
   AddNumber(app, "--roughness", roughness_deg, {0, 45, false, true},
-            "Degrees by which a facet's normal may differ from its patch's; with so much less "
+            "Degrees by which a contact's normal may differ from its patch's; with so much less "
             "friction is planned (default 5)",
             "DEG");
+  app.add_flag("--allow-invented", allow_invented,
+               "Fingers may stand on surface that a repair invented; otherwise planners keep off "
+               "it, as nobody knows what is there");
   friction.AddTo(app);
   BeginGroup(app, "Planner");
   std::string type;
@@ -112,6 +116,11 @@ std::optional<object::FeltPatch> PlannerOptions::patch_felt() const {
   return object::FeltPatch{patch, Radians(roughness_deg)};
 }
 
+std::optional<double> PlannerOptions::PatchRadius(const object::Object& of) const {
+  if (!patch_felt()) return std::nullopt;
+  return patch.value_or(object::kUsualPatch * of.diameter());
+}
+
 double PlannerOptions::PlannedHalfAngle() const {
   const double half_angle = friction.required_half_angle();
   if (!patch_felt()) return half_angle;
@@ -130,7 +139,7 @@ Deadline PlannerOptions::deadline() const {
 
 object::ObjectFile PlannerOptions::ReadObjectFile(const std::string& program) const {
   ProgressLine progress(quiet);
-  const object::Reading reading{progress.reporter(), deadline(), patch_felt()};
+  const object::Reading reading{progress.reporter(), deadline(), patch_felt(), allow_invented};
   if (!repair.wanted()) {
     object::ObjectFile file = object::ReadObject(object, reading);
     if (patch && *patch > 0 && file.object->dimension() == 2) {

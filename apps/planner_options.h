@@ -20,6 +20,7 @@ struct PlannerOptions {
   RepairOptions repair;
   std::optional<double> patch;  ///< radius, the object's unit; 0: none; nullopt: by the object
   double roughness_deg = 5;
+  bool allow_invented = false;  ///< fingers on surface that a repair invented
   FrictionOptions friction;
   std::string planner = "auto";
   planning::Spanning spanning = planning::Spanning::kAdaptive;
@@ -43,6 +44,9 @@ struct PlannerOptions {
   /// What a fingertip feels of the surface, where normals are to be taken with caution: --patch,
   /// and of repaired objects.
   [[nodiscard]] std::optional<object::FeltPatch> patch_felt() const;
+
+  /// The patch's radius on an object, its unit of length, for the plan; none without a patch.
+  [[nodiscard]] std::optional<double> PatchRadius(const object::Object& object) const;
 
   /// What the options ask for, on an object; start and goal are left open.
   /// @throws InputError  friction is missing, doubled or out of range; more contact points than a

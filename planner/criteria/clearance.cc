@@ -44,4 +44,8 @@ bool HasClearance(const object::Object& object, const grasp::Contact& contact) {
   return std::ranges::all_of(near, [&](FaceIndex face) { return face == contact.face; });
 }
 
+bool CanRest(const object::Object& object, const grasp::Contact& contact) {
+  return HasClearance(object, contact) && !object.IsRough(contact.face, contact.p);
+}
+
 }  // namespace regrasp::criteria

@@ -24,4 +24,8 @@ inline constexpr double kFingertipClearance = 5e-4;
 /// @param contact  knows its face.
 [[nodiscard]] bool HasClearance(const object::Object& object, const grasp::Contact& contact);
 
+/// True iff a finger may rest at the contact: it has clearance, and the surface there is not rough
+/// (Object::IsRough).
+[[nodiscard]] bool CanRest(const object::Object& object, const grasp::Contact& contact);
+
 }  // namespace regrasp::criteria

@@ -62,7 +62,7 @@ bool GraspEvaluator::CanAllMeet(Contacts grasp) const {
 
 bool GraspEvaluator::AreReachable(Contacts contacts) const {
   return std::ranges::all_of(contacts, [&](const grasp::Contact& contact) {
-    return HasClearance(object_, contact) && CanReach(object_, contact, finger_radius());
+    return CanRest(object_, contact) && CanReach(object_, contact, finger_radius());
   });
 }
 

@@ -78,7 +78,7 @@ class GraspEvaluator {
     return criteria::CanMeet(a, b, same_point_, finger_radius());
   }
   /// Whether the hand can be there, good or not: fingers at different points (CanMeet), each with
-  /// clearance for a fingertip (HasClearance), and it can come there (CanReach).
+  /// room for a fingertip (CanRest), and it can come there (CanReach).
   [[nodiscard]] bool IsReachable(const grasp::Grasp& grasp) const;
   /// Force closure alone, at any half-angle, radians.
   [[nodiscard]] bool HoldsAt(std::span<const grasp::Contact> grasp, double half_angle) const;

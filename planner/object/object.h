@@ -34,7 +34,7 @@ struct Face {
   std::vector<FaceBorder> borders;
   bool enclosed = false;  ///< as Object::IsEnclosed
   bool invented = false;  ///< as Object::IsInvented
-  bool rough = false;     ///< as Object::IsRough
+  bool barred = false;    ///< not Object::TakesFingers
 };
 
 /// The object that is grasped: a solid bounded by flat faces, or a polygon bounded by edges.
@@ -109,14 +109,15 @@ class Object {
   /// True iff a repair invented the face, where the original surface has a gap (repair/repair.h).
   [[nodiscard]] bool IsInvented(FaceIndex face) const { return faces_[face].invented; }
 
-  /// True iff the face's normal is not that of the surface about it, as scans have it
-  /// (rough_faces.h); never unless Reading::patch asks for it.
-  [[nodiscard]] bool IsRough(FaceIndex face) const { return faces_[face].rough; }
+  /// True iff planners place fingers on the face: it can be reached, and it is known to be there or
+  /// Reading::allow_invented says that this is no matter.
+  [[nodiscard]] bool TakesFingers(FaceIndex face) const { return !faces_[face].barred; }
 
-  /// True iff planners place fingers on the face: it can be reached, it is known to be there, and
-  /// so is its normal.
-  [[nodiscard]] bool TakesFingers(FaceIndex face) const {
-    return !IsEnclosed(face) && !IsInvented(face) && !IsRough(face);
+  /// True iff at a point of a face the face's normal is not what a fingertip would feel
+  /// (patch_normal.h), as it is on scans and beside edges: planners place no finger there. Never
+  /// unless Reading::patch asks for it, and never in the plane.
+  [[nodiscard]] virtual bool IsRough(FaceIndex /*face*/, const Eigen::Vector3d& /*point*/) const {
+    return false;
   }
 
   /// Largest distance between two vertices, D.

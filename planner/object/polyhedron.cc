@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "planner/object/diameter.h"
@@ -11,7 +12,7 @@
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/mend_soup.h"
 #include "planner/object/mesh_survey.h"
-#include "planner/object/rough_faces.h"
+#include "planner/object/patch_normal.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/size_limits.h"
 #include "planner/object/solid.h"
@@ -199,23 +200,24 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
       JoinCoplanarFacets(mesh, topology, diameter, soup.invented);
   std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, outside, name);
   MarkInvented(mesh, face_of_triangle, soup.invented, faces);
-  if (reading.patch) {
-    const std::vector<bool> rough = FindRoughFaces(
-        mesh, topology, face_of_triangle, faces,
-        reading.patch->radius.value_or(kUsualPatch * diameter), reading.patch->most_angle);
-    for (FaceIndex f{0}; f < std::ssize(faces); ++f) faces[f].rough = rough[f];
+  for (Face& face : faces) {
+    face.barred = face.enclosed || (face.invented && !reading.allow_invented);
   }
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");
-  return Polyhedron(std::move(mesh), std::move(face_of_triangle), std::move(faces), diameter);
+  std::optional<FeltPatch> patch = reading.patch;
+  if (patch) patch->radius = patch->radius.value_or(kUsualPatch * diameter);
+  return Polyhedron(std::move(mesh), std::move(face_of_triangle), std::move(faces), diameter,
+                    patch);
 }
 
 Polyhedron::Polyhedron(TriangleMesh mesh, std::vector<FaceIndex> face_of_triangle,
-                       std::vector<Face> faces, double diameter)
+                       std::vector<Face> faces, double diameter, std::optional<FeltPatch> patch)
     : Object(3, std::move(faces), diameter, ComputeMassProperties(mesh.vertices, mesh.triangles)),
       vertices_(std::move(mesh.vertices)),
       triangles_(std::move(mesh.triangles)),
       face_of_triangle_(std::move(face_of_triangle)),
-      triangles_of_face_(face_count()) {
+      triangles_of_face_(face_count()),
+      patch_(patch) {
   for (TriangleIndex t{0}; t < std::ssize(triangles_); ++t) {
     triangles_of_face_[face_of_triangle_[t]].push_back(t);
   }
@@ -253,6 +255,13 @@ double Polyhedron::DistanceToBorder(FaceIndex face, const Vector3d& point) const
 bool Polyhedron::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
   return face_tree_->ContainsSegment(face, a, b, tolerance);
+}
+
+bool Polyhedron::IsRough(FaceIndex face, const Vector3d& point) const {
+  if (!patch_) return false;
+  const Vector3d& normal = inward_normal(face);
+  const Vector3d mean = PatchNormal(*this, face, point, *patch_->radius);
+  return std::atan2(normal.cross(mean).norm(), normal.dot(mean)) > patch_->most_angle;
 }
 
 }  // namespace regrasp::object

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,11 +55,12 @@ class Polyhedron final : public Object {
                                         const Eigen::Vector3d& point) const override;
   [[nodiscard]] bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
                                      const Eigen::Vector3d& b, double tolerance) const override;
+  [[nodiscard]] bool IsRough(FaceIndex face, const Eigen::Vector3d& point) const override;
 
  private:
   static Polyhedron Check(const PolygonSoup& soup, const std::string& name, const Reading& reading);
   Polyhedron(TriangleMesh mesh, std::vector<FaceIndex> face_of_triangle, std::vector<Face> faces,
-             double diameter);
+             double diameter, std::optional<FeltPatch> patch);
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::array<int, 3>> triangles_;
@@ -66,6 +68,7 @@ class Polyhedron final : public Object {
   std::vector<std::vector<TriangleIndex>> triangles_of_face_;
   /// Shared between copies: it does not change, and it is as large as the mesh.
   std::shared_ptr<const FaceTree> face_tree_;
+  std::optional<FeltPatch> patch_;  ///< with its radius
 };
 
 }  // namespace regrasp::object

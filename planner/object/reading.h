@@ -11,10 +11,10 @@
 
 namespace regrasp::object {
 
-/// What a fingertip feels of a surface: not a facet, but what lies under it.
+/// What a fingertip feels of a surface: not a facet, but what lies under it (patch_normal.h).
 struct FeltPatch {
   std::optional<double> radius;  ///< the object's unit of length; kUsualPatch · D where left out
-  double most_angle = 0;         ///< between a face's normal and the mean normal about it, radians
+  double most_angle = 0;         ///< between a contact's normal and the patch's, radians
 };
 
 /// Over the diameter: a finger's breadth on what one hand holds.
@@ -25,7 +25,8 @@ struct Reading {
   /// Told what is being done.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   Deadline deadline;
-  std::optional<FeltPatch> patch = std::nullopt;  ///< faces that are rough by it take no fingers
+  std::optional<FeltPatch> patch = std::nullopt;  ///< places that are rough by it take no fingers
+  bool allow_invented = false;                    ///< faces that a repair invented take fingers
   bool counts_defects = true;  ///< a refusal counts all that is wrong (mesh_survey.h)
 
   /// Between two stages; they are not interrupted, but for assimp, whose process is ended.

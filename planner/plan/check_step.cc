@@ -9,6 +9,8 @@
 #include "planner/grasp/angle_between.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/motion/path_force_closure.h"
+#include "planner/object/patch_normal.h"
+#include "planner/object/polyhedron.h"
 #include "planner/plan/locate.h"
 #include "planner/plan/motion_fault.h"
 #include "planner/plan/plan_reach.h"
@@ -141,6 +143,26 @@ std::optional<grasp::RequiredHalfAngle> Within(std::optional<grasp::RequiredHalf
                                   std::min(required->upper, half_angle)};
 }
 
+/// A grasp at rest holds with the normals that fingertips feel too, where the plan says so.
+void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const std::string& name,
+                    StepCheck& check, StepFault& fault) {
+  const auto* solid = dynamic_cast<const object::Polyhedron*>(&context.object);
+  const std::optional<double>& radius = context.plan.patch_radius;
+  if (!radius || solid == nullptr) return;
+  grasp::Grasp felt = ContactsOf(grasp);
+  for (grasp::Contact& contact : felt) {
+    contact.n = object::PatchNormal(*solid, contact.face, contact.p, *radius);
+  }
+  const object::WrenchFrame frame = context.object.wrench_frame();
+  if (grasp::IsForceClosure(felt, frame, context.half_angle)) return;
+  const auto required = grasp::ComputeRequiredHalfAngle(felt, frame);
+  check.force_closure = false;
+  fault.Add(Reason::kNotForceClosure,
+            name + ", with the mean normals within " + FormatLength(*radius * context.plan.scale) +
+                " of its contacts, " + AngleNeeded(context, required),
+            LossOfClosure(context, grasp, required));
+}
+
 /// Includes a grasp at rest in a step's force closure and required half-angle.
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
@@ -164,6 +186,7 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
         std::string(name) + " is force closure at no friction half-angle that is surely below 90°",
         LossOfClosure(context, grasp, required), check, fault);
   }
+  if (holds) IncludePatches(context, grasp, name, check, fault);
 }
 
 void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {

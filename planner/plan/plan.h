@@ -75,6 +75,10 @@ struct Plan {
   std::string planner;
   /// Radius that the fingers were planned with, the object's unit of length; points where none.
   std::optional<double> finger_radius = std::nullopt;
+  /// Radius of the patches that fingertips touch (object/patch_normal.h), the object's unit of
+  /// length: grasps at rest are force closure with the patches' normals too. None where they need
+  /// not be.
+  std::optional<double> patch_radius = std::nullopt;
   std::optional<RoadmapNote> roadmap = std::nullopt;
   std::optional<HandUse> hand = std::nullopt;  ///< that it is for; none: fingers without one
   FingerGrasp initial;

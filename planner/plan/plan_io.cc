@@ -137,10 +137,15 @@ double WrittenDegrees(double radians) {
   return degrees;
 }
 
-double ReadFingerRadius(const JsonReader& json) {
+double ReadRadius(const JsonReader& json) {
   const double radius = json.Number();
   if (!(radius > 0)) json.Fail("must be positive, found " + json.Quoted());
   return radius;
+}
+
+double ReadPatchRadius(const JsonReader& json, const Plan& plan) {
+  if (plan.dimension == 2) json.Fail("only solids have rough surfaces");
+  return ReadRadius(json);
 }
 
 RoadmapNote ReadRoadmapNote(const JsonReader& json) {
@@ -210,8 +215,9 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   plan.half_angle = ReadHalfAngle(root.Member("friction").Member("half_angle_deg"));
   plan.fingers = root.Member("fingers").Integer(1, kMostFingers);
   plan.planner = root.Member("planner").String();
-  if (root.Has("finger_radius"))
-    plan.finger_radius = ReadFingerRadius(root.Member("finger_radius"));
+  if (root.Has("finger_radius")) plan.finger_radius = ReadRadius(root.Member("finger_radius"));
+  if (root.Has("patch_radius"))
+    plan.patch_radius = ReadPatchRadius(root.Member("patch_radius"), plan);
   if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
   if (root.Has("hand")) plan.hand = ReadHandUse(root.Member("hand"));
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
@@ -241,6 +247,7 @@ std::string FormatPlan(const Plan& plan) {
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;
   if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;
+  if (plan.patch_radius) json["patch_radius"] = *plan.patch_radius;
   if (plan.roadmap) json["roadmap"] = RoadmapNoteJson(*plan.roadmap);
   if (plan.hand) json["hand"] = HandUseJson(*plan.hand);
   json["initial"]["contacts"] = FingerGraspJson(plan.initial, plan.dimension);

@@ -52,7 +52,8 @@ std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request)
   std::vector<grasp::Contact> contacts =
       sampling::SpreadContactPoints(SolidOf(request), size.contacts, request.seed);
   std::erase_if(contacts, [&](const grasp::Contact& contact) {
-    return !criteria::CanReach(*request.object, contact, request.hand.fingertip_radius);
+    return request.object->IsRough(contact.face, contact.p) ||
+           !criteria::CanReach(*request.object, contact, request.hand.fingertip_radius);
   });
   return contacts;
 }

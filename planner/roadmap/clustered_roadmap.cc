@@ -38,7 +38,7 @@ ContactClusters ClusterContacts(const object::Polyhedron& solid,
   std::erase_if(contacts, [&](const grasp::Contact& contact) {
     options.deadline.Check();
     progress.Add();
-    return !criteria::HasClearance(solid, contact) ||
+    return !criteria::CanRest(solid, contact) ||
            !criteria::CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);

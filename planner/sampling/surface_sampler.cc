@@ -66,7 +66,7 @@ double SurfaceSampler::MeasureOf(int facet) const {
 
 bool SurfaceSampler::IsValid(const grasp::Contact& contact) const {
   return object_.DistanceToBorder(contact.face, contact.p) >= from_border_ * object_.diameter() &&
-         criteria::HasClearance(object_, contact) &&
+         criteria::CanRest(object_, contact) &&
          criteria::CanReach(object_, contact, finger_radius_);
 }
 

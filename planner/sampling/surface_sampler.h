@@ -32,7 +32,7 @@ class SurfaceSampler {
   explicit SurfaceSampler(const object::Object& object, double finger_radius = 0,
                           double from_border = kFromBorder);
 
-  /// Whether a finger can be placed at a contact (HasClearance, CanReach), away from the border of
+  /// Whether a finger can be placed at a contact (CanRest, CanReach), away from the border of
   /// its face.
   [[nodiscard]] bool IsValid(const grasp::Contact& contact) const;
 

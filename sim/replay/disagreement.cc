@@ -218,6 +218,10 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
     return {.cause = Cause::kUnknown, .text = "no cause found: no friction below 90° serves"};
   }
   const double required = step.check.required->upper;
+  if (required <= half_angle) {
+    return {.cause = Cause::kNotSimulated,
+            .text = "the replay goes by the normals of facets, not by those of patches"};
+  }
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
   return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
           .text = std::string(near ? "the friction is hardly below the critical one"

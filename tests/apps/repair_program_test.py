@@ -54,8 +54,9 @@ class Repair(ProgramCase):
         self.assert_done("--object", "sheet.obj", "--output", "s.obj", "--solidify", "0.05")
 
     def plan(self, *more, output="plan.json"):
+        seed = [] if "--seed" in more else ["--seed", "3"]
         return self.assert_done("--object", "open.obj", "--mu", "0.6", "--start", "random",
-                                "--goal", "random", "--seed", "3", "--output", output, *more,
+                                "--goal", "random", *seed, "--output", output, *more,
                                 program="plan")
 
     def test_a_plan_on_a_repaired_object_is_validated_on_it(self):
@@ -72,6 +73,47 @@ class Repair(ProgramCase):
         # The solid itself does too.
         self.repair()
         self.assert_done("--object", "solid.obj", *validate, program="validate")
+
+    def contacts_below(self):
+        """Contacts of plan.json on the bottom of the box, which the repair invents."""
+        plan = json.loads(self.read("plan.json"))
+        grasps = [plan["initial"], plan["goal"]]
+        return sum(contact["point"][2] < 1e-9 for grasp in grasps for contact in grasp["contacts"])
+
+    def test_fingers_stand_on_invented_surface_only_where_that_is_allowed(self):
+        strict, allowed, warned = 0, 0, 0
+        for seed in ("1", "2", "3", "4"):
+            self.plan("--repair", "--seed", seed)
+            strict += self.contacts_below()
+            done = self.plan("--repair", "--seed", seed, "--allow-invented")
+            allowed += self.contacts_below()
+            warned += self.contacts_below() > 0 and "invented" in done.stderr
+        self.assertEqual(strict, 0)
+        self.assertGreater(allowed, 0)
+        self.assertGreater(warned, 0)
+
+    def test_a_plan_says_which_patches_its_grasps_hold_with(self):
+        self.plan("--repair")
+        size = (0.06**2 + 2 * 0.04**2) ** 0.5
+        self.assertAlmostEqual(json.loads(self.read("plan.json"))["patch_radius"], 0.02 * size)
+        self.plan("--repair", "--patch", "0.003")
+        self.assertEqual(json.loads(self.read("plan.json"))["patch_radius"], 0.003)
+        self.plan("--repair", "--patch", "0")
+        self.assertNotIn("patch_radius", json.loads(self.read("plan.json")))
+
+    def test_validate_judges_grasps_with_the_normals_of_patches(self):
+        self.repair()
+        self.plan("--repair", "--patch", "0")
+        plan = json.loads(self.read("plan.json"))
+        # As large as the box: a fingertip feels all of its faces.
+        plan["patch_radius"] = 0.07
+        self.write_json("plan.json", plan)
+        done = self.run_program("--object", "open.obj", "--plan", "plan.json", "--no-frames",
+                                "--out", "result", program="validate")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        report = json.loads(self.read("result/report.json"))
+        self.assertEqual(report["steps"][0]["reason"], "not-force-closure")
+        self.assertIn("mean normals within 7 cm", report["steps"][0]["detail"])
 
     def test_a_plan_for_another_repair_is_refused(self):
         self.plan("--repair")

@@ -56,6 +56,27 @@ TEST(CheckPlan, LosesForceClosureWhereAFingerIsMovedTooFar) {
   ExpectFails(CheckPlan(cube, with_shift(lost)), 0, Reason::kNotForceClosure, "just outside");
 }
 
+TEST(CheckPlan, HoldsGraspsToTheNormalsOfPatchesWhereThePlanSaysSo) {
+  const object::Polyhedron cube = MakeCube();
+  // All four contacts are beside edges, where a fingertip feels the next face too.
+  Plan plan = CubePlan();
+  plan.steps.clear();
+  plan.initial.resize(4);
+  plan.initial[0].contact.p = {1, 0.95, 0};
+  plan.initial[1].contact.p = {-1, 0.95, 0};
+  plan.initial[2].contact.p = {0, 0.95, 1};
+  plan.initial[3].contact.p = {0, 0.95, -1};
+  plan.goal = ContactsOf(plan.initial);
+  ExpectPasses(CheckPlan(cube, plan), "as the faces are");
+  plan.patch_radius = 0.04;
+  ExpectPasses(CheckPlan(cube, plan), "patches that lie on the faces");
+  plan.patch_radius = 0.5;
+  const PlanCheck check = CheckPlan(cube, plan);
+  ExpectFails(check, 0, Reason::kNotForceClosure, "patches across the edge");
+  EXPECT_NE(check.steps[0].detail.find("mean normals within"), std::string::npos);
+  EXPECT_FALSE(check.steps[0].force_closure);
+}
+
 TEST(CheckPlan, ASwitchNeedsWhatTheGraspsBeforeAndAfterItNeed) {
   const object::Polygon square = MakeSquare();
   const FingerGrasp apart = {{FingerIndex(0), {{0.3, -1, 0}, {0, 1, 0}}},

@@ -54,6 +54,7 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.fingers, b.fingers);
   EXPECT_EQ(a.planner, b.planner);
   EXPECT_EQ(a.finger_radius, b.finger_radius);
+  EXPECT_EQ(a.patch_radius, b.patch_radius);
   ExpectSameGrasp(a.initial, b.initial);
   ASSERT_EQ(a.goal.size(), b.goal.size());
   for (std::size_t i = 0; i < a.goal.size(); ++i) ExpectSameContact(a.goal[i], b.goal[i]);
@@ -175,6 +176,17 @@ TEST(PlanIo, KeepsTheRadiusOfFingersAndWritesNoneWhereThereIsNone) {
   EXPECT_EQ(read.finger_radius, 0.01 / 3);
 }
 
+TEST(PlanIo, KeepsTheRadiusOfPatchesOfSolids) {
+  EXPECT_EQ(FormatPlan(CubePlan()).find("patch_radius"), std::string::npos);
+  Plan plan = CubePlan();
+  plan.patch_radius = 0.02 / 3;
+  ExpectSamePlan(ParsePlan(FormatPlan(plan), "plan.json"), plan);
+  plan = SquarePlan();
+  plan.patch_radius = 0.02;
+  EXPECT_EQ(Complaint(FormatPlan(plan)),
+            "plan.json: /patch_radius: only solids have rough surfaces");
+}
+
 TEST(PlanIo, WritesRoundHalfAnglesRound) {
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 20)).find("\"half_angle_deg\": 20.0"), std::string::npos);
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 33.3)).find("\"half_angle_deg\": 33.3"), std::string::npos);
@@ -204,6 +216,7 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
        "plan.json: /object/file: a file name cannot hold a NUL character"},
       {"/object/scale", 0, "plan.json: /object/scale: must be positive"},
       {"/finger_radius", 0, "plan.json: /finger_radius: must be positive, found 0"},
+      {"/patch_radius", 0, "plan.json: /patch_radius: must be positive, found 0"},
       {"/finger_radius", -1, "plan.json: /finger_radius: must be positive, found -1"},
       {"/finger_radius", Json(), "plan.json: /finger_radius: expected a number, found null"},
       {"/object/dimension", 4,
