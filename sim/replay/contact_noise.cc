@@ -1,17 +1,20 @@
 #include "sim/replay/contact_noise.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "planner/criteria/clearance.h"
+#include "planner/object/surface_walk.h"
+#include "sim/replay/finger_ways.h"
 
 namespace regrasp::sim {
 
 namespace {
 
 using Eigen::Vector3d;
+using object::SurfaceLeg;
 
 /// The fingers as they are meant to be and as they are.
 class NoisyHand {
@@ -26,18 +29,17 @@ class NoisyHand {
     held.contact = actual;
   }
 
-  /// A finger that holds goes on, or stays, or turns.
-  void Move(plan::FingerContact& held) {
-    const auto at = held_.find(held.finger);
-    const double same = object::kPointTolerance * object_.diameter();
-    if (at == held_.end() || (at->second.meant.p - held.contact.p).norm() > same) {
-      Place(held);
-      return;
+  /// The fingers that hold go from waypoint to waypoint.
+  void Move(plan::Align& align) {
+    std::vector<plan::FingerGrasp> noisy;
+    for (const plan::FingerGrasp& waypoint : align.waypoints) {
+      FingerWays ways;
+      for (const plan::FingerContact& held : waypoint) ways.Add(held, WayTo(held));
+      ways.AppendTo(object_, noisy);
     }
-    grasp::Contact actual = held.contact;
-    actual.p = at->second.actual.p;
-    at->second = {held.contact, actual};
-    held.contact = actual;
+    // Where no finger moves.
+    if (noisy.size() == 1) noisy.push_back(noisy.front());
+    align.waypoints = std::move(noisy);
   }
 
  private:
@@ -46,47 +48,62 @@ class NoisyHand {
     grasp::Contact actual;
   };
 
-  /// Directions in which a contact can be off without leaving any face that it is on.
-  [[nodiscard]] std::vector<Vector3d> Directions(const grasp::Contact& contact,
-                                                 const std::vector<FaceIndex>& faces) const {
+  [[nodiscard]] std::vector<Vector3d> Directions(const grasp::Contact& contact) const {
     const Vector3d n = contact.n;
-    if (object_.dimension() == 2) {
-      if (faces.size() > 1) return {};
-      return {Vector3d(-n.y(), n.x(), 0)};
-    }
-    if (faces.size() > 2) return {};
-    if (faces.size() == 2) {
-      const Vector3d border =
-          object_.inward_normal(faces[0]).cross(object_.inward_normal(faces[1]));
-      return {border.normalized()};
-    }
+    if (object_.dimension() == 2) return {Vector3d(-n.y(), n.x(), 0)};
     const Vector3d across = n.unitOrthogonal();
     return {across, n.cross(across)};
   }
 
-  [[nodiscard]] bool CanTouch(const grasp::Contact& from, const grasp::Contact& at,
-                              const std::vector<FaceIndex>& faces) const {
-    const double tolerance = object::kPointTolerance * object_.diameter();
-    const bool inside = std::ranges::all_of(faces, [&](FaceIndex face) {
-      return object_.ContainsSegment(face, from.p, at.p, tolerance);
-    });
-    return inside && criteria::ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
+  [[nodiscard]] bool CanTouch(const grasp::Contact& at) const {
+    return criteria::ComputeClearance(object_, at, noise_.fingertip) >= noise_.fingertip;
+  }
+
+  [[nodiscard]] std::optional<grasp::Contact> DrawOnce(const grasp::Contact& meant) {
+    Vector3d off = Vector3d::Zero();
+    for (const Vector3d& along : Directions(meant)) {
+      off += noise_.deviation * random_.Normal() * along;
+    }
+    const auto legs = object::WalkStraight(object_, meant.face, meant.p, off);
+    if (!legs) return std::nullopt;
+    const SurfaceLeg& last = legs->back();
+    const grasp::Contact drawn{last.to, object_.inward_normal(last.face), last.face};
+    return CanTouch(drawn) ? std::optional(drawn) : std::nullopt;
   }
 
   [[nodiscard]] grasp::Contact Draw(const grasp::Contact& meant) {
     if (noise_.deviation == 0) return meant;
-    const std::vector<FaceIndex> faces =
-        object_.FacesNear(meant.p, object::kPointTolerance * object_.diameter());
-    const std::vector<Vector3d> directions = Directions(meant, faces);
-    if (directions.empty()) return meant;
     for (int i = 0; i < kMostNoiseDraws; ++i) {
-      grasp::Contact drawn = meant;
-      for (const Vector3d& along : directions) {
-        drawn.p += noise_.deviation * random_.Normal() * along;
-      }
-      if (CanTouch(meant, drawn, faces)) return drawn;
+      if (const auto drawn = DrawOnce(meant)) return *drawn;
     }
     return meant;
+  }
+
+  /// The way of a finger to where it is to be at a waypoint; a single leg without length where it
+  /// stays.
+  [[nodiscard]] std::vector<SurfaceLeg> WayTo(const plan::FingerContact& to) {
+    const auto at = held_.find(to.finger);
+    if (at == held_.end()) {
+      plan::FingerContact placed = to;
+      Place(placed);
+      return {{placed.contact.face, placed.contact.p, placed.contact.p}};
+    }
+    auto& [meant, actual] = at->second;
+    const double same = object::kPointTolerance * object_.diameter();
+    const bool stays = (meant.p - to.contact.p).norm() <= same;
+    meant = to.contact;
+    if (stays) return {{actual.face, actual.p, actual.p}};
+    for (int i = 0; i < kMostNoiseDraws; ++i) {
+      const grasp::Contact drawn = Draw(meant);
+      const auto way = object::HeadFor(object_, actual.face, actual.p, drawn.face, drawn.p);
+      if (!way) continue;
+      actual = drawn;
+      return *way;
+    }
+    // No way along the surface is known: straight there, as the plan has it.
+    const Vector3d from = actual.p;
+    actual = meant;
+    return {{meant.face, from, meant.p}};
   }
 
   const object::Object& object_;
@@ -99,18 +116,15 @@ class NoisyHand {
 
 plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
                            const ContactNoise& noise, RandomStream& random) {
+  if (noise.deviation == 0) return plan;
   plan::Plan noisy = plan;
   NoisyHand hand(object, noise, random);
   for (plan::FingerContact& held : noisy.initial) hand.Place(held);
   for (plan::Step& step : noisy.steps) {
     if (auto* change = std::get_if<plan::Switch>(&step)) {
       for (plan::FingerContact& held : change->place) hand.Place(held);
-      continue;
-    }
-    auto* align = std::get_if<plan::Align>(&step);
-    if (align == nullptr) continue;
-    for (plan::FingerGrasp& waypoint : align->waypoints) {
-      for (plan::FingerContact& held : waypoint) hand.Move(held);
+    } else if (auto* align = std::get_if<plan::Align>(&step)) {
+      hand.Move(*align);
     }
   }
   return noisy;

@@ -13,13 +13,15 @@ struct ContactNoise {
 };
 
 /// The plan as a hand carries it out that puts its fingers beside where it should: every contact
-/// point is moved on its own face by a normal deviate along each direction of the face.
+/// is moved along the surface by a normal deviate in each direction of its face, straight and
+/// across borders (object/surface_walk.h), so that it does not matter how small faces are. It has
+/// the normal of the face that it comes to.
 ///
-/// A finger is off by one draw as long as it stays at a point, through rests and aligns and when
-/// its normal turns there; whenever it comes to another point it is drawn anew. On the border of
-/// two faces a contact moves along the border only; where more meet, and at a vertex in the plane,
-/// it stays. A draw whose path from the planned point leaves the face, or where no ball of the
-/// fingertip's radius fits, is drawn again, kMostNoiseDraws times at most; then the contact stays.
+/// A finger is off by one draw as long as it is to stay at a point, through rests and aligns and
+/// when its normal is to turn there; whenever it comes to another point it is drawn anew. In an
+/// align it goes along the surface from one place to the next, which can add waypoints. A draw
+/// where no ball of the fingertip's radius fits, or to which no way is found, is drawn again,
+/// kMostNoiseDraws times at most; then the contact stays.
 ///
 /// Deterministic; without deviation the plan as it is.
 /// @param plan  located on the object (PlanCheck::located); its goal is left as it is.

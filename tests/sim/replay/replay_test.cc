@@ -176,7 +176,7 @@ TEST(ReplayPlanTest, EveryStepIsMeasuredForItself) {
   ASSERT_EQ(result.steps.size(), 3u);
   plan::FingerGrasp before = plan.initial;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
-    const auto& [place, release] = std::get<plan::Switch>(plan.steps[i - 1]);
+    const plan::FingerGrasp& place = std::get<plan::Switch>(plan.steps[i - 1]).place;
     // What held before the step, and what it places; no finger that an earlier step released.
     std::set<int> held, measured;
     for (const plan::FingerContact& contact : before) held.insert(contact.finger);

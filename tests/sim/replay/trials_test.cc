@@ -7,7 +7,10 @@
 
 #include "planner/base/binomial.h"
 #include "planner/base/number.h"
+#include "planner/object/polyhedron.h"
+#include "planner/plan/check.h"
 #include "sim/replay/contact_noise.h"
+#include "tests/fixtures/soups.h"
 #include "tests/sim/planar_cases.h"
 
 namespace regrasp::sim {
@@ -80,35 +83,108 @@ TEST(ContactNoise, HasTheStandardDeviationThatWasAskedFor) {
   EXPECT_NEAR(mean, 2, 5 * 2 / std::sqrt(kDraws));
 }
 
-TEST(ContactNoise, KeepsToBordersAndCornersAndWithoutDeviationChangesNothing) {
+TEST(ContactNoise, WithoutDeviationChangesNothing) {
   const CubeCase cube;
-  const plan::FingerContact border{FingerIndex(0),
-                                   ContactAt(cube.object, {0.03, 0.03, 0.002}, {-1, 0, 0})};
-  const plan::FingerContact corner{FingerIndex(1),
-                                   ContactAt(cube.object, {-0.03, -0.03, -0.03}, {1, 0, 0})};
-  const plan::Plan plan = MakePlan({border, corner}, 25);
+  const plan::Plan plan = SwitchAndAlign(cube);
   RandomStream random(1, RandomUse::kTrialContacts, 0);
-  const plan::Plan noisy = AddContactNoise(cube.object, plan, {1e-3, kTip}, random);
-  const Eigen::Vector3d off = noisy.initial[0].contact.p - border.contact.p;
-  EXPECT_NE(off.z(), 0);
-  EXPECT_NEAR(off.head<2>().norm(), 0, 1e-15);
-  EXPECT_EQ(noisy.initial[1].contact.p, corner.contact.p);
   const plan::Plan same = AddContactNoise(cube.object, plan, {0, kTip}, random);
-  EXPECT_EQ(same.initial[0].contact.p, border.contact.p);
+  for (std::size_t i = 0; i < plan.initial.size(); ++i) {
+    EXPECT_EQ(same.initial[i].contact.p, plan.initial[i].contact.p);
+  }
+  EXPECT_EQ(std::get<plan::Align>(same.steps[1]).waypoints.size(), 2U);
 }
 
-TEST(ContactNoise, NeverCrossesABorder) {
+TEST(ContactNoise, GoesOverABorderOntoTheNextFace) {
   const CubeCase cube;
   // A millimetre from the edge, off by three in the mean.
   const plan::Plan plan = MakePlan({cube.At(0, 0.03, 0.029, 0)}, 25);
-  int inside = 0;
-  for (int i = 0; i < 100; ++i) {
+  constexpr int kDraws = 400;
+  int beyond = 0;
+  for (int i = 0; i < kDraws; ++i) {
     RandomStream random(5, RandomUse::kTrialContacts, i);
     const plan::Plan noisy = AddContactNoise(cube.object, plan, {3e-3, kTip}, random);
-    EXPECT_LE(noisy.initial[0].contact.p.y(), 0.03 + 1e-6);
-    inside += noisy.initial[0].contact.p.y() < 0.029;
+    const grasp::Contact& is = noisy.initial[0].contact;
+    EXPECT_EQ(is.n, cube.object.inward_normal(is.face));
+    EXPECT_LT((cube.object.ClosestPoint(is.face, is.p) - is.p).norm(), 1e-9);
+    if (is.n.y() > -0.5) continue;
+    ++beyond;
+    EXPECT_LT(is.p.x(), 0.03 + 1e-9);
   }
-  EXPECT_GT(inside, 50);
+  // A normal deviate of more than a third; five standard deviations of the count.
+  const double share = std::erfc(1.0 / 3 / std::sqrt(2)) / 2;
+  EXPECT_NEAR(beyond, share * kDraws, 5 * std::sqrt(kDraws * share * (1 - share)));
+}
+
+/// On the top of GriddedBoxSoup(50, 1e-5), whose facets are a fifth of the noise.
+grasp::Contact OnTop(const object::Polyhedron& box, double x, double y) {
+  const FaceIndex face = box.FacesNear({x, y, 0}, 1e-4).front();
+  return {box.ClosestPoint(face, {x, y, 0}), box.inward_normal(face), face};
+}
+
+constexpr double kFacet = 0.02;
+constexpr double kFarOff = 5 * kFacet;
+
+TEST(ContactNoise, IsNotCutOffBySmallFacets) {
+  const object::Polyhedron box =
+      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 1e-5), "soup");
+  ASSERT_GT(box.face_count(), 2000);
+  constexpr int kDraws = 1000;
+  const plan::Plan plan = MakePlan({{FingerIndex(0), OnTop(box, 0.503, 0.511)}}, 25);
+  double squares = 0;
+  int on_other_facets = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    RandomStream random(3, RandomUse::kTrialContacts, i);
+    const plan::Plan noisy = AddContactNoise(box, plan, {kFarOff, 1e-6}, random);
+    const grasp::Contact& is = noisy.initial[0].contact;
+    squares += (is.p - plan.initial[0].contact.p).squaredNorm();
+    on_other_facets += is.face != plan.initial[0].contact.face;
+  }
+  EXPECT_NEAR(squares / kDraws / (kFarOff * kFarOff), 2, 5 * 2 / std::sqrt(kDraws));
+  EXPECT_GT(on_other_facets, kDraws * 9 / 10);
+}
+
+TEST(ContactNoise, OnFacetsOfOnePlaneIsThatOnTheOneFace) {
+  const object::Polyhedron whole =
+      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(1, 0), "soup");
+  const object::Polyhedron cut =
+      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 0), "soup");
+  for (int i = 0; i < 100; ++i) {
+    Eigen::Vector3d p[2];
+    for (const object::Polyhedron* box : {&whole, &cut}) {
+      const plan::Plan plan = MakePlan({{FingerIndex(0), OnTop(*box, 0.503, 0.511)}}, 25);
+      RandomStream random(3, RandomUse::kTrialContacts, i);
+      p[box == &cut] = AddContactNoise(*box, plan, {kFarOff, 1e-6}, random).initial[0].contact.p;
+    }
+    EXPECT_EQ(p[0], p[1]) << i;
+  }
+}
+
+TEST(ContactNoise, LeavesAnAlignAWayAlongTheSurface) {
+  const object::Polyhedron box =
+      object::Polyhedron::FromSoup(testing::GriddedBoxSoup(50, 1e-5), "soup");
+  const FingerIndex first(0), second(1);
+  plan::FingerGrasp begin = {{first, OnTop(box, 0.303, 0.311)}, {second, OnTop(box, 0.703, 0.711)}};
+  // Within a facet, and the other stays.
+  plan::FingerGrasp end = begin;
+  end[0].contact.p += Eigen::Vector3d(1e-3, 1e-3, 0);
+  end[0].contact.p = box.ClosestPoint(begin[0].contact.face, end[0].contact.p);
+  plan::Plan plan = MakePlan(begin, 25);
+  plan.steps = {plan::Align{{begin, end}}};
+  int more_waypoints = 0;
+  for (int i = 0; i < 20; ++i) {
+    RandomStream random(3, RandomUse::kTrialContacts, i);
+    plan::Plan noisy = AddContactNoise(box, plan, {kFarOff, 1e-6}, random);
+    const auto& waypoints = std::get<plan::Align>(noisy.steps[0]).waypoints;
+    more_waypoints += waypoints.size() > 2;
+    noisy.goal = plan::ContactsOf(waypoints.back());
+    plan::CheckOptions all_but_forces;
+    all_but_forces.judge_force_closure = false;
+    const plan::PlanCheck check = plan::CheckPlan(box, noisy, all_but_forces);
+    EXPECT_TRUE(check.passed()) << i << ": " << check.steps.back().detail;
+    EXPECT_EQ(waypoints.back()[1].contact.p, noisy.initial[1].contact.p);
+    EXPECT_NE(waypoints.back()[0].contact.p, noisy.initial[0].contact.p);
+  }
+  EXPECT_GT(more_waypoints, 10);
 }
 
 TEST(Trials, WithoutErrorsAllPassAsTheNominalReplayDoes) {
