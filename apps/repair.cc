@@ -30,6 +30,7 @@ struct RepairProgram {
 
   void AddTo(CLI::App& app);
   int Run() const;
+  void WriteReport(const Json& json) const;
 };
 
 void RepairProgram::AddTo(CLI::App& app) {
@@ -42,7 +43,8 @@ void RepairProgram::AddTo(CLI::App& app) {
                  "invented, where planners place no finger")
       ->type_name("FILE.obj")
       ->required();
-  app.add_option("--report", report, "Where a report of each stage and what it changed goes (JSON)")
+  app.add_option("--report", report,
+                 "Where a report of each stage and what it changed goes (JSON); of a refusal too")
       ->type_name("FILE");
   BeginGroup(app, "What the solid is like");
   options.AddTo(app);
@@ -62,15 +64,21 @@ int RepairProgram::Run() const {
   ProgressLine progress(quiet);
   const object::Reading reading{progress.reporter(), {}};
   const object::SoupFile file = object::ReadSoup(object, reading);
-  const repair::Repaired repaired = repair::Repair(file.soup, object, options.Get(), reading);
-  progress.Clear();
-  WriteFile(output, repair::FormatSolid(repaired.solid));
-  if (!report.empty()) {
-    WriteFile(report,
-              FormatJson(repair::RepairReport(repaired, file.file, file.sha256, options.Get())));
+  try {
+    const repair::Repaired repaired = repair::Repair(file.soup, object, options.Get(), reading);
+    progress.Clear();
+    WriteFile(output, repair::FormatSolid(repaired.solid));
+    WriteReport(repair::RepairReport(repaired, file, options.Get()));
+    if (!quiet) PrintMessage(kProgram, object + ": " + repair::RepairText(repaired));
+    return kExitDone;
+  } catch (const repair::NotRepaired& refusal) {
+    WriteReport(repair::RefusalReport(refusal, file, options.Get()));
+    throw;
   }
-  if (!quiet) PrintMessage(kProgram, object + ": " + repair::RepairText(repaired));
-  return kExitDone;
+}
+
+void RepairProgram::WriteReport(const Json& json) const {
+  if (!report.empty()) WriteFile(report, FormatJson(json));
 }
 
 }  // namespace

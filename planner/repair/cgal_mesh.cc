@@ -3,7 +3,9 @@
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Side_of_triangle_mesh.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace regrasp::repair {
@@ -45,5 +47,12 @@ std::vector<Mesh> PartsOf(const Mesh& mesh) {
 }
 
 double VolumeOf(const Mesh& mesh) { return CGAL::to_double(pmp::volume(mesh)); }
+
+bool IsInside(const Mesh& inner, const Mesh& outer) {
+  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(outer);
+  return std::ranges::all_of(inner.vertices(), [&](const auto v) {
+    return side(inner.point(v)) == CGAL::ON_BOUNDED_SIDE;
+  });
+}
 
 }  // namespace regrasp::repair

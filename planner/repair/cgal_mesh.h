@@ -22,4 +22,8 @@ using Mesh = object::SurfaceMesh;
 /// @pre closed.
 [[nodiscard]] double VolumeOf(const Mesh& mesh);
 
+/// True iff all vertices of a mesh are inside another one.
+/// @pre `outer` is closed.
+[[nodiscard]] bool IsInside(const Mesh& inner, const Mesh& outer);
+
 }  // namespace regrasp::repair

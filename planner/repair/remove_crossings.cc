@@ -1,11 +1,11 @@
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
-#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -20,10 +20,11 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 namespace {
 
-using Pairs = std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>;
+using Face = Mesh::Face_index;
+using Pairs = std::vector<std::pair<Face, Face>>;
 
-/// Gaps are made wider by a ring of facets until what fills them meets nothing; so often at most.
-constexpr int kMostRings = 4;
+/// Gaps whose filling meets something are made wider by a ring of facets; so often at most.
+constexpr int kMostRounds = 12;
 
 /// No more than this share of the facets is cut out: where more meet, bodies pass through each
 /// other.
@@ -44,65 +45,93 @@ Pairs FindPairs(const Mesh& mesh) {
   return pairs;
 }
 
-/// The facets of the pairs, and so many rings about them.
-std::set<Mesh::Face_index> FacetsAbout(const Pairs& pairs, int rings, const Mesh& mesh) {
-  std::set<Mesh::Face_index> about;
-  for (const auto& [one, other] : pairs) about.insert({one, other});
-  for (int ring = 0; ring < rings; ++ring) {
-    for (const auto f : std::set(about)) {
-      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
-        for (const auto next : mesh.faces_around_target(mesh.halfedge(v))) {
-          if (next != Mesh::null_face()) about.insert(next);
-        }
+/// A surface that facets are cut out of; the vertices keep their numbers.
+class CutOut {
+ public:
+  explicit CutOut(const Mesh& whole) : whole_(whole) {
+    for (const auto& [one, other] : FindPairs(whole)) facets_.insert({one, other});
+    if (facets_.empty()) throw std::runtime_error("no two facets meet");
+  }
+
+  [[nodiscard]] std::size_t size() const { return facets_.size(); }
+  [[nodiscard]] bool is_too_large() const {
+    return double(facets_.size()) > kMostCutOut * double(whole_.num_faces());
+  }
+
+  /// The surface with its gaps filled, which may meet what is about them; nullopt where a gap
+  /// cannot be filled.
+  [[nodiscard]] std::optional<Mesh> Filled() const {
+    Mesh mesh = whole_;
+    for (const Face f : facets_) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
+    pmp::keep_large_connected_components(
+        mesh, 1 + std::min(kScrapFacets, faces(mesh).size() / kScrapShare));
+    pmp::duplicate_non_manifold_vertices(mesh);
+    std::vector<Mesh::Halfedge_index> borders;
+    pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
+    for (const auto border : borders) {
+      std::vector<Face> patch;
+      pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
+      if (patch.empty()) return std::nullopt;
+    }
+    if (mesh.num_faces() == 0) return std::nullopt;
+    return mesh;
+  }
+
+  /// By all facets that have a corner in common with some of a filled surface, or with all that is
+  /// cut out.
+  void Widen(const Mesh& filled, const Pairs& meeting) {
+    std::set<Mesh::Vertex_index> corners;
+    for (const auto& [one, other] : meeting) {
+      for (const Face f : {one, other}) {
+        for (const auto v : filled.vertices_around_face(filled.halfedge(f))) corners.insert(v);
       }
     }
+    WidenAbout(corners);
   }
-  return about;
-}
+  void Widen() {
+    std::set<Mesh::Vertex_index> corners;
+    for (const Face f : facets_) {
+      for (const auto v : whole_.vertices_around_face(whole_.halfedge(f))) corners.insert(v);
+    }
+    WidenAbout(corners);
+  }
 
-/// Cuts facets out and fills the gaps. @returns whether they could be filled.
-bool Refill(Mesh& mesh, const std::set<Mesh::Face_index>& facets) {
-  for (const auto f : facets) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
-  pmp::keep_large_connected_components(
-      mesh, 1 + std::min(kScrapFacets, faces(mesh).size() / kScrapShare));
-  pmp::duplicate_non_manifold_vertices(mesh);
-  std::vector<Mesh::Halfedge_index> borders;
-  pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
-  for (const auto border : borders) {
-    std::vector<Mesh::Face_index> patch;
-    pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
-    if (patch.empty()) return false;
+ private:
+  void WidenAbout(const std::set<Mesh::Vertex_index>& corners) {
+    for (const auto v : corners) {
+      if (std::size_t(v) >= whole_.num_vertices()) continue;  // doubled where parts touch
+      for (const Face f : whole_.faces_around_target(whole_.halfedge(v))) facets_.insert(f);
+    }
   }
-  mesh.collect_garbage();
-  return mesh.num_faces() > 0 && !pmp::does_self_intersect(mesh);
-}
+
+  const Mesh& whole_;
+  std::set<Face> facets_;
+};
 
 }  // namespace
 
 StageResult RemoveCrossings(const object::PolygonSoup& soup) {
   const Mesh whole = MeshOf(soup);
   if (!CGAL::is_closed(whole)) throw std::runtime_error("it is not closed");
-  const Pairs pairs = FindPairs(whole);
-  if (pairs.empty()) throw std::runtime_error("no two facets meet");
-  for (int rings = 0; rings <= kMostRings; ++rings) {
-    Mesh mesh = whole;
-    const std::set<Mesh::Face_index> facets = FacetsAbout(pairs, rings, mesh);
-    if (double(facets.size()) > kMostCutOut * double(mesh.num_faces())) break;
-    if (!Refill(mesh, facets)) continue;
-    StageResult result{SoupOf(mesh)};
-    result.facts["crossing_pairs"] = pairs.size();
-    result.facts["rings_cut_out"] = rings;
-    return result;
+  CutOut cut(whole);
+  const std::size_t crossing = cut.size();
+  for (int round = 0; round < kMostRounds && !cut.is_too_large(); ++round) {
+    std::optional<Mesh> mesh = cut.Filled();
+    const Pairs meeting = mesh ? FindPairs(*mesh) : Pairs();
+    if (mesh && meeting.empty()) {
+      mesh->collect_garbage();
+      StageResult result{SoupOf(*mesh)};
+      result.facts["crossing_facets"] = crossing;
+      result.facts["facets_cut_out"] = cut.size();
+      return result;
+    }
+    if (mesh) {
+      cut.Widen(*mesh, meeting);
+    } else {
+      cut.Widen();
+    }
   }
-  Mesh mesh = whole;
-  if (!pmp::experimental::remove_self_intersections(mesh,
-                                                    CGAL::parameters::preserve_genus(false))) {
-    throw std::runtime_error("not all facets that meet each other can be parted");
-  }
-  mesh.collect_garbage();
-  StageResult result{SoupOf(mesh)};
-  result.facts["crossing_pairs"] = pairs.size();
-  return result;
+  throw std::runtime_error("not all facets that meet each other can be parted");
 }
 
 }  // namespace regrasp::repair

@@ -5,30 +5,40 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/error.h"
 #include "planner/base/json.h"
 #include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/read_soup.h"
 #include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
+#include "planner/repair/stage_report.h"
 
 namespace regrasp::repair {
 
-/// A stage that was tried.
-struct StageReport {
-  std::string stage;    ///< its name in reports: "clean", "fill-holes", …
-  std::string outcome;  ///< "solid", or why what it made is none
-  Json facts;           ///< what it did
-  std::size_t facets = 0;
+/// The stages of a repair, as they were tried.
+struct Attempt {
+  double diameter = 0;  ///< of the original
+  std::size_t facets_before = 0;
+  std::vector<StageReport> stages;
 };
 
-/// A solid made from a surface.
-struct Repaired {
+/// A solid made from a surface; the last stage made it.
+struct Repaired : Attempt {
   object::PolygonSoup solid;  ///< triangles; those that were invented are marked
-  double diameter = 0;        ///< of the original
   double volume = 0;
-  std::size_t facets_before = 0;
-  std::vector<StageReport> stages;  ///< as they were tried; the last one made the solid
   Comparison comparison;
+};
+
+/// No stage gave a solid that keeps to the limits. `what()` names the file and the cause of which
+/// most can be learnt: that there are several solids, what is missing, how far the best was off.
+class NotRepaired : public InputError {
+ public:
+  NotRepaired(const std::string& name, Attempt attempt);
+  [[nodiscard]] const Attempt& attempt() const { return attempt_; }
+
+ private:
+  Attempt attempt_;
 };
 
 /// Makes a solid of a surface that is none, changing it as little as it can: a ladder of stages,
@@ -36,9 +46,10 @@ struct Repaired {
 /// keeps to the options' limits.
 ///
 /// A surface that is a solid already comes out as it is (stage "read"). Deviation is
-/// Comparison::seen_most over the diameter. The same surface gives the same bytes.
+/// Comparison::seen_most over the diameter. What an earlier repair marked as invented stays so. The
+/// same surface gives the same bytes.
 /// @param name  how messages call it.
-/// @throws InputError  no stage gives such a solid; says what comes closest, or what would help.
+/// @throws NotRepaired  no stage gives such a solid.
 /// @throws TimeUp  the deadline came.
 [[nodiscard]] Repaired Repair(const object::PolygonSoup& soup, const std::string& name,
                               const object::RepairOptions& options,
@@ -69,8 +80,12 @@ inline constexpr double kSmallPart = 0.01;
 [[nodiscard]] std::string RepairText(const Repaired& repaired);
 
 /// The report of a repair (docs/formats.md).
-[[nodiscard]] Json RepairReport(const Repaired& repaired, const std::string& file,
-                                const std::string& sha256, const object::RepairOptions& options);
+[[nodiscard]] Json RepairReport(const Repaired& repaired, const object::SoupFile& file,
+                                const object::RepairOptions& options);
+
+/// The report of one that found no solid.
+[[nodiscard]] Json RefusalReport(const NotRepaired& refusal, const object::SoupFile& file,
+                                 const object::RepairOptions& options);
 
 /// The solid as an OBJ file; invented facets are in the group "invented".
 [[nodiscard]] std::string FormatSolid(const object::PolygonSoup& solid);

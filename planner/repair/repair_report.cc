@@ -1,4 +1,5 @@
 #include "planner/base/number.h"
+#include "planner/repair/invented_marks.h"
 #include "planner/repair/repair.h"
 
 namespace regrasp::repair {
@@ -38,22 +39,30 @@ Json OrNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-}  // namespace
-
-Json RepairReport(const Repaired& repaired, const std::string& file, const std::string& sha256,
-                  const object::RepairOptions& options) {
-  const Comparison& c = repaired.comparison;
-  constexpr double kDegrees = 57.29577951308232;
+/// What is said alike of a solid and of a refusal.
+Json AttemptJson(const Attempt& attempt, const object::SoupFile& file,
+                 const object::RepairOptions& options) {
   Json report;
-  report["object"] = {{"file", file}, {"sha256", sha256}};
+  report["object"] = {{"file", file.file}, {"sha256", file.sha256}};
   report["options"] = {{"max_deviation", options.max_deviation},
                        {"facets", OrNull(options.facets)},
                        {"part", OrNull(options.part)},
                        {"thickness", OrNull(options.thickness)}};
-  report["stages"] = StagesJson(repaired.stages);
-  report["facets_before"] = repaired.facets_before;
+  report["stages"] = StagesJson(attempt.stages);
+  report["facets_before"] = attempt.facets_before;
+  report["diameter"] = attempt.diameter;
+  return report;
+}
+
+}  // namespace
+
+Json RepairReport(const Repaired& repaired, const object::SoupFile& file,
+                  const object::RepairOptions& options) {
+  const Comparison& c = repaired.comparison;
+  constexpr double kDegrees = 57.29577951308232;
+  Json report = AttemptJson(repaired, file, options);
+  report["verdict"] = "solid";
   report["facets_after"] = repaired.solid.facets.size();
-  report["diameter"] = repaired.diameter;
   report["volume"] = repaired.volume;
   report["deviation_over_diameter"] = c.seen_most / repaired.diameter;
   report["seen_share"] = c.seen_share;
@@ -61,7 +70,15 @@ Json RepairReport(const Repaired& repaired, const std::string& file, const std::
   report["solid_to_original"] = SummaryJson(c.to_original, repaired.diameter);
   report["normals"] = {{"mean_deg", c.normal_mean * kDegrees},
                        {"p95_deg", c.normal_most * kDegrees}};
-  report["invented_share"] = c.invented_share;
+  report["invented_share"] = InventedShare(repaired.solid);
+  return report;
+}
+
+Json RefusalReport(const NotRepaired& refusal, const object::SoupFile& file,
+                   const object::RepairOptions& options) {
+  Json report = AttemptJson(refusal.attempt(), file, options);
+  report["verdict"] = "refused";
+  report["reason"] = refusal.what();
   return report;
 }
 
@@ -78,8 +95,7 @@ std::string RepairText(const Repaired& repaired) {
   }
   const double d = repaired.diameter;
   return text + "); deviation " + Percent(repaired.comparison.seen_most / d) +
-         " of the diameter, " + Percent(repaired.comparison.invented_share) +
-         " of the surface invented";
+         " of the diameter, " + Percent(InventedShare(repaired.solid)) + " of the surface invented";
 }
 
 }  // namespace regrasp::repair

@@ -6,6 +6,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace regrasp::repair {
@@ -27,14 +28,22 @@ Measuring::Ray_3 ToRay(const Eigen::Vector3d& p, const Eigen::Vector3d& d) {
 
 struct SurfaceDistance::Tree {
   Triangles triangles;
+  std::vector<int> facets;  ///< of each triangle, its number in the soup
   CGAL::AABB_tree<CGAL::AABB_traits<Measuring, Primitive>> tree;
 };
 
 SurfaceDistance::SurfaceDistance(const object::PolygonSoup& soup) : tree_(new Tree) {
-  for (const auto& f : soup.facets) {
-    tree_->triangles.emplace_back(ToPoint(soup.vertices[f[0]]), ToPoint(soup.vertices[f[1]]),
-                                  ToPoint(soup.vertices[f[2]]));
+  for (std::size_t i = 0; i < soup.facets.size(); ++i) {
+    const auto& f = soup.facets[i];
+    const Measuring::Triangle_3 triangle(ToPoint(soup.vertices[f[0]]), ToPoint(soup.vertices[f[1]]),
+                                         ToPoint(soup.vertices[f[2]]));
+    // Slivers that rounding makes flat lie at their neighbours, and rays cannot be cut with them.
+    if (Measuring().is_degenerate_3_object()(triangle)) continue;
+    tree_->triangles.push_back(triangle);
+    tree_->facets.push_back(static_cast<int>(i));
   }
+  if (tree_->triangles.empty())
+    throw std::runtime_error("no facet has an area that can be measured");
   tree_->tree.rebuild(tree_->triangles.begin(), tree_->triangles.end());
   tree_->tree.accelerate_distance_queries();
 }
@@ -44,7 +53,7 @@ SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 
 SurfaceDistance::Closest SurfaceDistance::FindClosest(const Eigen::Vector3d& point) const {
   const auto [p, triangle] = tree_->tree.closest_point_and_primitive(ToPoint(point));
-  return {{p.x(), p.y(), p.z()}, static_cast<int>(triangle - tree_->triangles.cbegin())};
+  return {{p.x(), p.y(), p.z()}, tree_->facets[triangle - tree_->triangles.cbegin()]};
 }
 
 bool SurfaceDistance::IsHit(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {

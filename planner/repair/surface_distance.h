@@ -10,7 +10,8 @@ namespace regrasp::repair {
 /// The distance of points to a set of triangles, and what rays meet of them.
 class SurfaceDistance {
  public:
-  /// @param triangles  facets of three corners.
+  /// @param triangles  facets of three corners; those without area are passed over.
+  /// @throws std::runtime_error  none has one.
   explicit SurfaceDistance(const object::PolygonSoup& triangles);
   ~SurfaceDistance();
   SurfaceDistance(SurfaceDistance&&) noexcept;

@@ -1,5 +1,4 @@
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
@@ -10,15 +9,6 @@
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {
-
-namespace {
-
-bool IsInside(const Mesh& inner, const Mesh& outer) {
-  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(outer);
-  return side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE;
-}
-
-}  // namespace
 
 StageResult TakePart(const object::PolygonSoup& soup, int part) {
   std::vector<Mesh> solids, cavities;

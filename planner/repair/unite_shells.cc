@@ -4,7 +4,6 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
@@ -29,14 +28,6 @@ struct Shell {
   CGAL::Bbox_3 box;
 };
 
-bool IsInside(const Shell& shell, const Shell& other) {
-  if (!CGAL::do_overlap(shell.box, other.box)) return false;
-  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(other.mesh);
-  return std::ranges::all_of(shell.mesh.vertices(), [&](const auto v) {
-    return side(shell.mesh.point(v)) == CGAL::ON_BOUNDED_SIDE;
-  });
-}
-
 /// Largest first, all turned outwards but for cavities: those that turn inwards inside another.
 std::vector<Shell> ShellsOf(const Mesh& mesh) {
   std::vector<Shell> shells;
@@ -51,8 +42,10 @@ std::vector<Shell> ShellsOf(const Mesh& mesh) {
                            [](const Shell& shell) { return std::abs(shell.volume); });
   for (std::size_t i = 0; i < shells.size(); ++i) {
     if (shells[i].volume >= 0) continue;
-    const bool cavity = std::any_of(shells.begin(), shells.begin() + std::ptrdiff_t(i),
-                                    [&](const Shell& o) { return IsInside(shells[i], o); });
+    const bool cavity =
+        std::any_of(shells.begin(), shells.begin() + std::ptrdiff_t(i), [&](const Shell& o) {
+          return CGAL::do_overlap(shells[i].box, o.box) && IsInside(shells[i].mesh, o.mesh);
+        });
     if (cavity) continue;
     pmp::reverse_face_orientations(shells[i].mesh);
     shells[i].volume = -shells[i].volume;

@@ -18,8 +18,9 @@ namespace {
 
 using Point = Kernel::Point_3;
 
-/// Coarser wraps than the one that is taken: what their ball cannot enter counts as volume.
-constexpr double kCoarserWraps[] = {4, 2};
+/// The ball of a coarser wrap than the one that is taken, over its: what it cannot enter counts as
+/// volume.
+constexpr double kCoarser = 4;
 
 /// A vertex whose facets meet others once it is drawn back returns to the wrap; so often is looked.
 constexpr int kLooks = 20;
@@ -110,13 +111,10 @@ int DrawBack(Mesh& mesh, const SurfaceDistance& surface) {
 StageResult WrapSurface(const object::PolygonSoup& soup) {
   const double radius = kWrapDetail * object::ComputeDiameter(soup.vertices);
   StageResult result;
-  Json& volumes = result.facts["volumes"] = Json::array();
-  for (const double coarser : kCoarserWraps) {
-    const Mesh coarse = Wrap(soup, coarser * radius, kWrapOffset * radius);
-    volumes.push_back({{"radius", coarser * radius}, {"volume", VolumeOf(coarse)}});
-  }
+  const Mesh coarse = Wrap(soup, kCoarser * radius, kWrapOffset * radius);
   Mesh mesh = Wrap(soup, radius, kWrapOffset * radius);
-  volumes.push_back({{"radius", radius}, {"volume", VolumeOf(mesh)}});
+  result.facts["volumes"] = {{{"radius", kCoarser * radius}, {"volume", VolumeOf(coarse)}},
+                             {{"radius", radius}, {"volume", VolumeOf(mesh)}}};
   result.facts["vertices"] = mesh.num_vertices();
   result.facts["vertices_outside"] = DrawBack(mesh, SurfaceDistance(soup));
   result.soup = SoupOf(mesh);

@@ -1,6 +1,7 @@
 """The program repair from the shell, and plans on what it repairs."""
 
 import json
+import os
 
 import program_case
 from program_case import ProgramCase
@@ -52,6 +53,19 @@ class Repair(ProgramCase):
         self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         self.assert_refused(2, "--solidify", "--object", "sheet.obj", "--output", "s.obj")
         self.assert_done("--object", "sheet.obj", "--output", "s.obj", "--solidify", "0.05")
+
+    def test_a_refusal_writes_its_report_and_no_solid(self):
+        self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        done = self.run_program("--object", "sheet.obj", "--output", "s.obj", "--report",
+                                "sheet.json")
+        self.assertEqual(done.returncode, 2)
+        report = json.loads(self.read("sheet.json"))
+        self.assertEqual(report["verdict"], "refused")
+        self.assertIn("--solidify", report["reason"])
+        self.assertEqual(done.stderr, f"repair: {report['reason']}\n")
+        self.assertEqual(report["stages"][0]["stage"], "read")
+        self.assertIn("not closed", report["stages"][0]["outcome"])
+        self.assertFalse(os.path.exists(self.path("s.obj")))
 
     def plan(self, *more, output="plan.json"):
         seed = [] if "--seed" in more else ["--seed", "3"]

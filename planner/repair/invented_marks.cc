@@ -1,0 +1,104 @@
+#include "planner/repair/invented_marks.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "planner/object/facet_triangulation.h"
+#include "planner/repair/surface_distance.h"
+
+namespace regrasp::repair {
+
+using Eigen::Vector3d;
+using object::PolygonSoup;
+
+namespace {
+
+bool IsMarked(const PolygonSoup& soup, std::size_t facet) {
+  return !soup.invented.empty() && soup.invented[facet];
+}
+
+bool HasMarks(const PolygonSoup& soup) {
+  return std::ranges::find(soup.invented, true) != soup.invented.end();
+}
+
+/// The facets that are marked, or those that are not, as triangles.
+PolygonSoup TrianglesOf(const PolygonSoup& soup, bool marked) {
+  PolygonSoup triangles{soup.vertices, {}};
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    const std::vector<int>& facet = soup.facets[f];
+    if (IsMarked(soup, f) != marked || facet.size() < 3) continue;
+    std::vector<Vector3d> corners;
+    for (const int v : facet) corners.push_back(soup.vertices[v]);
+    for (const auto& [a, b, c] : object::CutPolygon(corners).triangles) {
+      triangles.facets.push_back({facet[a], facet[b], facet[c]});
+    }
+  }
+  return triangles;
+}
+
+/// Points of a triangle that are looked at: its centre, and halfway to its corners.
+std::array<Vector3d, 4> PointsOf(const PolygonSoup& solid, std::size_t facet) {
+  const auto& f = solid.facets[facet];
+  const Vector3d &a = solid.vertices[f[0]], &b = solid.vertices[f[1]], &c = solid.vertices[f[2]];
+  const Vector3d centre = (a + b + c) / 3;
+  return {centre, (centre + a) / 2, (centre + b) / 2, (centre + c) / 2};
+}
+
+double AreaOf(const PolygonSoup& triangles) {
+  double area = 0;
+  for (const auto& f : triangles.facets) {
+    const Vector3d& a = triangles.vertices[f[0]];
+    area += (triangles.vertices[f[1]] - a).cross(triangles.vertices[f[2]] - a).norm() / 2;
+  }
+  return area;
+}
+
+/// Marks what lies nearer to an original's invented facets than to its others.
+void InheritMarks(const PolygonSoup& original, PolygonSoup& solid) {
+  const PolygonSoup invented = TrianglesOf(original, true), known = TrianglesOf(original, false);
+  if (invented.facets.empty()) return;
+  if (known.facets.empty()) {
+    solid.invented.assign(solid.facets.size(), true);
+    return;
+  }
+  const SurfaceDistance to_invented(invented), to_known(known);
+  for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+    const std::array<Vector3d, 4> points = PointsOf(solid, f);
+    if (std::ranges::any_of(points, [&](const Vector3d& p) {
+          return to_invented.DistanceTo(p) < to_known.DistanceTo(p);
+        })) {
+      solid.invented[f] = true;
+    }
+  }
+}
+
+}  // namespace
+
+void MarkInvented(const PolygonSoup& original, const Comparison& comparison, PolygonSoup& solid) {
+  solid.invented = comparison.invented;
+  solid.invented.resize(solid.facets.size(), false);
+  if (HasMarks(original)) InheritMarks(original, solid);
+}
+
+double InventedShare(const PolygonSoup& solid) {
+  const double invented = AreaOf(TrianglesOf(solid, true));
+  return invented / (invented + AreaOf(TrianglesOf(solid, false)));
+}
+
+void InventedLast(PolygonSoup& solid) {
+  if (!HasMarks(solid)) solid.invented.clear();
+  PolygonSoup sorted{solid.vertices, {}};
+  for (const bool invented : {false, true}) {
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+      if (IsMarked(solid, f) != invented) continue;
+      sorted.facets.push_back(solid.facets[f]);
+      if (!solid.invented.empty()) sorted.invented.push_back(invented);
+    }
+  }
+  solid = std::move(sorted);
+}
+
+}  // namespace regrasp::repair

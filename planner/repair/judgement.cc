@@ -1,0 +1,80 @@
+#include "planner/repair/judgement.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "planner/base/number.h"
+#include "planner/object/mesh_defect.h"
+#include "planner/object/polyhedron.h"
+#include "planner/repair/repair.h"
+
+namespace regrasp::repair {
+
+namespace {
+
+std::string Percent(double share) { return FormatShort(100 * share, 3) + " %"; }
+
+/// "67.3 %, 30.2 %, 2.48 %", the first few of them.
+std::string SharesText(const std::vector<double>& shares) {
+  constexpr std::size_t kListed = 5;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(shares.size(), kListed); ++i) {
+    list += (i == 0 ? "" : ", ") + Percent(shares[i]);
+  }
+  return shares.size() > kListed ? list + ", …" : list;
+}
+
+}  // namespace
+
+Judgement JudgeSurface(const object::PolygonSoup& soup, const Deadline& deadline) {
+  object::Reading reading;
+  reading.deadline = deadline;
+  reading.counts_defects = false;
+  const std::string name = "surface";
+  try {
+    (void)object::Polyhedron::FromSoup(soup, name, reading);
+    return {};
+  } catch (const object::MeshError& error) {
+    const bool several = error.defect() == object::MeshDefect::kSeveralSolids;
+    const std::string_view message = error.what();
+    return {several ? Shortfall::kSeveralSolids : Shortfall::kNoSolid,
+            std::string(message.substr(name.size() + 2))};  // ": "
+  }
+}
+
+Judgement JudgeParts(const std::vector<double>& volume_shares,
+                     const object::RepairOptions& options) {
+  if (options.part || volume_shares.size() < 2 || volume_shares[1] <= kSmallPart) return {};
+  return {Shortfall::kNotChosen,
+          std::to_string(volume_shares.size()) + " solids beside each other, with " +
+              SharesText(volume_shares) + " of the volume; --part K takes one (1: the largest)"};
+}
+
+Judgement JudgeShape(const Comparison& comparison, const Original& original,
+                     const object::RepairOptions& options) {
+  const double deviation = comparison.seen_most / original.diameter;
+  if (deviation > options.max_deviation + options.thickness.value_or(0) / 2 / original.diameter) {
+    return {Shortfall::kTooFar,
+            "the solid is too far from its surface: 95 % of what is seen from outside lies "
+            "within " +
+                Percent(deviation) + " of the diameter, " + Percent(options.max_deviation) +
+                " are allowed (--max-deviation)",
+            deviation};
+  }
+  if (options.thickness) return {};
+  if (comparison.invented_share > kMostInvented) {
+    return {Shortfall::kNotAllThere,
+            "the surface is not all there: " + Percent(comparison.invented_share) +
+                " of the solid's would be invented, " + Percent(kMostInvented) +
+                " at most are taken; scan the other sides too, or give an open sheet a wall "
+                "(--solidify THICKNESS)"};
+  }
+  if (original.open && comparison.thin_share > kMostThin) {
+    return {Shortfall::kSheet, "it is an open sheet: " + Percent(comparison.thin_share) +
+                                   " of the solid would be thinner than " + Percent(kThinWall) +
+                                   " of the diameter; give it a wall (--solidify THICKNESS)"};
+  }
+  return {};
+}
+
+}  // namespace regrasp::repair

@@ -1,0 +1,185 @@
+#include "planner/repair/ladder.h"
+
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "planner/object/diameter.h"
+#include "planner/repair/judgement.h"
+#include "planner/repair/run_stage.h"
+#include "planner/repair/soup_shells.h"
+#include "planner/repair/stages.h"
+
+namespace regrasp::repair {
+
+using object::PolygonSoup;
+
+namespace {
+
+constexpr char kIsSolid[] = "solid";
+
+/// Whether a stage can do anything about a surface.
+bool Applies(std::string_view stage, const PolygonSoup& soup) {
+  if (stage == "fill-holes") return HasOpenEdges(soup);
+  if (stage == "unite-shells") return CountShells(soup) > 1;
+  return true;
+}
+
+class Ladder {
+ public:
+  Ladder(const PolygonSoup& soup, const std::string& name, const object::RepairOptions& options,
+         const object::Reading& reading)
+      : soup_(soup), name_(name), options_(options), reading_(reading) {
+    climbed_.attempt.facets_before = soup.facets.size();
+    climbed_.attempt.diameter = object::ComputeDiameter(soup.vertices);
+  }
+
+  Climbed Climb() {
+    if (!(JoinsPoints() && MakesSolid() && MakesCoarser())) climbed_.solid.reset();
+    return std::move(climbed_);
+  }
+
+ private:
+  // Each true where the climb goes on, false where it ends without a solid.
+
+  /// A cloud of points becomes a surface first.
+  bool JoinsPoints() {
+    if (!soup_.facets.empty()) return true;
+    auto surface = Run("reconstruct", [&] { return ReconstructSurface(soup_); });
+    if (!surface) return false;
+    last().outcome = "a surface";
+    soup_ = *std::move(surface);
+    return true;
+  }
+
+  bool MakesSolid() {
+    if (!options_.thickness && TakesAsItIs()) return true;
+    if (!Cleans()) return false;
+    return options_.thickness ? MakesSheet() : ClimbsStages();
+  }
+
+  bool Cleans() {
+    auto clean = Run("clean", [&] { return CleanSurface(soup_); });
+    if (!clean) return false;
+    const bool open = HasOpenEdges(*clean);
+    original_ = {*std::move(clean), climbed_.attempt.diameter, open};
+    return true;
+  }
+
+  /// Whether the reader takes the file's surface, so that there is nothing to do.
+  bool TakesAsItIs() {
+    climbed_.attempt.stages.emplace_back();
+    last().stage = "read";
+    last().facets = soup_.facets.size();
+    if (!Passes(JudgeSurface(soup_, reading_.deadline))) return false;
+    climbed_.solid = soup_;              // with the marks of an earlier repair
+    climbed_.comparison.seen_share = 1;  // and all differences are none
+    return true;
+  }
+
+  bool ClimbsStages() {
+    if (Accepts(original_.soup)) return true;
+    PolygonSoup best = original_.soup;
+    using Stage = StageResult (*)(const PolygonSoup&);
+    for (const auto& [name, stage] : {std::pair<const char*, Stage>("fill-holes", FillHoles),
+                                      {"unite-shells", UniteShells},
+                                      {"remove-crossings", RemoveCrossings},
+                                      {"wrap", WrapSurface}}) {
+      if (!Applies(name, best)) continue;
+      auto made = Run(name, [&] { return stage(best); });
+      if (!made) continue;
+      if (Accepts(*made)) return true;
+      // What was cut out is not to be missed by the wrap.
+      if (std::string_view(name) != "remove-crossings") best = *std::move(made);
+    }
+    return false;
+  }
+
+  bool MakesSheet() {
+    const auto sheet =
+        Run("solidify", [&] { return Solidify(original_.soup, *options_.thickness); });
+    return sheet && Accepts(*sheet);
+  }
+
+  bool MakesCoarser() {
+    if (!options_.facets || std::ssize(climbed_.solid->facets) <= *options_.facets) return true;
+    if (original_.soup.facets.empty()) {  // a solid as it is: of triangles, to measure against
+      if (!Cleans()) return false;
+      climbed_.attempt.stages.pop_back();
+      climbed_.solid = original_.soup;
+    }
+    const PolygonSoup fine = *climbed_.solid;
+    const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
+    return coarse && Accepts(*coarse);
+  }
+
+  /// @returns nullopt where the stage failed; the report says so.
+  std::optional<PolygonSoup> Run(const std::string& stage,
+                                 const std::function<StageResult()>& task) {
+    reading_.Begin("repairing " + name_ + ": " + stage);
+    StageRun run = RunStage(task, reading_.deadline);
+    StageReport& report = climbed_.attempt.stages.emplace_back();
+    report.stage = stage;
+    report.outcome = run.failure;
+    if (!run.result) return std::nullopt;
+    report.facts = std::move(run.result->facts);
+    report.facets = run.result->soup.facets.size();
+    return std::move(run.result->soup);
+  }
+
+  /// Judges what the last stage made, and takes it where nothing is wrong with it.
+  bool Accepts(PolygonSoup soup) {
+    Judgement judgement = JudgeSurface(soup, reading_.deadline);
+    Passes(judgement);
+    if (judgement.shortfall == Shortfall::kSeveralSolids) {
+      if (!TakesPart(soup)) return false;
+      judgement = JudgeSurface(soup, reading_.deadline);
+    }
+    if (!Passes(judgement)) return false;
+    reading_.Begin("repairing " + name_ + ": measuring what changed");
+    Comparison comparison = Compare(original_.soup, soup, original_.diameter);
+    if (!Passes(JudgeShape(comparison, original_, options_))) return false;
+    climbed_.solid = std::move(soup);
+    climbed_.comparison = std::move(comparison);
+    return true;
+  }
+
+  /// Of several solids beside each other takes one.
+  bool TakesPart(PolygonSoup& soup) {
+    auto part = Run("take-part", [&] { return TakePart(soup, options_.part.value_or(1)); });
+    if (!part) {
+      last().shortfall = Shortfall::kNotChosen;
+      return false;
+    }
+    const auto shares = last().facts["volume_shares"].get<std::vector<double>>();
+    soup = *std::move(part);
+    return Passes(JudgeParts(shares, options_));
+  }
+
+  /// Writes a judgement of what the last stage made into its report.
+  bool Passes(const Judgement& judgement) {
+    last().shortfall = judgement.shortfall;
+    last().outcome = judgement.passes() ? kIsSolid : judgement.complaint;
+    last().deviation = judgement.deviation;
+    return judgement.passes();
+  }
+
+  StageReport& last() { return climbed_.attempt.stages.back(); }
+
+  PolygonSoup soup_;
+  const std::string& name_;
+  const object::RepairOptions& options_;
+  const object::Reading& reading_;
+  Original original_;
+  Climbed climbed_;
+};
+
+}  // namespace
+
+Climbed Climb(const PolygonSoup& soup, const std::string& name,
+              const object::RepairOptions& options, const object::Reading& reading) {
+  return Ladder(soup, name, options, reading).Climb();
+}
+
+}  // namespace regrasp::repair
