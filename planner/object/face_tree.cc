@@ -12,8 +12,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <set>
+#include <unordered_map>
 
+#include "planner/object/box_tree.h"
 #include "planner/object/closest_on_segment.h"
 #include "planner/object/segment_coverage.h"
 
@@ -45,6 +48,11 @@ constexpr int kSegmentPieces = 16;
 Point ToPoint(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Vector3d ToVector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
+Triangle TriangleOf(const Polyhedron& solid, TriangleIndex t) {
+  const auto& [a, b, c] = solid.triangles()[t];
+  return {ToPoint(solid.vertices()[a]), ToPoint(solid.vertices()[b]), ToPoint(solid.vertices()[c])};
+}
+
 /// Whether a point can be projected on it. The normal of a sliver is lost where its square
 /// underflows; all of such a triangle is then at its neighbours, to far below rounding.
 bool HasPlane(const Triangle& triangle) {
@@ -53,63 +61,79 @@ bool HasPlane(const Triangle& triangle) {
 }
 bool HasPlane(const Segment&) { return true; }  // a line is enough, and corners are apart
 
-/// Consecutive primitives (triangles or segments) of one face, with a tree where they are many.
-template <class Primitive>
+/// The triangles of a face, made one by one.
+auto TrianglesOf(const Polyhedron& solid, FaceIndex face) {
+  return solid.TrianglesOf(face) |
+         std::views::transform([&](TriangleIndex t) { return TriangleOf(solid, t); });
+}
+
+/// The borders of a face as segments, made one by one.
+auto SegmentsOf(const Polyhedron& solid, FaceIndex face) {
+  return solid.BordersOf(face) | std::views::transform([](const FaceBorder& border) {
+           return Segment(ToPoint(border.a), ToPoint(border.b));
+         });
+}
+
+/// The nearest point of some triangles or segments.
+Point ClosestOf(const auto& primitives, const Point& point) {
+  const auto project = Kernel().construct_projected_point_3_object();
+  Point closest = (*primitives.begin())[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& primitive : primitives) {
+    const Point candidate = project(primitive, point);
+    const double distance = CGAL::squared_distance(candidate, point);
+    if (!(distance < least)) continue;  // nor where it is no number, for want of a plane
+    least = distance;
+    closest = candidate;
+  }
+  return closest;
+}
+
+/// Many triangles or segments of one face, in a tree.
+template <class Shape, class Primitive>
 class Patch {
  public:
   using Iterator = typename Primitive::Id;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-  Patch(Iterator first, Iterator last) : first_(first), last_(last) {
-    if (last - first < kFew) return;
-    tree_ = std::make_unique<Tree>();
-    for (Iterator i = first; i != last; ++i) {
-      if (HasPlane(*i)) tree_->insert(Primitive(i));
+  explicit Patch(const auto& shapes) : shapes_(shapes.begin(), shapes.end()) {
+    for (Iterator i = shapes_.cbegin(); i != shapes_.cend(); ++i) {
+      if (HasPlane(*i)) tree_.insert(Primitive(i));
     }
-    tree_->build();  // now, as queries from several threads would build it twice
-    tree_->do_not_accelerate_distance_queries();
+    tree_.build();  // now, as queries from several threads would build it twice
+    tree_.do_not_accelerate_distance_queries();
   }
 
   [[nodiscard]] Point Closest(const Point& point) const {
     // The tree starts from a guess and prunes by it: any point of the patch will do.
-    if (tree_) return tree_->closest_point(point, (*first_)[0]);
-    const auto project = Kernel().construct_projected_point_3_object();
-    Point closest = (*first_)[0];
-    double least = std::numeric_limits<double>::infinity();
-    for (Iterator i = first_; i != last_; ++i) {
-      const Point candidate = project(*i, point);
-      const double distance = CGAL::squared_distance(candidate, point);
-      if (!(distance < least)) continue;  // nor where it is no number, for want of a plane
-      least = distance;
-      closest = candidate;
-    }
-    return closest;
+    return tree_.closest_point(point, shapes_[0][0]);
   }
 
-  /// Calls `visit` with every primitive whose box may meet `box`.
-  template <class Visit>
-  void VisitNear(const CGAL::Bbox_3& box, const Visit& visit) const {
-    if (!tree_) {
-      for (Iterator i = first_; i != last_; ++i) {
-        if (CGAL::do_overlap(i->bbox(), box)) visit(*i);
-      }
-      return;
-    }
+  /// Calls `visit` with every one whose box may meet `box`.
+  void VisitNear(const CGAL::Bbox_3& box, const auto& visit) const {
     std::vector<Iterator> found;
-    tree_->all_intersected_primitives(box, std::back_inserter(found));
+    tree_.all_intersected_primitives(box, std::back_inserter(found));
     for (const Iterator& i : found) visit(*i);
   }
 
  private:
-  Iterator first_, last_;
-  std::unique_ptr<Tree> tree_;
+  std::vector<Shape> shapes_;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
 };
 
-using TriangleIterator = std::vector<Triangle>::const_iterator;
-using SegmentIterator = std::vector<Segment>::const_iterator;
-using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>;
-using SegmentPrimitive = CGAL::AABB_segment_primitive<Kernel, SegmentIterator>;
-using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+using TrianglePatch =
+    Patch<Triangle, CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>>;
+using SegmentPatch =
+    Patch<Segment, CGAL::AABB_segment_primitive<Kernel, std::vector<Segment>::const_iterator>>;
+
+/// Those of the faces that have a tree.
+template <class AnyPatch>
+using Patches = std::unordered_map<FaceIndex, std::unique_ptr<const AnyPatch>>;
+
+template <class AnyPatch>
+const AnyPatch* Find(const Patches<AnyPatch>& patches, FaceIndex face) {
+  const auto found = patches.find(face);
+  return found == patches.end() ? nullptr : found->second.get();
+}
 
 double DistanceTo(const Triangle& triangle, const Vector3d& point) {
   const Point closest = Kernel().construct_projected_point_3_object()(triangle, ToPoint(point));
@@ -166,39 +190,65 @@ double DistanceTo(const PlaneTriangle& triangle, const PlanePoint& point) {
   return least;
 }
 
-CGAL::Bbox_3 Around(const Vector3d& a, const Vector3d& b, double distance) {
-  const Vector3d low = a.cwiseMin(b).array() - distance;
-  const Vector3d high = a.cwiseMax(b).array() + distance;
+BoxTree::Box Around(const Vector3d& a, const Vector3d& b, double distance) {
+  return {a.cwiseMin(b).array() - distance, a.cwiseMax(b).array() + distance};
+}
+
+CGAL::Bbox_3 ToBbox(const BoxTree::Box& box) {
+  const Vector3d &low = box.min(), &high = box.max();
   return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
 }  // namespace
 
 struct FaceTree::Impl {
-  double diameter = 0;
-  double rounding = 0;              ///< of distances between points of the surface
-  std::vector<Vector3d> normals;    ///< by face
-  std::vector<Triangle> triangles;  ///< sorted by face
-  std::vector<FaceIndex> face_of_triangle;
-  std::vector<Segment> segments;  ///< borders, sorted by face
-  std::vector<Patch<TrianglePrimitive>> surface;
-  std::vector<Patch<SegmentPrimitive>> border;
-  TriangleTree tree;
+  double rounding = 0;             ///< of distances between points of the surface
+  Patches<TrianglePatch> surface;  ///< of faces of kFew triangles or more
+  Patches<SegmentPatch> border;    ///< of faces of kFew borders or more
+  BoxTree triangles;
 
-  [[nodiscard]] bool Covers(FaceIndex face, const Vector3d& a, const Vector3d& b,
-                            double within) const;
+  [[nodiscard]] Vector3d ClosestPoint(const Polyhedron& solid, FaceIndex face,
+                                      const Vector3d& point) const {
+    const TrianglePatch* patch = Find(surface, face);
+    return ToVector(patch != nullptr ? patch->Closest(ToPoint(point))
+                                     : ClosestOf(TrianglesOf(solid, face), ToPoint(point)));
+  }
+
+  /// Calls `visit` with every triangle of a face whose box meets one.
+  void VisitNear(const Polyhedron& solid, FaceIndex face, const CGAL::Bbox_3& box,
+                 const auto& visit) const {
+    if (const TrianglePatch* patch = Find(surface, face)) return patch->VisitNear(box, visit);
+    for (const Triangle& triangle : TrianglesOf(solid, face)) {
+      if (CGAL::do_overlap(triangle.bbox(), box)) visit(triangle);
+    }
+  }
+
+  /// Calls `visit` with every triangle that meets a box, and its number.
+  void VisitNear(const Polyhedron& solid, const BoxTree::Box& box, const auto& visit) const {
+    const CGAL::Bbox_3 bounds = ToBbox(box);
+    triangles.VisitNear(box, [&](int i) {
+      const TriangleIndex t(i);
+      const Triangle triangle = TriangleOf(solid, t);
+      if (CGAL::do_overlap(triangle.bbox(), bounds) && CGAL::do_intersect(bounds, triangle)) {
+        visit(t, triangle);
+      }
+    });
+  }
+
+  [[nodiscard]] bool Covers(const Polyhedron& solid, FaceIndex face, const Vector3d& a,
+                            const Vector3d& b, double within) const;
 };
 
 /// True iff the segment ab is within a distance of the face, and over it up to rounding where one
 /// looks along its normal.
-bool FaceTree::Impl::Covers(FaceIndex face, const Vector3d& a, const Vector3d& b,
-                            double within) const {
-  const PlaneView view(a, normals[face]);
+bool FaceTree::Impl::Covers(const Polyhedron& solid, FaceIndex face, const Vector3d& a,
+                            const Vector3d& b, double within) const {
+  const PlaneView view(a, solid.inward_normal(face));
   const double strictness = within / rounding;
   // The points near one triangle form an interval, as the distance to a convex set is convex along
   // a line: the segment is on the face iff the intervals of all triangles cover it.
   std::vector<ParameterInterval> near;
-  surface[face].VisitNear(Around(a, b, within), [&](const Triangle& triangle) {
+  VisitNear(solid, face, ToBbox(Around(a, b, within)), [&](const Triangle& triangle) {
     const PlaneTriangle seen = view.Of(triangle);
     const auto distance = [&](double t) {
       const Vector3d p = a + t * (b - a);
@@ -212,118 +262,98 @@ bool FaceTree::Impl::Covers(FaceIndex face, const Vector3d& a, const Vector3d& b
 
 FaceTree::FaceTree(const Polyhedron& solid) {
   auto impl = std::make_unique<Impl>();
-  impl->diameter = solid.diameter();
   double farthest = 0;
   for (const Vector3d& vertex : solid.vertices()) farthest = std::max(farthest, vertex.norm());
-  impl->rounding = kRounding * impl->diameter + kCoordinateRounding * farthest;
-  std::vector<std::ptrdiff_t> triangle_ends, segment_ends;
-  const auto faces = static_cast<std::size_t>(solid.face_count());
-  std::size_t borders = 0;
-  for (FaceIndex f{0}; f < solid.face_count(); ++f) borders += solid.BordersOf(f).size();
-  impl->triangles.reserve(solid.triangles().size());
-  impl->face_of_triangle.reserve(solid.triangles().size());
-  impl->segments.reserve(borders);
-  impl->normals.reserve(faces);
-  impl->surface.reserve(faces);
-  impl->border.reserve(faces);
+  impl->rounding = kRounding * solid.diameter() + kCoordinateRounding * farthest;
   for (FaceIndex f{0}; f < solid.face_count(); ++f) {
-    impl->normals.push_back(solid.inward_normal(f));
-    for (const TriangleIndex t : solid.TrianglesOf(f)) {
-      const auto& [a, b, c] = solid.triangles()[t];
-      impl->triangles.emplace_back(ToPoint(solid.vertices()[a]), ToPoint(solid.vertices()[b]),
-                                   ToPoint(solid.vertices()[c]));
-      impl->face_of_triangle.push_back(f);
+    if (std::ssize(solid.TrianglesOf(f)) >= kFew) {
+      impl->surface.emplace(f, std::make_unique<TrianglePatch>(TrianglesOf(solid, f)));
     }
-    for (const FaceBorder& border : solid.BordersOf(f)) {
-      impl->segments.emplace_back(ToPoint(border.a), ToPoint(border.b));
+    if (std::ssize(solid.BordersOf(f)) >= kFew) {
+      impl->border.emplace(f, std::make_unique<SegmentPatch>(SegmentsOf(solid, f)));
     }
-    triangle_ends.push_back(std::ssize(impl->triangles));
-    segment_ends.push_back(std::ssize(impl->segments));
   }
-  // Only now: the patches keep iterators.
-  const auto first_triangle = impl->triangles.cbegin();
-  const auto first_segment = impl->segments.cbegin();
-  for (FaceIndex f{0}; f < solid.face_count(); ++f) {
-    impl->surface.emplace_back(first_triangle + (f == 0 ? 0 : triangle_ends[f - 1]),
-                               first_triangle + triangle_ends[f]);
-    impl->border.emplace_back(first_segment + (f == 0 ? 0 : segment_ends[f - 1]),
-                              first_segment + segment_ends[f]);
-  }
-  impl->tree.insert(first_triangle, impl->triangles.cend());
-  impl->tree.build();
+  impl->triangles = BoxTree(static_cast<int>(solid.triangles().size()), [&](int t) {
+    BoxTree::Box box;
+    for (const int v : solid.triangles()[t]) box.extend(solid.vertices()[v]);
+    return box;
+  });
   impl_ = std::move(impl);
 }
 
 FaceTree::~FaceTree() = default;
 
-Vector3d FaceTree::ClosestPoint(FaceIndex face, const Vector3d& point) const {
-  return ToVector(impl_->surface[face].Closest(ToPoint(point)));
+Vector3d FaceTree::ClosestPoint(const Polyhedron& solid, FaceIndex face,
+                                const Vector3d& point) const {
+  return impl_->ClosestPoint(solid, face, point);
 }
 
-std::vector<FaceIndex> FaceTree::FacesNear(const Vector3d& point, double tolerance) const {
+std::vector<FaceIndex> FaceTree::FacesNear(const Polyhedron& solid, const Vector3d& point,
+                                           double tolerance) const {
   // Wider than asked by more than rounding; the distances below decide.
-  const CGAL::Bbox_3 box = Around(point, point, tolerance + kRounding * impl_->diameter);
-  std::vector<TriangleIterator> candidates;
-  impl_->tree.all_intersected_primitives(box, std::back_inserter(candidates));
+  const BoxTree::Box box = Around(point, point, tolerance + kRounding * solid.diameter());
   std::map<FaceIndex, double> distance_to;
-  for (const TriangleIterator& candidate : candidates) {
-    const double distance = DistanceTo(*candidate, point);
-    if (!(distance <= tolerance)) continue;
-    const FaceIndex face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
-    const auto [found, is_new] = distance_to.try_emplace(face, distance);
+  impl_->VisitNear(solid, box, [&](TriangleIndex t, const Triangle& triangle) {
+    const double distance = DistanceTo(triangle, point);
+    if (!(distance <= tolerance)) return;
+    const auto [found, is_new] = distance_to.try_emplace(solid.face_of_triangle(t), distance);
     found->second = std::min(found->second, distance);
-  }
+  });
   std::vector<FaceIndex> faces;
   for (const auto& [face, distance] : distance_to) faces.push_back(face);
   std::ranges::stable_sort(faces, {}, [&](FaceIndex face) { return distance_to.at(face); });
   return faces;
 }
 
-std::vector<FaceIndex> FaceTree::FacesNearSegment(const Vector3d& a, const Vector3d& b,
-                                                  double tolerance) const {
+std::vector<FaceIndex> FaceTree::FacesNearSegment(const Polyhedron& solid, const Vector3d& a,
+                                                  const Vector3d& b, double tolerance) const {
   const Segment segment(ToPoint(a), ToPoint(b));
-  const double within = tolerance + kRounding * impl_->diameter;
+  const double within = tolerance + kRounding * solid.diameter();
   std::set<FaceIndex> faces;
-  std::vector<TriangleIterator> candidates;
   for (int piece = 0; piece < kSegmentPieces; ++piece) {
     const auto at = [&](int k) -> Vector3d { return a + k * (b - a) / kSegmentPieces; };
-    candidates.clear();
-    impl_->tree.all_intersected_primitives(Around(at(piece), at(piece + 1), within),
-                                           std::back_inserter(candidates));
-    for (const TriangleIterator& candidate : candidates) {
-      const FaceIndex face = impl_->face_of_triangle[candidate - impl_->triangles.cbegin()];
-      if (faces.contains(face)) continue;
-      if (DistanceTo(*candidate, segment) <= tolerance) faces.insert(face);
-    }
+    const BoxTree::Box box = Around(at(piece), at(piece + 1), within);
+    impl_->VisitNear(solid, box, [&](TriangleIndex t, const Triangle& triangle) {
+      const FaceIndex face = solid.face_of_triangle(t);
+      if (faces.contains(face)) return;
+      if (DistanceTo(triangle, segment) <= tolerance) faces.insert(face);
+    });
   }
   return {faces.begin(), faces.end()};
 }
 
-double FaceTree::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
-  return (ToVector(impl_->border[face].Closest(ToPoint(point))) - point).norm();
+double FaceTree::DistanceToBorder(const Polyhedron& solid, FaceIndex face,
+                                  const Vector3d& point) const {
+  const SegmentPatch* patch = Find(impl_->border, face);
+  const Point closest = patch != nullptr ? patch->Closest(ToPoint(point))
+                                         : ClosestOf(SegmentsOf(solid, face), ToPoint(point));
+  return (ToVector(closest) - point).norm();
 }
 
-bool FaceTree::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
-                               double tolerance) const {
-  const double within = std::max(tolerance, kRounding * impl_->diameter);
-  const Vector3d from = ClosestPoint(face, a), to = ClosestPoint(face, b);
+bool FaceTree::ContainsSegment(const Polyhedron& solid, FaceIndex face, const Vector3d& a,
+                               const Vector3d& b, double tolerance) const {
+  const double within = std::max(tolerance, kRounding * solid.diameter());
+  const auto closest = [&](const Vector3d& p) { return impl_->ClosestPoint(solid, face, p); };
+  const auto covers = [&](const Vector3d& p, const Vector3d& q) {
+    return impl_->Covers(solid, face, p, q, within);
+  };
+  const Vector3d from = closest(a), to = closest(b);
   if ((from - a).norm() > within || (to - b).norm() > within) return false;
-  if (impl_->Covers(face, from, to, within)) return true;
+  if (covers(from, to)) return true;
   // The ends are known to within the tolerance: a path beside this one, to which both ends can go
   // without leaving the face, will do.
-  const Vector3d aside = within * impl_->normals[face].cross(to - from).stableNormalized();
+  const Vector3d aside = within * solid.inward_normal(face).cross(to - from).stableNormalized();
   const auto ends = [&](const Vector3d& end) {
     std::vector<Vector3d> found = {end};
     for (const Vector3d& off : {aside, Vector3d(-aside)}) {
-      const Vector3d moved = ClosestPoint(face, end + off);
-      if (impl_->Covers(face, end, moved, within)) found.push_back(moved);
+      const Vector3d moved = closest(end + off);
+      if (covers(end, moved)) found.push_back(moved);
     }
     return found;
   };
   const std::vector<Vector3d> starts = ends(from), stops = ends(to);
   return std::ranges::any_of(starts, [&](const Vector3d& start) {
-    return std::ranges::any_of(
-        stops, [&](const Vector3d& stop) { return impl_->Covers(face, start, stop, within); });
+    return std::ranges::any_of(stops, [&](const Vector3d& stop) { return covers(start, stop); });
   });
 }
 

@@ -10,8 +10,9 @@ namespace regrasp::object {
 
 /// Answers where points and segments lie on the faces of a polyhedron, by trees of boxes.
 ///
-/// A query costs microseconds on meshes of 50 000 triangles. It keeps its own copy of the geometry.
-/// Queries are const and safe from several threads.
+/// A query costs microseconds on meshes of 50 000 triangles. It keeps the geometry of faces with
+/// many triangles or borders only: every query is given the polyhedron that the tree was made of,
+/// or a copy. Queries are const and safe from several threads.
 class FaceTree {
  public:
   explicit FaceTree(const Polyhedron& solid);
@@ -20,15 +21,20 @@ class FaceTree {
   FaceTree& operator=(const FaceTree&) = delete;
 
   /// As the functions of Object with these names.
-  [[nodiscard]] Eigen::Vector3d ClosestPoint(FaceIndex face, const Eigen::Vector3d& point) const;
-  [[nodiscard]] std::vector<FaceIndex> FacesNear(const Eigen::Vector3d& point,
+  [[nodiscard]] Eigen::Vector3d ClosestPoint(const Polyhedron& solid, FaceIndex face,
+                                             const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::vector<FaceIndex> FacesNear(const Polyhedron& solid,
+                                                 const Eigen::Vector3d& point,
                                                  double tolerance) const;
-  [[nodiscard]] std::vector<FaceIndex> FacesNearSegment(const Eigen::Vector3d& a,
+  [[nodiscard]] std::vector<FaceIndex> FacesNearSegment(const Polyhedron& solid,
+                                                        const Eigen::Vector3d& a,
                                                         const Eigen::Vector3d& b,
                                                         double tolerance) const;
-  [[nodiscard]] double DistanceToBorder(FaceIndex face, const Eigen::Vector3d& point) const;
-  [[nodiscard]] bool ContainsSegment(FaceIndex face, const Eigen::Vector3d& a,
-                                     const Eigen::Vector3d& b, double tolerance) const;
+  [[nodiscard]] double DistanceToBorder(const Polyhedron& solid, FaceIndex face,
+                                        const Eigen::Vector3d& point) const;
+  [[nodiscard]] bool ContainsSegment(const Polyhedron& solid, FaceIndex face,
+                                     const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                     double tolerance) const;
 
  private:
   struct Impl;

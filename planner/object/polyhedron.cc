@@ -236,25 +236,25 @@ Vector3d Polyhedron::CentroidOf(FaceIndex face) const {
 }
 
 Vector3d Polyhedron::ClosestPoint(FaceIndex face, const Vector3d& point) const {
-  return face_tree_->ClosestPoint(face, point);
+  return face_tree_->ClosestPoint(*this, face, point);
 }
 
 std::vector<FaceIndex> Polyhedron::FacesNear(const Vector3d& point, double tolerance) const {
-  return face_tree_->FacesNear(point, tolerance);
+  return face_tree_->FacesNear(*this, point, tolerance);
 }
 
 std::vector<FaceIndex> Polyhedron::FacesNearSegment(const Vector3d& a, const Vector3d& b,
                                                     double tolerance) const {
-  return face_tree_->FacesNearSegment(a, b, tolerance);
+  return face_tree_->FacesNearSegment(*this, a, b, tolerance);
 }
 
 double Polyhedron::DistanceToBorder(FaceIndex face, const Vector3d& point) const {
-  return face_tree_->DistanceToBorder(face, point);
+  return face_tree_->DistanceToBorder(*this, face, point);
 }
 
 bool Polyhedron::ContainsSegment(FaceIndex face, const Vector3d& a, const Vector3d& b,
                                  double tolerance) const {
-  return face_tree_->ContainsSegment(face, a, b, tolerance);
+  return face_tree_->ContainsSegment(*this, face, a, b, tolerance);
 }
 
 bool Polyhedron::IsRough(FaceIndex face, const Vector3d& point) const {
