@@ -9,6 +9,7 @@ set(regrasp_slow_tests
   apps.failing_frames
   apps.frames
   apps.general
+  apps.hand
   apps.meshes
   apps.models
   apps.plan

@@ -12,6 +12,7 @@
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/geom_shape.h"
 #include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {
@@ -25,18 +26,6 @@ using Eigen::Vector3d;
 constexpr int kWorld = 0;
 /// Shapes that are nearer than this while the hand is at rest are so by construction, metres.
 constexpr double kNearAtRest = 1e-3;
-
-Vector3d VectorAt(const mjtNum* numbers, int index) {
-  return Eigen::Map<const Vector3d>(numbers + std::ptrdiff_t{3} * index);
-}
-
-Isometry3d PoseAt(const mjtNum* positions, const mjtNum* matrices, int index) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = VectorAt(positions, index);
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  pose.linear() = Eigen::Map<const RowMajor>(matrices + std::ptrdiff_t{9} * index);
-  return pose;
-}
 
 /// Makes a HandModel of a description and a compiled model, everything at rest in the palm's frame.
 class HandBuilder {
@@ -75,20 +64,12 @@ class HandBuilder {
     if (body > kWorld) return body;
     std::string bodies;
     for (int i = 1; i < std::min(model_.nbody, 40); ++i) {
-      bodies += (bodies.empty() ? "" : ", ") + BodyName(i);
+      bodies += (bodies.empty() ? "" : ", ") + BodyName(model_, i);
     }
     Fail(where, "the model has no body \"" + name + "\"; it has " + bodies);
   }
-  std::string BodyName(int body) const {
-    const char* name = mj_id2name(&model_, mjOBJ_BODY, body);
-    return name != nullptr ? name : "body " + std::to_string(body);
-  }
-  std::string JointName(int joint) const {
-    const char* name = mj_id2name(&model_, mjOBJ_JOINT, joint);
-    return name != nullptr ? name : "joint " + std::to_string(joint);
-  }
-
   void AddFinger(int index);
+  static void SetTipAxis(Finger& finger);
   void AddJoints(int body, const std::string& where, Vector3d& last, Finger& finger);
   void Couple(const std::string& where, Finger& finger) const;
   void SetLimits(const std::string& where, Finger& finger) const;
@@ -132,7 +113,7 @@ void HandBuilder::AddFinger(int index) {
   Vector3d last = Vector3d::Zero();
   for (const int body : bodies) {
     if (model_.body_jntnum[body] > 0 && places_.contains(body)) {
-      Fail(where, "shares joint " + JointName(model_.body_jntadr[body]) + " with finger " +
+      Fail(where, "shares joint " + JointName(model_, model_.body_jntadr[body]) + " with finger " +
                       hand_.fingers[places_[body].finger].name + "; each finger needs its own");
     }
     AddJoints(body, where, last, finger);
@@ -147,21 +128,31 @@ void HandBuilder::AddFinger(int index) {
   SetLimits(where, finger);
   const Isometry3d pose = from_world_ * PoseAt(rest_->xpos, rest_->xmat, tip_body);
   finger.tip = {tip.body, pose * tip.centre - last, tip.radius, Vector3d::UnitZ()};
-  if (finger.tip.centre.norm() > 0) finger.tip.axis = finger.tip.centre.normalized();
+  SetTipAxis(finger);
   tip_bodies_[tip_body] = index;
   hand_.fingers.push_back(std::move(finger));
+}
+
+/// Along its hinge the frame of a joint may be anywhere.
+void HandBuilder::SetTipAxis(Finger& finger) {
+  const Vector3d& centre = finger.tip.centre;
+  const Vector3d& hinge = finger.joints.back().axis;
+  const Vector3d across = centre - centre.dot(hinge) * hinge;
+  const bool bends = across.norm() > 0.3 * centre.norm();
+  if (centre.norm() > 0) finger.tip.axis = (bends ? across : centre).normalized();
 }
 
 void HandBuilder::AddJoints(int body, const std::string& where, Vector3d& last, Finger& finger) {
   for (int i = 0; i < model_.body_jntnum[body]; ++i) {
     const int id = model_.body_jntadr[body] + i;
     if (model_.jnt_type[id] != mjJNT_HINGE) {
-      Fail(where, "joint " + JointName(id) + " is no hinge; fingers are chains of hinges");
+      Fail(where, "joint " + JointName(model_, id) + " is no hinge; fingers are chains of hinges");
     }
-    if (model_.jnt_limited[id] == 0) Fail(where, "joint " + JointName(id) + " has no limits");
+    if (model_.jnt_limited[id] == 0)
+      Fail(where, "joint " + JointName(model_, id) + " has no limits");
     const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, id);
     Joint joint;
-    joint.name = JointName(id);
+    joint.name = JointName(model_, id);
     joint.offset = anchor - last;
     joint.axis = (from_world_.linear() * VectorAt(rest_->xaxis, id)).normalized();
     joint.rest = model_.qpos0[model_.jnt_qposadr[id]];
@@ -221,7 +212,7 @@ HandBuilder::Place HandBuilder::PlaceOf(int body) const {
 
 void HandBuilder::AddGeom(int geom) {
   const int body = model_.geom_bodyid[geom];
-  if (model_.geom_contype[geom] == 0 && model_.geom_conaffinity[geom] == 0) return;
+  if (!Collides(model_, geom)) return;
   // Of another tree of bodies: a table, say.
   if (model_.body_rootid[body] != model_.body_rootid[palm_]) return;
   if (tip_bodies_.contains(body)) return;
@@ -230,7 +221,7 @@ void HandBuilder::AddGeom(int geom) {
   const Place place = PlaceOf(body);
   Isometry3d pose = from_world_ * PoseAt(rest_->geom_xpos, rest_->geom_xmat, geom);
   pose.translation() -= OriginAtRest(place);
-  LinkShape link{BodyName(body), place.after, false, Moved(pose, shape)};
+  LinkShape link{BodyName(model_, body), place.after, false, Moved(pose, shape)};
   (place.after == 0 ? hand_.palm : hand_.fingers[place.finger].shapes).push_back(std::move(link));
 }
 
@@ -288,12 +279,17 @@ std::string Digest(const std::string& description, const ModelText& model) {
 
 }  // namespace
 
+HandModel BuildHand(const HandDescription& description, const CompiledModel& compiled,
+                    const std::string& file) {
+  return HandBuilder(description, file, *compiled.model).Build();
+}
+
 HandModel ReadHand(const fs::path& path) {
   const std::string text = ReadFile(path);
   const HandDescription description = ParseHandDescription(text, path.string());
   const fs::path model_path = path.parent_path() / description.model;
   const CompiledModel compiled = CompileModel(model_path);
-  HandModel hand = HandBuilder(description, path.string(), *compiled.model).Build();
+  HandModel hand = BuildHand(description, compiled, path.string());
   hand.file = path.filename().string();
   hand.sha256 = Digest(text, compiled.text);
   return hand;

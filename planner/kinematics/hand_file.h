@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "planner/kinematics/hand_description.h"
 #include "planner/kinematics/hand_model.h"
 
 namespace regrasp::kinematics {
+
+struct CompiledModel;
 
 /// Reads a hand: a file `hand.json` (docs/formats.md) and the MJCF or URDF model beside it.
 ///
@@ -16,5 +20,10 @@ namespace regrasp::kinematics {
 ///                     a body or joint is not there, fingers share a joint, a joint is no hinge or
 ///                     has no limits.
 [[nodiscard]] HandModel ReadHand(const std::filesystem::path& path);
+
+/// The same of what is read already; without file and digest.
+/// @param file  how messages call the hand's file.
+[[nodiscard]] HandModel BuildHand(const HandDescription& description, const CompiledModel& compiled,
+                                  const std::string& file);
 
 }  // namespace regrasp::kinematics

@@ -40,7 +40,8 @@ struct Fingertip {
   std::string body;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
-  /// Where the finger points, of length 1: from the last joint to the ball.
+  /// Where the finger points, of length 1: from the last hinge to the ball, at right angles to the
+  /// hinge unless the ball is on it.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
 };
 

@@ -4,10 +4,12 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "planner/base/file.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {
@@ -18,65 +20,76 @@ using Eigen::Vector3d;
 using Triangles = std::vector<std::array<Vector3d, 3>>;
 
 constexpr int kSides = 32;
+constexpr int kLastShownGroup = 2;
 
-Isometry3d PoseAt(const mjtNum* positions, const mjtNum* matrices, int index) {
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = Eigen::Map<const Vector3d>(positions + std::ptrdiff_t{3} * index);
-  pose.linear() = Eigen::Map<const RowMajor>(matrices + std::ptrdiff_t{9} * index);
-  return pose;
-}
-
-void AddQuad(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d,
-             Triangles& triangles) {
-  triangles.push_back({a, b, c});
-  triangles.push_back({a, c, d});
-}
-
-Triangles Box(const Vector3d& half) {
+/// Triangles and the normals at their corners.
+struct Surface {
   Triangles triangles;
+  Triangles normals;
+
+  void Add(const std::array<Vector3d, 3>& corners, const std::array<Vector3d, 3>& at_corners) {
+    triangles.push_back(corners);
+    normals.push_back(at_corners);
+  }
+  void AddFlat(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    Add({a, b, c}, {normal, normal, normal});
+  }
+};
+
+Surface Box(const Vector3d& half) {
+  Surface surface;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       const Vector3d out = sign * half[axis] * Vector3d::Unit(axis);
       const Vector3d u = half[(axis + 1) % 3] * Vector3d::Unit((axis + 1) % 3);
       const Vector3d v = sign * half[(axis + 2) % 3] * Vector3d::Unit((axis + 2) % 3);
-      AddQuad(out - u - v, out + u - v, out + u + v, out - u + v, triangles);
+      surface.AddFlat(out - u - v, out + u - v, out + u + v);
+      surface.AddFlat(out - u - v, out + u + v, out - u + v);
     }
   }
-  return triangles;
+  return surface;
 }
 
-Triangles Cylinder(double radius, double half_length) {
-  Triangles triangles;
-  const auto corner = [&](int i, double z) {
+Surface Cylinder(double radius, double half_length) {
+  Surface surface;
+  const auto outward = [](int i) {
     const double angle = 2 * std::numbers::pi * i / kSides;
-    return Vector3d(radius * std::cos(angle), radius * std::sin(angle), z);
+    return Vector3d(std::cos(angle), std::sin(angle), 0);
   };
-  const double h = half_length;
+  const Vector3d top(0, 0, half_length);
   for (int i = 0; i < kSides; ++i) {
-    AddQuad(corner(i, -h), corner(i + 1, -h), corner(i + 1, h), corner(i, h), triangles);
-    triangles.push_back({Vector3d(0, 0, h), corner(i, h), corner(i + 1, h)});
-    triangles.push_back({Vector3d(0, 0, -h), corner(i + 1, -h), corner(i, -h)});
+    const Vector3d n = outward(i);
+    const Vector3d next_n = outward(i + 1);
+    const Vector3d a = radius * n;
+    const Vector3d b = radius * next_n;
+    surface.Add({a - top, b - top, b + top}, {n, next_n, next_n});
+    surface.Add({a - top, b + top, a + top}, {n, next_n, n});
+    surface.AddFlat(top, a + top, b + top);
+    surface.AddFlat(-top, b - top, a - top);
   }
-  return triangles;
+  return surface;
 }
 
-Triangles Mesh(const mjModel& model, int mesh) {
-  Triangles triangles;
-  const float* vertices = model.mesh_vert + std::ptrdiff_t{3} * model.mesh_vertadr[mesh];
+Surface Mesh(const mjModel& model, int mesh) {
+  Surface surface;
   const int* faces = model.mesh_face + std::ptrdiff_t{3} * model.mesh_faceadr[mesh];
-  const auto vertex = [&](int index) -> Vector3d {
-    return Eigen::Map<const Eigen::Vector3f>(vertices + std::ptrdiff_t{3} * index).cast<double>();
-  };
   for (int i = 0; i < model.mesh_facenum[mesh]; ++i) {
-    triangles.push_back({vertex(faces[3 * i]), vertex(faces[3 * i + 1]), vertex(faces[3 * i + 2])});
+    std::array<Vector3d, 3> corners;
+    std::array<Vector3d, 3> normals;
+    for (int k = 0; k < 3; ++k) {
+      const std::ptrdiff_t at = std::ptrdiff_t{3} * (model.mesh_vertadr[mesh] + faces[3 * i + k]);
+      corners[k] = Eigen::Map<const Eigen::Vector3f>(model.mesh_vert + at).cast<double>();
+      normals[k] = Eigen::Map<const Eigen::Vector3f>(model.mesh_normal + at).cast<double>();
+    }
+    surface.Add(corners, normals);
   }
-  return triangles;
+  return surface;
 }
 
 void AddGeom(const mjModel& model, int geom, const Isometry3d& pose, LinkVisual& link) {
   const mjtNum* size = model.geom_size + std::ptrdiff_t{3} * geom;
-  Triangles triangles;
+  Surface surface;
   switch (model.geom_type[geom]) {
     case mjGEOM_SPHERE:
       link.capsules.push_back({pose.translation(), pose.translation(), size[0]});
@@ -86,28 +99,51 @@ void AddGeom(const mjModel& model, int geom, const Isometry3d& pose, LinkVisual&
           {pose * Vector3d(0, 0, -size[1]), pose * Vector3d(0, 0, size[1]), size[0]});
       return;
     case mjGEOM_BOX:
-      triangles = Box({size[0], size[1], size[2]});
+      surface = Box({size[0], size[1], size[2]});
       break;
     case mjGEOM_CYLINDER:
-      triangles = Cylinder(size[0], size[1]);
+      surface = Cylinder(size[0], size[1]);
       break;
     case mjGEOM_MESH:
-      triangles = Mesh(model, model.geom_dataid[geom]);
+      surface = Mesh(model, model.geom_dataid[geom]);
       break;
     default:
       return;
   }
-  for (const auto& [a, b, c] : triangles) link.triangles.push_back({pose * a, pose * b, pose * c});
+  for (const auto& [a, b, c] : surface.triangles) {
+    link.triangles.push_back({pose * a, pose * b, pose * c});
+  }
+  const Eigen::Matrix3d turn = pose.linear();
+  for (const auto& [a, b, c] : surface.normals)
+    link.normals.push_back({turn * a, turn * b, turn * c});
+}
+
+/// The material's colour where the geom has one.
+std::array<float, 3> ColorOf(const mjModel& model, int geom) {
+  const int material = model.geom_matid[geom];
+  const float* rgba = material >= 0 ? model.mat_rgba + std::ptrdiff_t{4} * material
+                                    : model.geom_rgba + std::ptrdiff_t{4} * geom;
+  return {rgba[0], rgba[1], rgba[2]};
+}
+
+bool IsSeenOnly(const mjModel& model, int geom) {
+  return !Collides(model, geom) && model.geom_group[geom] <= kLastShownGroup &&
+         model.geom_rgba[std::ptrdiff_t{4} * geom + 3] > 0;
+}
+
+/// Whether a body is another one or below it.
+bool IsBelow(const mjModel& model, int above, int body) {
+  while (body > above) body = model.body_parentid[body];
+  return body == above;
 }
 
 }  // namespace
 
-std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
-                                        const HandModel& hand) {
-  const HandDescription description = ParseHandDescription(ReadFile(hand_file), hand_file.string());
-  const ModelPtr model = CompileModel(hand_file.parent_path() / description.model).model;
+std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::string& palm_name,
+                                  const HandModel& hand) {
+  const mjModel* model = compiled.model.get();
   const DataPtr rest = AtRest(*model);
-  const int palm = mj_name2id(model.get(), mjOBJ_BODY, description.palm.c_str());
+  const int palm = mj_name2id(model, mjOBJ_BODY, palm_name.c_str());
   const Isometry3d from_world = PoseAt(rest->xpos, rest->xmat, palm).inverse();
   // Where each joint of a finger is at rest, and what its body carries.
   std::map<int, std::pair<FingerIndex, int>> carried;
@@ -118,22 +154,21 @@ std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
     for (const Joint& joint : hand.fingers[finger].joints) {
       anchor += joint.offset;
       anchors.back().push_back(anchor);
-      const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.name.c_str());
+      const int id = mj_name2id(model, mjOBJ_JOINT, joint.name.c_str());
       carried[model->jnt_bodyid[id]] = {finger, static_cast<int>(anchors.back().size())};
     }
   }
   std::set<int> drawn_apart;  // bodies that have geoms only to be seen
-  const auto is_seen_only = [&](int geom) {
-    return model->geom_contype[geom] == 0 && model->geom_conaffinity[geom] == 0;
-  };
   for (int geom = 0; geom < model->ngeom; ++geom) {
-    if (is_seen_only(geom)) drawn_apart.insert(model->geom_bodyid[geom]);
+    if (IsSeenOnly(*model, geom)) drawn_apart.insert(model->geom_bodyid[geom]);
   }
-  std::map<std::pair<int, int>, LinkVisual> links;
+  std::map<std::tuple<int, int, bool, std::array<float, 3>>, LinkVisual> links;
   for (int geom = 0; geom < model->ngeom; ++geom) {
     const int body = model->geom_bodyid[geom];
     if (model->body_rootid[body] != model->body_rootid[palm]) continue;
-    if (!is_seen_only(geom) && drawn_apart.contains(body)) continue;
+    const bool is_drawn =
+        drawn_apart.contains(body) ? IsSeenOnly(*model, geom) : Collides(*model, geom);
+    if (!is_drawn) continue;
     std::pair<FingerIndex, int> place = {FingerIndex{}, 0};
     for (int at = body; at != 0; at = model->body_parentid[at]) {
       const auto found = carried.find(at);
@@ -141,7 +176,11 @@ std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
       place = found->second;
       break;
     }
-    LinkVisual& link = links[{place.first, place.second}];
+    const bool above_palm = !IsBelow(*model, palm, body);
+    const std::array<float, 3> color = ColorOf(*model, geom);
+    LinkVisual& link = links[{place.first, place.second, above_palm, color}];
+    link.above_palm = above_palm;
+    link.color = color;
     link.finger = place.first;
     link.after = place.second;
     Isometry3d pose = from_world * PoseAt(rest->geom_xpos, rest->geom_xmat, geom);
@@ -151,6 +190,13 @@ std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
   std::vector<LinkVisual> visuals;
   for (auto& [place, link] : links) visuals.push_back(std::move(link));
   return visuals;
+}
+
+std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
+                                        const HandModel& hand) {
+  const HandDescription description = ParseHandDescription(ReadFile(hand_file), hand_file.string());
+  return VisualsOf(CompileModel(hand_file.parent_path() / description.model), description.palm,
+                   hand);
 }
 
 Isometry3d LinkPose(const LinkVisual& link, const HandModel& hand,

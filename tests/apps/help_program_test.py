@@ -9,7 +9,7 @@ import subprocess
 import program_case
 from program_case import ProgramCase
 
-PROGRAMS = ("plan", "validate", "graph", "figure", "repair")
+PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "hand")
 
 # Of what shells show beside an option, on a terminal of 100 columns.
 SUMMARY_LENGTH = 72

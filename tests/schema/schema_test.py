@@ -147,6 +147,24 @@ class SchemaTest(unittest.TestCase):
             "grasp", [*models.glob("*.start.json"), *models.glob("*.goal.json")]
         )
 
+    def test_hands_are_valid_and_wrong_ones_refused(self):
+        hands = sorted(source("models/hands").glob("*.json"))
+        self.expect_valid("hand", hands)
+        hand = validate_schema.load(hands[0])
+        hand["couplings"] = [{"joint": "a", "follows": "b", "ratio": 1}]
+        self.expect_refused("hand", hand, [
+            (["format"], "regrasp-plan"),
+            (["palm"], REMOVED),
+            (["up"], [0, 1]),
+            (["fingers"], hand["fingers"][:2]),
+            (["fingers", 0, "name"], ""),
+            (["fingers", 0, "tip", "radius"], 0),
+            (["fingers", 0, "tip", "radius"], 0.2),
+            (["fingers", 0, "tip", "centre"], REMOVED),
+            (["couplings", 0, "ratio"], 0),
+            (["couplings", 0, "follows"], REMOVED),
+        ])
+
     def test_the_corpus_of_good_files_is_valid(self):
         self.expect_valid("grasp", source("tests/data/plans/grasp_good").glob("*.json"))
         self.expect_valid("plan", source("tests/data/plans/plan_good").glob("*.json"))

@@ -1,0 +1,89 @@
+// hand: says of a model of a hand which of its links are palm and fingertips, and writes hand.json.
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "apps/help.h"
+#include "apps/options.h"
+#include "apps/output_files.h"
+#include "apps/program.h"
+#include "planner/base/file.h"
+#include "planner/kinematics/inspect_hand.h"
+#include "render/frames/hand_picture.h"
+#include "render/picture/image.h"
+
+namespace {
+
+using namespace regrasp::apps;
+using namespace regrasp;
+
+namespace fs = std::filesystem;
+
+constexpr char kProgram[] = "hand";
+
+struct HandProgram {
+  std::string model;
+  std::string output;
+  std::string picture;
+  bool quiet = false;
+
+  void AddTo(CLI::App& app);
+  int Run() const;
+  void WritePicture(const kinematics::InspectedHand& inspected) const;
+};
+
+void HandProgram::AddTo(CLI::App& app) {
+  BeginGroup(app, "Files");
+  app.add_option("--model", model, "The hand: an MJCF or URDF model, or a hand.json that names one")
+      ->type_name("FILE")
+      ->required();
+  app.add_option(
+         "--output", output,
+         "Where the hand's description goes, as JSON; it names the model relative to itself")
+      ->type_name("hand.json");
+  app.add_option("--picture", picture,
+                 "Where a picture of the hand with its fingertips' balls goes (PNG)")
+      ->type_name("FILE.png");
+  BeginGroup(app, "Messages");
+  AddQuiet(app, quiet);
+  app.footer(
+      "  hand --model right_hand.xml --output hand.json --picture hand.png\n"
+      "  hand --model models/hands/ring5.json\n");
+}
+
+void HandProgram::WritePicture(const kinematics::InspectedHand& inspected) const {
+  const std::string caption = inspected.description.name + " · " +
+                              std::to_string(inspected.hand.fingers.size()) +
+                              " fingers · palm: " + inspected.description.palm;
+  render::WritePng(picture, render::DrawHand(inspected.hand, inspected.visuals, caption));
+}
+
+int HandProgram::Run() const {
+  OutputFiles outputs;
+  outputs.Add("--output", output);
+  outputs.Add("--picture", picture);
+  CheckOutputsDiffer({{"--model", model}}, outputs);
+  CheckOutputsWritable(outputs);
+  const kinematics::InspectedHand inspected = kinematics::InspectHand(model);
+  if (!output.empty()) {
+    kinematics::HandDescription description = inspected.description;
+    const fs::path folder = fs::absolute(output).parent_path();
+    description.model = fs::absolute(inspected.model).lexically_proximate(folder).string();
+    WriteFile(output, kinematics::FormatHandDescription(description));
+  }
+  if (!picture.empty()) WritePicture(inspected);
+  if (!quiet) std::cout << kinematics::InspectionText(inspected);
+  return kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Finds palm, fingers and fingertips in a model of a hand, and prints what they can do.",
+      kProgram);
+  HandProgram program;
+  program.AddTo(app);
+  return RunProgram(app, argc, argv, [&] { return program.Run(); });
+}

@@ -1,0 +1,373 @@
+#include "planner/kinematics/derive_hand.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "planner/base/angle.h"
+#include "planner/base/error.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/derive_couplings.h"
+#include "planner/kinematics/fit_tip.h"
+#include "planner/kinematics/geom_shape.h"
+#include "planner/kinematics/model_names.h"
+#include "planner/kinematics/mujoco_model.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+using collision::ConvexShape;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kWorld = 0;
+constexpr std::size_t kFewestFingers = 3;
+/// Geoms that end within this of each other end alike: the rounder one is taken, metres.
+constexpr double kEndsAlike = 2e-3;
+/// A ball that ends so far inside the tip is doubtful, metres.
+constexpr double kDoubtfulGap = 1.5e-3;
+constexpr double kSnap = 10 * std::numbers::pi / 180;
+constexpr double kSameWay = 45 * std::numbers::pi / 180;
+
+struct TipBody {
+  int body = 0;
+  std::vector<int> joints;  ///< from the palm
+};
+
+class HandDeriver {
+ public:
+  HandDeriver(const CompiledModel& compiled, std::string file)
+      : compiled_(compiled),
+        model_(*compiled.model),
+        file_(std::move(file)),
+        rest_(AtRest(model_)) {}
+
+  DerivedHand Derive() {
+    HandDescription& description = derived_.description;
+    description.name = model_.names;  // of the model, the first of its names
+    FindTips();
+    description.palm = BodyName(model_, palm_);
+    from_world_ = PoseAt(rest_->xpos, rest_->xmat, palm_).inverse();
+    for (const TipBody& tip : tips_) AddTip(tip);
+    if (!not_round_.empty()) {
+      Note("tips that are not very round, and how far inside them their balls end: " + not_round_);
+    }
+    NameFingers();
+    description.up = Up();
+    std::vector<std::vector<int>> joints;
+    for (const TipBody& tip : tips_) joints.push_back(tip.joints);
+    description.couplings = DeriveCouplings(compiled_, joints, derived_.notes);
+    NoteUnmoved();
+    return std::move(derived_);
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
+  void Note(const std::string& note) { derived_.notes.push_back(note); }
+
+  void FindTips();
+  std::vector<int> LeavesOfLargestTree() const;
+  int LowestCommonAncestor(const std::vector<int>& bodies) const;
+  void AddTip(const TipBody& tip);
+  FittedBall Fit(const std::string& name, const ConvexShape& shape,
+                 const TipDirections& directions);
+  int TipGeom(int body, const Vector3d& anchor) const;
+  void NameFingers();
+  std::string NameOfTip(int body) const;
+  Vector3d Up();
+  Vector3d Snapped(const Vector3d& direction) const;
+  void NoteUnmoved();
+  Isometry3d GeomPose(int geom) const {
+    return from_world_ * PoseAt(rest_->geom_xpos, rest_->geom_xmat, geom);
+  }
+
+  const CompiledModel& compiled_;
+  const mjModel& model_;
+  std::string file_;
+  DataPtr rest_;
+  int palm_ = kWorld;
+  Isometry3d from_world_ = Isometry3d::Identity();
+  std::vector<TipBody> tips_;
+  std::vector<Vector3d> pads_;    ///< by finger, in the palm's frame; zero where there is none
+  std::vector<Vector3d> points_;  ///< where the fingers point
+  std::string not_round_;
+  DerivedHand derived_;
+};
+
+/// Bodies that collide and have none below that does, of the tree that has most of them.
+std::vector<int> HandDeriver::LeavesOfLargestTree() const {
+  std::set<int> colliding;
+  for (int geom = 0; geom < model_.ngeom; ++geom) {
+    if (Collides(model_, geom)) colliding.insert(model_.geom_bodyid[geom]);
+  }
+  std::set<int> inner;
+  for (int body : colliding) {
+    while (body != kWorld) inner.insert(body = model_.body_parentid[body]);
+  }
+  std::map<int, std::vector<int>> leaves;
+  for (const int body : colliding) {
+    if (body != kWorld && !inner.contains(body)) leaves[model_.body_rootid[body]].push_back(body);
+  }
+  std::vector<int> most;
+  for (const auto& [root, bodies] : leaves) {
+    if (bodies.size() > most.size()) most = bodies;
+  }
+  return most;
+}
+
+int HandDeriver::LowestCommonAncestor(const std::vector<int>& bodies) const {
+  int ancestor = bodies.front();
+  for (int body : bodies) {
+    // Bodies stand behind their parents.
+    while (body != ancestor) {
+      (body > ancestor ? body : ancestor) = model_.body_parentid[std::max(body, ancestor)];
+    }
+  }
+  return ancestor;
+}
+
+void HandDeriver::FindTips() {
+  std::vector<int> leaves = LeavesOfLargestTree();
+  // What does not move in the palm is no finger; without it the palm may be farther down.
+  for (bool changed = true; changed && !leaves.empty();) {
+    palm_ = LowestCommonAncestor(leaves);
+    changed = std::erase_if(
+                  leaves, [&](int body) { return JointsBetween(model_, palm_, body).empty(); }) > 0;
+  }
+  for (const int body : leaves) tips_.push_back({body, JointsBetween(model_, palm_, body)});
+  std::ranges::stable_sort(tips_, std::ranges::greater(),
+                           [](const TipBody& tip) { return tip.joints.size(); });
+  std::set<int> taken;
+  std::erase_if(tips_, [&](const TipBody& tip) {
+    for (const int joint : tip.joints) {
+      if (!taken.contains(joint)) continue;
+      Note("body " + BodyName(model_, tip.body) + " is no fingertip here: it shares joint " +
+           JointName(model_, joint) + " with a finger");
+      return true;
+    }
+    taken.insert(tip.joints.begin(), tip.joints.end());
+    return false;
+  });
+  std::ranges::sort(tips_, {}, &TipBody::body);
+  if (tips_.size() < kFewestFingers) {
+    Fail("found " + std::to_string(tips_.size()) +
+         " fingers below a common body; a hand needs three chains of joints from one palm, which "
+         "is a body, to links that collide");
+  }
+}
+
+/// The geom that reaches farthest from the last joint; a ball or capsule where others reach as far.
+int HandDeriver::TipGeom(int body, const Vector3d& anchor) const {
+  std::vector<std::pair<int, double>> ends;
+  double farthest = 0;
+  for (int geom = 0; geom < model_.ngeom; ++geom) {
+    if (model_.geom_bodyid[geom] != body || !Collides(model_, geom)) continue;
+    const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
+    double end = 0;
+    for (const Vector3d& point : shape.points) end = std::max(end, (point - anchor).norm());
+    ends.emplace_back(geom, end + shape.radius);
+    farthest = std::max(farthest, end + shape.radius);
+  }
+  int best = ends.front().first;
+  const auto is_round = [&](int geom) {
+    return model_.geom_type[geom] == mjGEOM_SPHERE || model_.geom_type[geom] == mjGEOM_CAPSULE;
+  };
+  double best_end = -1;
+  for (const auto& [geom, end] : ends) {
+    const double counted = end + (is_round(geom) ? kEndsAlike : 0);
+    if (counted <= best_end) continue;
+    best_end = counted;
+    best = geom;
+  }
+  return best;
+}
+
+void HandDeriver::AddTip(const TipBody& tip) {
+  const int joint = tip.joints.back();
+  const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, joint);
+  const Vector3d hinge = (from_world_.linear() * VectorAt(rest_->xaxis, joint)).normalized();
+  const int geom = TipGeom(tip.body, anchor);
+  const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
+  // Where the farthest tenth of it is, across the hinge: along its hinge a joint may be anywhere.
+  double farthest = 0;
+  for (const Vector3d& point : shape.points) farthest = std::max(farthest, (point - anchor).norm());
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& point : shape.points) {
+    if ((point - anchor).norm() >= 0.9 * farthest) middle += (point - anchor).normalized();
+  }
+  TipDirections directions;
+  const Vector3d across = middle - middle.dot(hinge) * hinge;
+  const bool bends = across.norm() > 0.3 * middle.norm();
+  directions.far = (bends ? across : middle).normalized();
+  const double flexion = model_.jnt_range[2 * joint] + model_.jnt_range[2 * joint + 1] < 0 ? -1 : 1;
+  if (bends) directions.pad = flexion * hinge.cross(directions.far).normalized();
+  points_.push_back(directions.far);
+  pads_.push_back(directions.pad);
+  const std::string name = BodyName(model_, tip.body);
+  const FittedBall fitted = Fit(name, shape, directions);
+  const Isometry3d body = from_world_ * PoseAt(rest_->xpos, rest_->xmat, tip.body);
+  // Millionths of a metre say all there is to say of such a ball.
+  const auto rounded = [](double length) { return std::round(1e6 * length) / 1e6 + 0.0; };
+  const Vector3d centre = (body.inverse() * fitted.ball.centre).unaryExpr(rounded);
+  derived_.description.tips.push_back({name, name, centre, rounded(fitted.ball.radius)});
+}
+
+FittedBall HandDeriver::Fit(const std::string& name, const ConvexShape& shape,
+                            const TipDirections& directions) {
+  FittedBall fitted;
+  try {
+    fitted = FitTip(shape, directions);
+  } catch (const std::runtime_error&) {
+    Fail("no ball fits into the end of body " + name + ", which is flat");
+  }
+  const double gap = std::max(fitted.short_of_far, fitted.short_of_pad);
+  if (gap > kDoubtfulGap) {
+    if (!not_round_.empty()) not_round_ += ", ";
+    not_round_ += name + " (" + FormatFixed(1e3 * gap, 1) + " mm)";
+  }
+  return fitted;
+}
+
+/// That of a link that is fixed to the tip and is nothing but a name of its end, otherwise that of
+/// its body.
+std::string HandDeriver::NameOfTip(int body) const {
+  int last = body;
+  for (int below = body + 1; below < model_.nbody; ++below) {
+    if (model_.body_parentid[below] != last || model_.body_jntnum[below] > 0) continue;
+    if (model_.body_geomnum[below] > 0) continue;
+    last = below;
+  }
+  return BodyName(model_, last);
+}
+
+bool IsSeparator(char c) { return c == '_' || c == '/' || c == '-' || c == '.' || c == ' '; }
+
+/// What all names begin with, up to a separator.
+std::size_t CommonStart(const std::vector<std::string>& names) {
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < names[0].size(); ++i) {
+    const auto differs = [&](const std::string& name) {
+      return i >= name.size() || name[i] != names[0][i];
+    };
+    if (std::ranges::any_of(names, differs)) break;
+    if (IsSeparator(names[0][i])) length = i + 1;
+  }
+  return length;
+}
+
+/// Without the words that say that it is a tip; empty where it is nothing else.
+std::string WithoutEnding(std::string name) {
+  constexpr std::array kEndings = {"fingertip", "distal", "tip", "head", "link", "dist", "ds"};
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const std::string ending : kEndings) {
+      if (!name.ends_with(ending)) continue;
+      name.resize(name.size() - ending.size());
+      changed = true;
+    }
+    while (!name.empty() && IsSeparator(name.back())) name.pop_back();
+  }
+  return name;
+}
+
+/// Names of bodies less what says that they are tips and what they have in common.
+void HandDeriver::NameFingers() {
+  std::vector<std::string> names;
+  for (const TipBody& tip : tips_) names.push_back(NameOfTip(tip.body));
+  const auto are_good = [](const std::vector<std::string>& shortened) {
+    return std::set(shortened.begin(), shortened.end()).size() == shortened.size() &&
+           std::ranges::all_of(shortened, [](const std::string& name) {
+             return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+           });
+  };
+  for (const std::size_t start : {CommonStart(names), std::size_t{0}}) {
+    std::vector<std::string> shortened;
+    for (const std::string& name : names) shortened.push_back(WithoutEnding(name.substr(start)));
+    if (!are_good(shortened)) continue;
+    names = shortened;
+    break;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) derived_.description.tips[i].name = names[i];
+}
+
+/// The nearest axis of the palm, where it is near.
+Vector3d HandDeriver::Snapped(const Vector3d& direction) const {
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  const Vector3d snapped = std::copysign(1.0, direction[axis]) * Vector3d::Unit(axis);
+  return snapped.dot(direction) >= std::cos(kSnap) ? snapped : direction;
+}
+
+Vector3d HandDeriver::Up() {
+  // The pad that most others look the same way as.
+  Vector3d sum = Vector3d::Zero();
+  int most = 0;
+  for (const Vector3d& pad : pads_) {
+    Vector3d together = Vector3d::Zero();
+    int count = 0;
+    for (const Vector3d& other : pads_) {
+      if (pad.dot(other) < std::cos(kSameWay)) continue;
+      together += other;
+      ++count;
+    }
+    if (count <= most) continue;
+    most = count;
+    sum = together;
+  }
+  const int fingers = static_cast<int>(pads_.size());
+  if (3 * most <= 2 * fingers) {
+    sum.setZero();
+    for (const Vector3d& point : points_) sum += point;
+    if (sum.norm() < 0.5 * fingers) {
+      Note("up is doubtful: the fingers neither flex nor point one way");
+    }
+  }
+  if (!(sum.norm() > 1e-6)) return Vector3d::UnitZ();
+  const Vector3d up = Snapped(sum.normalized());
+  if ((up.array() != 0).count() > 1) Note("up is no axis of the palm's frame: doubtful");
+  return up;
+}
+
+/// Joints that nothing moves, in models that have actuators.
+void HandDeriver::NoteUnmoved() {
+  if (model_.nu == 0) {
+    Note("the model has no actuators");
+    return;
+  }
+  std::set<std::string> moved;
+  for (int i = 0; i < model_.nu; ++i) {
+    const int type = model_.actuator_trntype[i];
+    if (type == mjTRN_JOINT || type == mjTRN_JOINTINPARENT) {
+      moved.insert(JointName(model_, model_.actuator_trnid[2 * i]));
+    }
+    // Of tendons over sites couplings say it.
+    if (type == mjTRN_TENDON) {
+      const int tendon = model_.actuator_trnid[2 * i];
+      const int first = model_.tendon_adr[tendon];
+      if (model_.wrap_type[first] != mjWRAP_JOINT) return;
+      for (int k = 0; k < model_.tendon_num[tendon]; ++k) {
+        moved.insert(JointName(model_, model_.wrap_objid[first + k]));
+      }
+    }
+  }
+  for (const auto& coupling : derived_.description.couplings) moved.insert(coupling.joint);
+  for (const TipBody& tip : tips_) {
+    for (const int joint : tip.joints) {
+      const std::string name = JointName(model_, joint);
+      if (!moved.contains(name)) Note("joint " + name + " has no actuator");
+    }
+  }
+}
+
+}  // namespace
+
+DerivedHand DeriveHand(const CompiledModel& compiled, const std::string& file) {
+  return HandDeriver(compiled, file).Derive();
+}
+
+}  // namespace regrasp::kinematics

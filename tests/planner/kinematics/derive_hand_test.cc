@@ -1,0 +1,207 @@
+#include "planner/kinematics/derive_hand.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "planner/base/error.h"
+#include "planner/base/write_file.h"
+#include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/hand_file.h"
+#include "planner/kinematics/inspect_hand.h"
+#include "planner/kinematics/mujoco_model.h"
+
+namespace regrasp::kinematics {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kHands = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
+
+/// A file of a model that is gone after the test.
+class DeriveHandTest : public testing::Test {
+ protected:
+  DeriveHandTest() {
+    std::string name = (fs::temp_directory_path() / "regrasp_hand_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+  }
+  ~DeriveHandTest() override { fs::remove_all(folder_); }
+
+  DerivedHand Derive(const std::string& xml) const {
+    const fs::path path = folder_ / "model.xml";
+    WriteFile(path, xml);
+    return DeriveHand(CompileModel(path), "model.xml");
+  }
+
+  fs::path folder_;
+};
+
+/// Two links of a finger along z that flexes towards +y: a distal link with a capsule.
+std::string FingerXml(const std::string& name, const std::string& place,
+                      const std::string& inside = "") {
+  return "<body name=\"rh_" + name + "proximal\" " + place + "><joint name=\"" + name +
+         "1\" axis=\"-1 0 0\" range=\"-10 90\"/><geom type=\"capsule\" size=\"0.008\" "
+         "fromto=\"0 0 0 0 0 0.04\"/><body name=\"rh_" +
+         name + "distal\" pos=\"0 0 0.04\"><joint name=\"" + name +
+         "2\" axis=\"-1 0 0\" range=\"0 90\"/><geom type=\"capsule\" size=\"0.007\" "
+         "fromto=\"0 0 0 0 0 0.02\"/>" +
+         inside + "</body></body>";
+}
+
+/// An arm's link with a palm, on which three fingers point along z and a thumb elsewhere.
+std::string Hand(const std::string& rest = "", const std::string& inside = "") {
+  return R"(<mujoco model="test"><compiler autolimits="true"/><worldbody><body name="arm">
+    <joint name="wrist" axis="0 0 1" range="-90 90"/><geom type="sphere" size="0.03"/>
+    <body name="palm" pos="0 0 0.05"><geom type="box" size="0.04 0.01 0.04"/>
+    <body name="plate"><geom type="box" size="0.01 0.02 0.01"/></body>)" +
+         FingerXml("ff", "pos=\"-0.03 0 0.05\"", inside) + FingerXml("mf", "pos=\"0 0 0.05\"") +
+         FingerXml("rf", "pos=\"0.03 0 0.05\"") +
+         FingerXml("th", "pos=\"-0.05 0 0\" euler=\"0 -90 40\"") + "</body></body></worldbody>" +
+         rest + "</mujoco>";
+}
+
+TEST_F(DeriveHandTest, FindsPalmTipsBallsNamesAndUp) {
+  const DerivedHand derived = Derive(Hand());
+  const HandDescription& hand = derived.description;
+  EXPECT_EQ(hand.name, "test");
+  EXPECT_EQ(hand.palm, "palm");
+  EXPECT_EQ(hand.up, Vector3d::UnitY());
+  ASSERT_EQ(hand.tips.size(), 4U);
+  std::vector<std::string> names;
+  for (const auto& tip : hand.tips) {
+    names.push_back(tip.name);
+    EXPECT_EQ(tip.body, "rh_" + tip.name + "distal");
+    EXPECT_EQ(tip.radius, 0.007);
+    EXPECT_LT((tip.centre - Vector3d(0, 0, 0.02)).norm(), 1e-9);
+  }
+  EXPECT_THAT(names, ElementsAre("ff", "mf", "rf", "th"));
+  EXPECT_THAT(hand.couplings, IsEmpty());
+  EXPECT_THAT(derived.notes, ElementsAre("the model has no actuators"));
+}
+
+TEST_F(DeriveHandTest, ALinkBesideAFingerIsNoFinger) {
+  const DerivedHand derived =
+      Derive(Hand("",
+                  "<body name=\"sensor\" pos=\"0.02 0 0\"><geom size=\"0.003\"/></body>"
+                  "<body name=\"nail\" pos=\"0 0 0.02\"><joint name=\"loose\" range=\"0 10\"/>"
+                  "<geom size=\"0.003\"/></body>"));
+  ASSERT_EQ(derived.description.tips.size(), 4U);
+  EXPECT_EQ(derived.description.tips[0].body, "nail") << "the longest chain";
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("body sensor is no fingertip here")));
+}
+
+TEST_F(DeriveHandTest, EqualitiesCoupleAndTheJointWithAnActuatorLeads) {
+  const DerivedHand derived = Derive(Hand(
+      R"(<equality><joint joint1="ff1" joint2="ff2" polycoef="0 1.25 0 0 0"/>
+         <joint joint1="mf2" joint2="mf1" polycoef="0 0.5 0 0 0"/>
+         <joint joint1="rf2" joint2="rf1" polycoef="0.1 0.5 0 0 0"/>
+         <joint joint1="th2" joint2="rf1"/></equality>
+         <actuator><position joint="ff1"/><position joint="mf1"/></actuator>)"));
+  const auto& couplings = derived.description.couplings;
+  ASSERT_EQ(couplings.size(), 2U);
+  EXPECT_EQ(couplings[0].joint, "ff2");
+  EXPECT_EQ(couplings[0].follows, "ff1");
+  EXPECT_NEAR(couplings[0].ratio, 0.8, 1e-12);
+  EXPECT_EQ(couplings[1].joint, "mf2");
+  EXPECT_EQ(couplings[1].ratio, 0.5);
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("joint rf2 is no ratio")));
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("of two fingers")));
+  EXPECT_THAT(derived.notes, Contains("joint rf1 has no actuator"));
+}
+
+TEST_F(DeriveHandTest, ATendonOfOneActuatorCouplesWhatItPulls) {
+  const DerivedHand derived = Derive(Hand(
+      R"(<tendon><fixed name="t"><joint joint="ff1" coef="2"/><joint joint="ff2" coef="1"/></fixed>
+         </tendon><actuator><position tendon="t"/></actuator>)"));
+  const auto& couplings = derived.description.couplings;
+  ASSERT_EQ(couplings.size(), 1U);
+  EXPECT_EQ(couplings[0].joint, "ff2");
+  EXPECT_EQ(couplings[0].follows, "ff1");
+  EXPECT_EQ(couplings[0].ratio, 0.5);
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("share an actuator by a tendon")));
+}
+
+TEST_F(DeriveHandTest, WhatIsNoHandIsRefused) {
+  const auto refusal = [&](const std::string& xml) -> std::string {
+    try {
+      (void)Derive(xml);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(refusal("<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>"),
+              HasSubstr("model.xml: found 0 fingers"));
+  EXPECT_THAT(
+      refusal(
+          "<mujoco><compiler autolimits=\"true\"/><worldbody><body name=\"p\"><geom size=\"1\"/>" +
+          FingerXml("a", "") + FingerXml("b", "") + "</body></worldbody></mujoco>"),
+      HasSubstr("found 2 fingers"));
+}
+
+/// The project's own hands: what is derived is what their files say.
+TEST_F(DeriveHandTest, RingHandsAreWhatTheirFilesSay) {
+  for (const std::string name : {"ring4", "ring5"}) {
+    const InspectedHand derived = InspectHand(kHands + name + ".xml");
+    const InspectedHand read = InspectHand(kHands + name + ".json");
+    EXPECT_EQ(FormatHandDescription(derived.description), FormatHandDescription(read.description));
+    EXPECT_THAT(derived.notes, IsEmpty());
+    EXPECT_THAT(derived.conversions, IsEmpty());
+    EXPECT_EQ(InspectionText(derived).find("converted"), std::string::npos);
+  }
+}
+
+TEST(InspectHandTest, TheLargestReachIsThatOfAStraightFinger) {
+  Finger finger;
+  for (int i = 0; i < 3; ++i) {
+    Joint joint;
+    joint.offset = Vector3d(0, 0, i == 0 ? 0 : 0.05);
+    joint.axis = Vector3d::UnitX();
+    joint.drive = i;
+    finger.joints.push_back(joint);
+  }
+  finger.drives = 3;
+  finger.tip.centre = Vector3d(0, 0, 0.03);
+  finger.lower = Eigen::Vector3d(-1, -0.3, -0.5);
+  finger.upper = Eigen::Vector3d(1, 1, 0.9);
+  EXPECT_NEAR(LargestReach(finger), 0.13, 1e-5);
+  EXPECT_LE(LargestReach(finger), 0.13 + 1e-12);
+}
+
+/// Models of others, which are no part of the project: a folder in REGRASP_HANDS, or beside it.
+TEST(InspectHandTest, HandsOfOthersAreUnderstood) {
+  const char* given = std::getenv("REGRASP_HANDS");
+  const fs::path folder =
+      given != nullptr ? fs::path(given) : fs::path(REGRASP_SOURCE_DIR) / "../shared/hands";
+  if (!fs::exists(folder / "wonik_allegro")) GTEST_SKIP() << "no hands of others";
+  const InspectedHand allegro = InspectHand(folder / "wonik_allegro/right_hand.xml");
+  EXPECT_EQ(allegro.description.palm, "palm");
+  EXPECT_EQ(allegro.description.up, Vector3d::UnitX());
+  for (const HandDescription::Tip& tip : allegro.description.tips) {
+    EXPECT_NEAR(tip.radius, 0.012, 1e-6);
+    EXPECT_NEAR((tip.centre - Vector3d(0, 0, tip.name == "th" ? 0.043 : 0.029)).norm(), 0, 1e-5);
+  }
+  const InspectedHand shadow = InspectHand(folder / "shadow_hand/right_hand.xml");
+  EXPECT_EQ(shadow.description.palm, "rh_palm");
+  EXPECT_EQ(shadow.description.up, -Vector3d::UnitY());
+  ASSERT_EQ(shadow.description.couplings.size(), 4U);
+  for (const HandDescription::Coupling& coupling : shadow.description.couplings) {
+    EXPECT_EQ(coupling.ratio, 1);
+    EXPECT_TRUE(coupling.joint.ends_with("J1") && coupling.follows.ends_with("J2"));
+  }
+  const InspectedHand leap = InspectHand(folder / "leap_hand/leap_hand_right.urdf");
+  EXPECT_EQ(leap.description.palm, "palm_lower");
+  EXPECT_EQ(leap.description.tips.size(), 4U);
+}
+
+}  // namespace
+}  // namespace regrasp::kinematics
