@@ -98,7 +98,7 @@ GaitResult FindGait(const GaitRequest& request) {
   RandomStream random(request.seed, RandomUse::kHomes);
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)));
   std::vector<std::unique_ptr<PlaceInHand>> places;
-  for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, random)) {
+  for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, memory, random)) {
     const PoseTrack track(home, centre, request.turn.axis, request.turn.angle,
                           Eigen::Vector3d::Zero(), steps);
     const std::optional<Parking> parking = FindParking(setup, track, random);

@@ -17,6 +17,8 @@ constexpr int kTriedContacts = 24;
 constexpr int kTakenUp = 6;
 /// What the steps that single fingers could go on are worth, beside those that all go together.
 constexpr double kSingleFinger = 0.3;
+/// Steps that a rest is put back for each one that was expanded and ends where it ends.
+constexpr double kPutBack = 0.1;
 
 int CountHolding(const Holding& holding) {
   return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
@@ -31,7 +33,8 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseTrack& track, const Par
       parking_(parking),
       memory_(memory),
       random_(random),
-      reach_(setup.scene, setup.inverse, setup.points, track) {}
+      reach_(setup.scene, setup.inverse, setup.points, track),
+      expanded_at_(track.steps() + 1, 0) {}
 
 const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int step) {
   const auto [found, is_new] = candidates_.try_emplace({finger, step});
@@ -286,13 +289,23 @@ Gait GaitSearch::GaitTo(int index, std::vector<Keyframe> last_move) const {
   return gait;
 }
 
+int GaitSearch::PopNext() {
+  while (true) {
+    const Waiting top = queue_.top();
+    queue_.pop();
+    const Rest& rest = rests_[top.rest];
+    const double score = rest.score - kPutBack * expanded_at_[rest.last];
+    if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
+    queue_.push({score, top.rest});
+  }
+}
+
 std::optional<Gait> GaitSearch::Run(int most_expanded, const Deadline& deadline) {
   if (!begun_) AddFirstRests();
   begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
-    const int index = queue_.top().rest;
-    queue_.pop();
+    const int index = PopNext();
     Rest& rest = rests_[index];
     if (!WorkOutWay(rest)) continue;
     if (rest.last == track_.steps()) {
@@ -303,6 +316,7 @@ std::optional<Gait> GaitSearch::Run(int most_expanded, const Deadline& deadline)
     }
     counts_.farthest = std::max(counts_.farthest, rest.last);
     ++counts_.expanded;
+    ++expanded_at_[rest.last];
     Expand(index);
   }
   return std::nullopt;

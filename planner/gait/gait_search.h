@@ -33,8 +33,9 @@ struct GaitCounts {
 /// finger is placed and another one lifted.
 ///
 /// Best first: rests from which the object gets farthest, and from which each single finger could
-/// go on farther, come first. What is costly, paths of fingers and the certificate of moves, is
-/// worked out when a rest's turn comes.
+/// go on farther, come first; the more of them were expanded that end at one step, the later others
+/// come that end there, so that a dead end does not hold the search up. What is costly, paths of
+/// fingers and the certificate of moves, is worked out when a rest's turn comes.
 class GaitSearch {
  public:
   /// @param memory   knows the setup's points as contacts under their numbers.
@@ -90,6 +91,8 @@ class GaitSearch {
   [[nodiscard]] bool FingersKeepApart(const Holding& holding, int step);
   [[nodiscard]] Keyframe FrameAt(const Holding& holding, int step);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
+  /// The next rest in turn.
+  [[nodiscard]] int PopNext();
   /// The move with a rest's grasp to a step; empty where it can't be done.
   [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int step);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
@@ -109,6 +112,7 @@ class GaitSearch {
   std::priority_queue<Waiting> queue_;
   std::set<std::pair<Holding, int>> known_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
+  std::vector<int> expanded_at_;  ///< rests, by the step that they end at
   GaitCounts counts_;
   bool begun_ = false;
 };

@@ -16,6 +16,9 @@ constexpr int kPlaces = 300;     // drawn, with a yaw each
 constexpr int kPoints = 40;      // of the surface that are looked at
 constexpr int kPosesOfTurn = 4;  // at which it is looked at them
 constexpr int kHomes = 12;
+constexpr int kDrawnGrasps = 150;  // at each pose
+/// So many of the best by what tips may reach are looked at more closely.
+constexpr int kCloser = 36;
 /// Contacts within reach of a finger are worth their logarithm, so that all fingers count.
 constexpr double kNoContact = 0.3;
 
@@ -50,10 +53,40 @@ double ScoreOf(const HandSetup& setup, const PoseTrack& track) {
   return score;
 }
 
+/// By grasps: of three contacts that three fingers reach without running into anything, drawn at
+/// some poses of the turn, how many are force closure.
+double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::GraspMemory& memory,
+                     RandomStream& random) {
+  ReachMap reach(setup.scene, setup.inverse, setup.points, track);
+  const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kPoints);
+  double score = 0;
+  for (int step = 0; step <= track.steps(); step += 2) {
+    std::vector<std::vector<int>> reached;
+    for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
+      std::vector<int> points;
+      for (int point = 0; point < static_cast<int>(setup.points.size()); point += every) {
+        if (reach.Find(finger, point, step) != nullptr) points.push_back(point);
+      }
+      if (!points.empty()) reached.push_back(std::move(points));
+    }
+    int grasps = 0;
+    for (int i = 0; reached.size() >= 3 && i < kDrawnGrasps; ++i) {
+      criteria::ContactSet set;
+      for (const int finger : random.Choose(static_cast<int>(reached.size()), 3)) {
+        const int point = reached[finger][random.Index(reached[finger].size())];
+        if (!set.Has(point)) set.Insert(point);
+      }
+      grasps += static_cast<int>(set.size() == 3 && memory.Admits(set));
+    }
+    score += std::log(kNoContact + grasps);
+  }
+  return score;
+}
+
 }  // namespace
 
 std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre, const Turn& turn,
-                                  RandomStream& random) {
+                                  criteria::GraspMemory& memory, RandomStream& random) {
   Eigen::AlignedBox3d box;
   for (const kinematics::InverseKinematics& inverse : setup.inverse) {
     for (const Vector3d& tip : inverse.sampled_tips()) box.extend(tip);
@@ -73,6 +106,14 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre
     pose.translation() = place - pose.linear() * centre;
     const PoseTrack track(pose, centre, turn.axis, turn.angle, Vector3d::Zero(), kPosesOfTurn);
     homes.push_back({ScoreOf(setup, track), pose});
+  }
+  std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
+  homes.resize(std::min<std::size_t>(homes.size(), kCloser));
+  for (Home& home : homes) {
+    if (!std::isfinite(home.score)) continue;
+    home.score = CloserScoreOf(
+        setup, PoseTrack(home.pose, centre, turn.axis, turn.angle, Vector3d::Zero(), kPosesOfTurn),
+        memory, random);
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   std::vector<Isometry3d> poses;
