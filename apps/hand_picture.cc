@@ -32,7 +32,9 @@ void Add(const render::FacetMesh& more, render::FacetMesh& mesh) {
 
 render::FacetMesh MeshOf(const kinematics::LinkVisual& link) {
   render::FacetMesh mesh;
-  for (const auto& [a, b, c] : link.triangles) mesh.AddFlat(a, b, c);
+  for (std::size_t i = 0; i < link.triangles.size(); ++i) {
+    mesh.Add(link.triangles[i], link.normals[i]);
+  }
   for (const auto& [from, to, radius] : link.capsules) {
     Add(render::MakeCapsule(from, to, radius), mesh);
   }
@@ -52,6 +54,8 @@ HandPicture::HandPicture(const std::filesystem::path& hand_file, const plan::Pla
     : hand_(kinematics::ReadHand(hand_file)),
       links_(kinematics::ReadHandVisuals(hand_file, hand_)),
       states_(StatesOf(plan)) {
+  // An arm would make the rest small.
+  std::erase_if(links_, [](const kinematics::LinkVisual& link) { return link.above_palm; });
   for (const kinematics::LinkVisual& link : links_) view_.push_back(MeshOf(link));
   // The object begins where frames without a hand have it.
   X_WP_.setIdentity();

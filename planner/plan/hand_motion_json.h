@@ -1,8 +1,8 @@
 #pragma once
 
 #include "planner/base/json.h"
-#include "planner/plan/hand_motion.h"
 #include "planner/plan/json_reader.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::plan {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,7 +10,6 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
-#include "planner/plan/hand_motion.h"
 
 namespace regrasp::plan {
 
@@ -25,6 +25,34 @@ struct FingerContact {
 
 /// The fingers that hold the object, in the order of the file.
 using FingerGrasp = std::vector<FingerContact>;
+
+/// How a hand and the object in it stand at an instant.
+struct HandState {
+  /// Of the object's frame (its file's axes and origin, lengths in metres) in the palm's frame.
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  /// Angles by finger, from the palm to the tip, as the hand's model has them, radians.
+  std::vector<std::vector<double>> joints;
+};
+
+/// States that follow each other. Between two of them joints go straight, the object's origin goes
+/// straight and its orientation turns about one axis at an even rate, all in the same time.
+using HandPath = std::vector<HandState>;
+
+/// A finger switch as a hand does it: fingers come to their contacts, then others leave theirs. The
+/// first state of each is the last one before it.
+struct SwitchMotion {
+  HandPath place;
+  HandPath release;
+};
+
+/// The hand that a plan is for, and how it stands with the initial grasp.
+struct HandUse {
+  std::string name;
+  std::string file;    ///< of the hand, without folders
+  std::string sha256;  ///< kinematics::HandModel::sha256
+  HandState initial;
+  Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< where the object is to be at last
+};
 
 /// The `place` fingers, all free before, touch; then the `release` fingers, all holding before,
 /// leave. The grasp before and the grasp after are each force closure.
