@@ -59,6 +59,10 @@ def is_red(pixel):
     return red > 110 and green < 0.22 * red and blue < 0.35 * red
 
 
+# Nothing, and what only plans for a hand fail for: gait_program_test.py has their frames.
+OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides")
+
+
 class FailingFrames(ProgramCase):
     program = "validate"
 
@@ -210,7 +214,7 @@ class FailingFrames(ProgramCase):
         with open(os.path.join(program_case.ARGUMENTS.source, "docs", "report.schema.json"),
                   encoding="utf-8") as file:
             reasons = json.load(file)["$defs"]["step"]["properties"]["reason"]["enum"]
-        reasons = [reason for reason in reasons if reason is not None]
+        reasons = [reason for reason in reasons if reason not in OF_HANDS]
         self.assertEqual(len(reasons), 17)
         whole = copy.deepcopy(self.plan)
         for reason in reasons:

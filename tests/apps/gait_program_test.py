@@ -70,6 +70,11 @@ class Gait(ProgramCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(report["steps"][step]["reason"], reason)
             self.assertIn(words, report["steps"][step]["detail"])
+            done, report = self.validate(broken, "--hand", self.hand("ring4"))
+            self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--hand",
+                             self.hand("ring4"), "--out", reason, program="validate")
+            frame = json.loads(self.read(reason + "/report.json"))["steps"][step]["frame"]
+            self.assertGreater(len(self.read(os.path.join(reason, frame))), 10000)
             # Without the hand nothing is wrong.
             done, report = self.validate(broken, "--no-frames")
             self.assertEqual(report["verdict"], "pass", done.stderr)

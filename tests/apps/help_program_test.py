@@ -68,15 +68,14 @@ class Help(ProgramCase):
 
     def test_a_mistyped_option_is_told_before_a_missing_one(self):
         for self.program in PROGRAMS:
-            self.assert_refused(2, "unknown option --objct; did you mean --object? (",
-                                "--objct", "x")
-            self.assert_refused(2, "unknown option --objct; did you mean --object? (",
-                                "--objct=x")
-            self.assert_refused(2, "unknown option -object; did you mean --object? (",
-                                "-object", "x")
+            right = "--model" if self.program == "hand" else "--object"
+            wrong = right[:-2] + right[-1]
+            for typed, words in ((wrong, [wrong, "x"]), (wrong, [wrong + "=x"]),
+                                 (right[1:], [right[1:], "x"])):
+                self.assert_refused(2, f"unknown option {typed}; did you mean {right}? (", *words)
             self.assert_refused(2, "unknown option --frobnicate (", "--frobnicate")
             # The right one is asked for where it is missing, and not complained of.
-            self.assert_refused(2, f"--object is required ({self.program} --help lists all)")
+            self.assert_refused(2, f"{right} is required ({self.program} --help lists all)")
 
     def test_a_mistyped_word_is_told_with_the_one_that_was_meant(self):
         ends = ["--start", "random", "--goal", "random", "--output", "plan.json", "--mu", "0.3",
