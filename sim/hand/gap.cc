@@ -8,8 +8,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is not shown by then is not shown.
-constexpr int kMostSteps = 400;
+/// What is not shown by then is not shown. Most pairs take ten; some that are nearly as near as is
+/// asked for take thousands.
+constexpr int kMostSteps = 20'000;
 
 const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3d& direction) {
   return *std::ranges::max_element(points, {},

@@ -9,6 +9,8 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/random.h"
+#include "planner/collision/convex_shape.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/locate.h"
@@ -206,6 +208,30 @@ TEST(GapTest, KnownGaps) {
   }
   EXPECT_FALSE(HaveGap(at_origin, at_origin, 0));
   EXPECT_FALSE(HaveGap(at_origin, MakeSolid({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
+}
+
+/// By the other algorithm, and close to its answer: many small steps are needed there.
+TEST(GapTest, IsDecidedCloseToTheDistance) {
+  RandomStream random(1, RandomUse::kGaits);
+  const auto hull = [&random](const Vector3d& centre) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 32; ++i) {
+      points.push_back(centre + Vector3d(random.Normal(), random.Normal(), 5 * random.Normal()));
+    }
+    return points;
+  };
+  int apart = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<Vector3d> a = hull({0, 0, 0});
+    const std::vector<Vector3d> b = hull({5 + 2 * random.Normal(), random.Normal(), 0});
+    const double distance = collision::Distance({a, 0}, {b, 0}).lower;
+    // A clearance is no thousandth of a link.
+    if (distance < 0.05) continue;
+    ++apart;
+    EXPECT_TRUE(HaveGap(MakeSolid(a, 0), MakeSolid(b, 0), distance * (1 - 1e-3))) << i;
+    EXPECT_FALSE(HaveGap(MakeSolid(a, 0), MakeSolid(b, 0), distance * (1 + 1e-3))) << i;
+  }
+  EXPECT_GT(apart, 50);
 }
 
 }  // namespace
