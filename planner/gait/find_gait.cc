@@ -99,8 +99,7 @@ GaitResult FindGait(const GaitRequest& request) {
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)));
   std::vector<std::unique_ptr<PlaceInHand>> places;
   for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, memory, random)) {
-    const PoseTrack track(home, centre, request.turn.axis, request.turn.angle,
-                          Eigen::Vector3d::Zero(), steps);
+    const PoseTrack track(home, centre, request.turn.axis, request.turn.angle, steps);
     const std::optional<Parking> parking = FindParking(setup, track, random);
     if (!parking) continue;
     places.push_back(

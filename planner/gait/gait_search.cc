@@ -205,10 +205,10 @@ Surroundings GaitSearch::Around(const Keyframe& frame, FingerIndex moving) const
 bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
   const int point = rest.holding[rest.placed];
   const Posture touching = *reach_.Find(rest.placed, point, rest.step);
-  const auto path = FindPathToContact(setup_.scene, setup_.inverse[rest.placed], rest.placed,
-                                      before.postures[rest.placed],
-                                      reach_.TargetOf(rest.placed, point, before.pose), touching,
-                                      Around(before, rest.placed), random_);
+  const auto path = FindPathToContact(
+      setup_.scene, setup_.inverse[rest.placed], rest.placed, before.postures[rest.placed],
+      TargetAt(setup_.scene.finger(rest.placed), setup_.points[point], before.pose), touching,
+      Around(before, rest.placed), random_);
   if (!path) return false;
   Stretch stretch{Stretch::Kind::kPlace, rest.placed, point, {}};
   for (const Posture& posture : *path) {
@@ -222,10 +222,10 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
 
 bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way) {
   const int point = rests_[rest.parent].holding[rest.released];
-  const auto path =
-      FindPathToContact(setup_.scene, setup_.inverse[rest.released], rest.released,
-                        parking_[rest.released], reach_.TargetOf(rest.released, point, before.pose),
-                        before.postures[rest.released], Around(before, rest.released), random_);
+  const auto path = FindPathToContact(
+      setup_.scene, setup_.inverse[rest.released], rest.released, parking_[rest.released],
+      TargetAt(setup_.scene.finger(rest.released), setup_.points[point], before.pose),
+      before.postures[rest.released], Around(before, rest.released), random_);
   if (!path) return false;
   Stretch stretch{Stretch::Kind::kRelease, rest.released, point, {}};
   for (auto posture = path->rbegin(); posture != path->rend(); ++posture) {

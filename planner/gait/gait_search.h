@@ -50,7 +50,6 @@ class GaitSearch {
   [[nodiscard]] bool IsExhausted() const { return begun_ && queue_.empty(); }
 
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
-  [[nodiscard]] const ReachMap::Counts& reach_counts() const { return reach_.counts(); }
 
  private:
   /// A grasp, and the stretch of the track along which it holds.

@@ -39,12 +39,10 @@ double ScoreOf(const HandSetup& setup, const PoseTrack& track) {
     const Isometry3d pose = track.PoseAt(step);
     if (!setup.scene.KeepsOffPalm(pose)) return -std::numeric_limits<double>::infinity();
     for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
-      const double radius = setup.scene.finger(finger).tip.radius;
+      const kinematics::Finger& chain = setup.scene.finger(finger);
       int reached = 0;
       for (std::size_t i = 0; i < setup.points.size(); i += every) {
-        const SurfacePoint& point = setup.points[i];
-        const kinematics::TipTarget target{pose * (point.p - radius * point.n),
-                                           pose.linear() * point.n};
+        const kinematics::TipTarget target = TargetAt(chain, setup.points[i], pose);
         reached += static_cast<int>(setup.inverse[finger].MayReach(target));
       }
       score += std::log(kNoContact + reached);
@@ -104,7 +102,7 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre
     Vector3d place;
     for (int k = 0; k < 3; ++k) place[k] = box.min()[k] + random.Uniform() * box.sizes()[k];
     pose.translation() = place - pose.linear() * centre;
-    const PoseTrack track(pose, centre, turn.axis, turn.angle, Vector3d::Zero(), kPosesOfTurn);
+    const PoseTrack track(pose, centre, turn.axis, turn.angle, kPosesOfTurn);
     homes.push_back({ScoreOf(setup, track), pose});
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
@@ -112,8 +110,7 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre
   for (Home& home : homes) {
     if (!std::isfinite(home.score)) continue;
     home.score = CloserScoreOf(
-        setup, PoseTrack(home.pose, centre, turn.axis, turn.angle, Vector3d::Zero(), kPosesOfTurn),
-        memory, random);
+        setup, PoseTrack(home.pose, centre, turn.axis, turn.angle, kPosesOfTurn), memory, random);
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   std::vector<Isometry3d> poses;

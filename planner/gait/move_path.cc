@@ -10,13 +10,6 @@ namespace {
 /// Of a track's steps.
 constexpr double kShortestStep = 1.0 / 64;
 
-kinematics::TipTarget TargetAt(const HandSetup& setup, FingerIndex finger, int point,
-                               const Eigen::Isometry3d& pose) {
-  const SurfacePoint& contact = setup.points[point];
-  const double radius = setup.scene.finger(finger).tip.radius;
-  return {pose * (contact.p - radius * contact.n), pose.linear() * contact.n};
-}
-
 /// The keyframe at another pose: holding fingers follow from where they are.
 std::optional<Keyframe> Follow(const HandSetup& setup, const Holding& holding,
                                const Keyframe& near_by, const Eigen::Isometry3d& pose) {
@@ -24,7 +17,8 @@ std::optional<Keyframe> Follow(const HandSetup& setup, const Holding& holding,
   for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
     if (holding[finger] == kNone) continue;
     const auto posture = setup.inverse[finger].SolveFrom(
-        TargetAt(setup, finger, holding[finger], pose), near_by.postures[finger]);
+        TargetAt(setup.scene.finger(finger), setup.points[holding[finger]], pose),
+        near_by.postures[finger]);
     if (!posture) return std::nullopt;
     frame.postures[finger] = *posture;
   }
@@ -36,7 +30,8 @@ bool TipsStay(const HandSetup& setup, const Holding& holding, const Keyframe& mi
     if (holding[finger] == kNone) continue;
     const Eigen::Vector3d centre =
         kinematics::TipAt(setup.scene.finger(finger), middle.postures[finger]).centre;
-    const auto target = TargetAt(setup, finger, holding[finger], middle.pose);
+    const auto target =
+        TargetAt(setup.scene.finger(finger), setup.points[holding[finger]], middle.pose);
     if ((centre - target.centre).norm() > kTipOff) return false;
   }
   return true;

@@ -5,18 +5,17 @@
 namespace regrasp::gait {
 
 /// Poses of an object from one to another in equal steps: it turns about one axis through its
-/// centre, and the centre goes straight.
+/// centre, which stays.
 class PoseTrack {
  public:
   /// @param start   pose of the object in the palm's frame.
   /// @param centre  in the object's frame, metres.
   /// @param axis    of length 1, in the object's frame.
   /// @param angle   of the whole turn, radians.
-  /// @param shift   of the centre over the whole track, in the palm's frame.
   /// @param steps   > 0.
   PoseTrack(const Eigen::Isometry3d& start, const Eigen::Vector3d& centre,
-            const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& shift, int steps)
-      : start_(start), centre_(centre), axis_(axis), angle_(angle), shift_(shift), steps_(steps) {}
+            const Eigen::Vector3d& axis, double angle, int steps)
+      : start_(start), centre_(centre), axis_(axis), angle_(angle), steps_(steps) {}
 
   [[nodiscard]] int steps() const { return steps_; }
   /// @param step  in [0, steps()], whole or not.
@@ -24,7 +23,7 @@ class PoseTrack {
     const double share = step / steps_;
     Eigen::Isometry3d pose = start_;
     pose.linear() = start_.linear() * Eigen::AngleAxisd(share * angle_, axis_).toRotationMatrix();
-    pose.translation() = start_ * centre_ + share * shift_ - pose.linear() * centre_;
+    pose.translation() = start_ * centre_ - pose.linear() * centre_;
     return pose;
   }
 
@@ -33,7 +32,6 @@ class PoseTrack {
   Eigen::Vector3d centre_;
   Eigen::Vector3d axis_;
   double angle_;
-  Eigen::Vector3d shift_;
   int steps_;
 };
 

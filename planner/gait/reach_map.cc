@@ -9,6 +9,11 @@ constexpr double kJump = 0.35;
 
 }  // namespace
 
+kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePoint& contact,
+                               const Eigen::Isometry3d& pose) {
+  return {pose * (contact.p - finger.tip.radius * contact.n), pose.linear() * contact.n};
+}
+
 ReachMap::ReachMap(const HandScene& scene,
                    const std::vector<kinematics::InverseKinematics>& inverse,
                    const std::vector<SurfacePoint>& points, const PoseTrack& track)
@@ -21,27 +26,16 @@ std::size_t ReachMap::Key(FingerIndex finger, int point, int step) const {
   return row * static_cast<std::size_t>(track_.steps() + 1) + step;
 }
 
-kinematics::TipTarget ReachMap::TargetOf(FingerIndex finger, int point,
-                                         const Eigen::Isometry3d& pose) const {
-  const SurfacePoint& contact = points_[point];
-  const double radius = scene_.finger(finger).tip.radius;
-  return {pose * (contact.p - radius * contact.n), pose.linear() * contact.n};
-}
-
 void ReachMap::WorkOut(FingerIndex finger, int point, int step, Entry& entry) {
   entry.known = true;
-  ++counts_.asked;
   const Eigen::Isometry3d pose = track_.PoseAt(step);
-  const kinematics::TipTarget target = TargetOf(finger, point, pose);
+  const kinematics::TipTarget target = TargetAt(scene_.finger(finger), points_[point], pose);
   if (!inverse_[finger].MayReach(target)) return;
-  ++counts_.near;
   std::optional<Posture> posture = inverse_[finger].Solve(target);
   if (!posture) return;
-  ++counts_.solved;
   const PlacedFinger placed = scene_.Place(finger, *posture);
   if (!scene_.KeepsOffHand(placed)) return;
   if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return;
-  ++counts_.reached;
   entry.posture = std::move(posture);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +17,12 @@ struct SurfacePoint {
   Eigen::Vector3d n;  ///< inward, of length 1
 };
 
+/// What a finger is asked for at a contact: the centre of its ball is one radius outside.
+/// @param pose  of the object in the palm's frame.
+[[nodiscard]] kinematics::TipTarget TargetAt(const kinematics::Finger& finger,
+                                             const SurfacePoint& contact,
+                                             const Eigen::Isometry3d& pose);
+
 /// Which fingers can be at which contacts, and how they stand there, for the poses of a track: the
 /// finger alone, whatever the others do. Worked out when first asked for.
 class ReachMap {
@@ -25,10 +30,6 @@ class ReachMap {
   /// @param scene, inverse, points, track  outlive this object; `inverse` has one for each finger.
   ReachMap(const HandScene& scene, const std::vector<kinematics::InverseKinematics>& inverse,
            const std::vector<SurfacePoint>& points, const PoseTrack& track);
-
-  /// What a finger is asked for at a contact.
-  [[nodiscard]] kinematics::TipTarget TargetOf(FingerIndex finger, int point,
-                                               const Eigen::Isometry3d& pose) const;
 
   /// How the finger stands at a contact at a step of the track, keeping off the palm, itself and
   /// the object; null where it does not reach it.
@@ -38,14 +39,6 @@ class ReachMap {
   /// posture, forwards along the track or (direction −1) backwards; `step` itself where it goes
   /// nowhere. @param step  where it reaches the contact.
   [[nodiscard]] int RunEnd(FingerIndex finger, int point, int step, int direction);
-
-  struct Counts {
-    std::int64_t asked = 0;    ///< places worked out
-    std::int64_t near = 0;     ///< of them, those near a sampled tip
-    std::int64_t solved = 0;   ///< with a posture
-    std::int64_t reached = 0;  ///< with one that runs into nothing
-  };
-  [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
   struct Entry {
@@ -60,7 +53,6 @@ class ReachMap {
   const std::vector<SurfacePoint>& points_;
   const PoseTrack& track_;
   std::vector<Entry> entries_;
-  Counts counts_;
 };
 
 }  // namespace regrasp::gait

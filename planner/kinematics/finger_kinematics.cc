@@ -84,14 +84,4 @@ std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape) {
   return reach;
 }
 
-bool KeepsLimits(const Finger& finger, const Posture& posture, double margin) {
-  for (int i = 0; i < finger.drives; ++i) {
-    const double inside = std::min(margin, (finger.upper[i] - finger.lower[i]) / 2);
-    if (posture[i] < finger.lower[i] + inside || posture[i] > finger.upper[i] - inside) {
-      return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace regrasp::kinematics

@@ -39,8 +39,4 @@ struct TipState {
 /// axis than this, whatever the joints after it do, metres.
 [[nodiscard]] std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape);
 
-/// Whether the drives are within their limits, `margin` radians inside them (half the range where
-/// that is less).
-[[nodiscard]] bool KeepsLimits(const Finger& finger, const Posture& posture, double margin);
-
 }  // namespace regrasp::kinematics

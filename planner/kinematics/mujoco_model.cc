@@ -8,6 +8,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/base/text_table.h"
 #include "planner/kinematics/convert_mjcf.h"
 #include "planner/kinematics/convert_urdf.h"
 #include "planner/object/limited_child.h"
@@ -26,21 +27,6 @@ constexpr const char* kBinaryName = "hand.mjb";
 /// Called by MuJoCo where it would otherwise end the process.
 [[noreturn]] void ThrowError(const char* message) { throw std::runtime_error(message); }
 void IgnoreWarning(const char* /*message*/) {}
-
-/// "Error: mass must be positive" of several lines, as one.
-std::string OneLine(std::string text) {
-  std::string line;
-  for (const char c : text) {
-    const bool space = c == '\n' || c == '\r' || c == ' ';
-    if (!space) {
-      line += c;
-    } else if (!line.empty() && line.back() != ' ') {
-      line += ' ';
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
 
 /// Files that MuJoCo finds in memory before it looks for them on the disk, by the last part of
 /// their paths.

@@ -39,7 +39,6 @@ constexpr double kOutsideOpacity = 0.33;
 constexpr double kInsideOpacity = 0.30;
 /// Of a prism, whose fingers and cones lie on its top: what is below only hints at its depth.
 constexpr double kPrismOpacity = 0.9;
-constexpr Color kHandColor = {214, 206, 196};
 constexpr Color kPrism = {205, 221, 241};
 
 /// The focus point, the lines to it and the outlines of contact regions, in diameters.
@@ -187,7 +186,8 @@ class FrameRenderer::Impl {
         body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         planar_(object.dimension() == 2),
-        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters, HandInPicture())),
+        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters,
+                           InPicture(options.hand, frame_))),
         hand_mesh_(static_cast<int>(meshes_.size() - options.hand.size())),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
@@ -207,7 +207,7 @@ class FrameRenderer::Impl {
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing = DrawBody(pose, camera);
     for (Shape& shape : FingerShapes(fingers)) drawing.shapes.push_back(std::move(shape));
-    if (std::vector<Shape> hand = HandShapes(snapshot); !hand.empty()) {
+    if (std::vector<Shape> hand = HandOf(snapshot); !hand.empty()) {
       drawing.layers.push_back({std::move(hand), kHandOpacity});
     }
     if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
@@ -236,26 +236,9 @@ class FrameRenderer::Impl {
   }
 
  private:
-  /// The hand's meshes in the picture's unit of length.
-  [[nodiscard]] HandView HandInPicture() const {
-    HandView hand = options_.hand;
-    for (FacetMesh& mesh : hand) {
-      for (auto& corners : mesh.triangles) {
-        for (Vector3d& p : corners) p /= frame_.diameter_m;
-      }
-    }
-    return hand;
-  }
-
-  [[nodiscard]] std::vector<Shape> HandShapes(const plan::Snapshot& snapshot) const {
-    std::vector<Shape> shapes;
-    if (snapshot.links_W.size() != options_.hand.size()) return shapes;
-    for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
-      Eigen::Isometry3d pose = snapshot.links_W[i];
-      pose.translation() = frame_.FromWorld(pose.translation());
-      shapes.push_back({MeshInstance{hand_mesh_ + static_cast<int>(i), pose}, kHandColor});
-    }
-    return shapes;
+  [[nodiscard]] std::vector<Shape> HandOf(const plan::Snapshot& snapshot) const {
+    if (options_.hand.empty()) return {};
+    return HandShapes(snapshot, frame_, hand_mesh_);
   }
 
   [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
@@ -385,7 +368,7 @@ class FrameRenderer::Impl {
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       all.poses.push_back(pose);
-      for (Shape& link : HandShapes(snapshot)) all.hands.push_back(std::move(link));
+      for (Shape& link : HandOf(snapshot)) all.hands.push_back(std::move(link));
       all.frames.back() =
           MakeFingerGlyphs(snapshot, frame_, body_.rays, {GapView::kNone, FingerRadius()});
     }
