@@ -3,7 +3,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include "planner/base/error.h"
@@ -11,6 +10,7 @@
 #include "planner/base/text_table.h"
 #include "planner/kinematics/convert_mjcf.h"
 #include "planner/kinematics/convert_urdf.h"
+#include "planner/mujoco/memory_files.h"
 #include "planner/object/limited_child.h"
 
 namespace regrasp::kinematics {
@@ -28,32 +28,10 @@ constexpr const char* kBinaryName = "hand.mjb";
 [[noreturn]] void ThrowError(const char* message) { throw std::runtime_error(message); }
 void IgnoreWarning(const char* /*message*/) {}
 
-/// Files that MuJoCo finds in memory before it looks for them on the disk, by the last part of
-/// their paths.
-class MemoryFiles {
- public:
-  MemoryFiles() { mj_defaultVFS(files_.get()); }
-  MemoryFiles(const MemoryFiles&) = delete;
-  MemoryFiles& operator=(const MemoryFiles&) = delete;
-  ~MemoryFiles() { mj_deleteVFS(files_.get()); }
-
-  void Add(const std::string& name, const std::string& bytes) {
-    if (mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(bytes.size())) != 0) {
-      throw std::runtime_error("too many files, or two of the name " + name);
-    }
-    std::memcpy(files_->filedata[mj_findFileVFS(files_.get(), name.c_str())], bytes.data(),
-                bytes.size());
-  }
-  const mjVFS* get() const { return files_.get(); }
-
- private:
-  std::unique_ptr<mjVFS> files_ = std::make_unique<mjVFS>();
-};
-
 std::string CompileToBytes(const fs::path& path, const ModelText& text) {
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
-  MemoryFiles files;
+  mujoco::MemoryFiles files;
   // Under the model's own name, so that meshes are looked for beside it.
   files.Add(path.filename().string(), FormatXml(text.root));
   for (const MeshFile& mesh : text.meshes) {
@@ -69,7 +47,7 @@ std::string CompileToBytes(const fs::path& path, const ModelText& text) {
 }
 
 ModelPtr FromBytes(const std::string& bytes) {
-  MemoryFiles files;
+  mujoco::MemoryFiles files;
   files.Add(kBinaryName, bytes);
   ModelPtr model(mj_loadModel(kBinaryName, files.get()));
   if (!model) throw EnvironmentError("MuJoCo cannot read back a model that it compiled");

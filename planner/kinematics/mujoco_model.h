@@ -3,21 +3,15 @@
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "planner/kinematics/model_text.h"
+#include "planner/mujoco/handles.h"
 
 namespace regrasp::kinematics {
 
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
-using DataPtr = std::unique_ptr<mjData, DeleteData>;
+using mujoco::DataPtr;
+using mujoco::ModelPtr;
 
 struct CompiledModel {
   ModelPtr model;

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "planner/base/error.h"
+#include "planner/mujoco/handles.h"
+#include "planner/mujoco/memory_files.h"
 
 namespace regrasp::sim {
 
@@ -43,33 +44,16 @@ class EngineHooks {
   void (*warning_)(const char*);
 };
 
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
-using DataPtr = std::unique_ptr<mjData, DeleteData>;
+using mujoco::DataPtr;
+using mujoco::ModelPtr;
 
 constexpr const char* kFileName = "scene.xml";
 
 ModelPtr LoadModel(const std::string& mjcf) {
-  struct DeleteVfs {
-    void operator()(mjVFS* vfs) const {
-      mj_deleteVFS(vfs);
-      delete vfs;
-    }
-  };
-  const std::unique_ptr<mjVFS, DeleteVfs> vfs([] {
-    auto* fresh = new mjVFS;
-    mj_defaultVFS(fresh);
-    return fresh;
-  }());
-  mj_makeEmptyFileVFS(vfs.get(), kFileName, static_cast<int>(mjcf.size()));
-  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), kFileName)], mjcf.data(), mjcf.size());
+  mujoco::MemoryFiles files;
+  files.Add(kFileName, mjcf);
   std::array<char, 1000> error{};
-  ModelPtr model(mj_loadXML(kFileName, vfs.get(), error.data(), static_cast<int>(error.size())));
+  ModelPtr model(mj_loadXML(kFileName, files.get(), error.data(), static_cast<int>(error.size())));
   if (!model) throw EnvironmentError(std::string("MuJoCo refuses the scene: ") + error.data());
   return model;
 }

@@ -5,22 +5,15 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "planner/base/file.h"
+#include "planner/mujoco/handles.h"
 
 namespace regrasp::sim {
 
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
-using DataPtr = std::unique_ptr<mjData, DeleteData>;
+using mujoco::DataPtr;
+using mujoco::ModelPtr;
 
 /// Writes the scene to a file and loads it as any user of MuJoCo does.
 inline ModelPtr LoadFromFile(const std::string& mjcf) {
