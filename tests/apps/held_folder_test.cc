@@ -12,6 +12,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
 namespace {
@@ -42,15 +43,8 @@ int InChild(const std::function<int()>& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-class HeldFolderTest : public testing::Test {
+class HeldFolderTest : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "regrasp_out_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   template <class Error>
   std::string Refusal() const {
     try {
@@ -60,8 +54,6 @@ class HeldFolderTest : public testing::Test {
     }
     return "nothing was refused";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(HeldFolderTest, OneWhoComesLaterIsToldWhoHoldsIt) {

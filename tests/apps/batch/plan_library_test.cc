@@ -8,6 +8,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
 namespace {
@@ -18,23 +19,8 @@ using testing::HasSubstr;
 
 constexpr char kPlan[] = R"({"format": "regrasp-plan", "version": 1})";
 
-/// A folder of its own for each test.
-class PlanLibraryTest : public testing::Test {
+class PlanLibraryTest : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "regrasp_plans_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string Write(const std::string& name, const std::string& text) const {
-    const fs::path path = folder_ / name;
-    fs::create_directories(path.parent_path());
-    WriteFile(path, text);
-    return path.string();
-  }
-
   static std::vector<std::string> Names(const PlanLibrary& library) {
     std::vector<std::string> names;
     for (const LibraryPlan& plan : library.plans) names.push_back(plan.name);
@@ -49,8 +35,6 @@ class PlanLibraryTest : public testing::Test {
     }
     return "nothing was refused";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(PlanLibraryTest, AFolderGivesItsPlansByNameAndSaysWhatItSkips) {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "planner/base/error.h"
-#include "planner/base/write_file.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "planner/kinematics/mujoco_schema.h"
+#include "tests/fixtures/folder_test.h"
 
 namespace regrasp::kinematics {
 namespace {
@@ -20,21 +19,8 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A folder that is gone after the test.
-class ConvertModelTest : public testing::Test {
+class ConvertModelTest : public FolderTest {
  protected:
-  ConvertModelTest() {
-    std::string name = (fs::temp_directory_path() / "regrasp_model_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~ConvertModelTest() override { fs::remove_all(folder_); }
-
-  fs::path Write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    WriteFile(folder_ / name, text);
-    return folder_ / name;
-  }
   CompiledModel Compile(const std::string& text) const {
     return CompileModel(Write("model.xml", text));
   }
@@ -46,8 +32,6 @@ class ConvertModelTest : public testing::Test {
     }
     return "taken";
   }
-
-  fs::path folder_;
 };
 
 /// One hinge of inertia 0.04 kg m² about the axis with one actuator, and what stands about them.

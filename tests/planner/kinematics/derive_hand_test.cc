@@ -8,11 +8,11 @@
 #include <string>
 
 #include "planner/base/error.h"
-#include "planner/base/write_file.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/inspect_hand.h"
 #include "planner/kinematics/mujoco_model.h"
+#include "tests/fixtures/folder_test.h"
 
 namespace regrasp::kinematics {
 namespace {
@@ -26,23 +26,11 @@ using testing::IsEmpty;
 
 const std::string kHands = std::string(REGRASP_SOURCE_DIR) + "/models/hands/";
 
-/// A file of a model that is gone after the test.
-class DeriveHandTest : public testing::Test {
+class DeriveHandTest : public FolderTest {
  protected:
-  DeriveHandTest() {
-    std::string name = (fs::temp_directory_path() / "regrasp_hand_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~DeriveHandTest() override { fs::remove_all(folder_); }
-
   DerivedHand Derive(const std::string& xml) const {
-    const fs::path path = folder_ / "model.xml";
-    WriteFile(path, xml);
-    return DeriveHand(CompileModel(path), "model.xml");
+    return DeriveHand(CompileModel(Write("model.xml", xml)), "model.xml");
   }
-
-  fs::path folder_;
 };
 
 /// Two links of a finger along z that flexes towards +y: a distal link with a capsule.

@@ -12,6 +12,7 @@
 #include "planner/base/file.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
+#include "tests/fixtures/folder_test.h"
 
 namespace regrasp::object {
 namespace {
@@ -63,22 +64,7 @@ std::string Complaint(const std::string& bytes, const fs::path& path) {
   }
 }
 
-class FilesBesideTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "regrasp_beside_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path Write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
-
-  fs::path folder_;
-};
+class FilesBesideTest : public FolderTest {};
 
 TEST_F(FilesBesideTest, ASurfaceThatComesFromAnotherFileIsRefused) {
   static_cast<void>(Write("body.bin", std::string(72, '\0')));
