@@ -1,12 +1,21 @@
 #include "apps/entry_names.h"
 
 #include <algorithm>
+#include <variant>
+#include <vector>
 
 namespace regrasp::apps {
 
 namespace {
 
 constexpr std::size_t kDigits = 3;
+
+/// All that an entry can be.
+std::vector<std::string> EntryKinds() {
+  static_assert(std::variant_size_v<plan::Step> == 3, "a kind of step is missing below");
+  return {"hold", plan::StepKind(plan::Switch()), plan::StepKind(plan::Align()),
+          plan::StepKind(plan::Move())};
+}
 
 }  // namespace
 
@@ -28,7 +37,9 @@ std::string EntryFileName(plan::EntryIndex index, const std::string& kind,
 
 bool IsEntryFileName(const std::string& name, const std::string& ending) {
   const auto rest = AfterEntryNumber(name);
-  return rest == "_hold." + ending || rest == "_switch." + ending || rest == "_align." + ending;
+  if (!rest) return false;
+  return std::ranges::any_of(
+      EntryKinds(), [&](const std::string& kind) { return *rest == "_" + kind + "." + ending; });
 }
 
 }  // namespace regrasp::apps

@@ -285,6 +285,11 @@ HandModel BuildHand(const HandDescription& description, const CompiledModel& com
 }
 
 HandModel ReadHand(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending == ".xml" || ending == ".urdf" || ending == ".mjcf") {
+    throw InputError(path.string() + ": is a model, and no hand file; `hand --model " +
+                     path.string() + " --output hand.json` makes one of it");
+  }
   const std::string text = ReadFile(path);
   const HandDescription description = ParseHandDescription(text, path.string());
   const fs::path model_path = path.parent_path() / description.model;

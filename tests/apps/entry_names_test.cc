@@ -16,11 +16,11 @@ TEST(EntryNames, SortAsTheirEntriesDo) {
 TEST(EntryNames, AreKnownByTheirNumberKindAndEnding) {
   int known = 0;
   for (const int number : {0, 7, 99, 1000}) {
-    for (const char* kind : {"hold", "switch", "align"}) {
+    for (const char* kind : {"hold", "switch", "align", "move"}) {
       known += IsEntryFileName(EntryFileName(plan::EntryIndex(number), kind, "png"), "png") ? 1 : 0;
     }
   }
-  EXPECT_EQ(known, 12);
+  EXPECT_EQ(known, 16);
   for (const char* other : {"00_hold.png", "000_hold.svg", "000_hold.png~", "000_rest.png", "000",
                             "x000_hold.png", "000hold.png", "_hold.png", ""}) {
     EXPECT_FALSE(IsEntryFileName(other, "png")) << other;

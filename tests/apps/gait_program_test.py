@@ -125,6 +125,20 @@ class Gait(ProgramCase):
             self.assert_refused(2, words, "--object", self.model("cube.obj"), "--mu", "0.8",
                                 "--hand", "hand.json", "--turn", "z 90", "--output", "plan.json")
 
+    def test_a_model_is_told_how_it_becomes_a_hand(self):
+        model = self.hand("ring4").replace(".json", ".xml")
+        self.assert_refused(2, f"hand --model {model} --output", "--object",
+                            self.model("cube.obj"), "--mu", "0.8", "--hand", model, "--turn",
+                            "z 90", "--output", "plan.json")
+
+    def test_a_folder_with_an_earlier_run_is_written_again(self):
+        plan = self.plan_in_hand()
+        for more in ((), ("--hand", self.hand("ring4")), ("--no-frames",), ()):
+            done, _ = self.validate(plan, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            names = [name for name in os.listdir(self.path("result")) if "_move" in name]
+            self.assertEqual(bool(names), more != ("--no-frames",))
+
     def test_another_hand_is_refused(self):
         self.write_json("plan.json", self.plan_in_hand())
         self.assert_refused(2, "the plan was made for a hand with digest", "--object",
