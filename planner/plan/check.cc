@@ -88,6 +88,7 @@ void TakeHandFault(const CheckOptions& options, StepCheck& check) {
   if (found == options.hand_faults.end()) return;
   check.reason = found->reason;
   check.detail = found->detail;
+  check.fault = found->fault;
 }
 
 StepCheck Skipped(EntryIndex index, const char* kind) {

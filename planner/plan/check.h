@@ -38,7 +38,8 @@ struct StepCheck {
 struct HandFault {
   EntryIndex entry{0};
   Reason reason = Reason::kNone;
-  std::string detail;
+  std::string detail;  ///< as in StepCheck
+  Fault fault = {};
 };
 
 struct CheckOptions {

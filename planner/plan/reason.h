@@ -47,6 +47,32 @@ struct FaultPush {
   std::string name = {};  ///< for people: "a push of 5.3 N along +x"
 };
 
+/// A link of a hand, by what moves it.
+struct HandLink {
+  FingerIndex finger = {};  ///< not valid: the palm
+  int joints = 0;           ///< of the finger, from the palm on, that move it
+  bool operator==(const HandLink&) const = default;
+};
+
+/// Where a plan's hand fails, as its check saw it: in the palm's frame, metres.
+struct HandFaultPlace {
+  HandState state;                   ///< of hand and object at that instant
+  std::vector<HandLink> links = {};  ///< at fault
+  /// Where they are, and the number that tells it: "3.2 mm", "97.4°, limit 90°".
+  std::optional<Eigen::Vector3d> at = std::nullopt;
+  std::string number = {};
+  /// Between links that are too near; negative where they are in each other.
+  std::optional<double> gap_m = std::nullopt;
+  /// The ball of a tip that is not where it touches its contact.
+  struct Tip {
+    Eigen::Vector3d found, expected;
+    double radius;
+  };
+  std::optional<Tip> tip = std::nullopt;
+  /// Where the object should be: where it was, or at its goal.
+  std::optional<Eigen::Isometry3d> pose = std::nullopt;
+};
+
 /// Where a step fails, as far as it can be drawn; it stands beside the text for people, and both
 /// are made at one place. Lengths in the object's frame and unit; what does not apply is empty.
 struct Fault {
@@ -67,6 +93,7 @@ struct Fault {
   std::optional<FaultPush> push = std::nullopt;  ///< that a replay failed under
   /// Where the object was at the start of a step that fails in the replay.
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
+  std::optional<HandFaultPlace> hand = std::nullopt;  ///< of a plan for a hand
 };
 
 }  // namespace regrasp::plan

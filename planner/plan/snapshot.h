@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "planner/grasp/contact.h"
@@ -30,9 +31,12 @@ struct Snapshot {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   double fingertip_radius_m = 0;
   std::vector<FingerState> fingers;
-  /// Of a plan for a hand: where its links are, by their own order (kinematics/hand_visuals.h);
-  /// empty otherwise.
+  /// Of a plan for a hand: where its palm is, and its links by their own order
+  /// (kinematics/hand_visuals.h); none otherwise.
+  std::optional<Eigen::Isometry3d> X_WP = std::nullopt;
   std::vector<Eigen::Isometry3d> links_W = {};
+  /// Of a move of the object in the hand: where it was before.
+  std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
 };
 
 }  // namespace regrasp::plan
