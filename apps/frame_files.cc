@@ -98,6 +98,21 @@ Shown ShowSound(report::ReportStep& step, const HandPicture* hand) {
   return shown;
 }
 
+/// Of each entry what a hand does before it comes to rest; not of one that failed.
+std::vector<std::vector<plan::Snapshot>> ShowMotions(const HandPicture& hand,
+                                                     const report::Report& report) {
+  std::vector<std::vector<plan::Snapshot>> motions;
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    const report::ReportStep& step = report.steps[i];
+    if (step.skipped) break;
+    motions.emplace_back();
+    if (i == 0 || Failed(step)) continue;
+    motions.back() =
+        hand.Between(step.check.index, report.steps[i - 1].replay->snapshot, step.replay->snapshot);
+  }
+  return motions;
+}
+
 std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& plan,
                                const HandPicture* hand, report::Report& report) {
   std::vector<Shown> shown;
@@ -203,15 +218,27 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
                                    const DrawingOptions& options,
                                    const std::vector<plan::Snapshot>& samples,
                                    const std::vector<MovingFile>& files, report::Report& report) {
-  const std::vector<Shown> shown = ShowEntries(object, plan, nullptr, report);
+  const std::vector<Shown> shown = ShowEntries(object, plan, options.hand, report);
+  std::vector<std::vector<plan::Snapshot>> motions;
+  if (options.hand != nullptr) motions = ShowMotions(*options.hand, report);
   std::vector<render::AnimationRest> rests;
   for (const auto& [step, snapshot, marks] : shown) {
     rests.push_back(
         {snapshot, render::FrameCaption(plan, step->check.index), Caption(plan, *step), marks});
   }
   const std::vector<render::AnimationPicture> pictures =
-      render::CutAnimation(samples, rests, report.scale * object.diameter());
+      options.hand != nullptr
+          ? render::JoinAnimation(motions, rests)
+          : render::CutAnimation(samples, rests, report.scale * object.diameter());
   render::FrameOptions frame = options.frame;
+  if (options.hand != nullptr) frame.hand = options.hand->view();
+  for (const auto& motion : motions) {
+    for (const plan::Snapshot& snapshot : motion) {
+      for (const Eigen::Isometry3d& link : snapshot.links_W) {
+        frame.reached.push_back(link.translation());
+      }
+    }
+  }
   frame.gaps = render::GapView::kShown;
   if (frame.background == render::Background::kTransparent) {
     frame.background = render::Background::kWhite;

@@ -1,29 +1,22 @@
 #include "apps/hand_picture.h"
 
-#include "planner/kinematics/hand_file.h"
+#include <algorithm>
+#include <cmath>
+
+#include "planner/base/angle.h"
 
 namespace regrasp::apps {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using plan::HandState;
 
-/// How hand and object stand at the end of each entry; as before where a step does not say.
-std::vector<plan::HandState> StatesOf(const plan::Plan& plan) {
-  std::vector<plan::HandState> states = {plan.hand->initial};
-  for (const plan::Step& step : plan.steps) {
-    states.push_back(states.back());
-    const auto take = [&](const plan::HandPath& path) {
-      if (!path.empty()) states.back() = path.back();
-    };
-    if (const auto* move = std::get_if<plan::Move>(&step)) take(move->path);
-    const auto* change = std::get_if<plan::Switch>(&step);
-    if (change == nullptr || !change->motion) continue;
-    take(change->motion->place);
-    take(change->motion->release);
-  }
-  return states;
-}
+/// Pictures of a motion: one for so much that the fastest joint, or the object, turns, or for so
+/// much that the object goes.
+constexpr double kTurnPerPicture = Radians(3);
+constexpr double kWayPerPicture = 1e-3;  // metres
+constexpr int kMostPictures = 40;        // of a path
 
 void Add(const render::FacetMesh& more, render::FacetMesh& mesh) {
   mesh.triangles.insert(mesh.triangles.end(), more.triangles.begin(), more.triangles.end());
@@ -47,16 +40,91 @@ void Move(const Isometry3d& motion, plan::FingerState& finger) {
   for (Vector3d& p : finger.path_W) p = motion * p;
 }
 
+Eigen::AngleAxisd TurnFrom(const HandState& a, const HandState& b) {
+  return Eigen::AngleAxisd(a.pose.linear().transpose() * b.pose.linear());
+}
+
+/// As plan::HandPath says of what is between two states.
+HandState Mix(const HandState& a, const HandState& b, double share) {
+  HandState state = a;
+  const Eigen::AngleAxisd turn = TurnFrom(a, b);
+  state.pose.linear() =
+      a.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
+  state.pose.translation() += share * (b.pose.translation() - a.pose.translation());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    for (std::size_t k = 0; k < a.joints[i].size(); ++k) {
+      state.joints[i][k] += share * (b.joints[i][k] - a.joints[i][k]);
+    }
+  }
+  return state;
+}
+
+/// From one state to the next, in pictures.
+double MotionBetween(const HandState& a, const HandState& b) {
+  double turn = TurnFrom(a, b).angle();
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    for (std::size_t k = 0; k < a.joints[i].size(); ++k) {
+      turn = std::max(turn, std::abs(b.joints[i][k] - a.joints[i][k]));
+    }
+  }
+  const double way = (b.pose.translation() - a.pose.translation()).norm();
+  return std::max(turn / kTurnPerPicture, way / kWayPerPicture);
+}
+
+/// States along a path, evenly spread, without its two ends.
+std::vector<HandState> Spread(const plan::HandPath& path) {
+  std::vector<double> along = {0};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    along.push_back(along.back() + MotionBetween(path[i - 1], path[i]));
+  }
+  const int count = std::min(kMostPictures, static_cast<int>(std::ceil(along.back())));
+  std::vector<HandState> states;
+  for (int picture = 1; picture < count; ++picture) {
+    const double at = along.back() * picture / count;
+    const auto next = std::ranges::upper_bound(along, at) - along.begin();
+    const double share = (at - along[next - 1]) / (along[next] - along[next - 1]);
+    states.push_back(Mix(path[next - 1], path[next], share));
+  }
+  return states;
+}
+
+/// The fingers that hold, without what they did to come to it.
+plan::Snapshot Holding(plan::Snapshot rest, const std::vector<FingerIndex>& but = {}) {
+  std::erase_if(rest.fingers, [&](const plan::FingerState& finger) {
+    return finger.role == plan::FingerRole::kFree || finger.role == plan::FingerRole::kReleased ||
+           std::ranges::find(but, finger.finger) != but.end();
+  });
+  for (plan::FingerState& finger : rest.fingers) {
+    finger.role = plan::FingerRole::kHolding;
+    finger.path_W.clear();
+  }
+  return rest;
+}
+
 }  // namespace
 
-HandPicture::HandPicture(const std::filesystem::path& hand_file, const plan::Plan& plan,
+HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& plan,
                          const Vector3d& centroid_m)
-    : hand_(kinematics::ReadHand(hand_file)),
-      links_(kinematics::ReadHandVisuals(hand_file, hand_)),
-      states_(StatesOf(plan)) {
+    : plan_(plan), hand_(hand.hand), links_(kinematics::VisualsOf(hand)), states_(StatesOf(plan)) {
   // An arm would make the rest small.
   std::erase_if(links_, [](const kinematics::LinkVisual& link) { return link.above_palm; });
-  for (const kinematics::LinkVisual& link : links_) view_.push_back(MeshOf(link));
+  for (const kinematics::LinkVisual& link : links_) {
+    const bool is_tip =
+        link.finger.valid() && link.after == std::ssize(hand_.fingers[link.finger].joints);
+    view_.push_back({{link.finger, link.after}, is_tip, MeshOf(link)});
+  }
+  // What touches is the ball, wherever the model's look ends; a hair smaller, so that the look is
+  // seen where it is as large.
+  constexpr double kInside = 0.985;
+  for (FingerIndex finger{0}; finger < std::ssize(hand_.fingers); ++finger) {
+    const kinematics::Fingertip& tip = hand_.fingers[finger].tip;
+    kinematics::LinkVisual ball;
+    ball.finger = finger;
+    ball.after = static_cast<int>(hand_.fingers[finger].joints.size());
+    ball.capsules = {{tip.centre, tip.centre, kInside * tip.radius}};
+    view_.push_back({{finger, ball.after}, true, MeshOf(ball)});
+    links_.push_back(std::move(ball));
+  }
   // The object begins where frames without a hand have it.
   X_WP_.setIdentity();
   X_WP_.linear() =
@@ -64,17 +132,77 @@ HandPicture::HandPicture(const std::filesystem::path& hand_file, const plan::Pla
   X_WP_.translation() = centroid_m - X_WP_.linear() * (states_.front().pose * centroid_m);
 }
 
-void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot,
-                        plan::Fault& fault) const {
-  const plan::HandState& state = states_[entry];
+bool HandPicture::Fits(const HandState& state) const {
+  return std::ranges::equal(state.joints, hand_.fingers, {}, &std::vector<double>::size,
+                            [](const kinematics::Finger& finger) { return finger.joints.size(); });
+}
+
+/// How hand and object stand at the end of each entry; as before where a step does not say, or says
+/// it of another hand.
+std::vector<HandState> HandPicture::StatesOf(const plan::Plan& plan) const {
+  HandState rest{plan.hand->initial.pose, {}};
+  for (const kinematics::Finger& finger : hand_.fingers) {
+    rest.joints.emplace_back();
+    for (const kinematics::Joint& joint : finger.joints) rest.joints.back().push_back(joint.rest);
+  }
+  std::vector<HandState> states = {Fits(plan.hand->initial) ? plan.hand->initial : rest};
+  for (const plan::Step& step : plan.steps) {
+    states.push_back(states.back());
+    const auto take = [&](const plan::HandPath& path) {
+      if (!path.empty() && Fits(path.back())) states.back() = path.back();
+    };
+    if (const auto* move = std::get_if<plan::Move>(&step)) take(move->path);
+    const auto* change = std::get_if<plan::Switch>(&step);
+    if (change == nullptr || !change->motion) continue;
+    take(change->motion->place);
+    take(change->motion->release);
+  }
+  return states;
+}
+
+void HandPicture::Stand(const HandState& state, plan::Snapshot& snapshot) const {
   const Isometry3d motion = X_WP_ * state.pose;
   snapshot.X_WO = motion * snapshot.X_WO;
   for (plan::FingerState& finger : snapshot.fingers) Move(motion, finger);
-  if (fault.X_WO_before) fault.X_WO_before = motion * *fault.X_WO_before;
+  snapshot.X_WP = X_WP_;
   snapshot.links_W.clear();
   for (const kinematics::LinkVisual& link : links_) {
     snapshot.links_W.push_back(X_WP_ * kinematics::LinkPose(link, hand_, state.joints));
   }
+}
+
+void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot,
+                        plan::Fault& fault) const {
+  const HandState& state =
+      fault.hand && Fits(fault.hand->state) ? fault.hand->state : states_[entry];
+  if (fault.X_WO_before) fault.X_WO_before = X_WP_ * state.pose * *fault.X_WO_before;
+  if (fault.hand && fault.hand->pose) fault.X_WO_before = X_WP_ * *fault.hand->pose;
+  Stand(state, snapshot);
+  const bool moves = entry > 0 && std::holds_alternative<plan::Move>(plan::StepOf(plan_, entry));
+  if (moves) {
+    snapshot.X_WO_before = X_WP_ * states_[plan::EntryIndex(entry - 1)].pose;
+  }
+}
+
+std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
+                                                 const plan::Snapshot& before,
+                                                 const plan::Snapshot& after) const {
+  std::vector<plan::Snapshot> pictures;
+  const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen) {
+    if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
+    for (const HandState& state : Spread(path)) {
+      pictures.push_back(seen);
+      Stand(state, pictures.back());
+    }
+  };
+  if (entry == 0) return pictures;
+  const plan::Step& step = plan::StepOf(plan_, entry);
+  if (const auto* move = std::get_if<plan::Move>(&step)) add(move->path, Holding(before));
+  const auto* change = std::get_if<plan::Switch>(&step);
+  if (change == nullptr || !change->motion) return pictures;
+  add(change->motion->place, Holding(before));
+  add(change->motion->release, Holding(after, change->release));
+  return pictures;
 }
 
 }  // namespace regrasp::apps

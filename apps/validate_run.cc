@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "planner/base/file.h"
 #include "planner/base/stopwatch.h"
 #include "planner/criteria/reach.h"
+#include "planner/kinematics/hand_file.h"
 #include "planner/object/reading.h"
 #include "planner/plan/invented_contacts.h"
 #include "planner/plan/plan_io.h"
@@ -48,6 +50,7 @@ struct Task {
   plan::Plan plan;                    ///< of a grasp: without steps
   grasp::Grasp grasp;                 ///< empty for a plan
   std::string start_text, goal_text;  ///< of --start and --goal; empty where they are not given
+  std::optional<kinematics::HandFile> hand;  ///< of --hand
 };
 
 /// What is kept of the replay while it runs; states as far as someone asked for them.
@@ -128,6 +131,7 @@ Task ReadTask(const ValidateOptions& options) {
   }
   if (!options.start.empty()) task.start_text = ReadFile(options.start);
   if (!options.goal.empty()) task.goal_text = ReadFile(options.goal);
+  if (!options.hand.empty()) task.hand = kinematics::ReadHandFile(options.hand);
   if (options.replay.thickness && task.plan.dimension == 3) {
     throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
   }
@@ -184,7 +188,7 @@ struct CheckTask {
     if (solid == nullptr || options.for_grasp()) {
       throw InputError("--hand: checks plans for solids that were made for a hand");
     }
-    check.hand_faults = sim::CheckHand(options.hand, *solid, plan::LocatePlan(*solid, task.plan),
+    check.hand_faults = sim::CheckHand(*task.hand, *solid, plan::LocatePlan(*solid, task.plan),
                                        {options.clearance_m});
   }
   CheckTask(const CheckTask&) = delete;
@@ -287,7 +291,7 @@ class DrawingCount {
 
 /// @returns what the page shows of it: replay.webp, or the video where only that is made.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
-                            const Task& task, const Samples& samples,
+                            const Task& task, const HandPicture* hand, const Samples& samples,
                             const std::filesystem::path& folder, report::Report& report) {
   frame.width = options.animation_width;
   frame.height = options.animation_height;
@@ -300,7 +304,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   DrawingCount count("drawing the moving picture", options.quiet);
   return WriteAnimation(
       *task.object.object, task.plan,
-      {.frame = frame, .workers = options.workers, .on_picture = count.reporter()},
+      {.frame = frame, .hand = hand, .workers = options.workers, .on_picture = count.reporter()},
       samples.animation, files, report);
 }
 
@@ -309,19 +313,20 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
                    report::Report& report) {
   const object::Object& object = *task.object.object;
   std::vector<report::PagePicture> pictures;
+  std::optional<HandPicture> seen;
+  const bool draws = !options.no_frames || options.animates();
+  if (task.hand && draws) {
+    seen.emplace(*task.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
+  }
+  const HandPicture* hand = seen ? &*seen : nullptr;
   if (!options.no_frames) {
     DrawingCount count("drawing frames", options.quiet);
-    std::optional<HandPicture> hand;
-    if (!options.hand.empty()) {
-      hand.emplace(options.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
-    }
-    pictures = WriteFrames(
-        object, task.plan,
-        {frame, hand ? &*hand : nullptr, options.workers, options.sheet_width, count.reporter()},
-        folder, report);
+    pictures = WriteFrames(object, task.plan,
+                           {frame, hand, options.workers, options.sheet_width, count.reporter()},
+                           folder, report);
   }
   report::PagePicture moving;
-  if (options.animates()) moving = Animate(options, frame, task, samples, folder, report);
+  if (options.animates()) moving = Animate(options, frame, task, hand, samples, folder, report);
   WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving));
 }
 

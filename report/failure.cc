@@ -67,6 +67,14 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
   }
 }
 
+/// A clearance helps only where there is one.
+std::string MendCollision(const plan::Fault& fault) {
+  const bool apart = fault.hand && fault.hand->gap_m && *fault.hand->gap_m > 0;
+  if (!apart) return "a way around, or other contacts: no --clearance allows links in each other";
+  return "a way around, other contacts, or a --clearance below the " +
+         FormatLength(*fault.hand->gap_m) + " that there are";
+}
+
 std::string MendReach(const plan::Fault& fault) {
   if (fault.finger_radius > 0) {
     return "thinner fingers (--finger-radius), or a plan for fingers of that radius (plan "
@@ -109,14 +117,15 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kUnreachable:
       return MendReach(step.fault());
     case Reason::kHandJumps:
-      return "paths of the hand that begin where those before them end";
+      return "a path in every step whose first state is the last one before it, with all joints of "
+             "the hand";
     case Reason::kTipOffContact:
       return "joints that put the tips where the contacts are, and more states on the path where "
              "they leave them between two";
     case Reason::kJointLimit:
       return "a posture within the limits, or a contact that the finger reaches within them";
     case Reason::kHandCollides:
-      return "a way around, other contacts, or less --clearance";
+      return MendCollision(step.fault());
     case Reason::kSimulationUnstable:
       return "another --squeeze or --mass, a smaller --shake, or the right --scale where the "
              "object is of no usual size";
@@ -127,6 +136,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kStartDiffers:
       return "planning from the grasp of --start, or leaving --start out";
     case Reason::kGoalNotReached:
+      if (step.fault().hand) return "a last move that ends in the hand's goal, or another goal";
       return "steps that end in the goal grasp, or another goal";
     case Reason::kNone:
       return "";
@@ -142,8 +152,8 @@ std::string ToleranceText(const Report& report) {
          " of the object's diameter, counts as standing still";
 }
 
-/// What a step breaks.
-std::string RuleOf(Reason reason, const Report& report) {
+/// What a step breaks. @param hand  the fault is of the plan's hand.
+std::string RuleOf(Reason reason, bool hand, const Report& report) {
   switch (reason) {
     case Reason::kOffSurface:
       return "a contact lies on the surface to within " + FormatShort(object::kPointTolerance) +
@@ -171,15 +181,18 @@ std::string RuleOf(Reason reason, const Report& report) {
       return "a finger comes straight along the normal, and keeps clear of the object and the "
              "others";
     case Reason::kHandJumps:
-      return "hand and object go on from where they are";
+      return "hand and object go on from where they are, to 1e-9 m and, of the object, 1e-8 rad, "
+             "of "
+             "a joint, 1e-9 rad";
     case Reason::kTipOffContact:
-      return "the tip of a finger that holds touches its contact, all along a move too";
+      return "the ball of a finger that holds touches its contact, to 1 µm at rest and to 100 µm "
+             "all "
+             "along a move";
     case Reason::kJointLimit:
       return "joints stay within the limits of the hand's model";
     case Reason::kHandCollides:
       return "the links of the hand keep the clearance from each other, the palm and the object, "
-             "on "
-             "all of the path; a tip that touches may be 0.3 mm in the surface";
+             "on all of the path; a tip that touches may be 0.3 mm in the surface";
     case Reason::kSimulationUnstable:
       return "the simulation came to no end, so nothing is known of the step";
     case Reason::kContactLost:
@@ -190,6 +203,8 @@ std::string RuleOf(Reason reason, const Report& report) {
     case Reason::kStartDiffers:
       return "the plan is to begin with the grasp of --start";
     case Reason::kGoalNotReached:
+      if (hand)
+        return "the object is to end where the plan's hand has its goal, to 1 µm and 1e-6 rad";
       return "the contacts after the last step are to be those of the goal";
     case Reason::kNone:
       return "";
@@ -199,7 +214,7 @@ std::string RuleOf(Reason reason, const Report& report) {
 
 std::string WhyOf(const ReportStep& step, const Report& report) {
   const bool caused = step.disagreement && step.disagreement->between == sim::Between::kReplayFails;
-  return RuleOf(step.reason(), report) +
+  return RuleOf(step.reason(), step.fault().hand.has_value(), report) +
          (caused ? "; " + sim::LikelyCauseText(*step.disagreement) : "");
 }
 

@@ -8,6 +8,7 @@ set(regrasp_slow_tests
   apps.endurance
   apps.failing_frames
   apps.frames
+  apps.gait
   apps.general
   apps.hand
   apps.meshes

@@ -284,20 +284,23 @@ HandModel BuildHand(const HandDescription& description, const CompiledModel& com
   return HandBuilder(description, file, *compiled.model).Build();
 }
 
-HandModel ReadHand(const fs::path& path) {
+HandFile ReadHandFile(const fs::path& path) {
   const std::string ending = path.extension().string();
   if (ending == ".xml" || ending == ".urdf" || ending == ".mjcf") {
     throw InputError(path.string() + ": is a model, and no hand file; `hand --model " +
                      path.string() + " --output hand.json` makes one of it");
   }
   const std::string text = ReadFile(path);
-  const HandDescription description = ParseHandDescription(text, path.string());
-  const fs::path model_path = path.parent_path() / description.model;
-  const CompiledModel compiled = CompileModel(model_path);
-  HandModel hand = BuildHand(description, compiled, path.string());
-  hand.file = path.filename().string();
-  hand.sha256 = Digest(text, compiled.text);
-  return hand;
+  HandFile file;
+  file.description = ParseHandDescription(text, path.string());
+  file.compiled = std::make_shared<const CompiledModel>(
+      CompileModel(path.parent_path() / file.description.model));
+  file.hand = BuildHand(file.description, *file.compiled, path.string());
+  file.hand.file = path.filename().string();
+  file.hand.sha256 = Digest(text, file.compiled->text);
+  return file;
 }
+
+HandModel ReadHand(const fs::path& path) { return ReadHandFile(path).hand; }
 
 }  // namespace regrasp::kinematics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "planner/kinematics/hand_description.h"
@@ -9,6 +10,14 @@
 namespace regrasp::kinematics {
 
 struct CompiledModel;
+
+/// A hand with what it was read from.
+struct HandFile {
+  HandDescription description;
+  /// Shared, as its type is not shown: whoever needs more than the hand takes it from there.
+  std::shared_ptr<const CompiledModel> compiled;
+  HandModel hand;
+};
 
 /// Reads a hand: a file `hand.json` (docs/formats.md) and the MJCF or URDF model beside it.
 ///
@@ -19,6 +28,10 @@ struct CompiledModel;
 /// @throws InputError  names the file, the element and what is wrong: the model cannot be compiled,
 ///                     a body or joint is not there, fingers share a joint, a joint is no hinge or
 ///                     has no limits.
+[[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
+
+/// The hand alone.
+/// @throws InputError  as ReadHandFile.
 [[nodiscard]] HandModel ReadHand(const std::filesystem::path& path);
 
 /// The same of what is read already; without file and digest.

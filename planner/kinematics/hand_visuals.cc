@@ -6,9 +6,8 @@
 #include <set>
 #include <tuple>
 
-#include "planner/base/file.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/model_names.h"
 #include "planner/kinematics/mujoco_model.h"
 
@@ -192,11 +191,8 @@ std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::stri
   return visuals;
 }
 
-std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
-                                        const HandModel& hand) {
-  const HandDescription description = ParseHandDescription(ReadFile(hand_file), hand_file.string());
-  return VisualsOf(CompileModel(hand_file.parent_path() / description.model), description.palm,
-                   hand);
+std::vector<LinkVisual> VisualsOf(const HandFile& file) {
+  return VisualsOf(*file.compiled, file.description.palm, file.hand);
 }
 
 Isometry3d LinkPose(const LinkVisual& link, const HandModel& hand,

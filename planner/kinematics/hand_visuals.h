@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 namespace regrasp::kinematics {
 
 struct CompiledModel;
+struct HandFile;
 
 /// What a link looks like, in the frame of the last joint that moves it, metres.
 struct LinkVisual {
@@ -34,10 +34,8 @@ struct LinkVisual {
 [[nodiscard]] std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled,
                                                 const std::string& palm, const HandModel& hand);
 
-/// The same of a hand's file.
-/// @throws InputError  as ReadHand.
-[[nodiscard]] std::vector<LinkVisual> ReadHandVisuals(const std::filesystem::path& hand_file,
-                                                      const HandModel& hand);
+/// The same of a hand that was read from a file.
+[[nodiscard]] std::vector<LinkVisual> VisualsOf(const HandFile& file);
 
 /// Where a link is in the palm's frame.
 /// @param joints  angles by finger, from the palm to the tip, radians.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "render/frames/offscreen_context.h"
 
@@ -29,6 +30,12 @@ constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
 /// Weights of layers are multiples of 1 / kOne.
 constexpr int kOne = 256;
+constexpr int kFullAlpha = 255;
+
+/// How much less a veil hides in the middle of a window, and over how much of its radius that comes
+/// about.
+constexpr double kWindowClearness = 0.7;
+constexpr double kWindowRim = 0.55;
 
 /// What OpenGL draws triangles from.
 struct Vertices {
@@ -116,10 +123,12 @@ class FormPainter {
   }
   void Draw(const std::vector<Shape>& shapes, bool opaque) const {
     for (const Shape& shape : shapes) {
-      if ((shape.opacity == 1) != opaque) continue;
-      SetColor(shape.color, shape.opacity);
-      std::visit(*this, shape.form);
+      if ((shape.opacity == 1) == opaque) Draw(shape);
     }
+  }
+  void Draw(const Shape& shape) const {
+    SetColor(shape.color, shape.opacity);
+    std::visit(*this, shape.form);
   }
 
  private:
@@ -155,20 +164,31 @@ void InitState() {
   glEnableClientState(GL_NORMAL_ARRAY);
 }
 
-/// The shapes' picture with a layer, nullptr for none, opaque among them.
+/// Whether what is drawn sets the colours, and the samples' alpha.
+void SetMask(bool colors, bool alpha) {
+  glColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
+              alpha ? GL_TRUE : GL_FALSE);
+}
+
+/// The shapes' picture with others, opaque, among them. Where one of those is seen the sample's
+/// alpha is its opacity, elsewhere 0.
 void DrawPicture(const FormPainter& painter, const Drawing& drawing,
-                 const std::vector<Shape>& translucent, const Layer* layer) {
+                 const std::vector<Shape>& translucent, std::span<const Shape> more) {
+  SetMask(true, true);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  SetMask(true, false);
   painter.Draw(drawing.shapes, /*opaque=*/true);
-  if (layer != nullptr) painter.Draw(layer->shapes, /*opaque=*/true);
+  SetMask(true, true);
+  for (const Shape& shape : more) painter.Draw(shape);
+  SetMask(true, false);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
   painter.Draw(translucent, /*opaque=*/false);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  SetMask(false, false);
   for (const MeshInstance& mesh : drawing.hiding) painter(mesh);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  SetMask(true, false);
   painter.Draw(drawing.outline, /*opaque=*/true);
   glFinish();
 }
@@ -234,7 +254,7 @@ class Canvas::Impl {
   Image Draw(const Camera& camera, const Drawing& drawing, Color paper) {
     const OffscreenContext::Use use(context_);
     constexpr float kFull = 255;
-    glClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 1);
+    glClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 0);
     Image image = MakeImage(width_, height_);
     for (int top = 0; top < height_; top += band_rows_) {
       DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
@@ -243,6 +263,83 @@ class Canvas::Impl {
   }
 
  private:
+  /// Samples of an image from row `top` on, the last one first.
+  struct SampleBand {
+    int width, top, rows, factor;
+  };
+
+  /// All pictures over each other, sample by sample.
+  std::vector<unsigned char> Compose(const FormPainter& painter, const Drawing& drawing,
+                                     const std::vector<Shape>& translucent,
+                                     const SampleBand& band) const {
+    const std::size_t count = std::size_t{4} * band.width * band.rows;
+    const auto draw = [&](std::span<const Shape> more) {
+      DrawPicture(painter, drawing, translucent, more);
+      return context_.pixels().data();
+    };
+    const unsigned char* seen = draw(drawing.veil->shapes);
+    std::vector<unsigned char> veil(seen, seen + count);
+    FadeInWindows(drawing.veil->windows, band, veil);
+    // What is before the covers keeps its alpha.
+    SetMask(false, true);
+    glColor4ub(0, 0, 0, 0);
+    for (const MeshInstance& cover : drawing.veil->covers) painter(cover);
+    SetMask(true, true);
+    glFinish();
+    std::vector<bool> over(count / 4);
+    for (std::size_t i = 0; i < over.size(); ++i) over[i] = seen[4 * i + 3] != 0;
+    seen = draw({});
+    std::vector<unsigned char> samples(seen, seen + count);
+    const auto lay_veil = [&](bool where_over) {
+      for (std::size_t i = 0; i < over.size(); ++i) {
+        if (over[i] == where_over) Lay(&veil[4 * i], veil[4 * i + 3], &samples[4 * i]);
+      }
+    };
+    lay_veil(false);
+    for (const Layer& layer : drawing.layers) {
+      seen = draw(layer.shapes);
+      const auto opacity = static_cast<int>(std::lround(kFullAlpha * layer.opacity));
+      for (std::size_t i = 0; i < over.size(); ++i) {
+        if (seen[4 * i + 3] != 0) Lay(&seen[4 * i], opacity, &samples[4 * i]);
+      }
+    }
+    lay_veil(true);
+    return samples;
+  }
+
+  static void Lay(const unsigned char* color, int alpha, unsigned char* sample) {
+    for (int c = 0; c < 3; ++c) {
+      const int mixed = color[c] * alpha + sample[c] * (kFullAlpha - alpha);
+      sample[c] = static_cast<unsigned char>((mixed + kFullAlpha / 2) / kFullAlpha);
+    }
+  }
+
+  /// What is in a window hides less.
+  static void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band,
+                            std::vector<unsigned char>& samples) {
+    for (const Window& window : windows) {
+      const Eigen::Vector2d centre = band.factor * window.centre - Eigen::Vector2d(0, band.top);
+      const double radius = band.factor * window.radius;
+      const auto clamp = [](double value, int most) {
+        return static_cast<int>(std::clamp<double>(value, 0, most));
+      };
+      const int last_x = clamp(centre.x() + radius + 1, band.width);
+      const int last_y = clamp(centre.y() + radius + 1, band.rows);
+      for (int y = clamp(centre.y() - radius, band.rows); y < last_y; ++y) {
+        for (int x = clamp(centre.x() - radius, band.width); x < last_x; ++x) {
+          const double away = (Eigen::Vector2d(x, y) - centre).norm() / radius;
+          if (away >= 1) continue;
+          const double fade = std::min(1.0, (1 - away) / kWindowRim);
+          const double share =
+              1 - kWindowClearness * window.strength * fade * fade * (3 - 2 * fade);
+          unsigned char& alpha =
+              samples[4 * (std::size_t(band.width) * (band.rows - 1 - y) + x) + 3];
+          alpha = static_cast<unsigned char>(std::lround(share * alpha));
+        }
+      }
+    }
+  }
+
   void Init() {
     const OffscreenContext::Use use(context_);
     InitState();
@@ -254,11 +351,19 @@ class Canvas::Impl {
     SetCamera(camera, band);
     const FormPainter painter(camera, meshes_);
     const std::vector<Shape> translucent = SortTranslucent(camera, drawing.shapes);
-    const std::vector<int> weights = WeightsOf(drawing.layers);
     std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      DrawPicture(painter, drawing, translucent, i == 0 ? nullptr : &drawing.layers[i - 1]);
-      AddSamples(context_.pixels().data(), width_ * factor_, rows, factor_, weights[i], sums);
+    if (drawing.veil) {
+      const std::vector<unsigned char> samples = Compose(
+          painter, drawing, translucent,
+          {.width = width_ * factor_, .top = band.top * factor_, .rows = rows, .factor = factor_});
+      AddSamples(samples.data(), width_ * factor_, rows, factor_, kOne, sums);
+    } else {
+      const std::vector<int> weights = WeightsOf(drawing.layers);
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        DrawPicture(painter, drawing, translucent,
+                    i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
+        AddSamples(context_.pixels().data(), width_ * factor_, rows, factor_, weights[i], sums);
+      }
     }
     const std::uint32_t all = kOne * factor_ * factor_;
     std::ranges::transform(

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -49,6 +50,22 @@ struct Layer {
   double opacity = 1;
 };
 
+/// A round place of an image, pixels: from its rim to its middle what is before it grows clearer.
+struct Window {
+  Eigen::Vector2d centre;
+  double radius;
+  double strength;  ///< of 1
+};
+
+/// Things that stand before and behind what the layers show, each with an opacity of its own. Only
+/// the nearest of them is seen at a place: behind the layers where one of `covers` stands before
+/// it, otherwise over them.
+struct Veil {
+  std::vector<Shape> shapes;
+  std::vector<MeshInstance> covers;
+  std::vector<Window> windows;  ///< where it hides less
+};
+
 /// What a canvas draws.
 struct Drawing {
   /// Those with an opacity below 1 must be convex: only their near side is drawn.
@@ -60,6 +77,8 @@ struct Drawing {
   /// Lines that are drawn, opaque, where neither shapes nor `hiding` stand before them.
   std::vector<Shape> outline;
   std::vector<MeshInstance> hiding;
+  /// With it a layer changes the picture only where it is seen.
+  std::optional<Veil> veil = std::nullopt;
 };
 
 /// An off-screen OpenGL window with one soft light from above the camera's left shoulder

@@ -34,6 +34,7 @@ constexpr double kLeader = 1.6;  ///< a text farther than this from what it tell
 constexpr double kNormalLength = 0.2;
 constexpr double kPlaceRadius = 0.030;
 constexpr double kPushLength = 0.30;
+constexpr double kSpotRadius = 0.07;
 constexpr double kTwistRadius = 0.16;
 
 constexpr Color kGhost = {110, 118, 132};
@@ -181,6 +182,19 @@ class Overlay {
     Fill(cr_, kFaultRed, 0.10);
     SetCircle(cr_, camera_.Project(at), tip.radius / frame_.diameter_m * camera_.PixelsPerUnit(at));
     StrokeDashed(kFaultRed, 1.2);
+  }
+
+  /// A ring around what is hidden, perhaps, with its number.
+  void Draw(const FaultMarks::Spot& spot) {
+    const Vector2d at = Project(spot.at);
+    const double radius = kSpotRadius * camera_.PixelsPerUnit(frame_.FromWorld(spot.at));
+    for (const bool halo : {true, false}) {
+      SetCircle(cr_, at, radius);
+      Stroke(cr_, halo ? style_.ground.halo : kFaultRed, (halo ? 2.6 : 1.4) * kLineWidth * font_);
+    }
+    Cross(at, kFaultRed);
+    Occupy(at - Vector2d(radius, 0), at + Vector2d(radius, 0));
+    if (!spot.text.empty()) Label(at, spot.text, kFaultRed, radius);
   }
 
   void DrawPush(const plan::FaultPush& push, const Vector3d& centroid) {
@@ -435,6 +449,7 @@ std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
   }
   for (const auto& cone : marks.cones) points.push_back(cone.apex);
   for (const auto& tip : marks.tips) add_ball(tip.centre, tip.radius);
+  for (const auto& spot : marks.spots) add_ball(spot.at, kSpotRadius * diameter_m);
   if (marks.push && marks.push->force_N.norm() > 0) {
     points.push_back(marks.centroid + kPushLength * diameter_m * marks.push->force_N.normalized());
   }
@@ -454,6 +469,7 @@ std::vector<Obstacle> DrawFaultMarks(const CairoImage& page, const Camera& camer
     if (at_fault && glyph.role != plan::FingerRole::kPlaced) overlay.DrawRing(glyph);
   }
   for (const auto& tip : marks.tips) overlay.Draw(tip);
+  for (const auto& spot : marks.spots) overlay.Draw(spot);
   for (const auto& cone : marks.cones) overlay.Draw(cone, marks.planar);
   for (const auto& place : marks.places) overlay.Draw(place);
   for (const auto& dimension : marks.dimensions) overlay.Draw(dimension);
@@ -461,7 +477,9 @@ std::vector<Obstacle> DrawFaultMarks(const CairoImage& page, const Camera& camer
   if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
   overlay.DrawHeading(marks.heading);
   for (const FingerIndex finger : marks.fingers) {
-    if (std::ranges::find(fingers, finger, &FingerGlyph::finger) == fingers.end()) {
+    // Those of a hand are in the picture.
+    const bool shown = !marks.links.empty();
+    if (!shown && std::ranges::find(fingers, finger, &FingerGlyph::finger) == fingers.end()) {
       overlay.DrawAbsent(finger);
     }
   }

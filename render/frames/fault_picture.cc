@@ -73,6 +73,7 @@ class FaultSketch {
     }
     AddCones();
     AddTips();
+    AddHand();
     AddMotion();
     picture_.marks.push = fault_.push;
     LeaveOutWhatIsFar();
@@ -204,6 +205,25 @@ class FaultSketch {
     }
   }
 
+  /// A plan's hand, where it fails.
+  void AddHand() {
+    if (!fault_.hand || !picture_.snapshot.X_WP) return;
+    const plan::HandFaultPlace& place = *fault_.hand;
+    const Isometry3d& X_WP = *picture_.snapshot.X_WP;
+    picture_.marks.links = place.links;
+    if (place.tip) {
+      // As far off as it can be seen: the hand is drawn as it stands.
+      const Vector3d expected = X_WP * place.tip->expected;
+      const Vector3d away = X_WP * place.tip->found - expected;
+      const double stretch = StretchOf(away.norm() / diameter_m(), kFarAway);
+      picture_.marks.dimensions.push_back(
+          {expected, expected + stretch * away, place.number + StretchText(stretch)});
+      picture_.marks.tips.push_back({expected, place.tip->radius});
+    } else if (place.at) {
+      picture_.marks.spots.push_back({X_WP * *place.at, place.number});
+    }
+  }
+
   /// The ghost is farther back than the object was, where that would not be seen.
   void AddMotion() {
     if (!fault_.X_WO_before) return;
@@ -212,13 +232,15 @@ class FaultSketch {
     const Eigen::AngleAxisd turn(fault_.X_WO_before->linear() * now.linear().transpose());
     const double motion = back.norm() / diameter_m() + std::abs(turn.angle()) / 2;
     if (!std::isfinite(motion) || motion > kFarAway) return;
-    if (reason_ != Reason::kObjectMoved && motion < kTooShort) return;
+    const bool of_hand = fault_.hand && fault_.hand->pose;
+    if (reason_ != Reason::kObjectMoved && !of_hand && motion < kTooShort) return;
     const double stretch = StretchOf(motion, kFarAway);
     Isometry3d ghost = Isometry3d::Identity();
     ghost.linear() = Eigen::AngleAxisd(stretch * turn.angle(), turn.axis()).matrix() * now.linear();
     ghost.translation() = picture_.marks.centroid + stretch * back - ghost.linear() * Centroid();
     picture_.marks.X_WO_before = ghost;
-    picture_.marks.ghost_text = "was here" + StretchText(stretch, "motion ");
+    picture_.marks.ghost_text =
+        PlaceText() + (of_hand ? ", " + fault_.hand->number : "") + StretchText(stretch, "motion ");
   }
 
   void LeaveOutWhatIsFar() {

@@ -40,6 +40,11 @@ struct FaultMarks {
     Eigen::Vector3d centre;
     double radius;
   };
+  /// A place in a hand that is at fault.
+  struct Spot {
+    Eigen::Vector3d at;
+    std::string text;
+  };
   std::string heading;               ///< what failed, in a line
   std::vector<FingerIndex> fingers;  ///< drawn in red
   bool planar = false;               ///< cones are flat
@@ -48,6 +53,8 @@ struct FaultMarks {
   std::vector<Place> places = {};
   std::vector<Cone> cones = {};
   std::vector<Tip> tips = {};
+  std::vector<Spot> spots = {};
+  std::vector<plan::HandLink> links = {};  ///< of a hand, drawn in red
   std::optional<plan::FaultPush> push = std::nullopt;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< now, where the push is drawn
   /// The object where it was before it moved, for a ghost.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "planner/sets/polyhedron/focus_view.h"
@@ -14,6 +15,7 @@
 #include "render/frames/canvas.h"
 #include "render/frames/fault_overlay.h"
 #include "render/frames/finger_glyph.h"
+#include "render/frames/turn_arrow.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/cairo_image.h"
 #include "render/picture/palette.h"
@@ -70,6 +72,13 @@ constexpr double kLowest = 0.35;
 
 constexpr int kMaxSupersampling = 4;
 
+/// Of the object where it was: its near side, its lines.
+constexpr double kGhostOpacity = 0.14;
+constexpr double kGhostLineOpacity = 0.55;
+
+/// So many frames of a hand, evenly taken from all, say from where it is seen.
+constexpr std::size_t kMostViewed = 12;
+
 /// The clusters' meshes come next, one a colour, and then those of the hand's links.
 enum Mesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
 
@@ -95,7 +104,7 @@ std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface,
 
 std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
                                   const std::optional<roadmap::ClusterView>& clusters,
-                                  const HandView& hand) {
+                                  const HandFigure& hand) {
   std::vector<FacetMesh> meshes = {
       body.surface, TurnInsideOut(body.surface),
       planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
@@ -105,7 +114,7 @@ std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double hal
       meshes.push_back(std::move(mesh));
     }
   }
-  meshes.insert(meshes.end(), hand.begin(), hand.end());
+  meshes.insert(meshes.end(), hand.meshes().begin(), hand.meshes().end());
   return meshes;
 }
 
@@ -186,9 +195,9 @@ class FrameRenderer::Impl {
         body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         planar_(object.dimension() == 2),
-        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters,
-                           InPicture(options.hand, frame_))),
-        hand_mesh_(static_cast<int>(meshes_.size() - options.hand.size())),
+        hand_(options.hand, frame_),
+        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters, hand_)),
+        hand_mesh_(static_cast<int>(meshes_.size() - hand_.meshes().size())),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(snapshots)),
@@ -207,9 +216,10 @@ class FrameRenderer::Impl {
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing = DrawBody(pose, camera);
     for (Shape& shape : FingerShapes(fingers)) drawing.shapes.push_back(std::move(shape));
-    if (std::vector<Shape> hand = HandOf(snapshot); !hand.empty()) {
-      drawing.layers.push_back({std::move(hand), kHandOpacity});
+    if (!snapshot.links_W.empty() && !options_.hand.empty()) {
+      drawing.veil = HandOf(snapshot, fingers, fault, camera);
     }
+    const std::vector<Vector3d> turn = AddBefore(snapshot, fault, camera, drawing);
     if (options_.show_focus) AddFocus(snapshot, drawing.shapes);
     if (options_.clusters) AddRepresentatives(snapshot, drawing.shapes);
     const auto draw = [&](Color paper) {
@@ -219,6 +229,7 @@ class FrameRenderer::Impl {
       const auto cover = [&covered](const std::vector<Obstacle>& more) {
         covered.insert(covered.end(), more.begin(), more.end());
       };
+      cover(ObstaclesOf(camera, turn));
       if (fault != nullptr) {
         cover(DrawFaultMarks(page, camera, frame_, body_, fingers, *fault, style_));
       }
@@ -236,9 +247,38 @@ class FrameRenderer::Impl {
   }
 
  private:
-  [[nodiscard]] std::vector<Shape> HandOf(const plan::Snapshot& snapshot) const {
-    if (options_.hand.empty()) return {};
-    return HandShapes(snapshot, frame_, hand_mesh_);
+  [[nodiscard]] Veil HandOf(const plan::Snapshot& snapshot, std::span<const FingerGlyph> fingers,
+                            const FaultMarks* fault, const Camera& camera) const {
+    const std::vector<plan::HandLink> none;
+    return {hand_.Shapes(snapshot, fault != nullptr ? fault->links : none, hand_mesh_),
+            {{kOutsideMesh, frame_.BodyPose(snapshot.X_WO)}},
+            hand_.Windows(snapshot, fingers, camera)};
+  }
+
+  /// The object where it was before it moved in the hand, and how it turned; not where a fault has
+  /// a ghost of its own.
+  std::vector<Vector3d> AddBefore(const plan::Snapshot& snapshot, const FaultMarks* fault,
+                                  const Camera& camera, Drawing& drawing) const {
+    if (!snapshot.X_WO_before || (fault != nullptr && fault->X_WO_before)) return {};
+    const Eigen::Isometry3d before = frame_.BodyPose(*snapshot.X_WO_before);
+    const Eigen::Isometry3d after = frame_.BodyPose(snapshot.X_WO);
+    drawing.layers.insert(drawing.layers.begin(),
+                          {{{MeshInstance{kOutsideMesh, before}, kBefore}}, kGhostOpacity});
+    std::vector<Shape> lines;
+    AddLines(body_.edges, before, 1, lines);
+    AddLines(FindOutline(body_,
+                         [&](const Vector3d& p) -> Vector3d {
+                           return before.linear().transpose() * camera.ToEye(before * p);
+                         }),
+             before, 1, lines);
+    for (Shape& line : lines) {
+      line.color = kBefore;
+      line.opacity = kGhostLineOpacity;
+      drawing.shapes.push_back(std::move(line));
+    }
+    const auto turn = TurnArrow(body_.surface, before, after, camera.axes.col(2));
+    if (!turn.empty()) AddTurnArrow(turn, kArrowMesh, drawing.shapes);
+    return turn;
   }
 
   [[nodiscard]] std::vector<FingerGlyph> GlyphsOf(const plan::Snapshot& snapshot) const {
@@ -358,17 +398,24 @@ class FrameRenderer::Impl {
   struct Sequence {
     std::vector<std::vector<FingerGlyph>> frames = {};  ///< none of what is far away
     std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
-    std::vector<Shape> hands = {};
+    std::vector<Standing> standing = {};  ///< of plans for a hand
+    std::vector<Vector3d> hands = {};     ///< points that bound them
   };
 
   [[nodiscard]] Sequence SequenceOf(const std::vector<plan::Snapshot>& snapshots) const {
     Sequence all;
     for (const plan::Snapshot& snapshot : snapshots) {
       all.frames.emplace_back();
+      if (!options_.hand.empty()) all.standing.emplace_back();
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       all.poses.push_back(pose);
-      for (Shape& link : HandOf(snapshot)) all.hands.push_back(std::move(link));
+      if (snapshot.X_WO_before) all.poses.push_back(frame_.BodyPose(*snapshot.X_WO_before));
+      if (!options_.hand.empty()) {
+        all.standing.back() = {pose.inverse(), hand_.Rays(snapshot)};
+        const std::vector<Vector3d> bounds = hand_.Bounds(snapshot);
+        all.hands.insert(all.hands.end(), bounds.begin(), bounds.end());
+      }
       all.frames.back() =
           MakeFingerGlyphs(snapshot, frame_, body_.rays, {GapView::kNone, FingerRadius()});
     }
@@ -386,7 +433,8 @@ class FrameRenderer::Impl {
         extent.Add(Ball{glyph.end + glyph.outward * kLabelSpace, kLabelSpace / 2});
       }
     }
-    for (const Shape& link : all.hands) extent.Add(link.form);
+    for (const Vector3d& p : all.hands) extent.Add(Ball{p, 0});
+    for (const Vector3d& p_W : options_.reached) extent.Add(Ball{frame_.FromWorld(p_W), 0});
     for (const Vector3d& p_W : options_.also_seen) {
       const Vector3d p = frame_.FromWorld(p_W);
       if (p.norm() < kFarMark) extent.Add(Ball{p, kLabelSpace / 2});
@@ -412,13 +460,27 @@ class FrameRenderer::Impl {
                      margins, points);
   }
 
+  /// Through a hand's plan the palm stays where it is, seen from one place.
+  [[nodiscard]] Viewpoints ViewpointsOf(const Sequence& all) const {
+    if (all.standing.empty()) {
+      return ChooseViewpoints(body_, planar_, all.frames, largest_force_);
+    }
+    const std::size_t stride = 1 + (all.frames.size() - 1) / kMostViewed;
+    std::vector<std::vector<FingerGlyph>> frames;
+    std::vector<Standing> standing;
+    for (std::size_t i = 0; i < all.frames.size(); i += stride) {
+      frames.push_back(all.frames[i]);
+      standing.push_back(all.standing[i]);
+    }
+    return {ChooseViewpoints(body_, planar_, frames, largest_force_, standing).common, {}};
+  }
+
   /// Cameras that see all that is drawn.
   [[nodiscard]] Cameras MakeCameras(const std::vector<plan::Snapshot>& snapshots) const {
     const Sequence all = SequenceOf(snapshots);
     const ViewOptions& view = options_.view;
     const Viewpoints viewpoints =
-        view.direction ? Viewpoints{view.direction->ToCamera(), {}}
-                       : ChooseViewpoints(body_, planar_, all.frames, largest_force_);
+        view.direction ? Viewpoints{view.direction->ToCamera(), {}} : ViewpointsOf(all);
     const std::vector<Vector3d> points = ExtentOf(all, CameraAxes(viewpoints.common));
     Cameras cameras = {FitTo(points, viewpoints.common, options_.width, options_.height)};
     if (options_.crop) {
@@ -457,6 +519,7 @@ class FrameRenderer::Impl {
   BodyShape body_;
   PictureFrame frame_;
   bool planar_;
+  HandFigure hand_;
   std::vector<FacetMesh> meshes_;
   int hand_mesh_;  ///< the first of the hand's
   double largest_force_;

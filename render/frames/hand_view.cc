@@ -1,32 +1,207 @@
 #include "render/frames/hand_view.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
 #include "render/picture/palette.h"
 
 namespace regrasp::render {
 namespace {
 
-constexpr Color kHandColor = {214, 206, 196};
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr Color kHandColor = {222, 214, 203};
+constexpr Color kHandOutline = {96, 92, 90};
+/// How much of its finger's colour a tip that touches has, and of red a link at fault.
+constexpr double kTint = 0.42;
+constexpr double kFaultTint = 0.72;
+/// How much a hand hides of what is behind it.
+constexpr double kHandOpacity = 0.9;
+/// Width of its outline, in diameters.
+constexpr double kRim = 0.006;
+/// By so much for each joint links are thicker than those before them: round ends of two links that
+/// are the same ball at a joint would fight for it.
+constexpr double kHair = 1.5e-3;
+
+/// Around the middle of ball and cone, in diameters.
+constexpr double kWindow = 0.16;
+/// A finger of whose places this share is hidden is seen as through glass.
+constexpr double kMostHidden = 0.5;
+constexpr double kRaySkip = 1e-4;
+
+Color Mixed(Color a, Color b, double share) {
+  const auto mix = [share](int x, int y) {
+    return static_cast<unsigned char>(std::lround((1 - share) * x + share * y));
+  };
+  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
+}
+
+/// Parts that hang together and are inside out are turned: a shell of them would hide them.
+void OrientOutward(FacetMesh& mesh) {
+  const int count = static_cast<int>(mesh.triangles.size());
+  std::vector<int> parts(count);
+  std::iota(parts.begin(), parts.end(), 0);
+  const auto part_of = [&parts](int i) {
+    while (parts[i] != i) i = parts[i] = parts[parts[i]];
+    return i;
+  };
+  std::map<std::array<double, 3>, int> owner;  // of each corner
+  for (int i = 0; i < count; ++i) {
+    for (const Vector3d& p : mesh.triangles[i]) {
+      const auto [found, is_new] = owner.try_emplace({p.x(), p.y(), p.z()}, i);
+      if (!is_new) parts[part_of(i)] = part_of(found->second);
+    }
+  }
+  // About a point in the middle, so that a part with holes has about the volume that it encloses.
+  std::vector<Vector3d> sums(count, Vector3d::Zero());
+  std::vector<int> sizes(count, 0);
+  for (int i = 0; i < count; ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    sums[part_of(i)] += (a + b + c) / 3;
+    ++sizes[part_of(i)];
+  }
+  std::vector<double> volumes(count, 0);
+  for (int i = 0; i < count; ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    const int part = part_of(i);
+    const Vector3d middle = sums[part] / sizes[part];
+    volumes[part] += (a - middle).cross(b - middle).dot(c - middle);
+  }
+  for (int i = 0; i < count; ++i) {
+    if (volumes[part_of(i)] >= 0) continue;
+    std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    std::swap(mesh.normals[i][1], mesh.normals[i][2]);
+    for (Vector3d& normal : mesh.normals[i]) normal = -normal;
+  }
+}
+
+void Grow(double by, FacetMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) mesh.triangles[i][k] += by * mesh.normals[i][k];
+  }
+}
+
+/// A mesh a little larger, seen from inside: before it stands the mesh itself but at its rim.
+FacetMesh MakeShell(FacetMesh mesh) {
+  Grow(kRim, mesh);
+  return TurnInsideOut(std::move(mesh));
+}
+
+/// The farthest corners in many directions.
+std::vector<Vector3d> FarthestCorners(const FacetMesh& mesh) {
+  constexpr int kDirections = 96;
+  std::vector<Vector3d> farthest;
+  for (int i = 0; i < kDirections; ++i) {
+    // Evenly over the sphere: a spiral by the golden angle.
+    const double z = 1 - (2.0 * i + 1) / kDirections;
+    const double turn = std::numbers::pi * (3 - std::sqrt(5)) * i;
+    const Vector3d direction(std::sqrt(1 - z * z) * std::cos(turn),
+                             std::sqrt(1 - z * z) * std::sin(turn), z);
+    const Vector3d* best = nullptr;
+    for (const auto& corners : mesh.triangles) {
+      for (const Vector3d& p : corners) {
+        if (best == nullptr || p.dot(direction) > best->dot(direction)) best = &p;
+      }
+    }
+    if (best != nullptr) farthest.push_back(*best);
+  }
+  return farthest;
+}
+
+bool Touches(const plan::FingerState& finger) {
+  return finger.role != plan::FingerRole::kFree && finger.role != plan::FingerRole::kReleased;
+}
 
 }  // namespace
 
-HandView InPicture(HandView hand, const PictureFrame& frame) {
-  for (FacetMesh& mesh : hand) {
+HandFigure::HandFigure(const HandView& hand, const PictureFrame& frame) : frame_(frame) {
+  for (const HandLinkView& view : hand) {
+    links_.push_back(view.link);
+    is_tip_.push_back(view.is_tip);
+    FacetMesh mesh = view.mesh;
     for (auto& corners : mesh.triangles) {
-      for (Eigen::Vector3d& p : corners) p /= frame.diameter_m;
+      for (Vector3d& p : corners) p /= frame.diameter_m;
     }
+    OrientOutward(mesh);
+    Grow(kHair * view.link.joints, mesh);
+    rays_.emplace_back(mesh);
+    bounds_.push_back(FarthestCorners(mesh));
+    meshes_.push_back(MakeShell(mesh));
+    meshes_.push_back(std::move(mesh));
   }
-  return hand;
 }
 
-std::vector<Shape> HandShapes(const plan::Snapshot& snapshot, const PictureFrame& frame,
-                              int first_mesh) {
+Isometry3d HandFigure::PoseOf(const plan::Snapshot& snapshot, std::size_t link) const {
+  Isometry3d pose = snapshot.links_W[link];
+  pose.translation() = frame_.FromWorld(pose.translation());
+  return pose;
+}
+
+std::vector<Shape> HandFigure::Shapes(const plan::Snapshot& snapshot,
+                                      std::span<const plan::HandLink> at_fault,
+                                      int first_mesh) const {
+  const auto color_of = [&](std::size_t i) {
+    const plan::HandLink& link = links_[i];
+    if (std::ranges::find(at_fault, link) != at_fault.end()) {
+      return Mixed(kHandColor, kFaultRed, kFaultTint);
+    }
+    const auto finger =
+        std::ranges::find(snapshot.fingers, link.finger, &plan::FingerState::finger);
+    const bool touches = finger != snapshot.fingers.end() && Touches(*finger);
+    return touches && is_tip_[i] ? Mixed(kHandColor, FingerColor(link.finger), kTint) : kHandColor;
+  };
   std::vector<Shape> shapes;
   for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
-    Eigen::Isometry3d pose = snapshot.links_W[i];
-    pose.translation() = frame.FromWorld(pose.translation());
-    shapes.push_back({MeshInstance{first_mesh + static_cast<int>(i), pose}, kHandColor});
+    const Isometry3d pose = PoseOf(snapshot, i);
+    const int mesh = first_mesh + 2 * static_cast<int>(i);
+    shapes.push_back({MeshInstance{mesh, pose}, kHandOutline, kHandOpacity});
+    shapes.push_back({MeshInstance{mesh + 1, pose}, color_of(i), kHandOpacity});
   }
   return shapes;
+}
+
+std::vector<Vector3d> HandFigure::Bounds(const plan::Snapshot& snapshot) const {
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+    const Isometry3d pose = PoseOf(snapshot, i);
+    for (const Vector3d& p : bounds_[i]) points.push_back(pose * p);
+  }
+  return points;
+}
+
+std::vector<PlacedRays> HandFigure::Rays(const plan::Snapshot& snapshot) const {
+  std::vector<PlacedRays> placed;
+  for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+    placed.push_back({&rays_[i], PoseOf(snapshot, i).inverse()});
+  }
+  return placed;
+}
+
+std::vector<Window> HandFigure::Windows(const plan::Snapshot& snapshot,
+                                        std::span<const FingerGlyph> fingers,
+                                        const Camera& camera) const {
+  const std::vector<PlacedRays> links = Rays(snapshot);
+  std::vector<Window> windows;
+  for (const FingerGlyph& glyph : fingers) {
+    if (glyph.role == plan::FingerRole::kReleased) continue;
+    constexpr std::array<double, 5> kPlaces = {-0.9, -0.6, -0.3, 0, 0.25};
+    int hidden = 0;
+    for (const double place : kPlaces) {
+      const Vector3d p = glyph.contact + place * kConeLength * glyph.outward;
+      if (IsMet(links, p, camera.ToEye(p), kRaySkip)) ++hidden;
+    }
+    if (hidden == 0) continue;
+    const double share = static_cast<double>(hidden) / kPlaces.size();
+    const Vector3d middle = glyph.contact - 0.35 * kConeLength * glyph.outward;
+    windows.push_back({camera.Project(middle), kWindow * camera.PixelsPerUnit(middle),
+                       std::min(1.0, share / kMostHidden)});
+  }
+  return windows;
 }
 
 }  // namespace regrasp::render

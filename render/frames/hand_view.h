@@ -1,28 +1,65 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "planner/plan/reason.h"
 #include "planner/plan/snapshot.h"
+#include "render/frames/camera.h"
 #include "render/frames/canvas.h"
 #include "render/frames/facet_mesh.h"
 #include "render/frames/finger_glyph.h"
+#include "render/frames/ray_tree.h"
 
 namespace regrasp::render {
 
-/// A hand that frames show: the meshes of its links, in their own frames, metres. Where they are
-/// says plan::Snapshot::links_W, in the same order.
-using HandView = std::vector<FacetMesh>;
+/// A link of a hand as frames show it.
+struct HandLinkView {
+  plan::HandLink link;
+  bool is_tip = false;
+  FacetMesh mesh;  ///< in its own frame, metres
+};
 
-/// The side of the hand that is seen is laid over the frame with this opacity: contacts and cones
-/// show through.
-inline constexpr double kHandOpacity = 0.6;
+/// A hand that frames show. Where its links are says plan::Snapshot::links_W, in the same order.
+using HandView = std::vector<HandLinkView>;
 
-/// The same meshes in the picture's unit of length.
-[[nodiscard]] HandView InPicture(HandView hand, const PictureFrame& frame);
+/// What a frame needs of a hand, in the picture's unit of length.
+class HandFigure {
+ public:
+  HandFigure(const HandView& hand, const PictureFrame& frame);
 
-/// The links of a snapshot; none where it has no hand.
-/// @param first_mesh  of the hand's, among the canvas's.
-[[nodiscard]] std::vector<Shape> HandShapes(const plan::Snapshot& snapshot,
-                                            const PictureFrame& frame, int first_mesh);
+  /// For the canvas: the links, and for each of them a dark shell of which only the rim is seen,
+  /// its outline.
+  [[nodiscard]] const std::vector<FacetMesh>& meshes() const { return meshes_; }
+
+  /// The links of a snapshot; none where it has no hand. Tips of fingers that touch have some of
+  /// the finger's colour; `at_fault` is red.
+  /// @param first_mesh  of meshes(), among the canvas's.
+  [[nodiscard]] std::vector<Shape> Shapes(const plan::Snapshot& snapshot,
+                                          std::span<const plan::HandLink> at_fault,
+                                          int first_mesh) const;
+
+  /// Where the hand is seen through, as it would hide a contact: the more of it is hidden, the more
+  /// clearly.
+  [[nodiscard]] std::vector<Window> Windows(const plan::Snapshot& snapshot,
+                                            std::span<const FingerGlyph> fingers,
+                                            const Camera& camera) const;
+
+  /// Points that bound what is seen of a snapshot's hand, as nearly as a picture needs it.
+  [[nodiscard]] std::vector<Eigen::Vector3d> Bounds(const plan::Snapshot& snapshot) const;
+
+  /// Surfaces of the links and where they are, for a choice of views.
+  [[nodiscard]] std::vector<PlacedRays> Rays(const plan::Snapshot& snapshot) const;
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d PoseOf(const plan::Snapshot& snapshot, std::size_t link) const;
+
+  PictureFrame frame_;
+  std::vector<plan::HandLink> links_;
+  std::vector<bool> is_tip_;
+  std::vector<FacetMesh> meshes_;
+  std::vector<RayTree> rays_;
+  std::vector<std::vector<Eigen::Vector3d>> bounds_;  ///< of each link
+};
 
 }  // namespace regrasp::render

@@ -122,4 +122,12 @@ int RayTree::CountHits(const Vector3d& origin, const Vector3d& direction, double
   return hits;
 }
 
+bool IsMet(const std::vector<PlacedRays>& surfaces, const Eigen::Vector3d& origin,
+           const Eigen::Vector3d& direction, double skip) {
+  return std::ranges::any_of(surfaces, [&](const PlacedRays& surface) {
+    const auto& [rays, to_rays] = surface;
+    return rays->CountHits(to_rays * origin, to_rays.linear() * direction, skip, 1) > 0;
+  });
+}
+
 }  // namespace regrasp::render

@@ -42,4 +42,14 @@ class RayTree {
   std::vector<Node> nodes_;
 };
 
+/// A surface somewhere.
+struct PlacedRays {
+  const RayTree* rays;
+  Eigen::Isometry3d to_rays;  ///< into its own frame
+};
+
+/// Whether a ray meets one of them.
+[[nodiscard]] bool IsMet(const std::vector<PlacedRays>& surfaces, const Eigen::Vector3d& origin,
+                         const Eigen::Vector3d& direction, double skip);
+
 }  // namespace regrasp::render

@@ -75,6 +75,13 @@ int RestTime_ms(const std::vector<AnimationRest>& rests, std::size_t entry) {
   return entry == 0 ? kFirstRestTime_ms : kRestTime_ms;
 }
 
+void AddRest(const std::vector<AnimationRest>& rests, std::size_t entry,
+             std::vector<AnimationPicture>& pictures) {
+  const AnimationRest& rest = rests[entry];
+  const FaultMarks* marks = rest.marks ? &*rest.marks : nullptr;
+  pictures.push_back({{&rest.snapshot, rest.caption, marks}, RestTime_ms(rests, entry)});
+}
+
 /// Some of the rests: they have the colours of the fingers, of forces and of marks.
 std::vector<Image> RenderExamples(const FrameRenderer& renderer,
                                   const std::vector<AnimationPicture>& pictures, int workers) {
@@ -120,6 +127,21 @@ std::vector<int> ChooseInstants(const std::vector<double>& progress, double from
   return chosen;
 }
 
+std::vector<AnimationPicture> JoinAnimation(const std::vector<std::vector<plan::Snapshot>>& motions,
+                                            const std::vector<AnimationRest>& rests) {
+  std::size_t all = 0;
+  for (const auto& motion : motions) all += motion.size();
+  const std::size_t stride = 1 + all / (kMostPicturesInAll + 1);
+  std::vector<AnimationPicture> pictures;
+  for (std::size_t entry = 0; entry < rests.size(); ++entry) {
+    for (std::size_t i = stride / 2; i < motions[entry].size(); i += stride) {
+      pictures.push_back({{&motions[entry][i], rests[entry].moving_caption}, kPictureTime_ms});
+    }
+    AddRest(rests, entry, pictures);
+  }
+  return pictures;
+}
+
 std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& samples,
                                            const std::vector<AnimationRest>& rests,
                                            double diameter_m) {
@@ -133,8 +155,7 @@ std::vector<AnimationPicture> CutAnimation(const std::vector<plan::Snapshot>& sa
     for (const int at : ChooseInstants(progress, from, at_rests[entry], counts[entry])) {
       pictures.push_back({{&samples[at], rest.moving_caption}, kPictureTime_ms});
     }
-    const FaultMarks* marks = rest.marks ? &*rest.marks : nullptr;
-    pictures.push_back({{&rest.snapshot, rest.caption, marks}, RestTime_ms(rests, entry)});
+    AddRest(rests, entry, pictures);
     from = at_rests[entry];
   }
   return pictures;

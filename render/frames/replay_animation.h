@@ -66,6 +66,12 @@ struct AnimationPicture {
                                                          const std::vector<AnimationRest>& rests,
                                                          double diameter_m);
 
+/// The same of pictures that are chosen already: those before each rest.
+/// @param motions  as many as rests; they and the rests outlive what is returned.
+[[nodiscard]] std::vector<AnimationPicture> JoinAnimation(
+    const std::vector<std::vector<plan::Snapshot>>& motions,
+    const std::vector<AnimationRest>& rests);
+
 /// Draws the pictures and writes one file of them in each format. Deterministic, whatever the
 /// number of workers.
 /// @param renderer    with GapView::kShown.

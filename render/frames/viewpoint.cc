@@ -33,10 +33,14 @@ constexpr double kOverlap = 1.5;        ///< two fingers cover each other
 constexpr double kEdgeOnFace = 0.5;     ///< all faces are seen edge-on
 constexpr double kWorstSeen = 0.5;      ///< the finger of a frame that is seen worst
 
+constexpr double kBodyHidden = 1.5;  ///< all of the object is behind a hand
+
 /// What counts that is seen through a wall of the object, both of its sides.
 constexpr double kThroughWall = 0.35;
 /// What counts that is inside it.
 constexpr double kInside = 0.7;
+/// What counts that is seen through a hand.
+constexpr double kThroughHand = 0.35;
 constexpr int kMostSides = 4;
 
 /// A finger with less than this of the score is not seen well enough: it points along the line of
@@ -84,8 +88,9 @@ struct Sight {
 class Scene {
  public:
   /// All arguments outlive this object.
-  Scene(const RayTree& body, const std::vector<FingerGlyph>& fingers, const Eigen::Matrix3d& axes)
-      : body_(body), fingers_(fingers), axes_(axes) {}
+  Scene(const RayTree& body, const std::vector<FingerGlyph>& fingers, const Eigen::Matrix3d& axes,
+        const Standing& standing)
+      : body_(body), fingers_(fingers), axes_(axes), standing_(standing) {}
 
   [[nodiscard]] Sight Look(const FingerGlyph& glyph, double largest_force) const {
     Sight sight;
@@ -124,8 +129,11 @@ class Scene {
   /// How much is seen of what a finger has at a point.
   [[nodiscard]] double Share(const FingerGlyph& own, const Vector3d& p) const {
     if (IsCovered(own, p)) return 0;
-    const int sides = body_.CountHits(p, axes_.col(2), kRaySkip, kMostSides);
-    return std::pow(kThroughWall, sides / 2) * (sides % 2 == 1 ? kInside : 1);
+    const Eigen::Isometry3d& to_body = standing_.to_body;
+    const int sides =
+        body_.CountHits(to_body * p, to_body.linear() * axes_.col(2), kRaySkip, kMostSides);
+    const double through_hand = IsMet(standing_.hand, p, axes_.col(2), kRaySkip) ? kThroughHand : 1;
+    return through_hand * std::pow(kThroughWall, sides / 2) * (sides % 2 == 1 ? kInside : 1);
   }
 
   [[nodiscard]] double BallShare(const FingerGlyph& glyph) const {
@@ -178,20 +186,22 @@ class Scene {
   const RayTree& body_;
   const std::vector<FingerGlyph>& fingers_;
   const Eigen::Matrix3d& axes_;
+  const Standing& standing_;
 };
 
 /// How a frame looks from somewhere.
 struct FrameSight {
-  double mean = 0;   ///< score of its fingers
-  double worst = 0;  ///< of them
+  double mean = 0;    ///< score of its fingers
+  double worst = 0;   ///< of them
+  double hidden = 0;  ///< share of the object that a hand hides
 
-  [[nodiscard]] double Score() const { return mean + kWorstSeen * worst; }
+  [[nodiscard]] double Score() const { return mean + kWorstSeen * worst - kBodyHidden * hidden; }
 };
 
 FrameSight LookAt(const RayTree& body, const std::vector<FingerGlyph>& fingers,
-                  const Eigen::Matrix3d& axes, double largest_force) {
+                  const Eigen::Matrix3d& axes, double largest_force, const Standing& standing) {
   if (fingers.empty()) return {};
-  const Scene scene(body, fingers, axes);
+  const Scene scene(body, fingers, axes, standing);
   std::vector<double> scores;
   for (const FingerGlyph& glyph : fingers) {
     scores.push_back(scene.Look(glyph, largest_force).Score());
@@ -244,6 +254,22 @@ double PictureArea(const std::vector<Facet>& facets, const Eigen::Matrix3d& axes
   return box.volume();
 }
 
+/// How much of an object a hand hides.
+double HiddenShare(const std::vector<Facet>& facets, const Standing& standing,
+                   const Vector3d& back) {
+  constexpr std::size_t kPoints = 40;
+  if (standing.hand.empty()) return 0;
+  const Eigen::Isometry3d from_body = standing.to_body.inverse();
+  const std::size_t stride = 1 + facets.size() / kPoints;
+  int hidden = 0;
+  int all = 0;
+  for (std::size_t i = 0; i < facets.size(); i += stride) {
+    ++all;
+    if (IsMet(standing.hand, from_body * facets[i].corner, back, kRaySkip)) ++hidden;
+  }
+  return static_cast<double>(hidden) / all;
+}
+
 struct Candidate {
   Vector3d back;
   double body = 0;  ///< how well the object is seen, and how odd the place is
@@ -253,7 +279,8 @@ struct Candidate {
 
 std::vector<Candidate> ListCandidates(const BodyShape& body,
                                       const std::vector<std::vector<FingerGlyph>>& frames,
-                                      double largest_force) {
+                                      double largest_force, const std::vector<Standing>& standing) {
+  static const Standing kAlone;
   const std::vector<Facet> facets = TakeFacets(body.surface);
   std::vector<Candidate> candidates;
   for (std::size_t e = 0; e < kElevationsDeg.size(); ++e) {
@@ -265,8 +292,11 @@ std::vector<Candidate> ListCandidates(const BodyShape& body,
       const Eigen::Matrix3d axes = CameraAxes(back);
       candidates.push_back({back, -kElevationCosts[e] - kEdgeOnFace * EdgeOnShare(facets, back),
                             PictureArea(facets, axes)});
-      for (const std::vector<FingerGlyph>& fingers : frames) {
-        candidates.back().frames.push_back(LookAt(body.rays, fingers, axes, largest_force));
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Standing& stands = standing.empty() ? kAlone : standing[i];
+        candidates.back().frames.push_back(
+            LookAt(body.rays, frames[i], axes, largest_force, stands));
+        candidates.back().frames.back().hidden = HiddenShare(facets, stands, back);
       }
     }
   }
@@ -284,10 +314,10 @@ Vector3d ViewDirection::ToCamera() const {
 
 Viewpoints ChooseViewpoints(const BodyShape& body, bool planar,
                             const std::vector<std::vector<FingerGlyph>>& frames,
-                            double largest_force) {
+                            double largest_force, const std::vector<Standing>& standing) {
   Viewpoints chosen = {Vector3d::UnitZ(), std::vector<std::optional<Vector3d>>(frames.size())};
   if (planar) return chosen;
-  const std::vector<Candidate> candidates = ListCandidates(body, frames, largest_force);
+  const std::vector<Candidate> candidates = ListCandidates(body, frames, largest_force, standing);
   const auto in_all = [&](const Candidate& candidate) {
     double score = 0;
     for (const FrameSight& frame : candidate.frames) score += frame.Score();

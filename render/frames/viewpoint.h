@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
+#include "render/frames/ray_tree.h"
 
 namespace regrasp::render {
 
@@ -35,6 +36,12 @@ struct Viewpoints {
   std::vector<std::optional<Eigen::Vector3d>> own;
 };
 
+/// How body and hand stand in a frame of a plan for a hand.
+struct Standing {
+  Eigen::Isometry3d to_body = Eigen::Isometry3d::Identity();
+  std::vector<PlacedRays> hand = {};  ///< hides what is behind it, but not quite
+};
+
 /// Tries directions around the object from a little above (and, less gladly, from below) and takes
 /// the one that sees most of each finger: of its ball and stem, which the object and other fingers
 /// hide, of its force arrow, which is also the shorter the more it points at the camera, and of its
@@ -49,8 +56,10 @@ struct Viewpoints {
 /// A planar object is seen from straight above.
 /// @param frames         the fingers of every frame of the sequence.
 /// @param largest_force  of the whole sequence, newtons.
+/// @param standing       of each frame; empty: the body is where it is, and there is no hand.
 [[nodiscard]] Viewpoints ChooseViewpoints(const BodyShape& body, bool planar,
                                           const std::vector<std::vector<FingerGlyph>>& frames,
-                                          double largest_force);
+                                          double largest_force,
+                                          const std::vector<Standing>& standing = {});
 
 }  // namespace regrasp::render

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 
-#include "planner/base/angle.h"
 #include "planner/base/error.h"
-#include "planner/base/number.h"
-#include "planner/base/quantity_text.h"
 #include "sim/hand/hand_body.h"
+#include "sim/hand/hand_finding.h"
 
 namespace regrasp::sim {
 namespace {
@@ -17,7 +16,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using plan::HandState;
 using plan::Reason;
-using Joints = std::vector<std::vector<double>>;
 
 constexpr double kSameJoint = 1e-9;  // radians
 constexpr double kSamePlace = 1e-9;  // metres
@@ -34,26 +32,49 @@ constexpr double kFinest = 1e-4;
 constexpr double kGoalPlace = 1e-6;
 constexpr double kGoalTurn = 1e-6;
 
-struct Fault {
-  Reason reason = Reason::kNone;
-  std::string detail;
+/// How often a path is looked at for where it is worst.
+constexpr int kMostSamples = 96;
+
+using MaybeFault = std::optional<HandFinding>;
+
+/// Parts of the hand that are too near to each other.
+struct NearPair {
+  int part;
+  int other = -1;     ///< −1: the object
+  double needed = 0;  ///< how near they may be
 };
-using MaybeFault = std::optional<Fault>;
+
+/// A path of a step, and how messages call it.
+struct NamedPath {
+  const plan::HandPath& states;
+  std::string name = {};  ///< empty: no path but one state
+
+  [[nodiscard]] std::string InState(std::size_t index) const {
+    return name.empty() ? "" : "in state " + std::to_string(index) + " of " + name;
+  }
+  [[nodiscard]] std::string After(std::size_t index) const {
+    return name.empty() ? "" : "after state " + std::to_string(index) + " of " + name;
+  }
+};
 
 double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-HandState Mix(const HandState& a, const HandState& b) {
+bool IsSamePlace(const Isometry3d& a, const Isometry3d& b) {
+  return (a.translation() - b.translation()).norm() <= kSamePlace && TurnBetween(a, b) <= kSameTurn;
+}
+
+HandState Mix(const HandState& a, const HandState& b, double share = 0.5) {
   HandState middle;
-  middle.pose.translation() = (a.pose.translation() + b.pose.translation()) / 2;
+  middle.pose.translation() = (1 - share) * a.pose.translation() + share * b.pose.translation();
   const Eigen::AngleAxisd turn(a.pose.linear().transpose() * b.pose.linear());
   middle.pose.linear() =
-      a.pose.linear() * Eigen::AngleAxisd(turn.angle() / 2, turn.axis()).toRotationMatrix();
+      a.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
   middle.joints = a.joints;
   for (std::size_t i = 0; i < middle.joints.size(); ++i) {
     for (std::size_t k = 0; k < middle.joints[i].size(); ++k) {
-      middle.joints[i][k] = (a.joints[i][k] + b.joints[i][k]) / 2;
+      middle.joints[i][k] = (1 - share) * a.joints[i][k] + share * b.joints[i][k];
     }
   }
   return middle;
@@ -77,7 +98,7 @@ class Checker {
   std::vector<plan::HandFault> Check() {
     std::vector<plan::HandFault> faults;
     const auto take = [&](plan::EntryIndex entry, const MaybeFault& fault) {
-      if (fault) faults.push_back({entry, fault->reason, fault->detail});
+      if (fault) faults.push_back({entry, fault->reason, fault->detail, fault->fault});
     };
     holding_ = plan_.initial;
     state_ = plan_.hand->initial;
@@ -98,29 +119,36 @@ class Checker {
   using Touching = std::vector<const plan::FingerContact*>;
 
   [[nodiscard]] int finger_count() const { return static_cast<int>(body_.hand().fingers.size()); }
-  [[nodiscard]] std::string NameOf(FingerIndex finger) const {
-    return "finger " + std::to_string(finger) + " (" + body_.hand().fingers[finger].name + ")";
-  }
   [[nodiscard]] Vector3d BallAt(const plan::FingerContact& held, const Isometry3d& pose) const {
     const double radius = body_.hand().fingers[held.finger].tip.radius;
     return pose * (plan_.scale * held.contact.p - radius * held.contact.n);
   }
 
+  /// Faults of shapes and beginnings.
   MaybeFault CheckShape(const HandState& state) const;
-  MaybeFault CheckContinues(const plan::HandPath& path) const;
-  MaybeFault CheckLimits(const HandState& state) const;
-  MaybeFault CheckTips(const plan::FingerGrasp& grasp, const HandState& state, double tolerance);
+  MaybeFault CheckContinues(const plan::HandPath& path);
+  MaybeFault CheckLimits(const NamedPath& path, std::size_t index);
+  MaybeFault CheckTips(const plan::FingerGrasp& grasp, const HandState& state, double tolerance,
+                       const std::string& when);
   MaybeFault CheckRest();
+  HandFinding AtModelsRest(HandFinding finding) const;
   MaybeFault CheckStep(const plan::Step& step);
   MaybeFault CheckMove(const plan::Move& move);
   MaybeFault CheckSwitch(const plan::Switch& change);
-  MaybeFault CheckFingersGo(const plan::HandPath& path, const plan::FingerGrasp& moving,
+  MaybeFault CheckFingersGo(const NamedPath& path, const plan::FingerGrasp& moving,
                             const plan::FingerGrasp& still);
   MaybeFault CheckGoal() const;
-  MaybeFault CheckPath(const HandState& from, const HandState& to, const Touching& touching,
+  /// Everything between a state of a path and the one before. @param follow  tips that keep their
+  /// contacts.
+  MaybeFault CheckPath(const NamedPath& path, std::size_t index, const Touching& touching,
                        const plan::FingerGrasp& follow);
-  MaybeFault FindNear(const HandState& middle, const std::vector<double>& bounds,
-                      double object_bound, const Touching& touching);
+  using Conflict = std::variant<HandFinding, NearPair>;
+  std::optional<Conflict> FindConflict(const HandState& from, const HandState& to,
+                                       const Touching& touching, const plan::FingerGrasp& follow,
+                                       const std::string& when);
+  std::optional<NearPair> FindNear(const HandState& middle, const std::vector<double>& bounds,
+                                   double object_bound, const Touching& touching);
+  HandFinding WorstOf(const NearPair& near, const NamedPath& path, std::size_t index);
   [[nodiscard]] double NeededFromObject(int part, const Isometry3d& pose,
                                         const Touching& touching) const;
 
@@ -140,74 +168,74 @@ MaybeFault Checker::CheckShape(const HandState& state) const {
     same = state.joints[i].size() == fingers[i].joints.size();
   }
   if (same) return std::nullopt;
-  return Fault{Reason::kHandJumps, "a state has other numbers of fingers or joints than the hand"};
+  return NoSuchPath("a state has other numbers of fingers or joints than the hand", state_);
 }
 
-MaybeFault Checker::CheckContinues(const plan::HandPath& path) const {
-  if (path.empty()) return Fault{Reason::kHandJumps, "the hand has no path in this step"};
+MaybeFault Checker::CheckContinues(const plan::HandPath& path) {
+  if (path.empty()) return NoSuchPath("the hand has no path in this step", state_);
   for (const HandState& state : path) {
     if (auto fault = CheckShape(state)) return fault;
   }
   const HandState& first = path.front();
-  const double off = (first.pose.translation() - state_.pose.translation()).norm();
-  if (off > kSamePlace || TurnBetween(first.pose, state_.pose) > kSameTurn) {
-    return Fault{Reason::kHandJumps,
-                 "the object begins the step " + FormatLength(off) + " and " +
-                     FormatDegrees(Degrees(TurnBetween(first.pose, state_.pose))) +
-                     " from where it was"};
+  if (!IsSamePlace(first.pose, state_.pose)) {
+    return ObjectJumps(first, state_.pose, "begins the step");
   }
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
-    for (std::size_t k = 0; k < first.joints[finger].size(); ++k) {
-      const double jump = std::abs(first.joints[finger][k] - state_.joints[finger][k]);
-      if (jump <= kSameJoint) continue;
-      return Fault{Reason::kHandJumps, "joint " + body_.hand().fingers[finger].joints[k].name +
-                                           " begins the step " + FormatDegrees(Degrees(jump)) +
-                                           " from where it was"};
+    for (int k = 0; k < std::ssize(first.joints[finger]); ++k) {
+      const double before = state_.joints[finger][k];
+      if (std::abs(first.joints[finger][k] - before) <= kSameJoint) continue;
+      return JointJumps(body_, first, finger, k, before);
     }
   }
   return std::nullopt;
 }
 
-MaybeFault Checker::CheckLimits(const HandState& state) const {
+MaybeFault Checker::CheckLimits(const NamedPath& path, std::size_t index) {
+  const HandState& state = path.states[index];
   for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
     const auto& joints = body_.hand().fingers[finger].joints;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
+    for (int k = 0; k < std::ssize(joints); ++k) {
       const double angle = state.joints[finger][k];
       if (angle >= joints[k].lower - kLimitSlack && angle <= joints[k].upper + kLimitSlack)
         continue;
-      return Fault{Reason::kJointLimit, "joint " + joints[k].name + " is at " +
-                                            FormatDegrees(Degrees(angle)) + ", its limits are " +
-                                            FormatDegrees(Degrees(joints[k].lower)) + " and " +
-                                            FormatDegrees(Degrees(joints[k].upper))};
+      return JointOutside(body_, state, finger, k, path.InState(index));
     }
   }
   return std::nullopt;
 }
 
 MaybeFault Checker::CheckTips(const plan::FingerGrasp& grasp, const HandState& state,
-                              double tolerance) {
+                              double tolerance, const std::string& when) {
   body_.SetJoints(state.joints);
   for (const plan::FingerContact& held : grasp) {
-    if (held.finger >= finger_count()) {
-      return Fault{Reason::kTipOffContact, "the hand has no finger " + std::to_string(held.finger)};
-    }
-    const double off = (body_.TipCentre(held.finger) - BallAt(held, state.pose)).norm();
-    if (off <= tolerance) continue;
-    return Fault{Reason::kTipOffContact, "the tip of " + NameOf(held.finger) + " is " +
-                                             FormatLength(off) +
-                                             " from where it touches its contact; up to " +
-                                             FormatLength(tolerance) + " is taken"};
+    if (held.finger >= finger_count()) return NoSuchFinger(held.finger, state);
+    const Vector3d expected = BallAt(held, state.pose);
+    if ((body_.TipCentre(held.finger) - expected).norm() <= tolerance) continue;
+    return TipOff(body_, state, held.finger, expected, tolerance, when);
   }
   return std::nullopt;
 }
 
 MaybeFault Checker::CheckRest() {
-  if (auto fault = CheckShape(state_)) return fault;
-  if (auto fault = CheckLimits(state_)) return fault;
-  if (auto fault = CheckTips(holding_, state_, kTipAtRest)) return fault;
+  if (auto fault = CheckShape(state_)) return AtModelsRest(*fault);
+  const plan::HandPath still = {state_, state_};
+  const NamedPath path{still};
+  if (auto fault = CheckLimits(path, 0)) return fault;
+  if (auto fault = CheckTips(holding_, state_, kTipAtRest, "")) return fault;
   Touching touching(finger_count(), nullptr);
   for (const plan::FingerContact& held : holding_) touching[held.finger] = &held;
-  return CheckPath(state_, state_, touching, {});
+  return CheckPath(path, 1, touching, {});
+}
+
+/// Where the plan has no posture of this hand the picture shows that of its model.
+HandFinding Checker::AtModelsRest(HandFinding finding) const {
+  HandState& state = finding.fault.hand->state;
+  state.joints.clear();
+  for (const kinematics::Finger& finger : body_.hand().fingers) {
+    state.joints.emplace_back();
+    for (const kinematics::Joint& joint : finger.joints) state.joints.back().push_back(joint.rest);
+  }
+  return finding;
 }
 
 double Checker::NeededFromObject(int part, const Isometry3d& pose, const Touching& touching) const {
@@ -218,8 +246,9 @@ double Checker::NeededFromObject(int part, const Isometry3d& pose, const Touchin
 }
 
 /// Something that is nearer in the middle of an interval than what moves in it allows.
-MaybeFault Checker::FindNear(const HandState& middle, const std::vector<double>& bounds,
-                             double object_bound, const Touching& touching) {
+std::optional<NearPair> Checker::FindNear(const HandState& middle,
+                                          const std::vector<double>& bounds, double object_bound,
+                                          const Touching& touching) {
   body_.SetJoints(middle.joints);
   const int count = static_cast<int>(body_.parts().size());
   std::vector<Solid> placed;
@@ -229,9 +258,7 @@ MaybeFault Checker::FindNear(const HandState& middle, const std::vector<double>&
     for (int b = a + 1; b < count; ++b) {
       if (body_.MayTouch(a, b)) continue;
       if (HaveGap(placed[a], placed[b], clearance_ + (bounds[a] + bounds[b]) / 2)) continue;
-      return Fault{Reason::kHandCollides, body_.parts()[a].body + " comes nearer to " +
-                                              body_.parts()[b].body + " than the clearance of " +
-                                              FormatLength(clearance_ + kSlack)};
+      return NearPair{a, b, clearance_};
     }
     const double needed = NeededFromObject(a, middle.pose, touching);
     Solid part = placed[a];
@@ -239,18 +266,16 @@ MaybeFault Checker::FindNear(const HandState& middle, const std::vector<double>&
     part.centre = to_object * part.centre;
     for (const Solid& triangle : triangles_) {
       if (HaveGap(part, triangle, needed + (bounds[a] + object_bound) / 2)) continue;
-      return Fault{Reason::kHandCollides,
-                   body_.parts()[a].body + " comes nearer to the object than " +
-                       (needed < 0 ? FormatLength(kTipDepth) + " inside its surface"
-                                   : "the clearance of " + FormatLength(clearance_ + kSlack))};
+      return NearPair{a, -1, needed};
     }
   }
   return std::nullopt;
 }
 
-/// Everything between two states. @param follow  tips that keep their contacts.
-MaybeFault Checker::CheckPath(const HandState& from, const HandState& to, const Touching& touching,
-                              const plan::FingerGrasp& follow) {
+std::optional<Checker::Conflict> Checker::FindConflict(const HandState& from, const HandState& to,
+                                                       const Touching& touching,
+                                                       const plan::FingerGrasp& follow,
+                                                       const std::string& when) {
   std::vector<double> bounds;
   for (int part = 0; part < static_cast<int>(body_.parts().size()); ++part) {
     bounds.push_back(body_.MotionBound(part, from.joints, to.joints));
@@ -258,68 +283,107 @@ MaybeFault Checker::CheckPath(const HandState& from, const HandState& to, const 
   const double object_bound = (to.pose.translation() - from.pose.translation()).norm() +
                               TurnBetween(from.pose, to.pose) * object_reach_;
   const HandState middle = Mix(from, to);
-  if (auto fault = CheckTips(follow, middle, kTipInMove)) return fault;
-  const MaybeFault near = FindNear(middle, bounds, object_bound, touching);
+  if (auto fault = CheckTips(follow, middle, kTipInMove, when)) return *fault;
+  const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, touching);
   if (!near) return std::nullopt;
   const double largest = std::max(object_bound, *std::ranges::max_element(bounds));
-  if (largest < kFinest) return near;
-  if (auto fault = CheckPath(from, middle, touching, follow)) return fault;
-  return CheckPath(middle, to, touching, follow);
+  if (largest < kFinest) return *near;
+  if (auto conflict = FindConflict(from, middle, touching, follow, when)) return conflict;
+  return FindConflict(middle, to, touching, follow, when);
+}
+
+/// The same pair where the rest of the path brings it nearest: what is only just too near where it
+/// is found first is hardly seen, and what there is to mend is larger.
+HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::size_t index) {
+  const auto last = path.states.size() - 1;
+  const double stretch = static_cast<double>(last - index + 1);
+  std::vector<double> gaps;
+  const auto state_at = [&](std::size_t sample) {
+    const double along = stretch * static_cast<double>(sample) / kMostSamples;
+    const auto step = std::min(static_cast<std::size_t>(along), last - index);
+    return Mix(path.states[index + step - 1], path.states[index + step],
+               along - static_cast<double>(step));
+  };
+  for (std::size_t sample = 0; sample <= kMostSamples; ++sample) {
+    gaps.push_back(near.other < 0 ? GapToObject(body_, state_at(sample), near.part, triangles_)
+                                  : GapBetween(body_, state_at(sample), near.part, near.other));
+  }
+  // Where they are deep in each other gaps tell no more how deep: the middle of it.
+  const double least = *std::ranges::min_element(gaps) + kFinest / 2;
+  const auto first = std::ranges::find_if(gaps, [&](double gap) { return gap <= least; });
+  const auto end = std::find_if(first, gaps.end(), [&](double gap) { return gap > least; });
+  const auto worst = static_cast<std::size_t>((first - gaps.begin()) + (end - first - 1) / 2);
+  const std::size_t step = std::min(
+      static_cast<std::size_t>(stretch * static_cast<double>(worst) / kMostSamples), last - index);
+  const std::string when = path.After(index + step - 1);
+  const HandState state = state_at(worst);
+  // What was asked for without the slack.
+  const double needed = near.needed < 0 ? near.needed : clearance_ + kSlack;
+  if (near.other < 0) return PartMeetsObject(body_, state, near.part, triangles_, needed, when);
+  return PartsCollide(body_, state, near.part, near.other, needed, when);
+}
+
+MaybeFault Checker::CheckPath(const NamedPath& path, std::size_t index, const Touching& touching,
+                              const plan::FingerGrasp& follow) {
+  const auto conflict = FindConflict(path.states[index - 1], path.states[index], touching, follow,
+                                     path.After(index - 1));
+  if (!conflict) return std::nullopt;
+  if (const auto* finding = std::get_if<HandFinding>(&*conflict)) return *finding;
+  return WorstOf(std::get<NearPair>(*conflict), path, index);
 }
 
 MaybeFault Checker::CheckMove(const plan::Move& move) {
   if (auto fault = CheckContinues(move.path)) return fault;
+  const NamedPath path{move.path, "path"};
   Touching touching(finger_count(), nullptr);
   for (const plan::FingerContact& held : holding_) touching[held.finger] = &held;
   for (std::size_t i = 0; i < move.path.size(); ++i) {
-    if (auto fault = CheckLimits(move.path[i])) return fault;
+    if (auto fault = CheckLimits(path, i)) return fault;
     const double tolerance = i + 1 == move.path.size() ? kTipAtRest : kTipInMove;
-    if (auto fault = CheckTips(holding_, move.path[i], tolerance)) return fault;
+    if (auto fault = CheckTips(holding_, move.path[i], tolerance, path.InState(i))) return fault;
     if (i == 0) continue;
-    if (auto fault = CheckPath(move.path[i - 1], move.path[i], touching, holding_)) return fault;
+    if (auto fault = CheckPath(path, i, touching, holding_)) return fault;
   }
   state_ = move.path.back();
   return std::nullopt;
 }
 
 /// Some fingers go, the object and all others stand still.
-MaybeFault Checker::CheckFingersGo(const plan::HandPath& path, const plan::FingerGrasp& moving,
+MaybeFault Checker::CheckFingersGo(const NamedPath& path, const plan::FingerGrasp& moving,
                                    const plan::FingerGrasp& still) {
   if (moving.empty()) return std::nullopt;
-  if (auto fault = CheckContinues(path)) return fault;
+  const plan::HandPath& states = path.states;
+  if (auto fault = CheckContinues(states)) return fault;
   Touching touching(finger_count(), nullptr);
   for (const plan::FingerContact& held : still) touching[held.finger] = &held;
   for (const plan::FingerContact& held : moving) touching[held.finger] = &held;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const double off = (path[i].pose.translation() - path[i - 1].pose.translation()).norm();
-    if (off > kSamePlace || TurnBetween(path[i].pose, path[i - 1].pose) > kSameTurn) {
-      return Fault{Reason::kHandJumps, "the object moves while fingers switch"};
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    if (!IsSamePlace(states[i].pose, states[i - 1].pose)) {
+      return ObjectJumps(states[i], states[i - 1].pose, "moves while fingers switch: it is");
     }
-    if (auto fault = CheckLimits(path[i])) return fault;
-    if (auto fault = CheckTips(still, path[i], kTipAtRest)) return fault;
-    if (auto fault = CheckPath(path[i - 1], path[i], touching, still)) return fault;
+    if (auto fault = CheckLimits(path, i)) return fault;
+    if (auto fault = CheckTips(still, states[i], kTipAtRest, path.InState(i))) return fault;
+    if (auto fault = CheckPath(path, i, touching, still)) return fault;
   }
-  state_ = path.back();
+  state_ = states.back();
   return std::nullopt;
 }
 
 MaybeFault Checker::CheckSwitch(const plan::Switch& change) {
-  if (!change.motion) return Fault{Reason::kHandJumps, "the hand has no path in this step"};
+  if (!change.motion) return NoSuchPath("the hand has no path in this step", state_);
   for (const plan::FingerContact& placed : change.place) {
-    if (placed.finger >= finger_count()) {
-      return Fault{Reason::kTipOffContact,
-                   "the hand has no finger " + std::to_string(placed.finger)};
-    }
+    if (placed.finger >= finger_count()) return NoSuchFinger(placed.finger, state_);
   }
-  if (auto fault = CheckFingersGo(change.motion->place, change.place, holding_)) return fault;
-  if (auto fault = CheckTips(change.place, state_, kTipAtRest)) return fault;
+  const NamedPath place{change.motion->place, "place"};
+  if (auto fault = CheckFingersGo(place, change.place, holding_)) return fault;
+  if (auto fault = CheckTips(change.place, state_, kTipAtRest, "at the end of place")) return fault;
   plan::FingerGrasp released;
   plan::FingerGrasp still = change.place;
   for (const plan::FingerContact& held : holding_) {
     const bool leaves = std::ranges::find(change.release, held.finger) != change.release.end();
     (leaves ? released : still).push_back(held);
   }
-  return CheckFingersGo(change.motion->release, released, still);
+  return CheckFingersGo({change.motion->release, "release"}, released, still);
 }
 
 MaybeFault Checker::CheckStep(const plan::Step& step) {
@@ -329,7 +393,7 @@ MaybeFault Checker::CheckStep(const plan::Step& step) {
   } else if (const auto* change = std::get_if<plan::Switch>(&step)) {
     fault = CheckSwitch(*change);
   } else {
-    fault = Fault{Reason::kHandJumps, "the hand has no path in this step"};
+    fault = NoSuchPath("the hand has no path in this step", state_);
   }
   holding_ = plan::GraspAfter(holding_, step);
   return fault;
@@ -340,24 +404,29 @@ MaybeFault Checker::CheckGoal() const {
   const double off = (goal.translation() - state_.pose.translation()).norm();
   const double turn = TurnBetween(goal, state_.pose);
   if (off <= kGoalPlace && turn <= kGoalTurn) return std::nullopt;
-  return Fault{Reason::kGoalNotReached, "the object ends " + FormatLength(off) + " and " +
-                                            FormatDegrees(Degrees(turn)) + " from its goal"};
+  return GoalMissed(state_, goal);
 }
 
 }  // namespace
 
-std::vector<plan::HandFault> CheckHand(const std::filesystem::path& hand_file,
+std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
                                        const object::Polyhedron& solid, const plan::Plan& plan,
                                        const HandCheckOptions& options) {
-  HandBody body(hand_file);
   if (!plan.hand) {
     throw InputError("--hand: the plan is for fingers without a hand; leave --hand out");
   }
-  if (plan.hand->sha256 != body.hand().sha256) {
-    throw InputError(hand_file.string() + ": has digest " + body.hand().sha256 +
+  if (plan.hand->sha256 != file.hand.sha256) {
+    throw InputError(file.hand.file + ": has digest " + file.hand.sha256 +
                      ", the plan was made for a hand with digest " + plan.hand->sha256);
   }
+  HandBody body(file);
   return Checker(body, solid, plan, options).Check();
+}
+
+std::vector<plan::HandFault> CheckHand(const std::filesystem::path& hand_file,
+                                       const object::Polyhedron& solid, const plan::Plan& plan,
+                                       const HandCheckOptions& options) {
+  return CheckHand(kinematics::ReadHandFile(hand_file), solid, plan, options);
 }
 
 }  // namespace regrasp::sim

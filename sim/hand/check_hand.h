@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan.h"
@@ -28,7 +29,16 @@ struct HandCheckOptions {
 /// @param plan  located (plan::LocatePlan), with a hand.
 /// @returns the first fault of each entry that has one; later entries are looked at as if the ones
 ///          before them were right.
-/// @throws InputError  the hand cannot be read, or is not the one that the plan was made for.
+/// A fault names the finger, the joint or the links, with the number and what is allowed, and has a
+/// place that can be drawn; links that are too near are told where the path brings them nearest.
+/// @throws InputError  the hand is not the one that the plan was made for.
+[[nodiscard]] std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
+                                                     const object::Polyhedron& solid,
+                                                     const plan::Plan& plan,
+                                                     const HandCheckOptions& options = {});
+
+/// The same of a hand's file.
+/// @throws InputError  the hand cannot be read, too.
 [[nodiscard]] std::vector<plan::HandFault> CheckHand(const std::filesystem::path& hand_file,
                                                      const object::Polyhedron& solid,
                                                      const plan::Plan& plan,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace regrasp::sim {
 namespace {
@@ -12,6 +13,13 @@ using Eigen::Vector3d;
 /// asked for take thousands.
 constexpr int kMostSteps = 20'000;
 
+// Of what is told to people.
+constexpr int kMeasureSteps = 2'000;
+constexpr double kMeasured = 1e-3;
+constexpr double kFreeing = 0.01;
+constexpr double kFinestWay = 1e-6;  // metres
+constexpr double kLongestWay = 10;
+
 const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3d& direction) {
   return *std::ranges::max_element(points, {},
                                    [&](const Vector3d& point) { return point.dot(direction); });
@@ -20,13 +28,21 @@ const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3
 /// A point of the difference of two hulls as a mean of corners of it.
 class MeanOfCorners {
  public:
-  explicit MeanOfCorners(const Vector3d& corner) : corners_{{corner, 1}}, mean_(corner) {}
+  MeanOfCorners(const Vector3d& a, const Vector3d& b) : corners_{{a - b, a, 1}}, mean_(a - b) {}
 
   [[nodiscard]] const Vector3d& mean() const { return mean_; }
 
-  /// Moves weight from the corner that is worst along the mean to `corner`, as far as that brings
-  /// the mean nearer to the origin. @returns whether it did.
-  bool Exchange(const Vector3d& corner) {
+  /// The point of the first hull that it is the difference of.
+  [[nodiscard]] Vector3d InFirst() const {
+    Vector3d point = Vector3d::Zero();
+    for (const Weighted& held : corners_) point += held.weight * held.of_first;
+    return point;
+  }
+
+  /// Moves weight from the corner that is worst along the mean to that of two points, as far as
+  /// that brings the mean nearer to the origin. @returns whether it did.
+  bool Exchange(const Vector3d& a, const Vector3d& b) {
+    const Vector3d corner = a - b;
     const auto worst = std::ranges::max_element(
         corners_, {}, [&](const Weighted& held) { return held.corner.dot(mean_); });
     const Vector3d along = corner - worst->corner;
@@ -40,7 +56,7 @@ class MeanOfCorners {
     if (same != corners_.end()) {
       same->weight += share;
     } else {
-      corners_.push_back({corner, share});
+      corners_.push_back({corner, a, share});
     }
     mean_ += share * along;
     return true;
@@ -49,11 +65,33 @@ class MeanOfCorners {
  private:
   struct Weighted {
     Vector3d corner;
+    Vector3d of_first;
     double weight;
   };
   std::vector<Weighted> corners_;
   Vector3d mean_;
 };
+
+Nearness Measure(const Solid& a, const Solid& b) {
+  MeanOfCorners between(a.points.front(), b.points.front());
+  for (int step = 0; step < kMeasureSteps; ++step) {
+    const Vector3d& mean = between.mean();
+    const Vector3d& in_a = FarthestAlong(a.points, -mean);
+    const Vector3d& in_b = FarthestAlong(b.points, mean);
+    if ((in_a - in_b).dot(mean) >= (1 - kMeasured) * mean.squaredNorm()) break;
+    if (!between.Exchange(in_a, in_b)) break;
+  }
+  const double length = between.mean().norm();
+  const double gap = length - a.radius - b.radius;
+  const Vector3d from_a = length > 0 ? Vector3d(between.mean() / -length) : Vector3d::Zero();
+  return {gap, between.InFirst() + (a.radius + gap / 2) * from_a};
+}
+
+Solid Moved(Solid solid, const Vector3d& way) {
+  for (Vector3d& point : solid.points) point += way;
+  solid.centre += way;
+  return solid;
+}
 
 }  // namespace
 
@@ -72,17 +110,54 @@ bool HaveGap(const Solid& a, const Solid& b, double gap) {
   if ((a.centre - b.centre).norm() - a.reach - b.reach > gap) return true;
   const double needed = gap + a.radius + b.radius;
   if (needed < 0) return true;
-  MeanOfCorners between(a.points.front() - b.points.front());
+  MeanOfCorners between(a.points.front(), b.points.front());
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector3d& mean = between.mean();
     const double length = mean.norm();
     if (length <= needed) return false;
     // All of the difference of the hulls is beyond this plane.
-    const Vector3d support = FarthestAlong(a.points, -mean) - FarthestAlong(b.points, mean);
-    if (support.dot(mean) > needed * length) return true;
-    if (!between.Exchange(support)) return false;
+    const Vector3d& in_a = FarthestAlong(a.points, -mean);
+    const Vector3d& in_b = FarthestAlong(b.points, mean);
+    if ((in_a - in_b).dot(mean) > needed * length) return true;
+    if (!between.Exchange(in_a, in_b)) return false;
   }
   return false;
+}
+
+Nearness NearestOf(const Solid& solid, std::span<const Solid> others) {
+  Nearness nearest = {std::numeric_limits<double>::infinity(), solid.centre};
+  for (const Solid& other : others) {
+    if ((solid.centre - other.centre).norm() - solid.reach - other.reach > nearest.gap) continue;
+    const Nearness found = Measure(solid, other);
+    if (found.gap < nearest.gap) nearest = found;
+  }
+  return nearest;
+}
+
+double FreeingDistance(const Solid& solid, std::span<const Solid> others,
+                       std::span<const Vector3d> directions) {
+  const auto is_free = [&](const Vector3d& way) {
+    const Solid moved = Moved(solid, way);
+    return std::ranges::all_of(others,
+                               [&](const Solid& other) { return HaveGap(moved, other, 0); });
+  };
+  double shortest = kLongestWay;
+  for (const Vector3d& direction : directions) {
+    double held = 0;
+    double free = kFinestWay;
+    while (free < shortest && !is_free(free * direction)) {
+      held = free;
+      free *= 2;
+    }
+    if (free >= shortest && !is_free(shortest * direction)) continue;
+    free = std::min(free, shortest);
+    while (free - held > std::max(kFinestWay, kFreeing * free)) {
+      const double middle = (held + free) / 2;
+      (is_free(middle * direction) ? free : held) = middle;
+    }
+    shortest = free;
+  }
+  return shortest;
 }
 
 }  // namespace regrasp::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace regrasp::sim {
@@ -21,5 +22,23 @@ struct Solid {
 /// that, as far as the radii go). By the pairwise Frank-Wolfe method (Lacoste-Julien and Jaggi
 /// 2015), which goes to the nearest points of the hulls, until a plane between them shows it.
 [[nodiscard]] bool HaveGap(const Solid& a, const Solid& b, double gap);
+
+/// How near two things are, for people: to about a thousandth.
+struct Nearness {
+  /// Negative where they overlap: by how far the first one has to move to come free, along the best
+  /// of some directions.
+  double gap = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< between the points that are nearest
+};
+
+/// How near a solid is to the nearest of others. Of one deep inside only the hulls' radii count,
+/// until FreeingDistance says more: its gap is at least the one that is told.
+/// @param others  at least one.
+[[nodiscard]] Nearness NearestOf(const Solid& solid, std::span<const Solid> others);
+
+/// How far a solid has to move to have no part in common with others, along the best of some
+/// directions of length 1, to 1 % and no finer than 1 µm.
+[[nodiscard]] double FreeingDistance(const Solid& solid, std::span<const Solid> others,
+                                     std::span<const Eigen::Vector3d> directions);
 
 }  // namespace regrasp::sim

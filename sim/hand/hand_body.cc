@@ -6,10 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "planner/base/file.h"
 #include "planner/kinematics/geom_shape.h"
-#include "planner/kinematics/hand_description.h"
-#include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::sim {
@@ -41,9 +38,16 @@ struct HandBody::Impl {
     double radius;
   };
 
+  explicit Impl(const kinematics::HandFile& file)
+      : compiled(file.compiled),
+        hand(file.hand),
+        description(file.description),
+        model(compiled->model.get()) {}
+
+  std::shared_ptr<const kinematics::CompiledModel> compiled;
   kinematics::HandModel hand;
   kinematics::HandDescription description;
-  kinematics::ModelPtr model;
+  const mjModel* model;
   kinematics::DataPtr data;
   int palm = 0;
   std::vector<std::vector<int>> joint_ids;  ///< of the model, by finger
@@ -60,7 +64,7 @@ struct HandBody::Impl {
            PoseOf(data->xpos + std::ptrdiff_t{3} * body, data->xmat + std::ptrdiff_t{9} * body);
   }
   [[nodiscard]] int BodyId(const std::string& name) const {
-    return mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
+    return mj_name2id(model, mjOBJ_BODY, name.c_str());
   }
   /// The finger that a body belongs to, and how many of its joints are at or above the body.
   [[nodiscard]] HandPart Owner(int body) const {
@@ -78,7 +82,7 @@ struct HandBody::Impl {
   void AddPart(int body, std::vector<Vector3d> points, double radius, bool is_tip) {
     HandPart part = Owner(body);
     part.is_tip = is_tip;
-    const char* name = mj_id2name(model.get(), mjOBJ_BODY, body);
+    const char* name = mj_id2name(model, mjOBJ_BODY, body);
     part.body = name != nullptr ? name : "body " + std::to_string(body);
     parts.push_back(part);
     shapes.push_back({body, std::move(points), radius});
@@ -129,18 +133,14 @@ struct HandBody::Impl {
   }
 };
 
-HandBody::HandBody(const std::filesystem::path& hand_file) : impl_(std::make_unique<Impl>()) {
+HandBody::HandBody(const kinematics::HandFile& file) : impl_(std::make_unique<Impl>(file)) {
   Impl& impl = *impl_;
-  impl.hand = kinematics::ReadHand(hand_file);
-  impl.description = kinematics::ParseHandDescription(ReadFile(hand_file), hand_file.string());
-  impl.model = kinematics::CompileModel(hand_file.parent_path() / impl.description.model).model;
   impl.data = kinematics::AtRest(*impl.model);
   impl.palm = impl.BodyId(impl.description.palm);
   for (const kinematics::Finger& finger : impl.hand.fingers) {
     impl.joint_ids.emplace_back();
     for (const kinematics::Joint& joint : finger.joints) {
-      impl.joint_ids.back().push_back(
-          mj_name2id(impl.model.get(), mjOBJ_JOINT, joint.name.c_str()));
+      impl.joint_ids.back().push_back(mj_name2id(impl.model, mjOBJ_JOINT, joint.name.c_str()));
     }
     impl.tip_bodies.push_back(impl.BodyId(finger.tip.body));
   }
@@ -174,7 +174,7 @@ void HandBody::SetJoints(const std::vector<std::vector<double>>& joints) {
       impl_->data->qpos[impl_->model->jnt_qposadr[impl_->joint_ids[i][k]]] = joints[i][k];
     }
   }
-  mj_kinematics(impl_->model.get(), impl_->data.get());
+  mj_kinematics(impl_->model, impl_->data.get());
 }
 
 Solid HandBody::Place(int part) const {
@@ -183,6 +183,14 @@ Solid HandBody::Place(int part) const {
   std::vector<Vector3d> points;
   for (const Vector3d& point : shape.points) points.push_back(pose * point);
   return MakeSolid(std::move(points), shape.radius);
+}
+
+Vector3d HandBody::JointAnchor(FingerIndex finger, int joint) const {
+  const Isometry3d palm = PoseOf(impl_->data->xpos + std::ptrdiff_t{3} * impl_->palm,
+                                 impl_->data->xmat + std::ptrdiff_t{9} * impl_->palm);
+  const int id = impl_->joint_ids[finger][joint];
+  return palm.inverse() *
+         Vector3d(Eigen::Map<const Vector3d>(impl_->data->xanchor + std::ptrdiff_t{3} * id));
 }
 
 Vector3d HandBody::TipCentre(FingerIndex finger) const {

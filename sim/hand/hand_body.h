@@ -1,13 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "planner/base/index.h"
-#include "planner/kinematics/hand_model.h"
+#include "planner/kinematics/hand_file.h"
 #include "sim/hand/gap.h"
 
 namespace regrasp::sim {
@@ -24,8 +23,7 @@ struct HandPart {
 /// planner's kinematics say.
 class HandBody {
  public:
-  /// @throws InputError  as kinematics::ReadHand.
-  explicit HandBody(const std::filesystem::path& hand_file);
+  explicit HandBody(const kinematics::HandFile& file);
   ~HandBody();
   HandBody(const HandBody&) = delete;
   HandBody& operator=(const HandBody&) = delete;
@@ -38,6 +36,8 @@ class HandBody {
   /// @param joints  by finger, from the palm to the tip, as the model has them; as many as it has.
   void SetJoints(const std::vector<std::vector<double>>& joints);
   [[nodiscard]] Solid Place(int part) const;
+  /// A point of a joint's hinge.
+  [[nodiscard]] Eigen::Vector3d JointAnchor(FingerIndex finger, int joint) const;
   /// The centre of a fingertip's ball.
   [[nodiscard]] Eigen::Vector3d TipCentre(FingerIndex finger) const;
   /// No point of the part moves farther than this, metres, while the joints go straight from one to

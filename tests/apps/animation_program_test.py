@@ -7,6 +7,7 @@ import re
 import xml.etree.ElementTree
 
 import program_case
+from picture_pixels import webp_durations
 from program_case import ProgramCase
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
@@ -14,18 +15,6 @@ SMALL = ["--size", "128x96", "--animate-size", "64x48"]
 
 # How long the last picture of a plan stands, milliseconds.
 PASSED_REST, FAILED_REST = 2500, 4000
-
-
-def webp_durations(data):
-    """Milliseconds of each picture of an animated WebP."""
-    assert data[:4] == b"RIFF" and data[8:12] == b"WEBP"
-    at, durations = 12, []
-    while at < len(data):
-        size = int.from_bytes(data[at + 4:at + 8], "little")
-        if data[at:at + 4] == b"ANMF":
-            durations.append(int.from_bytes(data[at + 20:at + 23], "little"))
-        at += 8 + size + size % 2
-    return durations
 
 
 def webp_size(data):

@@ -3,61 +3,13 @@
 import copy
 import json
 import os
-import struct
-import zlib
 
 import program_case
+from picture_pixels import count, is_red, png_pixels
 from program_case import ProgramCase
 
 SIZE = (320, 240)
 EMPTY_CELL = (238, 240, 244)
-
-
-def png_pixels(data):
-    """Width, and rows of RGB triples, of a PNG of 8 bits a channel without interlace."""
-    width, height = struct.unpack(">II", data[16:24])
-    assert data[24:26] == b"\x08\x02", "RGB"
-    packed, at = b"", 8
-    while at < len(data):
-        length = struct.unpack(">I", data[at:at + 4])[0]
-        if data[at + 4:at + 8] == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += length + 12
-    raw, stride = zlib.decompress(packed), 3 * width
-    before, rows = bytearray(stride), []
-    for y in range(height):
-        kind = raw[y * (stride + 1)]
-        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left = row[i - 3] if i >= 3 else 0
-            corner = before[i - 3] if i >= 3 else 0
-            if kind == 1:
-                add = left
-            elif kind == 2:
-                add = before[i]
-            elif kind == 3:
-                add = (left + before[i]) // 2
-            elif kind == 4:
-                guess = left + before[i] - corner
-                ways = (abs(guess - left), abs(guess - before[i]), abs(guess - corner))
-                add = (left, before[i], corner)[ways.index(min(ways))]
-            else:
-                add = 0
-            row[i] = (row[i] + add) & 255
-        rows.append([tuple(row[i:i + 3]) for i in range(0, stride, 3)])
-        before = row
-    return rows
-
-
-def count(rows, holds):
-    return sum(holds(pixel) for row in rows for pixel in row)
-
-
-def is_red(pixel):
-    """The red of what is wrong, lit or in shade; no finger has it."""
-    red, green, blue = pixel
-    return red > 110 and green < 0.22 * red and blue < 0.35 * red
-
 
 # Nothing, and what only plans for a hand fail for: gait_program_test.py has their frames.
 OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides")

@@ -71,6 +71,53 @@ TEST(CanvasTest, TheUpperSideOfAnImageIsUp) {
   EXPECT_EQ(green(16, 16), 255);
 }
 
+/// A square of a veil at a height, over or under a half-transparent layer at 0.5.
+Color ThroughVeil(double height, std::vector<Window> windows = {}) {
+  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
+  Drawing drawing;
+  drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {{0}}, std::move(windows)};
+  return CentreOf(DrawOnce(meshes, drawing));
+}
+
+TEST(CanvasTest, AVeilIsBehindWhatCoversItAndBeforeWhatDoesNot) {
+  const Color over = ThroughVeil(0.8);
+  const Color under = ThroughVeil(0.2);
+  EXPECT_GT(over.r, over.b + 60);
+  EXPECT_GT(under.b, over.b + 60);
+  // Of the red square 0.8 are seen, or half of that below the layer.
+  EXPECT_NEAR(over.g, 0.2 * ThroughVeil(-20).g, 30);
+}
+
+TEST(CanvasTest, BesideAVeilALayerIsAsItIsWithoutOne) {
+  const std::vector<FacetMesh> meshes = {Square(0.9, 0.5), Square(0.1, 0.8)};
+  Drawing drawing;
+  drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
+  const Image without = DrawOnce(meshes, drawing);
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {{0}}, {}};
+  const Image with = DrawOnce(meshes, drawing);
+  int changed = 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const std::size_t at = 3 * (std::size_t(y) * kSide + x);
+      const bool differs = std::abs(without.rgb[at] - with.rgb[at]) > 2;
+      const bool inside = std::max(std::abs(x - kSide / 2), std::abs(y - kSide / 2)) <= 4;
+      EXPECT_TRUE(inside || !differs) << x << ", " << y;
+      changed += differs ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, 20);
+}
+
+TEST(CanvasTest, AVeilIsClearerInAWindow) {
+  const Color closed = ThroughVeil(0.8);
+  const Color open = ThroughVeil(0.8, {{{kSide / 2.0, kSide / 2.0}, 10, 1}});
+  const Color half = ThroughVeil(0.8, {{{kSide / 2.0, kSide / 2.0}, 10, 0.5}});
+  EXPECT_GT(open.b, half.b + 20);
+  EXPECT_GT(half.b, closed.b + 20);
+  EXPECT_EQ(ThroughVeil(0.8, {{{5, 5}, 10, 1}}).b, closed.b) << "elsewhere";
+}
+
 TEST(CanvasTest, ALayerIsLaidOverThePictureWithItsOpacity) {
   const std::vector<FacetMesh> meshes = {Square(0.9, 0.5)};
   Drawing drawing;

@@ -152,6 +152,53 @@ TEST(FaultPicture, MakesTheFrameRed) {
   EXPECT_GT(CountRed(picture.snapshot, &picture.marks), 100);
 }
 
+/// Something of a hand on a cube of 2 m across whose palm stands 3 m below it.
+FaultMarks OfHand(const plan::HandFaultPlace& place, Reason reason) {
+  plan::Snapshot snapshot;
+  snapshot.X_WP = Eigen::Isometry3d(Eigen::Translation3d(0, 0, -3));
+  snapshot.fingers = {MakeFinger(kFinger, plan::FingerRole::kHolding, {1, 0, 0}, {-1, 0, 0})};
+  Fault fault;
+  fault.fingers = {FingerIndex(kFinger)};
+  fault.hand = place;
+  if (place.pose) fault.X_WO_before = *snapshot.X_WP * *place.pose;
+  return MakeFaultPicture(MakeCube(), 1, reason, fault, snapshot, "what failed").marks;
+}
+
+TEST(FaultPicture, LinksAtFaultAreMarkedWhereTheyAreWithTheirNumber) {
+  plan::HandFaultPlace place;
+  place.links = {{FingerIndex(kFinger), 3}, {FingerIndex(), 0}};
+  place.at = Vector3d(0.5, 0, 3);
+  place.number = "1.5 mm inside";
+  const FaultMarks marks = OfHand(place, Reason::kHandCollides);
+  EXPECT_EQ(marks.links, place.links);
+  ASSERT_EQ(marks.spots.size(), 1u);
+  EXPECT_LT((marks.spots[0].at - Vector3d(0.5, 0, 0)).norm(), 1e-12);
+  EXPECT_EQ(marks.spots[0].text, "1.5 mm inside");
+}
+
+TEST(FaultPicture, ATipOffItsContactHasItsBallThereAndALengthThatIsSeen) {
+  plan::HandFaultPlace place;
+  place.number = "1 mm";
+  place.tip = {{1.301, 0, 3}, {1.3, 0, 3}, 0.3};
+  const FaultMarks marks = OfHand(place, Reason::kTipOffContact);
+  ASSERT_EQ(marks.tips.size(), 1u);
+  EXPECT_LT((marks.tips[0].centre - Vector3d(1.3, 0, 0)).norm(), 1e-12);
+  ASSERT_EQ(marks.dimensions.size(), 1u);
+  EXPECT_GT((marks.dimensions[0].to - marks.dimensions[0].from).norm(),
+            0.04 * MakeCube().diameter());
+  EXPECT_EQ(marks.dimensions[0].text.find("1 mm (drawn"), 0u);
+}
+
+TEST(FaultPicture, AnObjectThatIsElsewhereInTheHandHasAGhostWhereItShouldBe) {
+  plan::HandFaultPlace place;
+  place.number = "1 mm";
+  place.pose = Eigen::Isometry3d(Eigen::Translation3d(0.001, 0, 3));
+  const FaultMarks jump = OfHand(place, Reason::kHandJumps);
+  ASSERT_TRUE(jump.X_WO_before);
+  EXPECT_EQ(jump.ghost_text.find("was here, 1 mm (motion drawn"), 0u) << jump.ghost_text;
+  EXPECT_EQ(OfHand(place, Reason::kGoalNotReached).ghost_text.find("goal, 1 mm"), 0u);
+}
+
 TEST(FaultPicture, AFingerAtFaultThatIsNowhereIsInTheFrame) {
   const plan::Snapshot snapshot = OffSurface(0.3).snapshot;
   const FaultMarks none{.heading = "", .fingers = {}};

@@ -109,6 +109,26 @@ TEST(ReplayAnimationTest, AnEntryThatWasNotReplayedOnlyRests) {
   EXPECT_EQ(CutAnimation({}, {rests.back()}, 1).size(), 1u);
 }
 
+TEST(ReplayAnimationTest, MotionsThatAreGivenStandBeforeTheirRests) {
+  std::vector<AnimationRest> rests(3);
+  for (int i = 0; i < 3; ++i) {
+    rests[i].moving_caption = "to " + std::to_string(i);
+    rests[i].caption = std::to_string(i);
+  }
+  const std::vector<std::vector<plan::Snapshot>> motions = {
+      {}, std::vector<plan::Snapshot>(5), std::vector<plan::Snapshot>(2)};
+  std::string captions;
+  for (const AnimationPicture& picture : JoinAnimation(motions, rests)) {
+    captions += picture.frame.caption + (picture.duration_ms > kPictureTime_ms ? "! " : " ");
+  }
+  EXPECT_EQ(captions, "0! to 1 to 1 to 1 to 1 to 1 1! to 2 to 2 2! ");
+  // Of many pictures some are left out, evenly.
+  const std::vector<std::vector<plan::Snapshot>> many(3, std::vector<plan::Snapshot>(4000));
+  const std::size_t count = JoinAnimation(many, rests).size();
+  EXPECT_LE(count, std::size_t{kMostPicturesInAll + 3});
+  EXPECT_GT(count, std::size_t{kMostPicturesInAll / 2});
+}
+
 TEST(ReplayAnimationTest, EveryFormatIsWrittenAndTheBytesDoNotDependOnTheWorkers) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();

@@ -9,6 +9,7 @@
 
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/quantity_text.h"
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/gait/plan_of_gait.h"
@@ -151,7 +152,38 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
     EXPECT_EQ(faults.front().reason, control.reason) << control.name << ": " << faults[0].detail;
     EXPECT_EQ(faults.front().entry, entry) << control.name;
     EXPECT_THAT(faults.front().detail, testing::HasSubstr(control.words)) << control.name;
+    const auto& place = faults.front().fault.hand;
+    ASSERT_TRUE(place) << control.name;
+    EXPECT_EQ(place->state.joints.size(), 4U) << control.name << ": it can be drawn";
+    const bool of_tip_or_joint =
+        control.reason == Reason::kTipOffContact || control.reason == Reason::kJointLimit;
+    EXPECT_EQ(place->links.empty(), place->number.empty() || place->pose) << control.name;
+    if (!of_tip_or_joint) continue;
+    ASSERT_EQ(faults.front().fault.fingers.size(), 1U) << control.name;
+    const std::string finger = std::to_string(faults.front().fault.fingers.front());
+    EXPECT_THAT(faults.front().detail, testing::HasSubstr("finger " + finger + " (finger" + finger))
+        << control.name;
+    EXPECT_FALSE(place->links.empty()) << control.name;
   }
+}
+
+TEST(CheckHandTest, ATipOffItsContactIsToldWithItsPlace) {
+  plan::Plan plan = GoodPlan();
+  const plan::FingerContact& held = plan.initial.front();
+  plan.hand->initial.joints[held.finger][2] += 0.01;
+  const auto faults = CheckHand(kHand, Cube(), plan);
+  ASSERT_EQ(faults.size(), 1U);
+  const plan::HandFaultPlace& place = faults.front().fault.hand.value();
+  ASSERT_TRUE(place.tip);
+  const double off = (place.tip->found - place.tip->expected).norm();
+  // The last two links are 60 mm long at most.
+  EXPECT_GT(off, 1e-4);
+  EXPECT_LT(off, 0.6e-3);
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr(FormatLength(off)));
+  EXPECT_EQ(place.number, FormatLength(off));
+  // The contact is a radius from the ball that it expects.
+  const Vector3d contact = place.state.pose * (plan.scale * held.contact.p);
+  EXPECT_NEAR((contact - place.tip->expected).norm(), place.tip->radius, 1e-12);
 }
 
 /// A free finger that swings through the object and back, and nothing else.
@@ -169,10 +201,25 @@ TEST(CheckHandTest, AFingerThroughTheObjectCollides) {
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults.front().reason, Reason::kHandCollides) << faults.front().detail;
   EXPECT_EQ(faults.front().entry, FirstOf(plan, "switch") + 1);
+  const plan::Fault& fault = faults.front().fault;
+  ASSERT_TRUE(fault.hand && fault.hand->gap_m);
+  EXPECT_THAT(fault.fingers, testing::Contains(moving));
+  EXPECT_THAT(fault.hand->links,
+              testing::Contains(testing::Field(&plan::HandLink::finger, moving)));
+  // Where it is worst, and not where the clearance is only just missed.
+  EXPECT_LT(*fault.hand->gap_m, -1e-3);
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("mm into"));
 }
 
-TEST(CheckHandTest, MoreClearanceThanWasPlannedForFails) {
-  EXPECT_THAT(CheckHand(kHand, Cube(), GoodPlan(), {.clearance_m = 0.02}), testing::SizeIs(1));
+/// What is too near but not in each other is told by its distance.
+TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
+  const auto faults = CheckHand(kHand, Cube(), GoodPlan(), {.clearance_m = 0.02});
+  ASSERT_EQ(faults.size(), 1U);
+  const double gap = faults.front().fault.hand->gap_m.value();
+  EXPECT_GT(gap, 1e-3 - 1e-5) << "the plan keeps 1 mm";
+  EXPECT_LT(gap, 0.02);
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("within " + FormatLength(gap)));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("the clearance is 2 cm"));
 }
 
 TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {
@@ -208,6 +255,33 @@ TEST(GapTest, KnownGaps) {
   }
   EXPECT_FALSE(HaveGap(at_origin, at_origin, 0));
   EXPECT_FALSE(HaveGap(at_origin, MakeSolid({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
+}
+
+TEST(GapTest, TheNearestOfSomeAndThePlaceBetween) {
+  const Solid ball = MakeSolid({Vector3d(0, 0, 0)}, 0.5);
+  const std::vector<Solid> others = {MakeSolid({Vector3d(9, 0, 0)}, 1),
+                                     MakeSolid({Vector3d(3, -2, 0), Vector3d(3, 2, 0)}, 1)};
+  const Nearness nearest = NearestOf(ball, others);
+  EXPECT_NEAR(nearest.gap, 1.5, 1e-2);
+  EXPECT_NEAR((nearest.at - Vector3d(1.25, 0, 0)).norm(), 0, 0.1);
+}
+
+TEST(GapTest, AWayOutIsAsLongAsTheOverlap) {
+  const auto box = [](double x) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 8; ++i) {
+      points.emplace_back(x + ((i & 1) != 0 ? 1 : -1), (i & 2) != 0 ? 1 : -1,
+                          (i & 4) != 0 ? 1 : -1);
+    }
+    return MakeSolid(points, 0);
+  };
+  const std::vector<Vector3d> ways = {Vector3d::UnitY(), -Vector3d::UnitX(), Vector3d::UnitX()};
+  for (const double overlap : {0.01, 0.3, 0.9}) {
+    const Solid other = box(2 - overlap);
+    EXPECT_NEAR(FreeingDistance(box(0), {&other, 1}, ways), overlap, 0.01 * overlap + 1e-6);
+  }
+  const Solid apart = box(3);
+  EXPECT_LE(FreeingDistance(box(0), {&apart, 1}, ways), 1e-6);
 }
 
 /// By the other algorithm, and close to its answer: many small steps are needed there.

@@ -1,0 +1,251 @@
+#include "sim/hand/hand_finding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "planner/base/angle.h"
+#include "planner/base/quantity_text.h"
+
+namespace regrasp::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using plan::HandState;
+using plan::Reason;
+
+/// Of one that is tried for a way out of a solid; the faces that it is in give the object's.
+constexpr int kDirections = 60;
+constexpr std::size_t kMostFaces = 24;
+
+std::string DegreesText(double radians) { return FormatDegrees(Degrees(radians)); }
+
+std::string After(const std::string& when) { return when.empty() ? "" : ", " + when; }
+
+double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
+/// "100 µm and 0.20°", without what is zero.
+std::string MotionText(const Isometry3d& a, const Isometry3d& b) {
+  constexpr double kNothing = 1e-12;
+  const double length = (a.translation() - b.translation()).norm();
+  const double turn = TurnBetween(a, b);
+  if (turn <= kNothing) return FormatLength(length);
+  if (length <= kNothing) return DegreesText(turn);
+  return FormatLength(length) + " and " + DegreesText(turn);
+}
+
+std::string PartText(const HandBody& body, int index) {
+  const HandPart& part = body.parts()[index];
+  return part.body + " of " +
+         (part.finger.valid() ? FingerText(body.hand(), part.finger) : "the palm");
+}
+
+HandFinding AtJoint(Reason reason, HandBody& body, const HandState& state, FingerIndex finger,
+                    int joint, const std::string& number) {
+  body.SetJoints(state.joints);
+  HandFinding finding{reason, "", {.fingers = {finger}}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = state;
+  // All that the joint moves: not every joint has a link that can be seen.
+  const int last = static_cast<int>(state.joints[finger].size());
+  for (int moved = joint + 1; moved <= last; ++moved) place.links.push_back({finger, moved});
+  place.at = body.JointAnchor(finger, joint);
+  place.number = number;
+  return finding;
+}
+
+/// Names what is at fault, with its number.
+HandFinding Collision(const HandBody& body, const HandState& state, const std::vector<int>& parts,
+                      const Nearness& nearness) {
+  HandFinding finding{Reason::kHandCollides, "", {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  for (const int index : parts) {
+    const HandPart& part = body.parts()[index];
+    place.links.push_back({part.finger, part.joints});
+    const auto& fingers = finding.fault.fingers;
+    if (part.finger.valid() && std::ranges::find(fingers, part.finger) == fingers.end()) {
+      finding.fault.fingers.push_back(part.finger);
+    }
+  }
+  place.state = state;
+  place.at = nearness.at;
+  place.gap_m = nearness.gap;
+  place.number = nearness.gap < 0 ? FormatLength(-nearness.gap, 2) + " inside"
+                                  : FormatLength(nearness.gap, 2) + " apart";
+  return finding;
+}
+
+/// "a comes within 0.3 mm of b", "a goes 3.2 mm into b".
+std::string NearText(const std::string& a, const std::string& b, double gap) {
+  if (gap < 0) return a + " goes " + FormatLength(-gap) + " into " + b;
+  return a + " comes within " + FormatLength(gap) + " of " + b;
+}
+
+/// Evenly over the sphere (a spiral by the golden angle).
+std::vector<Vector3d> AllDirections() {
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2.0 * i + 1) / kDirections;
+    const double turn = std::numbers::pi * (3 - std::sqrt(5)) * i;
+    const double r = std::sqrt(1 - z * z);
+    directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+  }
+  return directions;
+}
+
+Solid Moved(const Isometry3d& pose, Solid solid) {
+  for (Vector3d& point : solid.points) point = pose * point;
+  solid.centre = pose * solid.centre;
+  return solid;
+}
+
+/// Ways out of the surface that a solid is in: the normals of its triangles.
+std::vector<Vector3d> WaysOut(const Solid& solid, std::span<const Solid> surface) {
+  std::vector<Vector3d> ways;
+  for (const Solid& triangle : surface) {
+    if (ways.size() == kMostFaces) break;
+    if (HaveGap(solid, triangle, 0)) continue;
+    const auto& p = triangle.points;
+    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+    const bool known =
+        std::ranges::any_of(ways, [&](const Vector3d& way) { return way.dot(normal) > 0.999; });
+    if (!known && normal.norm() > 0) ways.push_back(normal);
+  }
+  return ways;
+}
+
+}  // namespace
+
+std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger) {
+  return "finger " + std::to_string(finger) + " (" + hand.fingers[finger].name + ")";
+}
+
+HandFinding NoSuchPath(const std::string& what, const HandState& state) {
+  HandFinding finding{Reason::kHandJumps, what, {}};
+  finding.fault.hand.emplace().state = state;
+  return finding;
+}
+
+HandFinding NoSuchFinger(FingerIndex finger, const HandState& state) {
+  HandFinding finding = NoSuchPath("the hand has no finger " + std::to_string(finger), state);
+  finding.reason = Reason::kTipOffContact;
+  finding.fault.fingers = {finger};
+  return finding;
+}
+
+HandFinding ObjectJumps(const HandState& now, const Isometry3d& before, const std::string& when) {
+  HandFinding finding{
+      Reason::kHandJumps,
+      "the object " + when + " " + MotionText(now.pose, before) + " from where it was",
+      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = now;
+  place.pose = before;
+  place.number = MotionText(now.pose, before);
+  return finding;
+}
+
+HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
+  HandFinding finding{Reason::kGoalNotReached,
+                      "the object ends " + MotionText(last.pose, goal) + " from its goal",
+                      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = last;
+  place.pose = goal;
+  place.number = MotionText(last.pose, goal);
+  return finding;
+}
+
+HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger, int joint,
+                       double before) {
+  const double angle = now.joints[finger][joint];
+  const std::string jump = DegreesText(std::abs(angle - before));
+  HandFinding finding = AtJoint(Reason::kHandJumps, body, now, finger, joint, jump + " off");
+  finding.detail = "joint " + body.hand().fingers[finger].joints[joint].name + " of " +
+                   FingerText(body.hand(), finger) + " begins the step at " + DegreesText(angle) +
+                   ", " + jump + " from where it was (" + DegreesText(before) + ")";
+  return finding;
+}
+
+HandFinding JointOutside(HandBody& body, const HandState& state, FingerIndex finger, int joint,
+                         const std::string& when) {
+  const kinematics::Joint& limits = body.hand().fingers[finger].joints[joint];
+  const double angle = state.joints[finger][joint];
+  const bool below = angle < limits.lower;
+  const double limit = below ? limits.lower : limits.upper;
+  HandFinding finding = AtJoint(Reason::kJointLimit, body, state, finger, joint,
+                                DegreesText(angle) + ", limit " + DegreesText(limit));
+  finding.detail = "joint " + limits.name + " of " + FingerText(body.hand(), finger) + " is at " +
+                   DegreesText(angle) + After(when) + ": " + DegreesText(std::abs(angle - limit)) +
+                   (below ? " below" : " beyond") + "; its limits are " +
+                   DegreesText(limits.lower) + " and " + DegreesText(limits.upper);
+  return finding;
+}
+
+HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
+                   const Vector3d& expected, double tolerance, const std::string& when) {
+  body.SetJoints(state.joints);
+  const kinematics::Finger& of = body.hand().fingers[finger];
+  const Vector3d found = body.TipCentre(finger);
+  const double off = (found - expected).norm();
+  HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
+  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + FormatLength(off) +
+                   " from where it touches its contact" + After(when) + "; up to " +
+                   FormatLength(tolerance) + " is taken";
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = state;
+  place.links = {{finger, static_cast<int>(of.joints.size())}};
+  place.at = found;
+  place.number = FormatLength(off);
+  place.tip = {found, expected, of.tip.radius};
+  return finding;
+}
+
+double GapBetween(HandBody& body, const HandState& state, int a, int b) {
+  body.SetJoints(state.joints);
+  const Solid other = body.Place(b);
+  return NearestOf(body.Place(a), {&other, 1}).gap;
+}
+
+double GapToObject(HandBody& body, const HandState& state, int part,
+                   std::span<const Solid> surface) {
+  body.SetJoints(state.joints);
+  return NearestOf(Moved(state.pose.inverse(), body.Place(part)), surface).gap;
+}
+
+HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, double clearance,
+                         const std::string& when) {
+  body.SetJoints(state.joints);
+  const Solid first = body.Place(a);
+  const Solid second = body.Place(b);
+  Nearness nearness = NearestOf(first, {&second, 1});
+  if (nearness.gap < 0) {
+    nearness.gap = -FreeingDistance(first, {&second, 1}, AllDirections());
+  }
+  HandFinding finding = Collision(body, state, {a, b}, nearness);
+  finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap) + After(when) +
+                   "; the clearance is " + FormatLength(clearance);
+  return finding;
+}
+
+HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
+                            std::span<const Solid> surface, double needed,
+                            const std::string& when) {
+  body.SetJoints(state.joints);
+  const Solid solid = Moved(state.pose.inverse(), body.Place(part));
+  Nearness nearness = NearestOf(solid, surface);
+  const std::vector<Vector3d> ways = WaysOut(solid, surface);
+  if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);
+  nearness.at = state.pose * nearness.at;
+  HandFinding finding = Collision(body, state, {part}, nearness);
+  finding.detail = NearText(PartText(body, part), "the object", nearness.gap) + After(when) + "; " +
+                   (needed < 0 ? "a tip that touches may be " + FormatLength(-needed) + " in it"
+                               : "the clearance is " + FormatLength(needed));
+  return finding;
+}
+
+}  // namespace regrasp::sim

@@ -1,0 +1,62 @@
+"""What is in the pictures that validate writes: pixels, the red of what is wrong, durations."""
+
+import struct
+import zlib
+
+
+def png_pixels(data):
+    """Width, and rows of RGB triples, of a PNG of 8 bits a channel without interlace."""
+    width, height = struct.unpack(">II", data[16:24])
+    assert data[24:26] == b"\x08\x02", "RGB"
+    packed, at = b"", 8
+    while at < len(data):
+        length = struct.unpack(">I", data[at:at + 4])[0]
+        if data[at + 4:at + 8] == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += length + 12
+    raw, stride = zlib.decompress(packed), 3 * width
+    before, rows = bytearray(stride), []
+    for y in range(height):
+        kind = raw[y * (stride + 1)]
+        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left = row[i - 3] if i >= 3 else 0
+            corner = before[i - 3] if i >= 3 else 0
+            if kind == 1:
+                add = left
+            elif kind == 2:
+                add = before[i]
+            elif kind == 3:
+                add = (left + before[i]) // 2
+            elif kind == 4:
+                guess = left + before[i] - corner
+                ways = (abs(guess - left), abs(guess - before[i]), abs(guess - corner))
+                add = (left, before[i], corner)[ways.index(min(ways))]
+            else:
+                add = 0
+            row[i] = (row[i] + add) & 255
+        rows.append([tuple(row[i:i + 3]) for i in range(0, stride, 3)])
+        before = row
+    return rows
+
+
+def count(rows, holds):
+    return sum(holds(pixel) for row in rows for pixel in row)
+
+
+def is_red(pixel):
+    """The red of what is wrong, lit or in shade; no finger has it."""
+    red, green, blue = pixel
+    return red > 110 and green < 0.22 * red and blue < 0.35 * red
+
+
+def webp_durations(data):
+    """Milliseconds of each picture of an animated WebP."""
+    assert data[:4] == b"RIFF" and data[8:12] == b"WEBP"
+    at, durations = 12, []
+    while at < len(data):
+        size = int.from_bytes(data[at + 4:at + 8], "little")
+        if data[at:at + 4] == b"ANMF":
+            durations.append(int.from_bytes(data[at + 20:at + 23], "little"))
+        at += 8 + size + size % 2
+    return durations

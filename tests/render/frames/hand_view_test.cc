@@ -1,0 +1,143 @@
+#include "render/frames/hand_view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/frames/frame.h"
+#include "render/picture/palette.h"
+#include "tests/render/frames/scenes.h"
+
+namespace regrasp::render {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kFinger = 2;
+
+/// A palm below a cube of 2 m across and a finger with a tip, a ball of 0.3 m, at +x.
+HandView Hand() {
+  return {{{FingerIndex(), 0}, false, MakeCapsule({-1, 0, 0}, {1, 0, 0}, 0.4)},
+          {{FingerIndex(kFinger), 1}, false, MakeCapsule({0, 0, -1}, {0, 0, 0}, 0.2)},
+          {{FingerIndex(kFinger), 1}, true, MakeCapsule({0, 0, 0}, {0, 0, 0}, 0.3)}};
+}
+
+plan::Snapshot Holding(const Vector3d& palm = {0, 0, -3}) {
+  plan::Snapshot snapshot;
+  snapshot.fingers = {MakeFinger(kFinger, plan::FingerRole::kHolding, {1, 0, 0}, {-1, 0, 0}),
+                      MakeFinger(0, plan::FingerRole::kHolding, {-1, 0, 0}, {1, 0, 0})};
+  snapshot.X_WP = Isometry3d(Eigen::Translation3d(palm));
+  snapshot.links_W = {*snapshot.X_WP, Isometry3d(Eigen::Translation3d(1.3, 0, 0)),
+                      Isometry3d(Eigen::Translation3d(1.3, 0, 0))};
+  return snapshot;
+}
+
+PictureFrame Frame() { return {MakeCube().diameter(), Vector3d::Zero()}; }
+
+std::vector<Color> ColorsOf(const plan::Snapshot& snapshot,
+                            const std::vector<plan::HandLink>& at_fault = {}) {
+  std::vector<Color> colors;
+  const std::vector<Shape> shapes = HandFigure(Hand(), Frame()).Shapes(snapshot, at_fault, 0);
+  for (std::size_t i = 1; i < shapes.size(); i += 2) colors.push_back(shapes[i].color);
+  return colors;
+}
+
+bool IsReddish(Color c) { return c.r > 120 && c.g < 0.6 * c.r && c.b < 0.65 * c.r; }
+bool IsGrey(Color c) { return std::abs(c.r - c.b) < 30 && std::abs(c.r - c.g) < 30; }
+
+TEST(HandFigure, TheTipOfAFingerThatTouchesHasItsColour) {
+  const std::vector<Color> colors = ColorsOf(Holding());
+  ASSERT_EQ(colors.size(), 3u);
+  EXPECT_TRUE(IsGrey(colors[0]) && IsGrey(colors[1]));
+  EXPECT_FALSE(IsGrey(colors[2]));
+  plan::Snapshot gone = Holding();
+  gone.fingers.front().role = plan::FingerRole::kReleased;
+  EXPECT_TRUE(IsGrey(ColorsOf(gone)[2]));
+}
+
+TEST(HandFigure, LinksAtFaultAreRedAndNoOthers) {
+  const auto red = [](const std::vector<plan::HandLink>& at_fault) {
+    std::vector<bool> is_red;
+    for (const Color color : ColorsOf(Holding(), at_fault)) is_red.push_back(IsReddish(color));
+    return is_red;
+  };
+  EXPECT_EQ(red({}), (std::vector{false, false, false}));
+  EXPECT_EQ(red({{FingerIndex(kFinger), 1}}), (std::vector{false, true, true}));
+  EXPECT_EQ(red({{FingerIndex(), 0}}), (std::vector{true, false, false}));
+}
+
+TEST(HandFigure, MeshesThatAreInsideOutAreTurned) {
+  HandView hand = Hand();
+  for (HandLinkView& link : hand) link.mesh = TurnInsideOut(link.mesh);
+  const HandFigure turned(hand, Frame());
+  const HandFigure usual(Hand(), Frame());
+  ASSERT_EQ(turned.meshes().size(), 6u);
+  for (int i : {1, 3, 5}) {
+    EXPECT_GT(Volume(turned.meshes()[i]), 0);
+    EXPECT_NEAR(Volume(turned.meshes()[i]), Volume(usual.meshes()[i]), 1e-12);
+    EXPECT_LT(Volume(turned.meshes()[i - 1]), -Volume(usual.meshes()[i])) << "a larger shell";
+  }
+}
+
+std::vector<Window> WindowsFrom(const Vector3d& back) {
+  const plan::Snapshot snapshot = Holding();
+  Camera camera;
+  camera.axes = CameraAxes(back);
+  camera.position = 10 * camera.axes.col(2);
+  camera.projection = Projection::kOrthographic;
+  camera.width = camera.height = 100;
+  const PictureFrame frame = Frame();
+  const std::vector<FingerGlyph> fingers = MakeFingerGlyphs(snapshot, frame, RayTree());
+  return HandFigure(Hand(), frame).Windows(snapshot, fingers, camera);
+}
+
+TEST(HandFigure, AHandHasAWindowWhereItHidesAContactAndNoOther) {
+  // From +x the tip stands before its contact and all that is behind it; from −x before none of
+  // what a finger 0 without links has, and its own is seen through the object.
+  const std::vector<Window> before = WindowsFrom(Vector3d::UnitX());
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before[0].strength, 1);
+  for (const Window& window : WindowsFrom(-Vector3d::UnitX())) EXPECT_LT(window.strength, 1);
+  const std::vector<Window> above = WindowsFrom(Vector3d::UnitY());
+  for (const Window& window : above) EXPECT_LT(window.strength, 1);
+}
+
+TEST(HandFrames, AllAreSeenFromOnePlaceAndInOneScale) {
+  const object::Polyhedron cube = MakeCube();
+  std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
+  // Behind the other one: without a hand this frame would have a view of its own.
+  for (int i = 0; i < 6; ++i) {
+    snapshots[1].fingers.push_back(
+        MakeFinger(3 + i, plan::FingerRole::kHolding, {1, 0.01 * i, 0}, {-1, 0, 0}));
+  }
+  const auto make = [&](HandView hand) {
+    FrameOptions options{320, 240, 1};
+    options.hand = std::move(hand);
+    return FrameRenderer(cube, 1, 0.3, snapshots, options);
+  };
+  FrameRenderer renderer = make(Hand());
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(renderer.HasOwnView(i));
+  // The hand is in the picture, and all of it.
+  EXPECT_NE(renderer.Render(snapshots[0]).rgb, make({}).Render(snapshots[0]).rgb);
+}
+
+TEST(HandFrames, AMoveShowsWhereTheObjectWas) {
+  const object::Polyhedron cube = MakeCube();
+  std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
+  snapshots[1].X_WO_before = Isometry3d(Eigen::AngleAxisd(0.6, Vector3d::UnitZ()));
+  FrameOptions options{320, 240, 1};
+  options.hand = Hand();
+  FrameRenderer renderer(cube, 1, 0.3, snapshots, options);
+  const Image still = renderer.Render(snapshots[0]);
+  const Image moved = renderer.Render(snapshots[1]);
+  EXPECT_NE(still.rgb, moved.rgb);
+  // Where a fault has its own ghost this one is left out.
+  FaultMarks marks{.heading = "", .fingers = {}};
+  marks.X_WO_before = Isometry3d::Identity();
+  EXPECT_EQ(renderer.Render(snapshots[0], "", &marks).rgb,
+            renderer.Render(snapshots[1], "", &marks).rgb);
+}
+
+}  // namespace
+}  // namespace regrasp::render
