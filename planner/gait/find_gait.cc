@@ -17,23 +17,12 @@ constexpr double kFromBorder = 0.02;
 /// Of a track, radians.
 constexpr double kStep = 0.06;
 
-/// Of each place in the hand at first.
-constexpr int kFirstExpanded = 25;
-
-/// A place in the hand to turn the object in.
-struct PlaceInHand {
-  PoseTrack track;
-  Parking parking;
-  RandomStream random;
-  GaitSearch search;
-
-  PlaceInHand(const HandSetup& setup, const PoseTrack& poses, Parking postures,
-              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
-      : track(poses),
-        parking(std::move(postures)),
-        random(seed, RandomUse::kGaits, index),
-        search(setup, track, parking, memory, random) {}
-};
+/// Grasps expanded from one place in the hand before others have their turn.
+constexpr int kExpandedAtOnce = 6;
+/// From all places together, by their number, before there is another one.
+constexpr int kExpandedForNext = 20;
+/// Times that places are looked for.
+constexpr int kDrawings = 4;
 
 double LargestTip(const kinematics::HandModel& hand) {
   double radius = 0;
@@ -52,6 +41,104 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   }
   return contacts;
 }
+
+/// A place in the hand to turn the object in.
+struct PlaceInHand {
+  PoseGrid grid;
+  Parking parking;
+  RandomStream random;
+  GaitSearch search;
+
+  PlaceInHand(const HandSetup& setup, const PoseTrack& poses, Parking postures,
+              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
+      : grid(poses, setup.scene.hand().up, PoseGrid::End::kOrientation),
+        parking(std::move(postures)),
+        random(seed, RandomUse::kGaits, index),
+        search(setup, grid, parking, {}, memory, random) {}
+};
+
+/// All places in the hand that are tried, the best first, and more the longer it takes; those where
+/// the object comes farther have more turns.
+class PlacesInHand {
+ public:
+  PlacesInHand(const GaitRequest& request, const HandSetup& setup, criteria::GraspMemory& memory)
+      : request_(request),
+        setup_(setup),
+        memory_(memory),
+        random_(request.seed, RandomUse::kHomes),
+        centre_(request.scale * request.solid->mass_properties().centroid),
+        steps_(std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)))) {}
+
+  std::optional<Gait> Search() {
+    while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
+      PlaceInHand* place = Next();
+      if (place == nullptr) return std::nullopt;
+      const std::int64_t before = place->search.counts().expanded;
+      std::optional<Gait> gait = place->search.Run(before + kExpandedAtOnce, request_.deadline);
+      if (gait) return gait;
+      expanded_ += place->search.counts().expanded - before;
+      request_.progress("searching a gait, " + std::to_string(expanded_) + " grasps from " +
+                        std::to_string(places_.size()) + " places in the hand");
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] std::vector<GaitCounts> counts() const {
+    std::vector<GaitCounts> counts;
+    for (const auto& place : places_) counts.push_back(place->search.counts());
+    return counts;
+  }
+
+ private:
+  /// Null where all places are exhausted.
+  PlaceInHand* Next() {
+    const std::int64_t enough = kExpandedForNext * static_cast<std::int64_t>(places_.size());
+    if (expanded_ >= enough && Open()) return places_.back().get();
+    PlaceInHand* next = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& place : places_) {
+      if (place->search.IsExhausted()) continue;
+      const GaitCounts& counts = place->search.counts();
+      const double farther = 1.0 + counts.farthest;
+      const double had = static_cast<double>(counts.expanded) / (farther * farther);
+      if (had >= least) continue;
+      least = had;
+      next = place.get();
+    }
+    return next == nullptr && Open() ? places_.back().get() : next;
+  }
+
+  /// @returns whether there is another place.
+  bool Open() {
+    while (true) {
+      if (homes_.empty()) {
+        if (++drawings_ > kDrawings) return false;
+        homes_ = FindHomes(setup_, centre_, request_.turn, memory_, random_);
+        std::ranges::reverse(homes_);
+        continue;
+      }
+      const PoseTrack track(homes_.back(), centre_, request_.turn, Eigen::Vector3d::Zero(), steps_);
+      homes_.pop_back();
+      const std::optional<Parking> parking = FindParking(setup_, track, random_);
+      if (!parking) continue;
+      places_.push_back(std::make_unique<PlaceInHand>(setup_, track, *parking, memory_,
+                                                      request_.seed, places_.size()));
+      return true;
+    }
+  }
+
+  const GaitRequest& request_;
+  const HandSetup& setup_;
+  criteria::GraspMemory& memory_;
+  RandomStream random_;
+  Eigen::Vector3d centre_;
+  int steps_;
+  std::vector<Eigen::Isometry3d> homes_;  ///< that were not tried yet, the best last
+  int drawings_ = 0;
+  std::vector<std::unique_ptr<PlaceInHand>> places_;
+  std::int64_t expanded_ = 0;  ///< from all places
+};
 
 /// Why no home led to the end, of the one that came farthest.
 std::string WhatStopped(const std::vector<GaitCounts>& counts, const Turn& turn, int steps) {
@@ -94,31 +181,10 @@ GaitResult FindGait(const GaitRequest& request) {
                                criteria::QualityTest::kQuick);
   memory.Append(result.contacts);
 
-  const Eigen::Vector3d centre = request.scale * request.solid->mass_properties().centroid;
-  RandomStream random(request.seed, RandomUse::kHomes);
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)));
-  std::vector<std::unique_ptr<PlaceInHand>> places;
-  for (const Eigen::Isometry3d& home : FindHomes(setup, centre, request.turn, memory, random)) {
-    const PoseTrack track(home, centre, request.turn.axis, request.turn.angle, steps);
-    const std::optional<Parking> parking = FindParking(setup, track, random);
-    if (!parking) continue;
-    places.push_back(
-        std::make_unique<PlaceInHand>(setup, track, *parking, memory, request.seed, places.size()));
-  }
-  // A good place shows soon; all get a little, then all more.
-  for (int expanded = kFirstExpanded; expanded <= request.most_expanded && !result.gait;
-       expanded *= 2) {
-    for (const auto& place : places) {
-      if (request.deadline.IsOver() || place->search.IsExhausted()) continue;
-      result.gait = place->search.Run(expanded, request.deadline);
-      if (result.gait) break;
-      request.progress("searching a gait, " + std::to_string(expanded) + " grasps from each of " +
-                       std::to_string(places.size()) + " places in the hand");
-    }
-  }
-  for (const auto& place : places) result.counts.push_back(place->search.counts());
-  if (result.gait) return result;
-  result.message = WhatStopped(result.counts, request.turn, steps);
+  PlacesInHand places(request, setup, memory);
+  result.gait = places.Search();
+  result.counts = places.counts();
+  if (!result.gait) result.message = WhatStopped(result.counts, request.turn, places.steps());
   return result;
 }
 

@@ -25,7 +25,7 @@ struct GaitRequest {
   double margin = 1e-3;  ///< between links, palm and object, metres
   Turn turn;
   std::uint64_t seed = 0;
-  int most_expanded = 1600;  ///< rests expanded from one place in the hand
+  int most_expanded = 20'000;  ///< rests, from all places in the hand together
   Deadline deadline = {};
   planning::Progress progress = [](std::string_view) {};
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <unordered_map>
 
 #include "planner/gait/move_path.h"
 
@@ -13,39 +15,82 @@ constexpr int kFewestHolding = 3;
 constexpr int kDrawnGrasps = 120;
 /// Contacts tried for a finger at a place, those that it keeps longest first.
 constexpr int kTriedContacts = 24;
+/// Of all contacts one in so many is looked at from one place.
+constexpr int kShares = 4;
 /// Rests taken up from one place.
 constexpr int kTakenUp = 6;
 /// What the steps that single fingers could go on are worth, beside those that all go together.
 constexpr double kSingleFinger = 0.3;
+/// What a unit beside the track costs, in steps.
+constexpr double kOffTrack = 0.1;
+/// What a finger costs that does not hold what it is to hold in the end, in steps.
+constexpr double kNotYetGoal = 3;
 /// Steps that a rest is put back for each one that was expanded and ends where it ends.
 constexpr double kPutBack = 0.1;
+/// Nodes from which a path goes on, beside those of the straight one.
+constexpr int kTriedNodes = 40;
 
 int CountHolding(const Holding& holding) {
   return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
 }
 
+bool Holds(const Holding& holding, int point) {
+  return std::ranges::find(holding, point) != holding.end();
+}
+
+/// Calls `take` with each way to have fingers hold the points, one finger each.
+template <class Take>
+void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& take) {
+  std::vector<int> order(fingers, kNone);
+  std::ranges::copy(points, order.begin());
+  std::ranges::sort(order);
+  do {
+    take(Holding(order));
+  } while (std::ranges::next_permutation(order).found);
+}
+
 }  // namespace
 
-GaitSearch::GaitSearch(const HandSetup& setup, const PoseTrack& track, const Parking& parking,
-                       criteria::GraspMemory& memory, RandomStream& random)
+GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parking& parking,
+                       const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random)
     : setup_(setup),
-      track_(track),
+      grid_(grid),
       parking_(parking),
+      ends_(ends),
+      most_holding_(static_cast<int>(std::max(
+          {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
       memory_(memory),
       random_(random),
-      reach_(setup.scene, setup.inverse, setup.points, track),
-      expanded_at_(track.steps() + 1, 0) {}
+      reach_(setup.scene, setup.inverse, setup.points, grid),
+      expanded_at_(grid.steps() + 1, 0) {
+  if (ends.goal.empty()) return;
+  ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
+    Rest rest{.holding = std::move(holding), .node = grid_.goal()};
+    if (LetFreeFingersWait(rest)) goals_.push_back(rest.holding);
+  });
+}
 
-const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int step) {
-  const auto [found, is_new] = candidates_.try_emplace({finger, step});
+const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex finger, int node) {
+  const auto [found, is_new] = candidates_.try_emplace({finger, node});
   std::vector<Candidate>& candidates = found->second;
   if (!is_new) return candidates;
   for (int point = 0; point < static_cast<int>(setup_.points.size()); ++point) {
-    if (reach_.Find(finger, point, step) == nullptr) continue;
-    candidates.push_back({point, reach_.RunEnd(finger, point, step, 1)});
+    if (!IsLookedAt(point, node)) continue;
+    if (reach_.Find(finger, point, node) == nullptr) continue;
+    const bool is_goal =
+        std::ranges::any_of(goals_, [&](const Holding& goal) { return goal[finger] == point; });
+    candidates.push_back({point, is_goal, reach_.RunEnd(finger, point, node)});
   }
-  std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::last);
+  std::ranges::stable_sort(candidates, std::greater<>(), [](const Candidate& candidate) {
+    return std::pair(candidate.is_goal, candidate.last);
+  });
   return candidates;
+}
+
+/// At each node some of the contacts, at others others; those of the goal everywhere.
+bool GaitSearch::IsLookedAt(int point, int node) const {
+  return point % kShares == node % kShares ||
+         std::ranges::find(ends_.goal, point) != ends_.goal.end();
 }
 
 bool GaitSearch::IsGrasp(const Holding& holding) {
@@ -58,69 +103,151 @@ bool GaitSearch::IsGrasp(const Holding& holding) {
   return set.size() >= kFewestHolding && memory_.Admits(set);
 }
 
-Keyframe GaitSearch::FrameAt(const Holding& holding, int step) {
-  Keyframe frame{track_.PoseAt(step), parking_};
+Keyframe GaitSearch::FrameAt(const Rest& rest, int node) {
+  Keyframe frame{grid_.PoseAt(node), rest.waiting};
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    if (holding[finger] == kNone) continue;
-    frame.postures[finger] = *reach_.Find(finger, holding[finger], step);
+    if (rest.holding[finger] == kNone) continue;
+    frame.postures[finger] = *reach_.Find(finger, rest.holding[finger], node);
   }
   return frame;
 }
 
-bool GaitSearch::FingersKeepApart(const Holding& holding, int step) {
-  const Keyframe frame = FrameAt(holding, step);
+/// Whether a rest's fingers may stand as they do at a node: where they hold, they reach.
+bool GaitSearch::IsPassable(const Rest& rest, int node) {
+  const Keyframe frame = FrameAt(rest, node);
+  if (!setup_.scene.KeepsOffPalm(frame.pose)) return false;
   std::vector<PlacedFinger> placed;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    if (frame.postures[finger].size() == 0) continue;
     placed.push_back(setup_.scene.Place(finger, frame.postures[finger]));
-    for (FingerIndex other{0}; other < finger; ++other) {
+    for (std::size_t other = 0; other + 1 < placed.size(); ++other) {
       if (!setup_.scene.KeepApart(placed[other], placed.back())) return false;
+    }
+    if (rest.holding[finger] == kNone &&
+        !setup_.scene.KeepsOffObject(placed.back(), frame.pose, TipContact::kFree)) {
+      return false;
     }
   }
   return true;
 }
 
-/// How far along the track the grasp holds, from where it is taken.
-bool GaitSearch::FindStretch(Rest& rest) {
-  if (!FingersKeepApart(rest.holding, rest.step)) return false;
-  const auto end_of = [&](int direction) {
-    int end = direction > 0 ? track_.steps() : 0;
-    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-      if (rest.holding[finger] == kNone) continue;
-      const int run = reach_.RunEnd(finger, rest.holding[finger], rest.step, direction);
-      end = direction > 0 ? std::min(end, run) : std::max(end, run);
-    }
-    int reached = rest.step;
-    while (reached != end && FingersKeepApart(rest.holding, reached + direction)) {
-      reached += direction;
-    }
-    return reached;
-  };
-  rest.last = end_of(1);
-  rest.first = end_of(-1);
+bool GaitSearch::LetFreeFingersWait(Rest& rest) {
+  rest.waiting.resize(setup_.scene.finger_count());
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    if (rest.holding[finger] == kNone) continue;
+    if (reach_.Find(finger, rest.holding[finger], rest.node) == nullptr) return false;
+  }
+  if (!IsPassable(rest, rest.node)) return false;
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    if (rest.holding[finger] != kNone || rest.waiting[finger].size() > 0) continue;
+    const auto waits_at = [&](const Posture& posture) {
+      rest.waiting[finger] = posture;
+      return IsPassable(rest, rest.node);
+    };
+    if (std::ranges::none_of(parking_[finger], waits_at)) return false;
+  }
   return true;
 }
 
-double GaitSearch::ScoreOf(const Rest& rest) {
+bool GaitSearch::CanFollow(const Rest& rest, int node, int neighbour) {
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    if (rest.holding[finger] == kNone) continue;
+    if (!reach_.CanFollow(finger, rest.holding[finger], node, neighbour)) return false;
+  }
+  return true;
+}
+
+std::vector<int> GaitSearch::PathStraightOn(const Rest& rest) {
+  std::vector<int> path = {rest.node};
+  for (int next = grid_.Onward(rest.node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
+    if (!CanFollow(rest, path.back(), next) || !IsPassable(rest, next)) break;
+    path.push_back(next);
+  }
+  return path;
+}
+
+/// Best first by steps, near the track before far from it.
+std::vector<int> GaitSearch::PathAround(const Rest& rest) {
+  using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
+  const auto key_of = [&](int node, int order) {
+    return Key(grid_.StepOf(node), grid_.IsGoal(node), -grid_.OffTrack(node), -order);
+  };
+  std::priority_queue<std::pair<Key, int>> queue;
+  std::unordered_map<int, int> from = {{rest.node, rest.node}};
+  queue.push({key_of(rest.node, 0), rest.node});
+  std::pair<Key, int> best = queue.top();
+  int stuck = 0;
+  while (!queue.empty() && stuck < kTriedNodes) {
+    const auto top = queue.top();
+    queue.pop();
+    if (best.first < top.first) {
+      best = top;
+    } else {
+      ++stuck;
+    }
+    if (grid_.IsGoal(best.second)) break;
+    for (const int next : grid_.Neighbours(top.second)) {
+      if (from.contains(next) || !CanFollow(rest, top.second, next)) continue;
+      from.emplace(next, top.second);
+      if (!IsPassable(rest, next)) continue;
+      queue.push({key_of(next, static_cast<int>(from.size())), next});
+    }
+  }
+  std::vector<int> path = {best.second};
+  while (path.back() != rest.node) path.push_back(from.at(path.back()));
+  std::ranges::reverse(path);
+  return path;
+}
+
+bool GaitSearch::IsGoalGrasp(const Holding& holding) const {
+  if (ends_.goal.empty()) return true;
+  return CountHolding(holding) == static_cast<int>(ends_.goal.size()) &&
+         std::ranges::all_of(ends_.goal, [&](int point) { return Holds(holding, point); });
+}
+
+int GaitSearch::DistanceFromGoal(const Holding& holding) {
+  int least = ends_.goal.empty() ? 0 : setup_.scene.finger_count() + 1;
+  for (const Holding& goal : goals_) {
+    int distance = 0;
+    for (std::size_t i = 0; i < goal.size(); ++i) {
+      distance += static_cast<int>(goal[i] != holding[i]);
+    }
+    least = std::min(least, distance);
+  }
+  return least;
+}
+
+double GaitSearch::ScoreOf(const Rest& rest, int last) {
   double sum = 0;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (rest.holding[finger] == kNone) continue;
-    sum += reach_.RunEnd(finger, rest.holding[finger], rest.step, 1);
+    sum += reach_.RunEnd(finger, rest.holding[finger], rest.node);
   }
-  return rest.last + kSingleFinger * sum / CountHolding(rest.holding);
+  return last + kSingleFinger * sum / CountHolding(rest.holding) -
+         kOffTrack * grid_.OffTrack(rest.node) - kNotYetGoal * DistanceFromGoal(rest.holding);
 }
 
 bool GaitSearch::Add(Rest rest) {
-  if (known_.contains({rest.holding, rest.step}) || !IsGrasp(rest.holding)) return false;
-  known_.insert({rest.holding, rest.step});
+  if (!IsGrasp(rest.holding)) return false;
+  std::vector<int>& taken = taken_[rest.holding];
+  if (std::ranges::find(taken, rest.node) != taken.end()) return false;
+  taken.push_back(rest.node);
   ++counts_.grasps;
-  if (!FindStretch(rest)) {
+  if (!LetFreeFingersWait(rest)) {
     ++counts_.colliding;
     return false;
   }
-  rest.score = ScoreOf(rest);
+  rest.path = PathStraightOn(rest);
+  rest.score = ScoreOf(rest, grid_.StepOf(rest.path.back()));
   queue_.push({rest.score, static_cast<int>(rests_.size())});
   rests_.push_back(std::move(rest));
   return true;
+}
+
+void GaitSearch::AddGivenStart() {
+  ForEachAssignment(ends_.start, setup_.scene.finger_count(), [&](Holding holding) {
+    Add({.holding = std::move(holding), .node = grid_.start()});
+  });
 }
 
 void GaitSearch::AddFirstRests() {
@@ -132,65 +259,80 @@ void GaitSearch::AddFirstRests() {
       Holding holding(fingers, kNone);
       for (FingerIndex finger{0}; finger < fingers; ++finger) {
         if (chosen[finger] == 0) continue;
-        const std::vector<Candidate>& candidates = CandidatesAt(finger, 0);
+        const std::vector<Candidate>& candidates = CandidatesAt(finger, grid_.start());
         if (candidates.empty()) break;
         // Those that it keeps longest stand first.
         const double place = random_.Uniform() * random_.Uniform();
         holding[finger] = candidates[static_cast<std::size_t>(place * candidates.size())].point;
       }
-      if (CountHolding(holding) == kFewestHolding) Add({.holding = holding});
+      if (CountHolding(holding) == kFewestHolding) {
+        Add({.holding = std::move(holding), .node = grid_.start()});
+      }
     }
   } while (std::ranges::prev_permutation(chosen).found);
 }
 
-void GaitSearch::SwitchAt(int index, int step) {
-  const Holding holding = rests_[index].holding;
+std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int node) {
   std::vector<Rest> found;
+  const auto consider = [&](FingerIndex placed, int point, FingerIndex released) {
+    Rest rest{.holding = from.holding, .waiting = from.waiting, .node = node};
+    rest.placed = placed;
+    rest.released = released;
+    if (placed.valid()) {
+      rest.holding[placed] = point;
+      rest.waiting[placed] = {};
+    }
+    if (released.valid()) rest.holding[released] = kNone;
+    const int holding = CountHolding(rest.holding);
+    if (holding < kFewestHolding || holding > most_holding_ || !IsGrasp(rest.holding)) return;
+    int last = grid_.steps();
+    for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+      if (rest.holding[finger] == kNone) continue;
+      last = std::min(last, reach_.RunEnd(finger, rest.holding[finger], node));
+    }
+    rest.score = ScoreOf(rest, last);
+    found.push_back(std::move(rest));
+  };
+  const auto release_one = [&](FingerIndex placed, int point) {
+    for (FingerIndex released{0}; released < setup_.scene.finger_count(); ++released) {
+      if (from.holding[released] != kNone) consider(placed, point, released);
+    }
+  };
   for (FingerIndex placed{0}; placed < setup_.scene.finger_count(); ++placed) {
-    if (holding[placed] != kNone) continue;
+    if (from.holding[placed] != kNone) continue;
     int tried = 0;
-    for (const Candidate& candidate : CandidatesAt(placed, step)) {
+    for (const Candidate& candidate : CandidatesAt(placed, node)) {
       if (tried == kTriedContacts) break;
-      if (std::ranges::find(holding, candidate.point) != holding.end()) continue;
+      if (Holds(from.holding, candidate.point)) continue;
       ++tried;
-      for (FingerIndex released{0}; released < setup_.scene.finger_count(); ++released) {
-        if (holding[released] == kNone) continue;
-        Rest rest{.holding = holding, .step = step};
-        rest.holding[placed] = candidate.point;
-        rest.holding[released] = kNone;
-        rest.parent = index;
-        rest.placed = placed;
-        rest.released = released;
-        if (known_.contains({rest.holding, step}) || !IsGrasp(rest.holding)) continue;
-        rest.last = track_.steps();
-        for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-          if (rest.holding[finger] == kNone) continue;
-          rest.last = std::min(rest.last, reach_.RunEnd(finger, rest.holding[finger], step, 1));
-        }
-        rest.score = ScoreOf(rest);
-        found.push_back(std::move(rest));
-      }
+      consider(placed, candidate.point, {});
+      release_one(placed, candidate.point);
     }
   }
+  if (most_holding_ > kFewestHolding) release_one({}, kNone);
   std::ranges::stable_sort(found, std::greater<>(), &Rest::score);
+  return found;
+}
+
+void GaitSearch::SwitchAt(int index, int place) {
+  const Rest from = rests_[index];
   int taken = 0;
-  for (Rest& rest : found) {
+  for (Rest& rest : SwitchesFrom(from, from.path[place])) {
     if (taken == kTakenUp) break;
     // The way there passes a grasp of all fingers.
-    Holding all = rest.holding;
-    all[rest.released] = holding[rest.released];
-    if (!FingersKeepApart(all, step)) continue;
+    Rest all = rest;
+    if (rest.released.valid()) all.holding[rest.released] = from.holding[rest.released];
+    if (!IsPassable(all, rest.node)) continue;
+    rest.parent = index;
     if (Add(std::move(rest))) ++taken;
   }
 }
 
 void GaitSearch::Expand(int index) {
-  const Rest& rest = rests_[index];
-  const int first = rest.first;
-  const int last = rest.last;
-  const int step = rest.step;
-  std::set<int> places = {last, (step + last) / 2, std::max(first, last - 2), step};
-  for (const int place : places) SwitchAt(index, place);
+  const int last = static_cast<int>(rests_[index].path.size()) - 1;
+  for (const int place : std::set<int>{last, last / 2, std::max(0, last - 2), 0}) {
+    SwitchAt(index, place);
+  }
 }
 
 Surroundings GaitSearch::Around(const Keyframe& frame, FingerIndex moving) const {
@@ -204,7 +346,7 @@ Surroundings GaitSearch::Around(const Keyframe& frame, FingerIndex moving) const
 
 bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
   const int point = rest.holding[rest.placed];
-  const Posture touching = *reach_.Find(rest.placed, point, rest.step);
+  const Posture touching = *reach_.Find(rest.placed, point, rest.node);
   const auto path = FindPathToContact(
       setup_.scene, setup_.inverse[rest.placed], rest.placed, before.postures[rest.placed],
       TargetAt(setup_.scene.finger(rest.placed), setup_.points[point], before.pose), touching,
@@ -223,7 +365,7 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
 bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way) {
   const int point = rests_[rest.parent].holding[rest.released];
   const auto path = FindPathToContact(
-      setup_.scene, setup_.inverse[rest.released], rest.released, parking_[rest.released],
+      setup_.scene, setup_.inverse[rest.released], rest.released, rest.waiting[rest.released],
       TargetAt(setup_.scene.finger(rest.released), setup_.points[point], before.pose),
       before.postures[rest.released], Around(before, rest.released), random_);
   if (!path) return false;
@@ -236,38 +378,44 @@ bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<S
   return true;
 }
 
-const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int step) {
-  const auto [found, is_new] = rest.moves.try_emplace(step);
+const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int place) {
+  const auto [found, is_new] = rest.moves.try_emplace(place);
   if (!is_new) return found->second;
-  // What lies beyond a step that can't be reached can't be reached either.
-  const bool beyond = std::ranges::any_of(rest.moves, [&](const auto& move) {
-    const bool between = (move.first - rest.step) * (step - move.first) > 0;
-    return between && move.second.empty();
-  });
+  // What lies beyond a place that can't be reached can't be reached either.
+  const bool beyond = std::ranges::any_of(
+      rest.moves, [&](const auto& move) { return move.first < place && move.second.empty(); });
   if (!beyond) {
-    auto move = FindMove(setup_, track_, rest.holding, rest.at, rest.step, step);
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 1; i <= place; ++i) poses.push_back(grid_.PoseAt(rest.path[i]));
+    auto move = FindMove(setup_, rest.holding, rest.at, poses);
     if (move) found->second = std::move(*move);
   }
   if (found->second.empty()) ++counts_.no_move;
   return found->second;
 }
 
-/// From the parent's rest along the track, then the switch.
+/// From the parent's rest along its path, then the switch.
 bool GaitSearch::WorkOutWay(Rest& rest) {
   if (rest.parent < 0) {
-    rest.at = FrameAt(rest.holding, rest.step);
+    rest.at = FrameAt(rest, rest.node);
     return true;
   }
   Rest& parent = rests_[rest.parent];
   Keyframe frame = parent.at;
-  if (parent.step != rest.step) {
-    const std::vector<Keyframe>& move = MoveFrom(parent, rest.step);
+  if (parent.node != rest.node) {
+    const auto place = std::ranges::find(parent.path, rest.node);
+    if (place == parent.path.end()) return false;
+    const std::vector<Keyframe>& move =
+        MoveFrom(parent, static_cast<int>(place - parent.path.begin()));
     if (move.empty()) return false;
     frame = move.back();
     rest.way.push_back({Stretch::Kind::kMove, {}, kNone, move});
   }
-  Keyframe placed;
-  if (!Place(rest, frame, placed) || !Release(rest, placed, rest.way)) {
+  if (rest.placed.valid() && !Place(rest, Keyframe(frame), frame)) {
+    ++counts_.no_path;
+    return false;
+  }
+  if (rest.released.valid() && !Release(rest, frame, rest.way)) {
     ++counts_.no_path;
     return false;
   }
@@ -275,7 +423,18 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
   return true;
 }
 
-Gait GaitSearch::GaitTo(int index, std::vector<Keyframe> last_move) const {
+/// The whole gait, where a rest's path leads to the goal and is free.
+std::optional<Gait> GaitSearch::GaitFrom(int index) {
+  Rest& rest = rests_[index];
+  if (!grid_.IsGoal(rest.path.back()) || !IsGoalGrasp(rest.holding)) return std::nullopt;
+  std::vector<Keyframe> last_move;
+  if (rest.path.size() > 1) {
+    last_move = MoveFrom(rest, static_cast<int>(rest.path.size()) - 1);
+    if (last_move.empty()) {
+      rest.path.pop_back();
+      return std::nullopt;
+    }
+  }
   std::vector<int> chain;
   for (int i = index; i >= 0; i = rests_[i].parent) chain.push_back(i);
   std::ranges::reverse(chain);
@@ -283,7 +442,7 @@ Gait GaitSearch::GaitTo(int index, std::vector<Keyframe> last_move) const {
   for (const int i : chain) {
     gait.stretches.insert(gait.stretches.end(), rests_[i].way.begin(), rests_[i].way.end());
   }
-  if (last_move.size() > 1) {
+  if (!last_move.empty()) {
     gait.stretches.push_back({Stretch::Kind::kMove, {}, kNone, std::move(last_move)});
   }
   return gait;
@@ -294,29 +453,35 @@ int GaitSearch::PopNext() {
     const Waiting top = queue_.top();
     queue_.pop();
     const Rest& rest = rests_[top.rest];
-    const double score = rest.score - kPutBack * expanded_at_[rest.last];
+    const double score = rest.score - kPutBack * expanded_at_[grid_.StepOf(rest.path.back())];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
 }
 
-std::optional<Gait> GaitSearch::Run(int most_expanded, const Deadline& deadline) {
-  if (!begun_) AddFirstRests();
+/// Whether the same grasp was expanded that passes the rest's node.
+bool GaitSearch::WasExpandedAt(const Rest& rest) const {
+  const auto found = passed_.find(rest.holding);
+  return found != passed_.end() &&
+         std::ranges::find(found->second, rest.node) != found->second.end();
+}
+
+std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& deadline) {
+  if (!begun_) ends_.start.empty() ? AddFirstRests() : AddGivenStart();
   begun_ = true;
   while (!queue_.empty() && counts_.expanded < most_expanded) {
     if (deadline.IsOver()) return std::nullopt;
     const int index = PopNext();
     Rest& rest = rests_[index];
-    if (!WorkOutWay(rest)) continue;
-    if (rest.last == track_.steps()) {
-      if (rest.step == rest.last) return GaitTo(index, {});
-      const std::vector<Keyframe>& move = MoveFrom(rest, rest.last);
-      if (!move.empty()) return GaitTo(index, move);
-      --rest.last;
-    }
-    counts_.farthest = std::max(counts_.farthest, rest.last);
+    if (WasExpandedAt(rest) || !WorkOutWay(rest)) continue;
+    rest.path = PathAround(rest);
+    if (std::optional<Gait> gait = GaitFrom(index)) return gait;
+    std::vector<int>& passed = passed_[rest.holding];
+    passed.insert(passed.end(), rest.path.begin(), rest.path.end());
+    const int last = grid_.StepOf(rest.path.back());
+    counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
-    ++expanded_at_[rest.last];
+    ++expanded_at_[last];
     Expand(index);
   }
   return std::nullopt;

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <queue>
-#include <set>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -13,7 +11,7 @@
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_setup.h"
-#include "planner/gait/pose_track.h"
+#include "planner/gait/pose_grid.h"
 #include "planner/gait/reach_map.h"
 
 namespace regrasp::gait {
@@ -28,44 +26,51 @@ struct GaitCounts {
   int farthest = 0;            ///< step of the track that was reached
 };
 
-/// Searches a gait that takes an object along a track of poses: rests are grasps of three or more
-/// fingers; from each the object goes as far as these can follow, somewhere on that stretch a free
-/// finger is placed and another one lifted.
+/// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
+struct GaitEnds {
+  std::vector<int> start;
+  std::vector<int> goal;
+};
+
+/// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
+/// grasps of three or more fingers; from each the object goes as far as these can follow, somewhere
+/// on that path a free finger is placed and another one lifted.
 ///
 /// Best first: rests from which the object gets farthest, and from which each single finger could
-/// go on farther, come first; the more of them were expanded that end at one step, the later others
-/// come that end there, so that a dead end does not hold the search up. What is costly, paths of
-/// fingers and the certificate of moves, is worked out when a rest's turn comes.
+/// go on farther, come first; those nearer to the goal grasp before others; the more of them were
+/// expanded that end at one step, the later others come that end there, so that a dead end does not
+/// hold the search up. What is costly, paths of fingers, ways round on the grid and the certificate
+/// of moves, is worked out when a rest's turn comes.
 class GaitSearch {
  public:
   /// @param memory   knows the setup's points as contacts under their numbers.
-  /// @param parking  where free fingers are. All outlive this object.
-  GaitSearch(const HandSetup& setup, const PoseTrack& track, const Parking& parking,
-             criteria::GraspMemory& memory, RandomStream& random);
+  /// @param parking  where free fingers wait. All outlive this object.
+  GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parking& parking,
+             const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
 
   /// Goes on until so many rests were expanded in all calls together.
   /// @returns nullopt where none was found until then, or until the deadline.
-  [[nodiscard]] std::optional<Gait> Run(int most_expanded, const Deadline& deadline);
+  [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded, const Deadline& deadline);
   /// Whether nothing is left to expand.
   [[nodiscard]] bool IsExhausted() const { return begun_ && queue_.empty(); }
 
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
 
  private:
-  /// A grasp, and the stretch of the track along which it holds.
+  /// A grasp, and the nodes of the grid along which it holds.
   struct Rest {
     Holding holding;
-    int step = 0;   ///< at which it was taken
-    int first = 0;  ///< of the stretch
-    int last = 0;
+    std::vector<Posture> waiting = {};  ///< of fingers that hold nothing, by finger
+    int node = 0;                       ///< at which it was taken
+    std::vector<int> path = {};         ///< from `node` on, as far as it goes
     double score = 0;
     int parent = -1;
-    FingerIndex placed = {}, released = {};
+    FingerIndex placed = {}, released = {};  ///< not valid: none
     /// Worked out when its turn comes: from the parent's rest to this one.
     std::vector<Stretch> way = {};
-    /// Moves from `step` on that were worked out, by where they lead; empty ones can't be done.
+    /// Moves along `path` that were worked out, by place in it; empty ones can't be done.
     std::map<int, std::vector<Keyframe>> moves = {};
-    Keyframe at = {};  ///< at `step`
+    Keyframe at = {};  ///< at `node`
   };
   struct Waiting {
     double score;
@@ -74,43 +79,61 @@ class GaitSearch {
       return score != other.score ? score < other.score : rest > other.rest;
     }
   };
-  /// A contact that a finger reaches at a step, and how far it can keep it.
+  /// A contact that a finger reaches at a node, and the step to which it can keep it.
   struct Candidate {
     int point;
+    bool is_goal;
     int last;
   };
 
   void AddFirstRests();
+  void AddGivenStart();
   void Expand(int index);
-  void SwitchAt(int index, int step);
-  /// Takes a rest up if it is admitted and new. @returns whether.
+  void SwitchAt(int index, int place);
+  /// The grasps that one switch leads to, the best first.
+  [[nodiscard]] std::vector<Rest> SwitchesFrom(const Rest& rest, int node);
+  /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
-  [[nodiscard]] bool FindStretch(Rest& rest);
-  [[nodiscard]] bool FingersKeepApart(const Holding& holding, int step);
-  [[nodiscard]] Keyframe FrameAt(const Holding& holding, int step);
+  /// Finds postures for fingers that hold nothing and have none, and the path straight on.
+  [[nodiscard]] bool LetFreeFingersWait(Rest& rest);
+  [[nodiscard]] std::vector<int> PathStraightOn(const Rest& rest);
+  /// The path that gets farthest, also beside the track.
+  [[nodiscard]] std::vector<int> PathAround(const Rest& rest);
+  [[nodiscard]] bool CanFollow(const Rest& rest, int node, int neighbour);
+  [[nodiscard]] bool IsPassable(const Rest& rest, int node);
+  [[nodiscard]] Keyframe FrameAt(const Rest& rest, int node);
+  [[nodiscard]] bool WasExpandedAt(const Rest& rest) const;
+  [[nodiscard]] bool IsGoalGrasp(const Holding& holding) const;
+  /// Fingers that would have to be placed or lifted, at least.
+  [[nodiscard]] int DistanceFromGoal(const Holding& holding);
+  [[nodiscard]] double ScoreOf(const Rest& rest, int last);
   [[nodiscard]] bool WorkOutWay(Rest& rest);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  /// The move with a rest's grasp to a step; empty where it can't be done.
-  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int step);
+  /// The move with a rest's grasp to a place of its path; empty where it can't be done.
+  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int place);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
   [[nodiscard]] bool Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way);
   [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
-  [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int step);
-  [[nodiscard]] double ScoreOf(const Rest& rest);
-  [[nodiscard]] Gait GaitTo(int index, std::vector<Keyframe> last_move) const;
+  [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
+  [[nodiscard]] bool IsLookedAt(int point, int node) const;
+  [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
   const HandSetup& setup_;
-  const PoseTrack& track_;
+  const PoseGrid& grid_;
   const Parking& parking_;
+  GaitEnds ends_;
+  int most_holding_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
   ReachMap reach_;
   std::vector<Rest> rests_;
   std::priority_queue<Waiting> queue_;
-  std::set<std::pair<Holding, int>> known_;
+  /// Of each grasp the nodes at which it was taken up, and those that an expanded rest passes.
+  std::map<Holding, std::vector<int>> taken_, passed_;
   std::map<std::pair<int, int>, std::vector<Candidate>> candidates_;
+  std::vector<Holding> goals_;    ///< ways to hold the goal grasp at the goal pose
   std::vector<int> expanded_at_;  ///< rests, by the step that they end at
   GaitCounts counts_;
   bool begun_ = false;

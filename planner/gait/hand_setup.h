@@ -15,7 +15,7 @@ struct HandSetup {
   const std::vector<SurfacePoint>& points;
 };
 
-/// How all fingers stand that hold nothing, by finger.
-using Parking = std::vector<Posture>;
+/// By finger: postures in which it may wait while it holds nothing, the best first.
+using Parking = std::vector<std::vector<Posture>>;
 
 }  // namespace regrasp::gait

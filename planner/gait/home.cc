@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr int kPlaces = 300;     // drawn, with a yaw each
 constexpr int kPoints = 40;      // of the surface that are looked at
 constexpr int kPosesOfTurn = 4;  // at which it is looked at them
-constexpr int kHomes = 12;
+constexpr int kHomes = 24;
 constexpr int kDrawnGrasps = 150;  // at each pose
 /// So many of the best by what tips may reach are looked at more closely.
 constexpr int kCloser = 36;
@@ -23,6 +23,8 @@ constexpr int kCloser = 36;
 constexpr double kNoContact = 0.3;
 
 constexpr int kParkingDraws = 120;
+constexpr int kParkingPlaces = 6;
+constexpr double kOtherPlace = 0.5;  // radians over all drives
 constexpr int kTrackSamples = 9;
 constexpr double kParkingClearance = 0.02;  // metres: more counts for nothing
 constexpr double kBendPenalty = 0.002;      // metres per radian
@@ -51,30 +53,49 @@ double ScoreOf(const HandSetup& setup, const PoseTrack& track) {
   return score;
 }
 
+/// A contact that a finger reaches, and the finger there.
+struct Reached {
+  int point;
+  PlacedFinger placed;
+};
+
+/// Whether three fingers, each at a contact of its own drawn for it, hold the object and keep off
+/// each other.
+bool DrawGrasp(const HandSetup& setup, const std::vector<std::vector<Reached>>& reached,
+               criteria::GraspMemory& memory, RandomStream& random) {
+  std::vector<const Reached*> drawn;
+  criteria::ContactSet set;
+  for (const int finger : random.Choose(static_cast<int>(reached.size()), 3)) {
+    drawn.push_back(&reached[finger][random.Index(reached[finger].size())]);
+    if (!set.Has(drawn.back()->point)) set.Insert(drawn.back()->point);
+  }
+  if (set.size() < 3 || !memory.Admits(set)) return false;
+  return setup.scene.KeepApart(drawn[0]->placed, drawn[1]->placed) &&
+         setup.scene.KeepApart(drawn[0]->placed, drawn[2]->placed) &&
+         setup.scene.KeepApart(drawn[1]->placed, drawn[2]->placed);
+}
+
 /// By grasps: of three contacts that three fingers reach without running into anything, drawn at
-/// some poses of the turn, how many are force closure.
+/// some poses of the turn, how many hold the object.
 double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::GraspMemory& memory,
                      RandomStream& random) {
-  ReachMap reach(setup.scene, setup.inverse, setup.points, track);
+  const PoseGrid grid(track, setup.scene.hand().up, PoseGrid::End::kPose);
+  ReachMap reach(setup.scene, setup.inverse, setup.points, grid);
   const int every = std::max<int>(1, static_cast<int>(setup.points.size()) / kPoints);
   double score = 0;
-  for (int step = 0; step <= track.steps(); step += 2) {
-    std::vector<std::vector<int>> reached;
+  for (int node = grid.start(); node != PoseGrid::kNoNode; node = grid.Onward(node)) {
+    std::vector<std::vector<Reached>> reached;
     for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
-      std::vector<int> points;
+      std::vector<Reached> contacts;
       for (int point = 0; point < static_cast<int>(setup.points.size()); point += every) {
-        if (reach.Find(finger, point, step) != nullptr) points.push_back(point);
+        const Posture* posture = reach.Find(finger, point, node);
+        if (posture != nullptr) contacts.push_back({point, setup.scene.Place(finger, *posture)});
       }
-      if (!points.empty()) reached.push_back(std::move(points));
+      if (!contacts.empty()) reached.push_back(std::move(contacts));
     }
     int grasps = 0;
     for (int i = 0; reached.size() >= 3 && i < kDrawnGrasps; ++i) {
-      criteria::ContactSet set;
-      for (const int finger : random.Choose(static_cast<int>(reached.size()), 3)) {
-        const int point = reached[finger][random.Index(reached[finger].size())];
-        if (!set.Has(point)) set.Insert(point);
-      }
-      grasps += static_cast<int>(set.size() == 3 && memory.Admits(set));
+      grasps += static_cast<int>(DrawGrasp(setup, reached, memory, random));
     }
     score += std::log(kNoContact + grasps);
   }
@@ -102,15 +123,16 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre
     Vector3d place;
     for (int k = 0; k < 3; ++k) place[k] = box.min()[k] + random.Uniform() * box.sizes()[k];
     pose.translation() = place - pose.linear() * centre;
-    const PoseTrack track(pose, centre, turn.axis, turn.angle, kPosesOfTurn);
+    const PoseTrack track(pose, centre, turn, Vector3d::Zero(), kPosesOfTurn);
     homes.push_back({ScoreOf(setup, track), pose});
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   homes.resize(std::min<std::size_t>(homes.size(), kCloser));
   for (Home& home : homes) {
     if (!std::isfinite(home.score)) continue;
-    home.score = CloserScoreOf(
-        setup, PoseTrack(home.pose, centre, turn.axis, turn.angle, kPosesOfTurn), memory, random);
+    home.score =
+        CloserScoreOf(setup, PoseTrack(home.pose, centre, turn, Vector3d::Zero(), kPosesOfTurn / 2),
+                      memory, random);
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   std::vector<Isometry3d> poses;
@@ -123,13 +145,15 @@ std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre
 
 std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& track,
                                    RandomStream& random) {
+  struct Place {
+    double score;
+    Posture posture;
+  };
   const HandScene& scene = setup.scene;
-  Parking parking;
-  std::vector<PlacedFinger> parked;
+  Parking parking(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     const kinematics::Finger& chain = scene.finger(finger);
-    std::optional<Posture> best;
-    double best_score = -std::numeric_limits<double>::infinity();
+    std::vector<Place> places;
     for (int i = 0; i < kParkingDraws; ++i) {
       Posture posture = setup.inverse[finger].middle();
       for (int k = 0; i > 0 && k < chain.drives; ++k) {
@@ -138,10 +162,6 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       }
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
-      if (!std::ranges::all_of(
-              parked, [&](const PlacedFinger& other) { return scene.KeepApart(placed, other); })) {
-        continue;
-      }
       double clearance = kParkingClearance;
       for (int k = 0; k < kTrackSamples && clearance > 0; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
@@ -150,14 +170,18 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       if (clearance <= scene.margin() + kSpare) continue;
       // Far enough off, it had better stay where it is soon back.
       const double bent = (posture - setup.inverse[finger].middle()).norm();
-      const double score = clearance - kBendPenalty * bent;
-      if (score <= best_score) continue;
-      best_score = score;
-      best = posture;
+      places.push_back({clearance - kBendPenalty * bent, std::move(posture)});
     }
-    if (!best) return std::nullopt;
-    parking.push_back(*best);
-    parked.push_back(scene.Place(finger, *best));
+    std::ranges::stable_sort(places, std::greater<>(), &Place::score);
+    for (Place& place : places) {
+      std::vector<Posture>& chosen = parking[finger];
+      if (static_cast<int>(chosen.size()) == kParkingPlaces) break;
+      const bool is_other = std::ranges::all_of(chosen, [&](const Posture& posture) {
+        return (posture - place.posture).norm() > kOtherPlace;
+      });
+      if (is_other) chosen.push_back(std::move(place.posture));
+    }
+    if (parking[finger].empty()) return std::nullopt;
   }
   return parking;
 }

@@ -8,12 +8,6 @@
 
 namespace regrasp::gait {
 
-/// A turn of an object about one of its own axes.
-struct Turn {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of length 1, in the object's frame
-  double angle = 0;                                 ///< radians
-};
-
 /// Poses in the hand to begin a turn in, the best first: where many contacts are within reach of
 /// many fingers all along the turn and make grasps, and the object keeps off the palm. The object's
 /// own z axis is upright there; its place and its yaw are drawn.
@@ -26,7 +20,7 @@ struct Turn {
                                                        RandomStream& random);
 
 /// Postures out of the way: each finger as far from the object's poses along a track as it can
-/// be (no more than some millimetres count), off the palm and off the other parked ones.
+/// be (no more than some millimetres count), and off the palm.
 /// @returns none where a finger has no such posture.
 [[nodiscard]] std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& track,
                                                  RandomStream& random);

@@ -1,13 +1,13 @@
 #include "planner/gait/move_path.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "planner/gait/certified_path.h"
 
 namespace regrasp::gait {
 namespace {
 
-/// Of a track's steps.
+/// Of the way from one pose to the next.
 constexpr double kShortestStep = 1.0 / 64;
 
 /// The keyframe at another pose: holding fingers follow from where they are.
@@ -37,31 +37,41 @@ bool TipsStay(const HandSetup& setup, const Holding& holding, const Keyframe& mi
   return true;
 }
 
+/// Appends the keyframes of the way to the next pose. @returns whether there is one.
+bool AppendWay(const HandSetup& setup, const Holding& holding, const Touching& touching,
+               const Eigen::Isometry3d& to, std::vector<Keyframe>& path) {
+  const Eigen::Isometry3d from = path.back().pose;
+  double at = 0;
+  double stride = 1;
+  while (at < 1) {
+    const double next = std::min(1.0, at + stride);
+    const auto frame =
+        Follow(setup, holding, path.back(), next == 1 ? to : Between(from, to, next));
+    if (!frame) return false;
+    if (!TipsStay(setup, holding, Between(path.back(), *frame, 0.5))) {
+      stride /= 2;
+      if (stride < kShortestStep) return false;
+      continue;
+    }
+    if (!IsClear(setup.scene, path.back(), *frame, touching)) return false;
+    path.push_back(*frame);
+    at = next;
+  }
+  return true;
+}
+
 }  // namespace
 
-std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup, const PoseTrack& track,
-                                              const Holding& holding, const Keyframe& from,
-                                              double from_step, double to_step) {
+std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup, const Holding& holding,
+                                              const Keyframe& from,
+                                              const std::vector<Eigen::Isometry3d>& poses) {
   Touching touching;
   for (const int point : holding) {
     touching.push_back(point == kNone ? TipContact::kFree : TipContact::kTouching);
   }
   std::vector<Keyframe> path = {from};
-  const double direction = to_step < from_step ? -1 : 1;
-  double at = from_step;
-  double stride = 1;
-  while (at != to_step) {
-    const double next = std::abs(to_step - at) <= stride ? to_step : at + direction * stride;
-    const auto frame = Follow(setup, holding, path.back(), track.PoseAt(next));
-    if (!frame) return std::nullopt;
-    if (!TipsStay(setup, holding, Between(path.back(), *frame, 0.5))) {
-      stride /= 2;
-      if (stride < kShortestStep) return std::nullopt;
-      continue;
-    }
-    if (!IsClear(setup.scene, path.back(), *frame, touching)) return std::nullopt;
-    path.push_back(*frame);
-    at = next;
+  for (const Eigen::Isometry3d& pose : poses) {
+    if (!AppendWay(setup, holding, touching, pose, path)) return std::nullopt;
   }
   return path;
 }

@@ -5,22 +5,20 @@
 
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_setup.h"
-#include "planner/gait/pose_track.h"
 
 namespace regrasp::gait {
 
-/// Certified keyframes of a move along a track: all holding fingers keep their contacts, the ball's
+/// Certified keyframes of a move through poses: all holding fingers keep their contacts, the ball's
 /// centre one radius above each, the others stay where they are.
 ///
 /// Between keyframes drives go straight; there are so many of them that no tip is off its contact
 /// by more than kTipOff half-way.
-/// @param from       at track step `from_step`, tips at their contacts.
+/// @param from   where tips are at their contacts.
+/// @param poses  of the object, where it goes one after the other.
 /// @returns nullopt where a finger can't follow or something comes too near something.
-[[nodiscard]] std::optional<std::vector<Keyframe>> FindMove(const HandSetup& setup,
-                                                            const PoseTrack& track,
-                                                            const Holding& holding,
-                                                            const Keyframe& from, double from_step,
-                                                            double to_step);
+[[nodiscard]] std::optional<std::vector<Keyframe>> FindMove(
+    const HandSetup& setup, const Holding& holding, const Keyframe& from,
+    const std::vector<Eigen::Isometry3d>& poses);
 
 /// Metres.
 inline constexpr double kTipOff = 2e-5;

@@ -4,34 +4,42 @@
 
 namespace regrasp::gait {
 
+/// A turn of an object about one of its own axes.
+struct Turn {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of length 1, in the object's frame
+  double angle = 0;                                 ///< radians
+};
+
 /// Poses of an object from one to another in equal steps: it turns about one axis through its
-/// centre, which stays.
+/// centre, which goes straight.
 class PoseTrack {
  public:
   /// @param start   pose of the object in the palm's frame.
   /// @param centre  in the object's frame, metres.
-  /// @param axis    of length 1, in the object's frame.
-  /// @param angle   of the whole turn, radians.
-  /// @param steps   > 0.
-  PoseTrack(const Eigen::Isometry3d& start, const Eigen::Vector3d& centre,
-            const Eigen::Vector3d& axis, double angle, int steps)
-      : start_(start), centre_(centre), axis_(axis), angle_(angle), steps_(steps) {}
+  /// @param turn    the whole of it.
+  /// @param shift   of the centre, in the palm's frame, metres.
+  PoseTrack(const Eigen::Isometry3d& start, const Eigen::Vector3d& centre, const Turn& turn,
+            const Eigen::Vector3d& shift, int steps)
+      : start_(start), centre_(centre), turn_(turn), shift_(shift), steps_(steps) {}
 
+  /// @returns 0 where start and goal are one pose.
   [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   /// @param step  in [0, steps()], whole or not.
   [[nodiscard]] Eigen::Isometry3d PoseAt(double step) const {
-    const double share = step / steps_;
+    const double share = steps_ == 0 ? 0 : step / steps_;
     Eigen::Isometry3d pose = start_;
-    pose.linear() = start_.linear() * Eigen::AngleAxisd(share * angle_, axis_).toRotationMatrix();
-    pose.translation() = start_ * centre_ - pose.linear() * centre_;
+    pose.linear() =
+        start_.linear() * Eigen::AngleAxisd(share * turn_.angle, turn_.axis).toRotationMatrix();
+    pose.translation() = start_ * centre_ + share * shift_ - pose.linear() * centre_;
     return pose;
   }
 
  private:
   Eigen::Isometry3d start_;
   Eigen::Vector3d centre_;
-  Eigen::Vector3d axis_;
-  double angle_;
+  Turn turn_;
+  Eigen::Vector3d shift_;
   int steps_;
 };
 

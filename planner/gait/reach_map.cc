@@ -3,8 +3,8 @@
 namespace regrasp::gait {
 namespace {
 
-/// Between two steps of a track no drive of a finger that keeps its contact turns by more, radians:
-/// it would have gone over to another branch of postures.
+/// Between two neighbours no drive of a finger that keeps its contact turns by more, radians: it
+/// would have gone over to another branch of postures.
 constexpr double kJump = 0.35;
 
 }  // namespace
@@ -14,46 +14,37 @@ kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePo
   return {pose * (contact.p - finger.tip.radius * contact.n), pose.linear() * contact.n};
 }
 
-ReachMap::ReachMap(const HandScene& scene,
-                   const std::vector<kinematics::InverseKinematics>& inverse,
-                   const std::vector<SurfacePoint>& points, const PoseTrack& track)
-    : scene_(scene), inverse_(inverse), points_(points), track_(track) {
-  entries_.resize(inverse.size() * points.size() * static_cast<std::size_t>(track.steps() + 1));
-}
-
-std::size_t ReachMap::Key(FingerIndex finger, int point, int step) const {
-  const std::size_t row = static_cast<std::size_t>(finger) * points_.size() + point;
-  return row * static_cast<std::size_t>(track_.steps() + 1) + step;
-}
-
-void ReachMap::WorkOut(FingerIndex finger, int point, int step, Entry& entry) {
-  entry.known = true;
-  const Eigen::Isometry3d pose = track_.PoseAt(step);
+std::optional<Posture> ReachMap::WorkOut(FingerIndex finger, int point, int node) const {
+  const Eigen::Isometry3d pose = grid_.PoseAt(node);
   const kinematics::TipTarget target = TargetAt(scene_.finger(finger), points_[point], pose);
-  if (!inverse_[finger].MayReach(target)) return;
+  if (!inverse_[finger].MayReach(target)) return std::nullopt;
   std::optional<Posture> posture = inverse_[finger].Solve(target);
-  if (!posture) return;
+  if (!posture) return std::nullopt;
   const PlacedFinger placed = scene_.Place(finger, *posture);
-  if (!scene_.KeepsOffHand(placed)) return;
-  if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return;
-  entry.posture = std::move(posture);
+  if (!scene_.KeepsOffHand(placed)) return std::nullopt;
+  if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return std::nullopt;
+  return posture;
 }
 
-const Posture* ReachMap::Find(FingerIndex finger, int point, int step) {
-  Entry& entry = entries_[Key(finger, point, step)];
-  if (!entry.known) WorkOut(finger, point, step, entry);
-  return entry.posture ? &*entry.posture : nullptr;
+const Posture* ReachMap::Find(FingerIndex finger, int point, int node) {
+  const std::size_t row = static_cast<std::size_t>(finger) * points_.size() + point;
+  const auto [found, is_new] = known_.try_emplace(row * grid_.size() + node);
+  if (is_new) found->second = WorkOut(finger, point, node);
+  return found->second ? &*found->second : nullptr;
 }
 
-int ReachMap::RunEnd(FingerIndex finger, int point, int step, int direction) {
-  const Posture* posture = Find(finger, point, step);
-  for (int next = step + direction; next >= 0 && next <= track_.steps(); next += direction) {
-    const Posture* other = Find(finger, point, next);
-    if (other == nullptr || (*other - *posture).cwiseAbs().maxCoeff() > kJump) break;
-    posture = other;
-    step = next;
+bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour) {
+  const Posture* from = Find(finger, point, node);
+  const Posture* to = Find(finger, point, neighbour);
+  return from != nullptr && to != nullptr && (*to - *from).cwiseAbs().maxCoeff() <= kJump;
+}
+
+int ReachMap::RunEnd(FingerIndex finger, int point, int node) {
+  for (int next = grid_.Onward(node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
+    if (!CanFollow(finger, point, node, next)) break;
+    node = next;
   }
-  return step;
+  return grid_.StepOf(node);
 }
 
 }  // namespace regrasp::gait

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/gait/hand_scene.h"
-#include "planner/gait/pose_track.h"
+#include "planner/gait/pose_grid.h"
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/inverse_kinematics.h"
 
@@ -23,36 +23,35 @@ struct SurfacePoint {
                                              const SurfacePoint& contact,
                                              const Eigen::Isometry3d& pose);
 
-/// Which fingers can be at which contacts, and how they stand there, for the poses of a track: the
+/// Which fingers can be at which contacts, and how they stand there, for the poses of a grid: the
 /// finger alone, whatever the others do. Worked out when first asked for.
 class ReachMap {
  public:
-  /// @param scene, inverse, points, track  outlive this object; `inverse` has one for each finger.
+  /// @param scene, inverse, points, grid  outlive this object; `inverse` has one for each finger.
   ReachMap(const HandScene& scene, const std::vector<kinematics::InverseKinematics>& inverse,
-           const std::vector<SurfacePoint>& points, const PoseTrack& track);
+           const std::vector<SurfacePoint>& points, const PoseGrid& grid)
+      : scene_(scene), inverse_(inverse), points_(points), grid_(grid) {}
 
-  /// How the finger stands at a contact at a step of the track, keeping off the palm, itself and
-  /// the object; null where it does not reach it.
-  [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int step);
+  /// How the finger stands at a contact at a node of the grid, keeping off the palm, itself and
+  /// the object; null where it does not reach it. Stays where it is.
+  [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int node);
 
-  /// The last step to which the finger can keep the contact from `step` on, without a jump in its
-  /// posture, forwards along the track or (direction −1) backwards; `step` itself where it goes
-  /// nowhere. @param step  where it reaches the contact.
-  [[nodiscard]] int RunEnd(FingerIndex finger, int point, int step, int direction);
+  /// Whether the finger can keep the contact from a node to a neighbour, without a jump in its
+  /// posture. @param node  where it reaches the contact.
+  [[nodiscard]] bool CanFollow(FingerIndex finger, int point, int node, int neighbour);
+
+  /// The last step to which the finger can keep the contact from a node on, with the node's offset.
+  /// @param node  where it reaches the contact.
+  [[nodiscard]] int RunEnd(FingerIndex finger, int point, int node);
 
  private:
-  struct Entry {
-    bool known = false;
-    std::optional<Posture> posture;
-  };
-  [[nodiscard]] std::size_t Key(FingerIndex finger, int point, int step) const;
-  void WorkOut(FingerIndex finger, int point, int step, Entry& entry);
+  [[nodiscard]] std::optional<Posture> WorkOut(FingerIndex finger, int point, int node) const;
 
   const HandScene& scene_;
   const std::vector<kinematics::InverseKinematics>& inverse_;
   const std::vector<SurfacePoint>& points_;
-  const PoseTrack& track_;
-  std::vector<Entry> entries_;
+  const PoseGrid& grid_;
+  std::unordered_map<std::size_t, std::optional<Posture>> known_;
 };
 
 }  // namespace regrasp::gait

@@ -21,6 +21,10 @@ constexpr double kPostureWeight = 0.004;
 constexpr double kApproachSlack = 0.35;
 
 constexpr int kIterations = 40;
+/// A tip that is still so far off, metres, and has not come half as near within so many iterations
+/// does not come at all.
+constexpr double kFarOff = 1e-4;
+constexpr int kPatience = 6;
 constexpr double kDamping = 1e-7;  // m²/rad²: a singular direction moves no more than this allows
 constexpr double kMostTurn = 0.4;  // radians in one iteration
 constexpr double kTowardsMiddle = 0.5;
@@ -159,9 +163,14 @@ std::optional<Posture> InverseKinematics::SolveFrom(const TipTarget& target,
                                                     const Posture& start) const {
   Posture posture = start;
   bool settled = false;
+  double off_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kIterations; ++i) {
     const TipState state = TipAt(finger_, posture);
     const Vector3d error = target.centre - state.centre;
+    if (i % kPatience == 0) {
+      if (error.norm() > std::max(kFarOff, off_before / 2)) return std::nullopt;
+      off_before = error.norm();
+    }
     if (settled && error.norm() <= kTipTolerance) {
       return Fits(target, posture) ? std::optional(posture) : std::nullopt;
     }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planner/gait/pose_track.h"
+
+namespace regrasp::gait {
+
+/// Poses that an object may take on its way: those of a track, and beside each of them some that
+/// are a little shifted and tilted, as fingers can often go on holding an object that gives way.
+///
+/// A node is a pose, by number; neighbours are so near to each other that a finger which reaches a
+/// contact at both can mostly follow from one to the other.
+class PoseGrid {
+ public:
+  /// What may be at the end.
+  enum class End {
+    kPose,         ///< the last pose of the track
+    kOrientation,  ///< its orientation, wherever the object is
+  };
+  /// @param up  in the palm's frame: tilts are about axes at right angles to it.
+  PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end);
+
+  [[nodiscard]] int size() const { return (track_.steps() + 1) * offsets(); }
+  [[nodiscard]] int steps() const { return track_.steps(); }
+  [[nodiscard]] int StepOf(int node) const { return node / offsets(); }
+  /// How many unit offsets a pose is from the track.
+  [[nodiscard]] int OffTrack(int node) const;
+  [[nodiscard]] int start() const { return 0; }
+  /// The last pose of the track.
+  [[nodiscard]] int goal() const { return steps() * offsets(); }
+  [[nodiscard]] bool IsGoal(int node) const;
+
+  /// Of the object in the palm's frame.
+  [[nodiscard]] Eigen::Isometry3d PoseAt(int node) const;
+  /// The next one along the track, with the same offset; kNoNode at the end.
+  [[nodiscard]] int Onward(int node) const {
+    return node + offsets() < size() ? node + offsets() : kNoNode;
+  }
+  static constexpr int kNoNode = -1;
+  /// In the order of their numbers.
+  [[nodiscard]] std::vector<int> Neighbours(int node) const;
+
+ private:
+  /// In units of kShift along three axes and of kTilt about two.
+  using Offset = std::array<int, 5>;
+  [[nodiscard]] int offsets() const { return static_cast<int>(offsets_.size()); }
+
+  PoseTrack track_;
+  End end_;
+  Eigen::Matrix3d axes_;  ///< columns: across, across, up
+  std::vector<Offset> offsets_;
+  std::vector<std::vector<int>> beside_;  ///< by offset: those that differ by one unit
+};
+
+}  // namespace regrasp::gait
