@@ -14,9 +14,6 @@ namespace {
 constexpr int kContacts = 400;
 /// Of the diameter: contacts keep off the borders of faces, where the least slip is to another one.
 constexpr double kFromBorder = 0.02;
-/// Of a track, radians.
-constexpr double kStep = 0.06;
-
 /// Grasps expanded from one place in the hand before others have their turn.
 constexpr int kExpandedAtOnce = 6;
 /// From all places together, by their number, before there is another one.
@@ -42,32 +39,35 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
   return contacts;
 }
 
-/// A place in the hand to turn the object in.
+/// A place in the hand to begin in.
 struct PlaceInHand {
   PoseGrid grid;
   Parking parking;
   RandomStream random;
   GaitSearch search;
 
-  PlaceInHand(const HandSetup& setup, const PoseTrack& poses, Parking postures,
-              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
-      : grid(poses, setup.scene.hand().up, PoseGrid::End::kOrientation),
+  PlaceInHand(const HandSetup& setup, const PoseGrid& poses, Parking postures,
+              const GaitEnds& ends, criteria::GraspMemory& memory, std::uint64_t seed,
+              std::size_t index)
+      : grid(poses),
         parking(std::move(postures)),
         random(seed, RandomUse::kGaits, index),
-        search(setup, grid, parking, {}, memory, random) {}
+        search(setup, grid, parking, ends, memory, random) {}
 };
 
 /// All places in the hand that are tried, the best first, and more the longer it takes; those where
 /// the object comes farther have more turns.
 class PlacesInHand {
  public:
-  PlacesInHand(const GaitRequest& request, const HandSetup& setup, criteria::GraspMemory& memory)
+  PlacesInHand(const GaitRequest& request, const HandSetup& setup, const GaitEnds& ends,
+               criteria::GraspMemory& memory)
       : request_(request),
         setup_(setup),
+        ends_(ends),
         memory_(memory),
         random_(request.seed, RandomUse::kHomes),
-        centre_(request.scale * request.solid->mass_properties().centroid),
-        steps_(std::max(1, static_cast<int>(std::ceil(std::abs(request.turn.angle) / kStep)))) {}
+        journey_(request.scale * request.solid->mass_properties().centroid, request.turn,
+                 request.goal_pose) {}
 
   std::optional<Gait> Search() {
     while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
@@ -83,7 +83,6 @@ class PlacesInHand {
     return std::nullopt;
   }
 
-  [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] std::vector<GaitCounts> counts() const {
     std::vector<GaitCounts> counts;
     for (const auto& place : places_) counts.push_back(place->search.counts());
@@ -113,44 +112,71 @@ class PlacesInHand {
   bool Open() {
     while (true) {
       if (homes_.empty()) {
-        if (++drawings_ > kDrawings) return false;
-        homes_ = FindHomes(setup_, centre_, request_.turn, memory_, random_);
-        std::ranges::reverse(homes_);
+        if (!DrawHomes()) return false;
         continue;
       }
-      const PoseTrack track(homes_.back(), centre_, request_.turn, Eigen::Vector3d::Zero(), steps_);
+      const PoseTrack track = journey_.From(homes_.back());
       homes_.pop_back();
       const std::optional<Parking> parking = FindParking(setup_, track, random_);
       if (!parking) continue;
-      places_.push_back(std::make_unique<PlaceInHand>(setup_, track, *parking, memory_,
-                                                      request_.seed, places_.size()));
+      const bool may_end_beside = !request_.goal_pose && track.steps() > 0;
+      const PoseGrid grid(
+          track, setup_.scene.hand().up,
+          may_end_beside ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
+      auto place = std::make_unique<PlaceInHand>(setup_, grid, *parking, ends_, memory_,
+                                                 request_.seed, places_.size());
+      if (!place->search.GoalIsHeld()) continue;
+      places_.push_back(std::move(place));
       return true;
     }
   }
 
+  /// @returns false where there are no more.
+  bool DrawHomes() {
+    if (++drawings_ > (request_.start_pose ? 1 : kDrawings)) return false;
+    if (request_.start_pose) {
+      homes_ = {*request_.start_pose};
+      return true;
+    }
+    homes_ = FindHomes(setup_, journey_, ends_, memory_, random_);
+    std::ranges::reverse(homes_);
+    return true;
+  }
+
   const GaitRequest& request_;
   const HandSetup& setup_;
+  GaitEnds ends_;
   criteria::GraspMemory& memory_;
   RandomStream random_;
-  Eigen::Vector3d centre_;
-  int steps_;
+  Journey journey_;
   std::vector<Eigen::Isometry3d> homes_;  ///< that were not tried yet, the best last
   int drawings_ = 0;
   std::vector<std::unique_ptr<PlaceInHand>> places_;
   std::int64_t expanded_ = 0;  ///< from all places
 };
 
-/// Why no home led to the end, of the one that came farthest.
-std::string WhatStopped(const std::vector<GaitCounts>& counts, const Turn& turn, int steps) {
+std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
+  const double share = counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
+  if (share == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
+  if (request.goal_pose) {
+    return "the object comes " + FormatShort(100 * share, 3) + " % of the way to its goal pose";
+  }
+  return "the hand turns the object by " + FormatShort(share * Degrees(request.turn.angle), 3) +
+         " of " + FormatShort(Degrees(request.turn.angle), 3) + " degrees";
+}
+
+/// Why no place led to the end, of the one where the object came farthest.
+std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
-    return "the object is nowhere in the hand within reach of the fingers and off the palm";
+    std::string text = "the object is nowhere in the hand within reach of the fingers and off the palm";
+    if (!request.start_grasp.empty()) text += ", held by the start grasp";
+    if (!request.goal_grasp.empty()) text += ", held by the goal grasp in the end";
+    return text;
   }
   const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
-  const double reached = Degrees(turn.angle) * best.farthest / steps;
-  std::string text = "the hand turns the object by " + FormatShort(reached, 3) + " of " +
-                     FormatShort(Degrees(turn.angle), 3) + " degrees; of " +
-                     std::to_string(counts.size()) + " places in the hand the best one has " +
-                     std::to_string(best.grasps) + " grasps";
+  std::string text = HowFar(request, best) + "; of " + std::to_string(counts.size()) +
+                     " places in the hand the best one has " + std::to_string(best.grasps) +
+                     " grasps";
   const auto add = [&](std::int64_t count, const char* what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
@@ -160,11 +186,26 @@ std::string WhatStopped(const std::vector<GaitCounts>& counts, const Turn& turn,
   return text;
 }
 
+/// Appends a grasp's contacts that are not there yet. @returns their numbers.
+std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Contact>& contacts) {
+  std::vector<int> numbers;
+  for (const grasp::Contact& contact : grasp) {
+    const auto found = std::ranges::find_if(contacts, [&](const grasp::Contact& other) {
+      return other.p == contact.p && other.n == contact.n;
+    });
+    numbers.push_back(static_cast<int>(found - contacts.begin()));
+    if (found == contacts.end()) contacts.push_back(contact);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 GaitResult FindGait(const GaitRequest& request) {
   GaitResult result;
   result.contacts = DrawContacts(request);
+  const GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
+                      AppendGrasp(request.goal_grasp, result.contacts)};
   std::vector<SurfacePoint> points;
   for (const grasp::Contact& contact : result.contacts) {
     points.push_back({request.scale * contact.p, contact.n});
@@ -181,10 +222,10 @@ GaitResult FindGait(const GaitRequest& request) {
                                criteria::QualityTest::kQuick);
   memory.Append(result.contacts);
 
-  PlacesInHand places(request, setup, memory);
+  PlacesInHand places(request, setup, ends, memory);
   result.gait = places.Search();
   result.counts = places.counts();
-  if (!result.gait) result.message = WhatStopped(result.counts, request.turn, places.steps());
+  if (!result.gait) result.message = WhatStopped(request, result.counts);
   return result;
 }
 

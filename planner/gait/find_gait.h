@@ -16,16 +16,22 @@
 
 namespace regrasp::gait {
 
-/// What is asked of a hand.
+/// What is asked of a hand: that the object turns, or goes to a pose, or is held by another grasp
+/// in the end, or both. Poses are of the object's own frame (its file's axes and origin) in the
+/// palm's, metres.
 struct GaitRequest {
   const kinematics::HandModel* hand = nullptr;
   const object::Polyhedron* solid = nullptr;
   double scale = 1;  ///< metres per unit of the solid's file
   criteria::GraspCriteria criteria;
   double margin = 1e-3;  ///< between links, palm and object, metres
-  Turn turn;
+  Turn turn;             ///< about the object's centre, which may end some millimetres away
+  std::optional<Eigen::Isometry3d> start_pose;  ///< none: where the hand's reach is best
+  std::optional<Eigen::Isometry3d> goal_pose;   ///< instead of a turn
+  grasp::Grasp start_grasp;                     ///< in the file's units; empty: any
+  grasp::Grasp goal_grasp;                      ///< the same
   std::uint64_t seed = 0;
-  int most_expanded = 20'000;  ///< rests, from all places in the hand together
+  std::int64_t most_expanded = 20'000;  ///< rests, from all places in the hand together
   Deadline deadline = {};
   planning::Progress progress = [](std::string_view) {};
 };

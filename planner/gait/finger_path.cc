@@ -8,7 +8,7 @@
 namespace regrasp::gait {
 namespace {
 
-constexpr int kMostExtensions = 150;
+constexpr int kMostExtensions = 600;
 constexpr double kStride = 0.35;  // radians, over all drives
 constexpr int kShortcuts = 30;
 

@@ -10,6 +10,12 @@ namespace regrasp::gait {
 using Holding = std::vector<int>;
 inline constexpr int kNone = -1;
 
+/// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
+struct GaitEnds {
+  std::vector<int> start;
+  std::vector<int> goal;
+};
+
 /// A stretch of a gait: keyframes, the first of which is the last one of the stretch before.
 struct Stretch {
   enum class Kind {

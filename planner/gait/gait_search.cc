@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
-#include <unordered_map>
+#include <tuple>
 
 #include "planner/gait/move_path.h"
 
@@ -15,7 +14,7 @@ constexpr int kFewestHolding = 3;
 constexpr int kDrawnGrasps = 120;
 /// Contacts tried for a finger at a place, those that it keeps longest first.
 constexpr int kTriedContacts = 24;
-/// Of all contacts one in so many is looked at from one place.
+/// Of all contacts one in so many is looked at from one place, if that is enough.
 constexpr int kShares = 4;
 /// Rests taken up from one place.
 constexpr int kTakenUp = 6;
@@ -27,8 +26,12 @@ constexpr double kOffTrack = 0.1;
 constexpr double kNotYetGoal = 3;
 /// Steps that a rest is put back for each one that was expanded and ends where it ends.
 constexpr double kPutBack = 0.1;
+/// Steps that it is put back for each turn that it had.
+constexpr double kAnotherTurn = 2;
 /// Nodes from which a path goes on, beside those of the straight one.
 constexpr int kTriedNodes = 40;
+/// Of the nodes that a grasp comes to: those drawn to switch fingers at, beside those of its path.
+constexpr int kNodesBeside = 2;
 
 int CountHolding(const Holding& holding) {
   return static_cast<int>(std::ranges::count_if(holding, [](int point) { return point != kNone; }));
@@ -63,6 +66,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parki
       random_(random),
       reach_(setup.scene, setup.inverse, setup.points, grid),
       expanded_at_(grid.steps() + 1, 0) {
+  counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](Holding holding) {
     Rest rest{.holding = std::move(holding), .node = grid_.goal()};
@@ -74,23 +78,26 @@ const std::vector<GaitSearch::Candidate>& GaitSearch::CandidatesAt(FingerIndex f
   const auto [found, is_new] = candidates_.try_emplace({finger, node});
   std::vector<Candidate>& candidates = found->second;
   if (!is_new) return candidates;
-  for (int point = 0; point < static_cast<int>(setup_.points.size()); ++point) {
-    if (!IsLookedAt(point, node)) continue;
-    if (reach_.Find(finger, point, node) == nullptr) continue;
-    const bool is_goal =
-        std::ranges::any_of(goals_, [&](const Holding& goal) { return goal[finger] == point; });
+  const auto look_at = [&](int point, bool is_goal) {
+    if (reach_.Find(finger, point, node) == nullptr) return;
     candidates.push_back({point, is_goal, reach_.RunEnd(finger, point, node)});
+  };
+  std::set<int> goals;
+  for (const Holding& goal : goals_) {
+    if (goal[finger] != kNone) goals.insert(goal[finger]);
+  }
+  for (const int point : goals) look_at(point, true);
+  // At each node some of the contacts, at others others; more where few are within reach.
+  const int count = static_cast<int>(setup_.points.size());
+  for (int share = 0; share < kShares && candidates.size() < kTriedContacts; ++share) {
+    for (int point = (node + share) % kShares; point < count; point += kShares) {
+      if (!goals.contains(point)) look_at(point, false);
+    }
   }
   std::ranges::stable_sort(candidates, std::greater<>(), [](const Candidate& candidate) {
     return std::pair(candidate.is_goal, candidate.last);
   });
   return candidates;
-}
-
-/// At each node some of the contacts, at others others; those of the goal everywhere.
-bool GaitSearch::IsLookedAt(int point, int node) const {
-  return point % kShares == node % kShares ||
-         std::ranges::find(ends_.goal, point) != ends_.goal.end();
 }
 
 bool GaitSearch::IsGrasp(const Holding& holding) {
@@ -157,27 +164,29 @@ bool GaitSearch::CanFollow(const Rest& rest, int node, int neighbour) {
   return true;
 }
 
-std::vector<int> GaitSearch::PathStraightOn(const Rest& rest) {
-  std::vector<int> path = {rest.node};
+void GaitSearch::CarryOn(Rest& rest) {
+  rest.from = {{rest.node, rest.node}};
+  rest.end = rest.node;
   for (int next = grid_.Onward(rest.node); next != PoseGrid::kNoNode; next = grid_.Onward(next)) {
-    if (!CanFollow(rest, path.back(), next) || !IsPassable(rest, next)) break;
-    path.push_back(next);
+    if (!CanFollow(rest, rest.end, next) || !IsPassable(rest, next)) break;
+    rest.from.emplace(next, rest.end);
+    rest.end = next;
   }
-  return path;
 }
 
 /// Best first by steps, near the track before far from it.
-std::vector<int> GaitSearch::PathAround(const Rest& rest) {
+void GaitSearch::CarryAround(Rest& rest) {
   using Key = std::tuple<int, bool, int, int>;  // step, is goal, units beside the track, order
   const auto key_of = [&](int node, int order) {
     return Key(grid_.StepOf(node), grid_.IsGoal(node), -grid_.OffTrack(node), -order);
   };
   std::priority_queue<std::pair<Key, int>> queue;
-  std::unordered_map<int, int> from = {{rest.node, rest.node}};
+  rest.from = {{rest.node, rest.node}};
+  std::set<int> tried = {rest.node};
   queue.push({key_of(rest.node, 0), rest.node});
   std::pair<Key, int> best = queue.top();
   int stuck = 0;
-  while (!queue.empty() && stuck < kTriedNodes) {
+  while (!queue.empty() && stuck < kTriedNodes * (1 + rest.turns)) {
     const auto top = queue.top();
     queue.pop();
     if (best.first < top.first) {
@@ -185,16 +194,22 @@ std::vector<int> GaitSearch::PathAround(const Rest& rest) {
     } else {
       ++stuck;
     }
-    if (grid_.IsGoal(best.second)) break;
+    const bool is_goal = grid_.IsGoal(best.second);
+    if (is_goal && IsGoalGrasp(rest.holding)) break;
     for (const int next : grid_.Neighbours(top.second)) {
-      if (from.contains(next) || !CanFollow(rest, top.second, next)) continue;
-      from.emplace(next, top.second);
+      if (tried.contains(next) || !CanFollow(rest, top.second, next)) continue;
+      tried.insert(next);
       if (!IsPassable(rest, next)) continue;
-      queue.push({key_of(next, static_cast<int>(from.size())), next});
+      rest.from.emplace(next, top.second);
+      queue.push({key_of(next, static_cast<int>(tried.size())), next});
     }
   }
-  std::vector<int> path = {best.second};
-  while (path.back() != rest.node) path.push_back(from.at(path.back()));
+  rest.end = best.second;
+}
+
+std::vector<int> GaitSearch::PathTo(const Rest& rest, int node) {
+  std::vector<int> path = {node};
+  while (path.back() != rest.node) path.push_back(rest.from.at(path.back()));
   std::ranges::reverse(path);
   return path;
 }
@@ -237,8 +252,8 @@ bool GaitSearch::Add(Rest rest) {
     ++counts_.colliding;
     return false;
   }
-  rest.path = PathStraightOn(rest);
-  rest.score = ScoreOf(rest, grid_.StepOf(rest.path.back()));
+  CarryOn(rest);
+  rest.score = ScoreOf(rest, grid_.StepOf(rest.end));
   queue_.push({rest.score, static_cast<int>(rests_.size())});
   rests_.push_back(std::move(rest));
   return true;
@@ -314,10 +329,10 @@ std::vector<GaitSearch::Rest> GaitSearch::SwitchesFrom(const Rest& from, int nod
   return found;
 }
 
-void GaitSearch::SwitchAt(int index, int place) {
+void GaitSearch::SwitchAt(int index, int node) {
   const Rest from = rests_[index];
   int taken = 0;
-  for (Rest& rest : SwitchesFrom(from, from.path[place])) {
+  for (Rest& rest : SwitchesFrom(from, node)) {
     if (taken == kTakenUp) break;
     // The way there passes a grasp of all fingers.
     Rest all = rest;
@@ -329,9 +344,23 @@ void GaitSearch::SwitchAt(int index, int place) {
 }
 
 void GaitSearch::Expand(int index) {
-  const int last = static_cast<int>(rests_[index].path.size()) - 1;
-  for (const int place : std::set<int>{last, last / 2, std::max(0, last - 2), 0}) {
-    SwitchAt(index, place);
+  const Rest& rest = rests_[index];
+  const std::vector<int> path = PathTo(rest, rest.end);
+  const std::size_t last = path.size() - 1;
+  std::set<int> nodes = {path[last], path[last / 2], path[last - std::min<std::size_t>(last, 2)],
+                         path[0]};
+  std::erase_if(nodes, [&](int node) { return rest.switched_at.contains(node); });
+  for (int i = 0; i < kNodesBeside; ++i) {
+    nodes.insert(std::next(rest.from.begin(), static_cast<int>(random_.Index(rest.from.size())))->first);
+  }
+  for (const int node : nodes) {
+    if (rests_[index].switched_at.insert(node).second) SwitchAt(index, node);
+  }
+  // Somewhere else it may be worth another turn.
+  Rest& again = rests_[index];
+  ++again.turns;
+  if (again.switched_at.size() < again.from.size()) {
+    queue_.push({again.score - kAnotherTurn * again.turns, index});
   }
 }
 
@@ -378,15 +407,18 @@ bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<S
   return true;
 }
 
-const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int place) {
-  const auto [found, is_new] = rest.moves.try_emplace(place);
+const std::vector<Keyframe>& GaitSearch::MoveFrom(Rest& rest, int node) {
+  const auto [found, is_new] = rest.moves.try_emplace(node);
   if (!is_new) return found->second;
-  // What lies beyond a place that can't be reached can't be reached either.
-  const bool beyond = std::ranges::any_of(
-      rest.moves, [&](const auto& move) { return move.first < place && move.second.empty(); });
+  const std::vector<int> path = PathTo(rest, node);
+  // What lies beyond a node that can't be reached can't be reached either.
+  const bool beyond = std::ranges::any_of(path.begin() + 1, path.end() - 1, [&](int between) {
+    const auto move = rest.moves.find(between);
+    return move != rest.moves.end() && move->second.empty();
+  });
   if (!beyond) {
     std::vector<Eigen::Isometry3d> poses;
-    for (int i = 1; i <= place; ++i) poses.push_back(grid_.PoseAt(rest.path[i]));
+    for (std::size_t i = 1; i < path.size(); ++i) poses.push_back(grid_.PoseAt(path[i]));
     auto move = FindMove(setup_, rest.holding, rest.at, poses);
     if (move) found->second = std::move(*move);
   }
@@ -403,10 +435,7 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
   Rest& parent = rests_[rest.parent];
   Keyframe frame = parent.at;
   if (parent.node != rest.node) {
-    const auto place = std::ranges::find(parent.path, rest.node);
-    if (place == parent.path.end()) return false;
-    const std::vector<Keyframe>& move =
-        MoveFrom(parent, static_cast<int>(place - parent.path.begin()));
+    const std::vector<Keyframe>& move = MoveFrom(parent, rest.node);
     if (move.empty()) return false;
     frame = move.back();
     rest.way.push_back({Stretch::Kind::kMove, {}, kNone, move});
@@ -426,12 +455,12 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
 /// The whole gait, where a rest's path leads to the goal and is free.
 std::optional<Gait> GaitSearch::GaitFrom(int index) {
   Rest& rest = rests_[index];
-  if (!grid_.IsGoal(rest.path.back()) || !IsGoalGrasp(rest.holding)) return std::nullopt;
+  if (!grid_.IsGoal(rest.end) || !IsGoalGrasp(rest.holding)) return std::nullopt;
   std::vector<Keyframe> last_move;
-  if (rest.path.size() > 1) {
-    last_move = MoveFrom(rest, static_cast<int>(rest.path.size()) - 1);
+  if (rest.end != rest.node) {
+    last_move = MoveFrom(rest, rest.end);
     if (last_move.empty()) {
-      rest.path.pop_back();
+      rest.end = rest.from.at(rest.end);
       return std::nullopt;
     }
   }
@@ -453,7 +482,7 @@ int GaitSearch::PopNext() {
     const Waiting top = queue_.top();
     queue_.pop();
     const Rest& rest = rests_[top.rest];
-    const double score = rest.score - kPutBack * expanded_at_[grid_.StepOf(rest.path.back())];
+    const double score = rest.score - kAnotherTurn * rest.turns - kPutBack * expanded_at_[grid_.StepOf(rest.end)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }
@@ -473,12 +502,12 @@ std::optional<Gait> GaitSearch::Run(std::int64_t most_expanded, const Deadline& 
     if (deadline.IsOver()) return std::nullopt;
     const int index = PopNext();
     Rest& rest = rests_[index];
-    if (WasExpandedAt(rest) || !WorkOutWay(rest)) continue;
-    rest.path = PathAround(rest);
+    if (rest.turns == 0 && (WasExpandedAt(rest) || !WorkOutWay(rest))) continue;
+    CarryAround(rest);
     if (std::optional<Gait> gait = GaitFrom(index)) return gait;
     std::vector<int>& passed = passed_[rest.holding];
-    passed.insert(passed.end(), rest.path.begin(), rest.path.end());
-    const int last = grid_.StepOf(rest.path.back());
+    for (const auto& [node, from] : rest.from) passed.push_back(node);
+    const int last = grid_.StepOf(rest.end);
     counts_.farthest = std::max(counts_.farthest, last);
     ++counts_.expanded;
     ++expanded_at_[last];

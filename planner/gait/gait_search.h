@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <set>
 #include <vector>
 
 #include "planner/base/deadline.h"
@@ -24,12 +25,7 @@ struct GaitCounts {
   std::int64_t no_move = 0;    ///< moves that a finger could not follow, or that hit something
   std::int64_t colliding = 0;  ///< grasps in which fingers hit each other
   int farthest = 0;            ///< step of the track that was reached
-};
-
-/// The grasps that a gait begins and ends with, as numbers of contacts; none: any grasp.
-struct GaitEnds {
-  std::vector<int> start;
-  std::vector<int> goal;
+  int steps = 0;               ///< that it has
 };
 
 /// Searches a gait that takes an object from the start of a grid of poses to its goal: rests are
@@ -48,6 +44,9 @@ class GaitSearch {
   GaitSearch(const HandSetup& setup, const PoseGrid& grid, const Parking& parking,
              const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random);
 
+  /// Whether some fingers can hold the goal grasp, if there is one, at the goal pose.
+  [[nodiscard]] bool GoalIsHeld() const { return ends_.goal.empty() || !goals_.empty(); }
+
   /// Goes on until so many rests were expanded in all calls together.
   /// @returns nullopt where none was found until then, or until the deadline.
   [[nodiscard]] std::optional<Gait> Run(std::int64_t most_expanded, const Deadline& deadline);
@@ -57,18 +56,21 @@ class GaitSearch {
   [[nodiscard]] const GaitCounts& counts() const { return counts_; }
 
  private:
-  /// A grasp, and the nodes of the grid along which it holds.
+  /// A grasp, and the nodes of the grid that it can be carried to.
   struct Rest {
     Holding holding;
     std::vector<Posture> waiting = {};  ///< of fingers that hold nothing, by finger
-    int node = 0;                       ///< at which it was taken
-    std::vector<int> path = {};         ///< from `node` on, as far as it goes
+    int node = 0;                          ///< at which it was taken
+    std::map<int, int> from = {};          ///< of each node that it comes to the one before
+    int end = 0;                           ///< the farthest of them
+    std::set<int> switched_at = {};        ///< nodes, in earlier turns
+    int turns = 0;                         ///< that it had
     double score = 0;
     int parent = -1;
     FingerIndex placed = {}, released = {};  ///< not valid: none
     /// Worked out when its turn comes: from the parent's rest to this one.
     std::vector<Stretch> way = {};
-    /// Moves along `path` that were worked out, by place in it; empty ones can't be done.
+    /// Moves that were worked out, by where they lead; empty ones can't be done.
     std::map<int, std::vector<Keyframe>> moves = {};
     Keyframe at = {};  ///< at `node`
   };
@@ -89,17 +91,18 @@ class GaitSearch {
   void AddFirstRests();
   void AddGivenStart();
   void Expand(int index);
-  void SwitchAt(int index, int place);
+  void SwitchAt(int index, int node);
   /// The grasps that one switch leads to, the best first.
   [[nodiscard]] std::vector<Rest> SwitchesFrom(const Rest& rest, int node);
   /// Takes a rest up if it is admitted, new, and its fingers have places to be. @returns whether.
   bool Add(Rest rest);
   [[nodiscard]] bool IsGrasp(const Holding& holding);
-  /// Finds postures for fingers that hold nothing and have none, and the path straight on.
+  /// Finds postures for fingers that hold nothing and have none.
   [[nodiscard]] bool LetFreeFingersWait(Rest& rest);
-  [[nodiscard]] std::vector<int> PathStraightOn(const Rest& rest);
-  /// The path that gets farthest, also beside the track.
-  [[nodiscard]] std::vector<int> PathAround(const Rest& rest);
+  /// Finds how far the grasp can be carried straight on, and also beside the track.
+  void CarryOn(Rest& rest);
+  void CarryAround(Rest& rest);
+  [[nodiscard]] static std::vector<int> PathTo(const Rest& rest, int node);
   [[nodiscard]] bool CanFollow(const Rest& rest, int node, int neighbour);
   [[nodiscard]] bool IsPassable(const Rest& rest, int node);
   [[nodiscard]] Keyframe FrameAt(const Rest& rest, int node);
@@ -111,13 +114,12 @@ class GaitSearch {
   [[nodiscard]] bool WorkOutWay(Rest& rest);
   /// The next rest in turn.
   [[nodiscard]] int PopNext();
-  /// The move with a rest's grasp to a place of its path; empty where it can't be done.
-  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int place);
+  /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
+  [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int node);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
   [[nodiscard]] bool Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way);
   [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
-  [[nodiscard]] bool IsLookedAt(int point, int node) const;
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
 
   const HandSetup& setup_;

@@ -13,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kPlaces = 300;     // drawn, with a yaw each
+constexpr int kMostDrawn = 60'000;  // where a grasp is given that most poses don't suit
 constexpr int kPoints = 40;      // of the surface that are looked at
 constexpr int kPosesOfTurn = 4;  // at which it is looked at them
 constexpr int kHomes = 24;
@@ -22,10 +23,10 @@ constexpr int kCloser = 36;
 /// Contacts within reach of a finger are worth their logarithm, so that all fingers count.
 constexpr double kNoContact = 0.3;
 
-constexpr int kParkingDraws = 120;
-constexpr int kParkingPlaces = 6;
+constexpr int kParkingDraws = 160;
+constexpr int kParkingPlaces = 16;
 constexpr double kOtherPlace = 0.5;  // radians over all drives
-constexpr int kTrackSamples = 9;
+constexpr int kTrackSamples = 5;
 constexpr double kParkingClearance = 0.02;  // metres: more counts for nothing
 constexpr double kBendPenalty = 0.002;      // metres per radian
 
@@ -102,37 +103,105 @@ double CloserScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::G
   return score;
 }
 
+/// Whether tips may be at all contacts of a grasp, each at one: by the tables of reach alone.
+bool MayHold(const HandSetup& setup, const std::vector<int>& grasp, const Isometry3d& pose) {
+  std::vector<std::vector<int>> fingers_of;  // by contact
+  for (const int point : grasp) {
+    fingers_of.emplace_back();
+    for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
+      const auto target = TargetAt(setup.scene.finger(finger), setup.points[point], pose);
+      if (setup.inverse[finger].MayReach(target)) fingers_of.back().push_back(finger);
+    }
+    if (fingers_of.back().empty()) return false;
+  }
+  std::vector<bool> taken(setup.scene.finger_count(), false);
+  const auto match = [&](const auto& self, std::size_t contact) -> bool {
+    if (contact == fingers_of.size()) return true;
+    return std::ranges::any_of(fingers_of[contact], [&](int finger) {
+      if (taken[finger]) return false;
+      taken[finger] = true;
+      const bool matched = self(self, contact + 1);
+      taken[finger] = false;
+      return matched;
+    });
+  };
+  return match(match, 0);
+}
+
+/// Draws poses for an object to begin in.
+class PoseDraw {
+ public:
+  PoseDraw(const HandSetup& setup, const Journey& journey, const GaitEnds& ends,
+           RandomStream& random)
+      : setup_(setup),
+        journey_(journey),
+        grasp_(ends.start.empty() ? ends.goal : ends.start),
+        upright_(Upright(setup.scene.hand().up)),
+        random_(random) {
+    for (const kinematics::InverseKinematics& inverse : setup.inverse) {
+      for (const Vector3d& tip : inverse.sampled_tips()) box_.extend(tip);
+    }
+  }
+
+  Isometry3d Next() { return grasp_.empty() ? Anywhere() : WithAContactAtATip(); }
+
+ private:
+  Isometry3d Anywhere() {
+    Isometry3d pose = Isometry3d::Identity();
+    const double yaw = 2 * std::numbers::pi * random_.Uniform();
+    pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+    Vector3d place;
+    for (int k = 0; k < 3; ++k) place[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
+    pose.translation() = place - pose.linear() * journey_.centre();
+    return pose;
+  }
+  /// With any orientation.
+  Isometry3d WithAContactAtATip() {
+    const FingerIndex finger{static_cast<int>(random_.Index(setup_.inverse.size()))};
+    const std::vector<Vector3d>& tips = setup_.inverse[finger].sampled_tips();
+    Isometry3d pose = Isometry3d::Identity();
+    // Four normal numbers are a direction in four dimensions, and so a turn, evenly.
+    Eigen::Quaterniond turn;
+    for (int k = 0; k < 4; ++k) turn.coeffs()[k] = random_.Normal();
+    pose.linear() = turn.normalized().toRotationMatrix();
+    const Vector3d centre = TargetAt(setup_.scene.finger(finger),
+                                     setup_.points[grasp_[random_.Index(grasp_.size())]], pose)
+                                .centre;
+    pose.translation() = tips[random_.Index(tips.size())] - centre;
+    return pose;
+  }
+
+  const HandSetup& setup_;
+  const Journey& journey_;
+  const std::vector<int>& grasp_;
+  Eigen::AlignedBox3d box_;
+  Eigen::Matrix3d upright_;
+  RandomStream& random_;
+};
+
 }  // namespace
 
-std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Vector3d& centre, const Turn& turn,
-                                  criteria::GraspMemory& memory, RandomStream& random) {
-  Eigen::AlignedBox3d box;
-  for (const kinematics::InverseKinematics& inverse : setup.inverse) {
-    for (const Vector3d& tip : inverse.sampled_tips()) box.extend(tip);
-  }
-  const Eigen::Matrix3d upright = Upright(setup.scene.hand().up);
+std::vector<Isometry3d> FindHomes(const HandSetup& setup, const Journey& journey,
+                                  const GaitEnds& ends, criteria::GraspMemory& memory,
+                                  RandomStream& random) {
+  PoseDraw draw(setup, journey, ends, random);
   struct Home {
     double score;
     Isometry3d pose;
   };
   std::vector<Home> homes;
-  for (int i = 0; i < kPlaces; ++i) {
-    Isometry3d pose = Isometry3d::Identity();
-    const double yaw = 2 * std::numbers::pi * random.Uniform();
-    pose.linear() = upright * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-    Vector3d place;
-    for (int k = 0; k < 3; ++k) place[k] = box.min()[k] + random.Uniform() * box.sizes()[k];
-    pose.translation() = place - pose.linear() * centre;
-    const PoseTrack track(pose, centre, turn, Vector3d::Zero(), kPosesOfTurn);
+  for (int i = 0; i < kMostDrawn && static_cast<int>(homes.size()) < kPlaces; ++i) {
+    const Isometry3d pose = draw.Next();
+    const PoseTrack track = journey.From(pose, kPosesOfTurn);
+    if (!MayHold(setup, ends.start, pose)) continue;
+    if (!MayHold(setup, ends.goal, track.PoseAt(track.steps()))) continue;
     homes.push_back({ScoreOf(setup, track), pose});
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   homes.resize(std::min<std::size_t>(homes.size(), kCloser));
   for (Home& home : homes) {
     if (!std::isfinite(home.score)) continue;
-    home.score =
-        CloserScoreOf(setup, PoseTrack(home.pose, centre, turn, Vector3d::Zero(), kPosesOfTurn / 2),
-                      memory, random);
+    home.score = CloserScoreOf(setup, journey.From(home.pose, kPosesOfTurn / 2), memory, random);
   }
   std::ranges::stable_sort(homes, std::greater<>(), &Home::score);
   std::vector<Isometry3d> poses;
@@ -163,7 +232,7 @@ std::optional<Parking> FindParking(const HandSetup& setup, const PoseTrack& trac
       const PlacedFinger placed = scene.Place(finger, posture);
       if (!scene.KeepsOffHand(placed)) continue;
       double clearance = kParkingClearance;
-      for (int k = 0; k < kTrackSamples && clearance > 0; ++k) {
+      for (int k = 0; k < kTrackSamples && clearance > scene.margin() + kSpare; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }

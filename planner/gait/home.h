@@ -4,18 +4,19 @@
 
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_memory.h"
+#include "planner/gait/gait.h"
 #include "planner/gait/hand_setup.h"
+#include "planner/gait/journey.h"
 
 namespace regrasp::gait {
 
-/// Poses in the hand to begin a turn in, the best first: where many contacts are within reach of
-/// many fingers all along the turn and make grasps, and the object keeps off the palm. The object's
-/// own z axis is upright there; its place and its yaw are drawn.
-/// @param centre  of the object, in its frame, metres.
+/// Poses in the hand to begin a journey in, the best first: where many contacts are within reach of
+/// many fingers all along and make grasps, and the object keeps off the palm. The object's own z
+/// axis is upright there, its place and its yaw are drawn; but where a grasp is given any pose may
+/// be drawn that brings its contacts to the fingertips.
 /// @param memory  knows the setup's points as contacts under their numbers.
 [[nodiscard]] std::vector<Eigen::Isometry3d> FindHomes(const HandSetup& setup,
-                                                       const Eigen::Vector3d& centre,
-                                                       const Turn& turn,
+                                                       const Journey& journey, const GaitEnds& ends,
                                                        criteria::GraspMemory& memory,
                                                        RandomStream& random);
 

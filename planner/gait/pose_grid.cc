@@ -10,7 +10,7 @@ namespace {
 constexpr double kShift = 0.008;  // metres
 constexpr double kTilt = 0.15;    // radians
 /// Units that an offset has in all.
-constexpr int kMostUnits = 2;
+constexpr int kMostUnits = 3;
 
 template <typename Offset>
 int Units(const Offset& offset) {
@@ -23,10 +23,12 @@ int Units(const Offset& offset) {
 PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
     : track_(track), end_(end) {
   axes_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+  // Along a track objects turn about the last one anyway.
+  const std::size_t dimensions = track.steps() == 0 ? 6 : 5;
   offsets_.push_back({});
   for (std::size_t from = 0; from < offsets_.size(); ++from) {
     if (Units(offsets_[from]) == kMostUnits) continue;
-    for (std::size_t i = 0; i < offsets_[from].size(); ++i) {
+    for (std::size_t i = 0; i < dimensions; ++i) {
       for (const int unit : {-1, 1}) {
         Offset offset = offsets_[from];
         offset[i] += unit;
@@ -49,7 +51,8 @@ int PoseGrid::OffTrack(int node) const { return Units(offsets_[node % offsets()]
 bool PoseGrid::IsGoal(int node) const {
   if (node == goal()) return true;
   const Offset& offset = offsets_[node % offsets()];
-  return end_ == End::kOrientation && StepOf(node) == steps() && offset[3] == 0 && offset[4] == 0;
+  return end_ == End::kOrientation && StepOf(node) == steps() && offset[3] == 0 && offset[4] == 0 &&
+         offset[5] == 0;
 }
 
 Eigen::Isometry3d PoseGrid::PoseAt(int node) const {
@@ -57,7 +60,7 @@ Eigen::Isometry3d PoseGrid::PoseAt(int node) const {
   const Eigen::Isometry3d on_track = track_.PoseAt(StepOf(node));
   const Eigen::Vector3d centre = on_track * track_.centre();
   const Eigen::Vector3d shift = kShift * axes_ * Eigen::Vector3d(offset[0], offset[1], offset[2]);
-  const Eigen::Vector3d tilt = kTilt * axes_ * Eigen::Vector3d(offset[3], offset[4], 0);
+  const Eigen::Vector3d tilt = kTilt * axes_ * Eigen::Vector3d(offset[3], offset[4], offset[5]);
   Eigen::Isometry3d pose = on_track;
   if (tilt.norm() > 0) {
     pose.linear() =

@@ -43,8 +43,8 @@ class PoseGrid {
   [[nodiscard]] std::vector<int> Neighbours(int node) const;
 
  private:
-  /// In units of kShift along three axes and of kTilt about two.
-  using Offset = std::array<int, 5>;
+  /// In units of kShift along three axes and of kTilt about them.
+  using Offset = std::array<int, 6>;
   [[nodiscard]] int offsets() const { return static_cast<int>(offsets_.size()); }
 
   PoseTrack track_;

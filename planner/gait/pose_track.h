@@ -25,6 +25,8 @@ class PoseTrack {
   /// @returns 0 where start and goal are one pose.
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
+  [[nodiscard]] const Turn& turn() const { return turn_; }
+  [[nodiscard]] const Eigen::Vector3d& shift() const { return shift_; }
   /// @param step  in [0, steps()], whole or not.
   [[nodiscard]] Eigen::Isometry3d PoseAt(double step) const {
     const double share = steps_ == 0 ? 0 : step / steps_;

