@@ -1,39 +1,27 @@
 #include "apps/hand_options.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "apps/help.h"
 #include "apps/options.h"
 #include "planner/base/angle.h"
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 
 namespace regrasp::apps {
 namespace {
 
 constexpr double kMostTurns = 10;
 constexpr double kLargestClearance_m = 0.05;
+/// Of a quaternion's length: it may have been written with a few digits.
+constexpr double kLargestNormError = 1e-3;
+constexpr double kFarthest_m = 10;
 
-}  // namespace
-
-void HandOptions::AddTo(CLI::App& app) {
-  BeginGroup(app, "A hand");
-  app.add_option("--hand", hand,
-                 "The hand that moves the object; a file of the format regrasp-hand. The plan then "
-                 "has the joints of every finger and the object's pose in the palm all along")
-      ->type_name("FILE");
-  app.add_option("--turn", turn,
-                 "Turn the object in the hand; about an axis of its own by so many degrees, as in "
-                 "\"z 90\". The hand begins where the object's z axis is upright and its fingers "
-                 "reach most")
-      ->type_name("AXIS_DEGREES");
-  AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
-            "What links keep from each other, from the palm and from the object; in metres "
-            "(default 0.001)",
-            "M");
-}
-
-gait::Turn HandOptions::ParseTurn() const {
+/// "z 90" as a turn.
+gait::Turn ParseTurn(const std::string& turn) {
   std::istringstream words(turn);
   std::string axis;
   std::string rest;
@@ -50,6 +38,91 @@ gait::Turn HandOptions::ParseTurn() const {
                      "\"");
   }
   return {Eigen::Vector3d::Unit(static_cast<Eigen::Index>(which)), Radians(degrees)};
+}
+
+Eigen::Isometry3d ParsePose(const std::string& option, const std::string& text) {
+  std::istringstream words(text);
+  std::array<double, 7> v = {};
+  for (double& number : v) {
+    if (words >> number && std::isfinite(number)) continue;
+    throw InputError(option +
+                     ": expected a position and a quaternion, 7 numbers as in \"0 0 0.12 "
+                     "1 0 0 0\", found \"" +
+                     text + "\"");
+  }
+  if (std::string rest; words >> rest) {
+    throw InputError(option + ": expected 7 numbers, found more: \"" + rest + "\"");
+  }
+  const Eigen::Quaterniond turn(v[3], v[4], v[5], v[6]);
+  if (std::abs(turn.norm() - 1) > kLargestNormError) {
+    throw InputError(option + ": the quaternion's length must be 1, found " +
+                     FormatShort(turn.norm(), 4));
+  }
+  const Eigen::Vector3d position(v[0], v[1], v[2]);
+  if (position.norm() > kFarthest_m) {
+    throw InputError(option + ": positions are in metres from the palm, found " +
+                     FormatShort(position.norm(), 4) + " m");
+  }
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = turn.normalized().toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
+}  // namespace
+
+void HandOptions::AddTo(CLI::App& app) {
+  BeginGroup(app, "A hand");
+  app.add_option("--hand", hand,
+                 "The hand that moves the object; a file of the format regrasp-hand. The plan then "
+                 "has the joints of every finger and the object's pose in the palm all along")
+      ->type_name("FILE");
+  app.add_option(
+         "--turn", turn,
+         "Turn the object in the hand; about an axis of its own by so many degrees, as in "
+         "\"z 90\". The hand begins where the object's z axis is upright and its fingers "
+         "reach most, unless --start or --start-pose say otherwise; the object's middle may "
+         "end some millimetres away")
+      ->type_name("AXIS_DEGREES");
+  for (const auto& [option, value, what] :
+       {std::tuple("--start-pose", &start_pose,
+                   "Where the object is in the hand at first; position of its origin in the "
+                   "palm's frame, metres, and quaternion, as in \"0 0 0.12 1 0 0 0\""),
+        {"--goal-pose", &goal_pose, "Where it is to be in the end; written likewise"}}) {
+    app.add_option(option, *value, what)->type_name("X_Y_Z_QW_QX_QY_QZ");
+  }
+  AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
+            "What links keep from each other, from the palm and from the object; in metres "
+            "(default 0.001)",
+            "M");
+}
+
+void HandOptions::Check(const std::string& start, const std::string& goal) const {
+  for (const auto& [option, value] :
+       {std::pair("--turn", turn), {"--start-pose", start_pose}, {"--goal-pose", goal_pose}}) {
+    if (given() || value.empty()) continue;
+    throw InputError(std::string(option) + ": --hand says which hand is to move the object");
+  }
+  if (!given()) return;
+  const bool moves = !turn.empty() || !goal_pose.empty();
+  if (!moves && goal.empty()) {
+    throw InputError(
+        "--hand: --turn, --goal-pose or --goal says what the hand is to do, as in --turn \"z 90\"");
+  }
+  if (!moves && start.empty() && start_pose.empty()) {
+    throw InputError("--goal: --start or --start-pose says what is before it");
+  }
+  if (!turn.empty() && !goal_pose.empty()) {
+    throw InputError("--turn: --goal-pose says already how the object is to be in the end");
+  }
+}
+
+void HandOptions::AskFor(gait::GaitRequest& request) const {
+  if (!turn.empty()) request.turn = ParseTurn(turn);
+  if (!start_pose.empty()) request.start_pose = ParsePose("--start-pose", start_pose);
+  if (!goal_pose.empty()) request.goal_pose = ParsePose("--goal-pose", goal_pose);
+  // A grasp for another one, and no word of the pose: the object stays where it is.
+  if (turn.empty() && !request.goal_pose) request.goal_pose = request.start_pose;
 }
 
 }  // namespace regrasp::apps

@@ -5,7 +5,6 @@
 
 #include "planner/base/deadline.h"
 #include "planner/gait/find_gait.h"
-#include "planner/gait/home.h"
 
 namespace regrasp::apps {
 
@@ -13,14 +12,18 @@ namespace regrasp::apps {
 struct HandOptions {
   std::string hand;  ///< its file; empty: fingers without a hand
   std::string turn;
+  std::string start_pose;
+  std::string goal_pose;
   double clearance_m = 1e-3;
 
   void AddTo(CLI::App& app);
 
   [[nodiscard]] bool given() const { return !hand.empty(); }
-  /// "z 90" as a turn.
-  /// @throws InputError  it is something else.
-  [[nodiscard]] gait::Turn ParseTurn() const;
+  /// Checks the options against each other. @param start, goal  of `plan --start` and `--goal`.
+  /// @throws InputError  they say too little or too much.
+  void Check(const std::string& start, const std::string& goal) const;
+  /// Fills in what is to be done. @throws InputError  as the options are written.
+  void AskFor(gait::GaitRequest& request) const;
 };
 
 }  // namespace regrasp::apps

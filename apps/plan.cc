@@ -121,7 +121,8 @@ void PlanProgram::AddTo(CLI::App& app) {
 
 void PlanProgram::AddEnds(CLI::App& app) {
   const std::string kinds =
-      "; needed where no --hand is given: a grasp file, random (a grasp of the planner's own "
+      "; needed where no --hand is given, which takes files only: a grasp file, random (a grasp of "
+      "the planner's own "
       "graph; under auto like random-any) "
       "or random-any (evenly over the surface)";
   app.add_option("--start", start, "Start grasp" + kinds)->type_name("FILE|random|random-any");
@@ -193,21 +194,18 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object) const {
   return result;
 }
 
-/// Without a hand a plan is from a grasp to a grasp, with one from a pose to a pose.
+/// Without a hand a plan is from a grasp to a grasp; a hand chooses those that are not given.
 void PlanProgram::CheckEnds() const {
   for (const auto& [option, value] : {std::pair("--start", start), {"--goal", goal}}) {
-    if (hand.given() && !value.empty()) {
+    if (hand.given() && IsRandom(value)) {
       throw InputError(std::string(option) +
-                       ": with --hand the grasps are chosen by the program; leave it out");
+                       ": with --hand a grasp file, or nothing, as the program "
+                       "chooses a grasp that the hand reaches; found " +
+                       value);
     }
     if (!hand.given() && value.empty()) throw InputError(std::string(option) + " is required");
   }
-  if (hand.given() && hand.turn.empty()) {
-    throw InputError("--hand: --turn says what the hand is to do, as in --turn \"z 90\"");
-  }
-  if (!hand.given() && !hand.turn.empty()) {
-    throw InputError("--turn: --hand says which hand is to turn the object");
-  }
+  hand.Check(start, goal);
   if (hand.given() && common.planner != "auto") {
     throw InputError("--planner: " + common.planner + " plans for fingers without a hand");
   }
@@ -226,6 +224,18 @@ void PlanProgram::CheckOutput() const {
   CheckOutputsWritable(outputs);
 }
 
+/// A grasp for a hand: of no more contacts than it has fingers.
+grasp::Grasp ReadHandGrasp(const std::string& file, const object::Object& object,
+                           const kinematics::HandModel& hand) {
+  grasp::Grasp grasp = plan::ReadGrasp(file, object);
+  if (grasp.size() < 3 || grasp.size() > hand.fingers.size()) {
+    throw InputError(file + ": a grasp of this hand has 3 to " +
+                     std::to_string(hand.fingers.size()) + " contacts, found " +
+                     std::to_string(grasp.size()));
+  }
+  return grasp;
+}
+
 planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) const {
   const planning::PlanRequest asked = RequestFor(*object.object);
   for (const planning::PlanOption option : planning::OptionsOf(asked)) {
@@ -241,7 +251,11 @@ planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) c
   request.scale = common.scale;
   request.criteria = asked.criteria;
   request.margin = hand.clearance_m;
-  request.turn = hand.ParseTurn();
+  hand.AskFor(request);
+  for (const auto& [file, grasp] :
+       {std::pair(&start, &request.start_grasp), {&goal, &request.goal_grasp}}) {
+    if (!file->empty()) *grasp = ReadHandGrasp(*file, *solid, model);
+  }
   request.seed = common.seed;
   request.deadline = asked.deadline;
   request.progress = progress.reporter();
@@ -270,7 +284,10 @@ object::ObjectFile PlanProgram::ReadObject() const {
 int PlanProgram::Run() const {
   CheckEnds();
   CheckOutput();
-  if (hand.given()) (void)hand.ParseTurn();  // before the object is read
+  if (hand.given()) {  // before the object is read
+    gait::GaitRequest request;
+    hand.AskFor(request);
+  }
   const object::ObjectFile object = ReadObject();
   criteria::CheckFingerRadius(*object.object, finger_radius, "--finger-radius");
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);

@@ -46,9 +46,8 @@ struct PlaceInHand {
   RandomStream random;
   GaitSearch search;
 
-  PlaceInHand(const HandSetup& setup, const PoseGrid& poses, Parking postures,
-              const GaitEnds& ends, criteria::GraspMemory& memory, std::uint64_t seed,
-              std::size_t index)
+  PlaceInHand(const HandSetup& setup, const PoseGrid& poses, Parking postures, const GaitEnds& ends,
+              criteria::GraspMemory& memory, std::uint64_t seed, std::size_t index)
       : grid(poses),
         parking(std::move(postures)),
         random(seed, RandomUse::kGaits, index),
@@ -120,9 +119,8 @@ class PlacesInHand {
       const std::optional<Parking> parking = FindParking(setup_, track, random_);
       if (!parking) continue;
       const bool may_end_beside = !request_.goal_pose && track.steps() > 0;
-      const PoseGrid grid(
-          track, setup_.scene.hand().up,
-          may_end_beside ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
+      const PoseGrid grid(track, setup_.scene.hand().up,
+                          may_end_beside ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
       auto place = std::make_unique<PlaceInHand>(setup_, grid, *parking, ends_, memory_,
                                                  request_.seed, places_.size());
       if (!place->search.GoalIsHeld()) continue;
@@ -168,7 +166,8 @@ std::string HowFar(const GaitRequest& request, const GaitCounts& counts) {
 /// Why no place led to the end, of the one where the object came farthest.
 std::string WhatStopped(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
-    std::string text = "the object is nowhere in the hand within reach of the fingers and off the palm";
+    std::string text =
+        "the object is nowhere in the hand within reach of the fingers and off the palm";
     if (!request.start_grasp.empty()) text += ", held by the start grasp";
     if (!request.goal_grasp.empty()) text += ", held by the goal grasp in the end";
     return text;

@@ -351,7 +351,8 @@ void GaitSearch::Expand(int index) {
                          path[0]};
   std::erase_if(nodes, [&](int node) { return rest.switched_at.contains(node); });
   for (int i = 0; i < kNodesBeside; ++i) {
-    nodes.insert(std::next(rest.from.begin(), static_cast<int>(random_.Index(rest.from.size())))->first);
+    nodes.insert(
+        std::next(rest.from.begin(), static_cast<int>(random_.Index(rest.from.size())))->first);
   }
   for (const int node : nodes) {
     if (rests_[index].switched_at.insert(node).second) SwitchAt(index, node);
@@ -482,7 +483,8 @@ int GaitSearch::PopNext() {
     const Waiting top = queue_.top();
     queue_.pop();
     const Rest& rest = rests_[top.rest];
-    const double score = rest.score - kAnotherTurn * rest.turns - kPutBack * expanded_at_[grid_.StepOf(rest.end)];
+    const double score =
+        rest.score - kAnotherTurn * rest.turns - kPutBack * expanded_at_[grid_.StepOf(rest.end)];
     if (queue_.empty() || score >= top.score || score >= queue_.top().score) return top.rest;
     queue_.push({score, top.rest});
   }

@@ -60,11 +60,11 @@ class GaitSearch {
   struct Rest {
     Holding holding;
     std::vector<Posture> waiting = {};  ///< of fingers that hold nothing, by finger
-    int node = 0;                          ///< at which it was taken
-    std::map<int, int> from = {};          ///< of each node that it comes to the one before
-    int end = 0;                           ///< the farthest of them
-    std::set<int> switched_at = {};        ///< nodes, in earlier turns
-    int turns = 0;                         ///< that it had
+    int node = 0;                       ///< at which it was taken
+    std::map<int, int> from = {};       ///< of each node that it comes to the one before
+    int end = 0;                        ///< the farthest of them
+    std::set<int> switched_at = {};     ///< nodes, in earlier turns
+    int turns = 0;                      ///< that it had
     double score = 0;
     int parent = -1;
     FingerIndex placed = {}, released = {};  ///< not valid: none

@@ -12,10 +12,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kPlaces = 300;     // drawn, with a yaw each
+constexpr int kPlaces = 300;        // drawn, with a yaw each
 constexpr int kMostDrawn = 60'000;  // where a grasp is given that most poses don't suit
-constexpr int kPoints = 40;      // of the surface that are looked at
-constexpr int kPosesOfTurn = 4;  // at which it is looked at them
+constexpr int kPoints = 40;         // of the surface that are looked at
+constexpr int kPosesOfTurn = 4;     // at which it is looked at them
 constexpr int kHomes = 24;
 constexpr int kDrawnGrasps = 150;  // at each pose
 /// So many of the best by what tips may reach are looked at more closely.

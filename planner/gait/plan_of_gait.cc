@@ -19,6 +19,15 @@ plan::HandPath PathOf(const Stretch& stretch, const kinematics::HandModel& hand)
   return path;
 }
 
+/// The switch before, if it has only placed another finger so far, or a new one.
+plan::Switch& SwitchThatReleases(FingerIndex finger, std::vector<plan::Step>& steps) {
+  auto* last = steps.empty() ? nullptr : std::get_if<plan::Switch>(&steps.back());
+  if (last != nullptr && last->release.empty() && last->place.front().finger != finger)
+    return *last;
+  return std::get<plan::Switch>(
+      steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}}));
+}
+
 }  // namespace
 
 plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
@@ -50,7 +59,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
         break;
       }
       case Stretch::Kind::kRelease: {
-        auto& last = std::get<plan::Switch>(plan.steps.back());
+        plan::Switch& last = SwitchThatReleases(stretch.finger, plan.steps);
         last.release.push_back(stretch.finger);
         last.motion->release = PathOf(stretch, hand);
         break;

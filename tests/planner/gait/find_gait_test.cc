@@ -92,7 +92,7 @@ TEST(FindGaitTest, StretchesFollowEachOtherAndTipsStayAtTheirContacts) {
 
 TEST(FindGaitTest, PlansAreRightAsPlansOfContacts) {
   for (const char* model : {"cube", "l_block"}) {
-    const GaitRequest request = RequestFor(model, 0.5, 120);
+    const GaitRequest request = RequestFor(model, 0.8, 120);
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << model << ": " << found.message;
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
@@ -182,6 +182,31 @@ TEST(FindGaitTest, AGivenGraspFindsAPoseWhereFingersReachIt) {
   ASSERT_TRUE(found.gait) << found.message;
   EXPECT_EQ(Sorted(FirstGrasp(found)), Sorted(request.start_grasp));
   EXPECT_NE(found.gait->start.pose.matrix(), turned.gait->start.pose.matrix());
+}
+
+/// Four fingers, then three of them, then four again: a finger leaves alone and comes alone.
+TEST(FindGaitTest, GraspsMayHaveMoreFingersBeforeOrAfter) {
+  const GaitResult turned = FindGait(RequestFor("cube", 0.8, 150));
+  ASSERT_TRUE(turned.gait) << turned.message;
+  const auto place =
+      std::ranges::find(turned.gait->stretches, Stretch::Kind::kPlace, &Stretch::kind);
+  ASSERT_NE(place, turned.gait->stretches.end());
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  request.start_pose = request.goal_pose = place->path.back().pose;
+  grasp::Grasp three = FirstGrasp(turned);
+  grasp::Grasp four = three;
+  four.push_back(turned.contacts[place->contact]);
+  for (const bool leaves : {true, false}) {
+    request.start_grasp = leaves ? four : three;
+    request.goal_grasp = leaves ? three : four;
+    const GaitResult found = FindGait(request);
+    ASSERT_TRUE(found.gait) << found.message;
+    EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
+    const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
+    EXPECT_EQ(plan.initial.size(), request.start_grasp.size());
+    EXPECT_EQ(plan.goal.size(), request.goal_grasp.size());
+  }
 }
 
 /// No hand is as long as that.
