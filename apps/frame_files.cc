@@ -234,9 +234,8 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
   if (options.hand != nullptr) frame.hand = options.hand->view();
   for (const auto& motion : motions) {
     for (const plan::Snapshot& snapshot : motion) {
-      for (const Eigen::Isometry3d& link : snapshot.links_W) {
-        frame.reached.push_back(link.translation());
-      }
+      const std::vector<Eigen::Vector3d> points = options.hand->Reached(snapshot);
+      frame.reached.insert(frame.reached.end(), points.begin(), points.end());
     }
   }
   frame.gaps = render::GapView::kShown;

@@ -171,6 +171,22 @@ void HandPicture::Stand(const HandState& state, plan::Snapshot& snapshot) const 
   }
 }
 
+std::vector<Vector3d> HandPicture::Reached(const plan::Snapshot& snapshot) const {
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Isometry3d& pose = snapshot.links_W[i];
+    points.push_back(pose.translation());
+    for (const auto& [from, to, radius] : links_[i].capsules) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const double sign : {-1.0, 1.0}) {
+          points.push_back(pose * to + sign * radius * Vector3d::Unit(axis));
+        }
+      }
+    }
+  }
+  return points;
+}
+
 void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot,
                         plan::Fault& fault) const {
   const HandState& state =

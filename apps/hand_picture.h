@@ -34,6 +34,9 @@ class HandPicture {
                                                     const plan::Snapshot& before,
                                                     const plan::Snapshot& after) const;
 
+  /// Points that bound, about, where the hand of a placed snapshot is.
+  [[nodiscard]] std::vector<Eigen::Vector3d> Reached(const plan::Snapshot& snapshot) const;
+
  private:
   void Stand(const plan::HandState& state, plan::Snapshot& snapshot) const;
   [[nodiscard]] bool Fits(const plan::HandState& state) const;
