@@ -16,6 +16,9 @@ namespace {
 /// Of 100: thin edges and small numbers stay sharp.
 constexpr float kQuality = 82;
 constexpr int kBytesPerPixel = 3;
+/// After so many pictures one stands whole. Others hold what changed by more than a few levels
+/// since the one before; without it slow shading would never come right.
+constexpr int kKeyPictures = 10;
 
 WebPConfig MakeConfig() {
   WebPConfig config;
@@ -66,6 +69,8 @@ class WebpAnimation : public MovingPicture {
     const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
     assert(good && "libwebpmux of another version than its header");
     static_cast<void>(good);
+    options.kmin = kKeyPictures / 2 + 1;
+    options.kmax = kKeyPictures;
     encoder_ = WebPAnimEncoderNew(width, height, &options);
     Require(encoder_ != nullptr);
   }

@@ -4,6 +4,7 @@
 #include <webp/decode.h>
 #include <webp/demux.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -77,6 +78,38 @@ TEST(WebpAnimationTest, EveryImageIsShownForItsTime) {
   ASSERT_EQ(brightness.size(), 2u);
   EXPECT_NEAR(brightness[0], 20, 4);
   EXPECT_NEAR(brightness[1], 220, 4);
+}
+
+/// What changes by little from image to image, as shading does, while a corner changes much.
+TEST(WebpAnimationTest, SlowChangesComeRight) {
+  constexpr int kSide = 64;
+  const auto animation = MakeWebpAnimation(kSide, kSide);
+  constexpr int kImages = 60;
+  for (int i = 0; i < kImages; ++i) {
+    Image image = MakeFlat(kSide, kSide, static_cast<unsigned char>(80 + i));
+    for (int y = 0; y < 8; ++y) {
+      for (int x = 0; x < 8; ++x) image.rgb[3 * (kSide * y + x)] = i % 2 == 0 ? 0 : 255;
+    }
+    animation->Add(image, 50);
+  }
+  const std::string webp = animation->Finish();
+  const WebPData data = {Bytes(webp), webp.size()};
+  const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
+      WebPAnimDecoderNew(&data, nullptr), &WebPAnimDecoderDelete);
+  ASSERT_NE(decoder, nullptr);
+  std::uint8_t* rgba = nullptr;
+  int time = 0;
+  int shown = 0;
+  int worst = 0;
+  while (WebPAnimDecoderGetNext(decoder.get(), &rgba, &time) != 0) {
+    const int should = 80 + (time - 1) / 50;
+    for (int i = kSide * kSide / 2; i < kSide * kSide; ++i) {
+      worst = std::max(worst, std::abs(rgba[4 * i] - should));
+    }
+    ++shown;
+  }
+  EXPECT_GT(shown, kImages / 2);
+  EXPECT_LE(worst, 16) << "59 without pictures that stand whole";
 }
 
 TEST(WebpAnimationTest, ImagesOfAnotherSizeAreRefused) {
