@@ -277,7 +277,7 @@ class FrameRenderer::Impl {
       drawing.shapes.push_back(std::move(line));
     }
     const auto turn = TurnArrow(body_.surface, before, after, camera.axes.col(2));
-    if (!turn.empty()) AddTurnArrow(turn, kArrowMesh, drawing.shapes);
+    if (!turn.empty()) AddTurnArrow(turn, kArrowMesh, style_.ground.turn, drawing.shapes);
     return turn;
   }
 

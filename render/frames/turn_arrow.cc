@@ -24,8 +24,6 @@ constexpr double kLineRadius = 0.011;
 /// The arrow's head, of that of forces.
 constexpr double kHead = 2;
 
-constexpr Color kArrow = {64, 72, 96};
-
 /// How far a body goes along a direction from its origin.
 double Height(const FacetMesh& surface, const Isometry3d& pose, const Vector3d& along) {
   const Vector3d in_body = pose.linear().transpose() * along;
@@ -60,20 +58,21 @@ std::vector<Vector3d> TurnArrow(const FacetMesh& surface, const Isometry3d& befo
   return arrow;
 }
 
-void AddTurnArrow(const std::vector<Vector3d>& arrow, int arrow_head, std::vector<Shape>& shapes) {
+void AddTurnArrow(const std::vector<Vector3d>& arrow, int arrow_head, Color color,
+                  std::vector<Shape>& shapes) {
   const Vector3d& tip = arrow.back();
   const double head = kHead * kArrowHeadLength;
   // The head lies along the chord that is as long as it.
   auto base = arrow.end() - 1;
   while (base != arrow.begin() && (*base - tip).norm() < 0.9 * head) --base;
   for (auto at = arrow.begin(); at != base; ++at) {
-    shapes.push_back({Line{*at, *(at + 1), kLineRadius}, kArrow});
+    shapes.push_back({Line{*at, *(at + 1), kLineRadius}, color});
   }
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() =
       kHead * Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), *base - tip).toRotationMatrix();
   pose.translation() = tip;
-  shapes.push_back({MeshInstance{arrow_head, pose}, kArrow});
+  shapes.push_back({MeshInstance{arrow_head, pose}, color});
 }
 
 std::vector<Obstacle> ObstaclesOf(const Camera& camera, const std::vector<Vector3d>& arrow) {

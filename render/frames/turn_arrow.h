@@ -26,7 +26,7 @@ inline constexpr Color kBefore = {112, 120, 138};
                                                      const Eigen::Vector3d& to_eye);
 
 /// Draws it. @param arrow_head  among the canvas's meshes.
-void AddTurnArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head,
+void AddTurnArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head, Color color,
                   std::vector<Shape>& shapes);
 
 /// What labels should not cover of it.

@@ -32,11 +32,12 @@ struct Ground {
   Color paper = kWhite;
   Color ink = kInk;
   Color force = kForceInk;
-  Color halo = kWhite;  ///< around text and rings
+  Color halo = kWhite;        ///< around text and rings
+  Color turn = {64, 72, 96};  ///< of an object in a hand
 };
 inline constexpr Ground kWhiteGround = {};
 inline constexpr Ground kDarkGround = {
-    {27, 31, 39}, {216, 222, 232}, {244, 246, 250}, {27, 31, 39}};
+    {27, 31, 39}, {216, 222, 232}, {244, 246, 250}, {27, 31, 39}, {176, 188, 214}};
 
 /// Clusters of contact points: pale, so that fingers stand out on them.
 inline constexpr std::array<Color, 8> kClusterPalette = {{{158, 202, 225},

@@ -162,13 +162,25 @@ class Checker {
 };
 
 MaybeFault Checker::CheckShape(const HandState& state) const {
-  const auto& fingers = body_.hand().fingers;
-  bool same = state.joints.size() == fingers.size();
-  for (std::size_t i = 0; same && i < fingers.size(); ++i) {
-    same = state.joints[i].size() == fingers[i].joints.size();
+  if (std::ssize(state.joints) != finger_count()) {
+    return NoSuchPath("a state has " + std::to_string(state.joints.size()) +
+                          " fingers, and the hand has " + std::to_string(finger_count()),
+                      state_);
   }
-  if (same) return std::nullopt;
-  return NoSuchPath("a state has other numbers of fingers or joints than the hand", state_);
+  for (FingerIndex finger{0}; finger < finger_count(); ++finger) {
+    const std::size_t joints = body_.hand().fingers[finger].joints.size();
+    if (state.joints[finger].size() == joints) continue;
+    HandFinding finding = NoSuchPath("a state has " + std::to_string(state.joints[finger].size()) +
+                                         " joints of " + FingerText(body_.hand(), finger) +
+                                         ", and the hand has " + std::to_string(joints),
+                                     state_);
+    finding.fault.fingers = {finger};
+    for (int moved = 1; moved <= static_cast<int>(joints); ++moved) {
+      finding.fault.hand->links.push_back({finger, moved});
+    }
+    return finding;
+  }
+  return std::nullopt;
 }
 
 MaybeFault Checker::CheckContinues(const plan::HandPath& path) {

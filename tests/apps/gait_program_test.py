@@ -152,6 +152,28 @@ class Gait(ProgramCase):
                 self.assertGreater(count(frame, is_red), 50)
                 self.assertGreater(count(frame, is_reddish), 500)
 
+    def test_states_of_another_hand_have_their_frame_too(self):
+        """Whatever is missing in them: the hand stands as it stood before, or as its model does."""
+        hold = self.plan_in_hand()
+        hold["hand"]["initial"]["joints"][2].pop()
+        entry, step = self.first(self.plan_in_hand(), "switch")
+        path = self.plan_in_hand()
+        path["steps"][entry - 1]["motion"]["release"][-1]["joints"].pop()
+        # And a fault of the contacts that comes first.
+        both = copy.deepcopy(path)
+        place = both["steps"][entry - 1]["place"][0]
+        place["point"] = [p - 0.004 * n for p, n in zip(place["point"], place["normal"])]
+        for plan, index, reason in ((hold, 0, "hand-jumps"), (path, entry, "hand-jumps"),
+                                    (both, entry, "off-surface")):
+            done, report = self.validate(plan, "--hand", self.hand("ring4"), "--animate")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(report["steps"][index]["reason"], reason)
+            if reason == "hand-jumps":
+                self.assertIn(", and the hand has 4", report["steps"][index]["detail"])
+            frame = png_pixels(self.read("result/" + report["steps"][index]["frame"]))
+            if plan is not path:  # where no finger is at fault
+                self.assertGreater(count(frame, is_reddish), 100)
+
     def test_a_library_says_it_first_too(self):
         os.makedirs(self.path("plans"))
         plan = self.plan_in_hand()
