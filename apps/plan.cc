@@ -18,6 +18,7 @@
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
+#include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
@@ -153,9 +154,11 @@ void PlanProgram::AddSearch(CLI::App& app) {
              "Force-closure tests after which the planner general gives up; each takes some "
              "microseconds (default " +
                  std::to_string(tree::TreePlanner::kDefaultEffort) + ")");
-  app.add_flag("--explain", explain,
-               "Look for the smallest friction that is enough where no sequence is found; of the "
-               "planner general");
+  app.add_flag(
+      "--explain", explain,
+      "Look for what would be enough where no sequence is found; the smallest friction (of "
+      "the planner general), with --hand also the size of the object and a tilt of the "
+      "palm, for as long again as --time-limit says");
 }
 
 planning::GraspChoice PlanProgram::Choose(const std::string& option, const std::string& value,
@@ -239,6 +242,7 @@ grasp::Grasp ReadHandGrasp(const std::string& file, const object::Object& object
 planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) const {
   const planning::PlanRequest asked = RequestFor(*object.object);
   for (const planning::PlanOption option : planning::OptionsOf(asked)) {
+    if (option == planning::PlanOption::kExplain) continue;
     throw InputError(planning::OptionName(option) + ": no option of plans for a hand");
   }
   const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
@@ -260,9 +264,15 @@ planning::PlanResult PlanProgram::FindInHand(const object::ObjectFile& object) c
   request.deadline = asked.deadline;
   request.progress = progress.reporter();
   const gait::GaitResult found = gait::FindGait(request);
-  progress.Clear();
   planning::PlanResult result;
   result.message = found.message;
+  if (!found.gait && explain) {
+    if (common.time_limit_s) {  // as long again
+      request.deadline = DeadlineAfter(std::chrono::steady_clock::now(), *common.time_limit_s);
+    }
+    result.message += "; " + gait::ExplainGait(request);
+  }
+  progress.Clear();
   if (!found.gait) {
     result.status = planning::PlanResult::Status::kNoSequence;
     return result;

@@ -31,7 +31,7 @@ struct GaitRequest {
   grasp::Grasp start_grasp;                     ///< in the file's units; empty: any
   grasp::Grasp goal_grasp;                      ///< the same
   std::uint64_t seed = 0;
-  std::int64_t most_expanded = 20'000;  ///< rests, from all places in the hand together
+  std::int64_t most_expanded = 8'000;  ///< rests, from all places in the hand together
   Deadline deadline = {};
   planning::Progress progress = [](std::string_view) {};
 };

@@ -17,7 +17,6 @@ kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePo
 std::optional<Posture> ReachMap::WorkOut(FingerIndex finger, int point, int node) const {
   const Eigen::Isometry3d pose = grid_.PoseAt(node);
   const kinematics::TipTarget target = TargetAt(scene_.finger(finger), points_[point], pose);
-  if (!inverse_[finger].MayReach(target)) return std::nullopt;
   std::optional<Posture> posture = inverse_[finger].Solve(target);
   if (!posture) return std::nullopt;
   const PlacedFinger placed = scene_.Place(finger, *posture);

@@ -106,6 +106,7 @@ InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& 
   std::partial_sum(first_of_cell_.begin(), first_of_cell_.end(), first_of_cell_.begin());
   for (const int i : order) {
     samples_.push_back(postures[i]);
+    off_middle_.push_back(kPostureWeight * kPostureWeight * (postures[i] - middle_).squaredNorm());
     centres_.push_back(tips[i].centre);
     axes_.push_back(tips[i].axis);
   }
@@ -138,8 +139,7 @@ int InverseKinematics::NearestSample(const TipTarget& target) const {
       const int end = first_of_cell_[CellOf({right, y, z}) + 1];
       for (int i = first_of_cell_[CellOf({left, y, z})]; i < end; ++i) {
         if (axes_[i].dot(target.towards) < least_cosine) continue;
-        const double cost = (centres_[i] - target.centre).squaredNorm() +
-                            kPostureWeight * kPostureWeight * (samples_[i] - middle_).squaredNorm();
+        const double cost = (centres_[i] - target.centre).squaredNorm() + off_middle_[i];
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = i;

@@ -65,7 +65,8 @@ class InverseKinematics {
   const Finger& finger_;
   PostureLimits limits_;
   Posture lower_, upper_, middle_, range_;
-  std::vector<Posture> samples_;  ///< by cell
+  std::vector<Posture> samples_;    ///< by cell
+  std::vector<double> off_middle_;  ///< what they cost for being off the middle
   std::vector<Eigen::Vector3d> centres_;
   std::vector<Eigen::Vector3d> axes_;
   Eigen::Vector3d corner_;          ///< of the cells

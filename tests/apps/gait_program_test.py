@@ -310,6 +310,14 @@ class Gait(ProgramCase):
         self.assertIn("0 of 90 degrees", done.stderr)
         self.assertFalse(os.path.exists(self.path("plan.json")))
 
+    def test_explain_says_what_would_do(self):
+        done = self.run_program("--object", self.model("cube.obj"), "--scale", "20", "--mu", "0.8",
+                                "--hand", self.hand("ring4"), "--turn", "z 90", "--explain",
+                                "--time-limit", "1", "--output", "plan.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("not found to help: more friction, another size of the object, a tilt of the "
+                      "palm", done.stderr)
+
 
 if __name__ == "__main__":
     program_case.main()

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "planner/base/angle.h"
+#include "planner/gait/explain_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
@@ -220,6 +221,18 @@ TEST(FindGaitTest, AGraspOutOfReachIsNamed) {
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
   EXPECT_THAT(found.message, testing::HasSubstr("held by the goal grasp"));
+}
+
+/// A cube of 13 cm is too large
+/// for this hand, and no tilt of the palm makes it smaller.
+TEST(ExplainGaitTest, NamesTheSizeThatHelpsAndWhatDoesNot) {
+  GaitRequest large = RequestFor("cube", 2.2, 90);
+  large.most_expanded = 12;
+  ASSERT_FALSE(FindGait(large).gait);
+  const std::string text = ExplainGait(large);
+  EXPECT_THAT(text, testing::MatchesRegex("would do, each alone: the object 0\\.[0-9]+ times as "
+                                          "large \\(--scale [0-9.]+\\); not found to help: more "
+                                          "friction, a tilt of the palm"));
 }
 
 /// As large as a house it is in no hand; with next to no friction nothing holds it.
