@@ -108,10 +108,14 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
     : plan_(plan), hand_(hand.hand), links_(kinematics::VisualsOf(hand)), states_(StatesOf(plan)) {
   // An arm would make the rest small.
   std::erase_if(links_, [](const kinematics::LinkVisual& link) { return link.above_palm; });
-  for (const kinematics::LinkVisual& link : links_) {
+  render::HandView view;
+  for (kinematics::LinkVisual& link : links_) {
     const bool is_tip =
         link.finger.valid() && link.after == std::ssize(hand_.fingers[link.finger].joints);
-    view_.push_back({{link.finger, link.after}, is_tip, MeshOf(link)});
+    view.push_back({{link.finger, link.after}, is_tip, MeshOf(link)});
+    // From here on they only say where the links are.
+    link.triangles = {};
+    link.normals = {};
   }
   // What touches is the ball, wherever the model's look ends; a hair smaller, so that the look is
   // seen where it is as large.
@@ -122,9 +126,10 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
     ball.finger = finger;
     ball.after = static_cast<int>(hand_.fingers[finger].joints.size());
     ball.capsules = {{tip.centre, tip.centre, kInside * tip.radius}};
-    view_.push_back({{finger, ball.after}, true, MeshOf(ball)});
+    view.push_back({{finger, ball.after}, true, MeshOf(ball)});
     links_.push_back(std::move(ball));
   }
+  view_ = std::make_shared<const render::HandView>(std::move(view));
   // The object begins where frames without a hand have it.
   X_WP_.setIdentity();
   X_WP_.linear() =

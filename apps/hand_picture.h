@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "planner/kinematics/hand_file.h"
@@ -20,7 +21,7 @@ class HandPicture {
   HandPicture(const kinematics::HandFile& hand, const plan::Plan& plan,
               const Eigen::Vector3d& centroid_m);
 
-  [[nodiscard]] const render::HandView& view() const { return view_; }
+  [[nodiscard]] const std::shared_ptr<const render::HandView>& view() const { return view_; }
 
   /// Brings what was seen at the end of an entry to where object and hand are then; where the
   /// hand's check failed, to where they are at that instant.
@@ -45,7 +46,7 @@ class HandPicture {
   const plan::Plan& plan_;
   kinematics::HandModel hand_;
   std::vector<kinematics::LinkVisual> links_;
-  render::HandView view_;
+  std::shared_ptr<const render::HandView> view_;
   std::vector<plan::HandState> states_;  ///< at the end of each entry
   Eigen::Isometry3d X_WP_;               ///< of the palm in the picture
 };

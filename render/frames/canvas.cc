@@ -236,7 +236,7 @@ class Canvas::Impl {
         height_(height),
         factor_(supersampling),
         band_rows_(std::clamp(kMaxBandSamples / (width * factor_ * factor_), 1, height)),
-        meshes_(meshes.begin(), meshes.end()),
+        meshes_(std::make_shared<const std::vector<Vertices>>(meshes.begin(), meshes.end())),
         context_(width * factor_, band_rows_ * factor_) {
     Init();
   }
@@ -349,7 +349,7 @@ class Canvas::Impl {
     const int rows = band.rows * factor_;
     glViewport(0, 0, width_ * factor_, rows);
     SetCamera(camera, band);
-    const FormPainter painter(camera, meshes_);
+    const FormPainter painter(camera, *meshes_);
     const std::vector<Shape> translucent = SortTranslucent(camera, drawing.shapes);
     std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
     if (drawing.veil) {
@@ -373,7 +373,7 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
-  std::vector<Vertices> meshes_;
+  std::shared_ptr<const std::vector<Vertices>> meshes_;  ///< copies have the same
   OffscreenContext context_;
 };
 

@@ -103,8 +103,7 @@ std::vector<FacetMesh> MakeClusterMeshes(const FacetMesh& surface,
 }
 
 std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double half_angle,
-                                  const std::optional<roadmap::ClusterView>& clusters,
-                                  const HandFigure& hand) {
+                                  const std::optional<roadmap::ClusterView>& clusters) {
   std::vector<FacetMesh> meshes = {
       body.surface, TurnInsideOut(body.surface),
       planar ? MakeWedge(half_angle, kConeLength) : MakeCone(half_angle, kConeLength),
@@ -114,7 +113,14 @@ std::vector<FacetMesh> MakeMeshes(const BodyShape& body, bool planar, double hal
       meshes.push_back(std::move(mesh));
     }
   }
-  meshes.insert(meshes.end(), hand.meshes().begin(), hand.meshes().end());
+  return meshes;
+}
+
+/// Those of a hand come last.
+std::vector<FacetMesh> WithHand(std::vector<FacetMesh> meshes, const HandView* hand,
+                                const PictureFrame& frame) {
+  if (hand == nullptr) return meshes;
+  for (FacetMesh& mesh : MakeHandMeshes(*hand, frame)) meshes.push_back(std::move(mesh));
   return meshes;
 }
 
@@ -195,13 +201,13 @@ class FrameRenderer::Impl {
         body_(MakeBodyShape(object, options.body)),
         frame_{scale * object.diameter(), scale * object.mass_properties().centroid},
         planar_(object.dimension() == 2),
-        hand_(options.hand, frame_),
-        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters, hand_)),
-        hand_mesh_(static_cast<int>(meshes_.size() - hand_.meshes().size())),
+        hand_(options.hand ? std::make_shared<const HandFigure>(*options.hand, frame_) : nullptr),
+        meshes_(MakeMeshes(body_, planar_, half_angle, options.clusters)),
         largest_force_(LargestForce(snapshots)),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(snapshots)),
-        canvas_(meshes_, width(), height(), options.supersampling) {}
+        canvas_(WithHand(meshes_, options.hand.get(), frame_), width(), height(),
+                options.supersampling) {}
 
   [[nodiscard]] int width() const { return cameras_.common.width; }
   [[nodiscard]] int height() const { return cameras_.common.height; }
@@ -216,7 +222,7 @@ class FrameRenderer::Impl {
     const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
     Drawing drawing = DrawBody(pose, camera);
     for (Shape& shape : FingerShapes(fingers)) drawing.shapes.push_back(std::move(shape));
-    if (!snapshot.links_W.empty() && !options_.hand.empty()) {
+    if (!snapshot.links_W.empty() && hand_) {
       drawing.veil = HandOf(snapshot, fingers, fault, camera);
     }
     const std::vector<Vector3d> turn = AddBefore(snapshot, fault, camera, drawing);
@@ -250,9 +256,10 @@ class FrameRenderer::Impl {
   [[nodiscard]] Veil HandOf(const plan::Snapshot& snapshot, std::span<const FingerGlyph> fingers,
                             const FaultMarks* fault, const Camera& camera) const {
     const std::vector<plan::HandLink> none;
-    return {hand_.Shapes(snapshot, fault != nullptr ? fault->links : none, hand_mesh_),
+    return {hand_->Shapes(snapshot, fault != nullptr ? fault->links : none,
+                          static_cast<int>(meshes_.size())),
             {{kOutsideMesh, frame_.BodyPose(snapshot.X_WO)}},
-            hand_.Windows(snapshot, fingers, camera)};
+            hand_->Windows(snapshot, fingers, camera)};
   }
 
   /// The object where it was before it moved in the hand, and how it turned; not where a fault has
@@ -406,14 +413,14 @@ class FrameRenderer::Impl {
     Sequence all;
     for (const plan::Snapshot& snapshot : snapshots) {
       all.frames.emplace_back();
-      if (!options_.hand.empty()) all.standing.emplace_back();
+      if (hand_) all.standing.emplace_back();
       const Eigen::Isometry3d pose = frame_.BodyPose(snapshot.X_WO);
       if (!IsNear(pose)) continue;
       all.poses.push_back(pose);
       if (snapshot.X_WO_before) all.poses.push_back(frame_.BodyPose(*snapshot.X_WO_before));
-      if (!options_.hand.empty()) {
-        all.standing.back() = {pose.inverse(), hand_.Rays(snapshot)};
-        const std::vector<Vector3d> bounds = hand_.Bounds(snapshot);
+      if (hand_) {
+        all.standing.back() = {pose.inverse(), hand_->Rays(snapshot)};
+        const std::vector<Vector3d> bounds = hand_->Bounds(snapshot);
         all.hands.insert(all.hands.end(), bounds.begin(), bounds.end());
       }
       all.frames.back() =
@@ -519,9 +526,8 @@ class FrameRenderer::Impl {
   BodyShape body_;
   PictureFrame frame_;
   bool planar_;
-  HandFigure hand_;
-  std::vector<FacetMesh> meshes_;
-  int hand_mesh_;  ///< the first of the hand's
+  std::shared_ptr<const HandFigure> hand_;  ///< none without a hand; copies have the same
+  std::vector<FacetMesh> meshes_;           ///< without the hand's
   double largest_force_;
   TextStyle style_;
   Cameras cameras_;

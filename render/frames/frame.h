@@ -52,9 +52,9 @@ struct FrameOptions {
   std::optional<roadmap::ClusterView> clusters = std::nullopt;
   /// Frames are no larger than what is drawn in them: of the size above only one side is kept.
   bool crop = false;
-  /// Of a plan for a hand; empty: fingers without one. Frames have the palm at rest then, and no
+  /// Of a plan for a hand; null: fingers without one. Frames have the palm at rest then, and no
   /// frame has a view of its own.
-  HandView hand = {};
+  std::shared_ptr<const HandView> hand = nullptr;
   /// The camera sees these points too, however far they are: metres, world frame.
   std::vector<Eigen::Vector3d> reached = {};
   Background background = Background::kWhite;

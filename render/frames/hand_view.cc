@@ -41,6 +41,13 @@ Color Mixed(Color a, Color b, double share) {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
+FacetMesh InPicture(FacetMesh mesh, const PictureFrame& frame) {
+  for (auto& corners : mesh.triangles) {
+    for (Vector3d& p : corners) p /= frame.diameter_m;
+  }
+  return mesh;
+}
+
 /// Parts that hang together and are inside out are turned: a shell of them would hide them.
 void OrientOutward(FacetMesh& mesh) {
   const int count = static_cast<int>(mesh.triangles.size());
@@ -119,20 +126,25 @@ bool Touches(const plan::FingerState& finger) {
 
 }  // namespace
 
+std::vector<FacetMesh> MakeHandMeshes(const HandView& hand, const PictureFrame& frame) {
+  std::vector<FacetMesh> meshes;
+  for (const HandLinkView& view : hand) {
+    FacetMesh mesh = InPicture(view.mesh, frame);
+    OrientOutward(mesh);
+    Grow(kHair * view.link.joints, mesh);
+    meshes.push_back(MakeShell(mesh));
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
 HandFigure::HandFigure(const HandView& hand, const PictureFrame& frame) : frame_(frame) {
   for (const HandLinkView& view : hand) {
     links_.push_back(view.link);
     is_tip_.push_back(view.is_tip);
-    FacetMesh mesh = view.mesh;
-    for (auto& corners : mesh.triangles) {
-      for (Vector3d& p : corners) p /= frame.diameter_m;
-    }
-    OrientOutward(mesh);
-    Grow(kHair * view.link.joints, mesh);
+    const FacetMesh mesh = InPicture(view.mesh, frame);
     rays_.emplace_back(mesh);
     bounds_.push_back(FarthestCorners(mesh));
-    meshes_.push_back(MakeShell(mesh));
-    meshes_.push_back(std::move(mesh));
   }
 }
 

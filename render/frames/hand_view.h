@@ -23,18 +23,19 @@ struct HandLinkView {
 /// A hand that frames show. Where its links are says plan::Snapshot::links_W, in the same order.
 using HandView = std::vector<HandLinkView>;
 
-/// What a frame needs of a hand, in the picture's unit of length.
+/// For the canvas, in the picture's unit of length: for each link a dark shell, of which only the
+/// rim is seen, its outline, and then the link itself.
+[[nodiscard]] std::vector<FacetMesh> MakeHandMeshes(const HandView& hand,
+                                                    const PictureFrame& frame);
+
+/// What a frame needs of a hand besides its meshes, which may be large.
 class HandFigure {
  public:
   HandFigure(const HandView& hand, const PictureFrame& frame);
 
-  /// For the canvas: the links, and for each of them a dark shell of which only the rim is seen,
-  /// its outline.
-  [[nodiscard]] const std::vector<FacetMesh>& meshes() const { return meshes_; }
-
   /// The links of a snapshot; none where it has no hand. Tips of fingers that touch have some of
   /// the finger's colour; `at_fault` is red.
-  /// @param first_mesh  of meshes(), among the canvas's.
+  /// @param first_mesh  of MakeHandMeshes, among the canvas's.
   [[nodiscard]] std::vector<Shape> Shapes(const plan::Snapshot& snapshot,
                                           std::span<const plan::HandLink> at_fault,
                                           int first_mesh) const;
@@ -57,7 +58,6 @@ class HandFigure {
   PictureFrame frame_;
   std::vector<plan::HandLink> links_;
   std::vector<bool> is_tip_;
-  std::vector<FacetMesh> meshes_;
   std::vector<RayTree> rays_;
   std::vector<std::vector<Eigen::Vector3d>> bounds_;  ///< of each link
 };

@@ -129,11 +129,16 @@ class Scene {
   /// How much is seen of what a finger has at a point.
   [[nodiscard]] double Share(const FingerGlyph& own, const Vector3d& p) const {
     if (IsCovered(own, p)) return 0;
-    const Eigen::Isometry3d& to_body = standing_.to_body;
-    const int sides =
-        body_.CountHits(to_body * p, to_body.linear() * axes_.col(2), kRaySkip, kMostSides);
+    if (standing_.hand.empty()) return ThroughWalls(p, axes_.col(2));
     const double through_hand = IsMet(standing_.hand, p, axes_.col(2), kRaySkip) ? kThroughHand : 1;
-    return through_hand * std::pow(kThroughWall, sides / 2) * (sides % 2 == 1 ? kInside : 1);
+    const Eigen::Isometry3d& to_body = standing_.to_body;
+    return through_hand * ThroughWalls(to_body * p, to_body.linear() * axes_.col(2));
+  }
+
+  /// The same of the object alone, in its frame.
+  [[nodiscard]] double ThroughWalls(const Vector3d& p, const Vector3d& back) const {
+    const int sides = body_.CountHits(p, back, kRaySkip, kMostSides);
+    return std::pow(kThroughWall, sides / 2) * (sides % 2 == 1 ? kInside : 1);
   }
 
   [[nodiscard]] double BallShare(const FingerGlyph& glyph) const {

@@ -70,13 +70,13 @@ TEST(HandFigure, LinksAtFaultAreRedAndNoOthers) {
 TEST(HandFigure, MeshesThatAreInsideOutAreTurned) {
   HandView hand = Hand();
   for (HandLinkView& link : hand) link.mesh = TurnInsideOut(link.mesh);
-  const HandFigure turned(hand, Frame());
-  const HandFigure usual(Hand(), Frame());
-  ASSERT_EQ(turned.meshes().size(), 6u);
+  const std::vector<FacetMesh> turned = MakeHandMeshes(hand, Frame());
+  const std::vector<FacetMesh> usual = MakeHandMeshes(Hand(), Frame());
+  ASSERT_EQ(turned.size(), 6u);
   for (int i : {1, 3, 5}) {
-    EXPECT_GT(Volume(turned.meshes()[i]), 0);
-    EXPECT_NEAR(Volume(turned.meshes()[i]), Volume(usual.meshes()[i]), 1e-12);
-    EXPECT_LT(Volume(turned.meshes()[i - 1]), -Volume(usual.meshes()[i])) << "a larger shell";
+    EXPECT_GT(Volume(turned[i]), 0);
+    EXPECT_NEAR(Volume(turned[i]), Volume(usual[i]), 1e-12);
+    EXPECT_LT(Volume(turned[i - 1]), -Volume(usual[i])) << "a larger shell";
   }
 }
 
@@ -113,7 +113,7 @@ TEST(HandFrames, AllAreSeenFromOnePlaceAndInOneScale) {
   }
   const auto make = [&](HandView hand) {
     FrameOptions options{320, 240, 1};
-    options.hand = std::move(hand);
+    options.hand = hand.empty() ? nullptr : std::make_shared<const HandView>(std::move(hand));
     return FrameRenderer(cube, 1, 0.3, snapshots, options);
   };
   FrameRenderer renderer = make(Hand());
@@ -127,7 +127,7 @@ TEST(HandFrames, AMoveShowsWhereTheObjectWas) {
   std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
   snapshots[1].X_WO_before = Isometry3d(Eigen::AngleAxisd(0.6, Vector3d::UnitZ()));
   FrameOptions options{320, 240, 1};
-  options.hand = Hand();
+  options.hand = std::make_shared<const HandView>(Hand());
   FrameRenderer renderer(cube, 1, 0.3, snapshots, options);
   const Image still = renderer.Render(snapshots[0]);
   const Image moved = renderer.Render(snapshots[1]);
