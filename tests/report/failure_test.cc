@@ -119,5 +119,21 @@ TEST(Failure, OfAContactThatNoFingerReachesSaysNothingOfThicknessWhereFingersAre
   EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--finger-radius"));
 }
 
+TEST(Failure, OfAHandThatCollidesTellsTheClearanceThatThereIsIfThereIsOne) {
+  Report report = FailingFor(Reason::kHandCollides, 5);
+  plan::HandFaultPlace& place = report.steps[1].check.fault.hand.emplace();
+  place.gap_m = 3e-4;
+  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--clearance below the 300 µm"));
+  place.gap_m = -3e-3;
+  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("no --clearance"));
+}
+
+TEST(Failure, OfAGoalThatIsNotReachedKnowsContactsFromPoses) {
+  Report report = FailingFor(Reason::kGoalNotReached, 5);
+  EXPECT_THAT(DescribeFailure(report)->why, HasSubstr("contacts"));
+  report.steps[1].check.fault.hand.emplace();
+  EXPECT_THAT(DescribeFailure(report)->why, Not(HasSubstr("contacts")));
+}
+
 }  // namespace
 }  // namespace regrasp::report
