@@ -1,7 +1,8 @@
-// How often and how fast hands turn objects, each plan judged by the checker of hands; and what
-// inverse kinematics cost. All times are of the processor.
+// How often and how fast hands turn objects, or join two grasps at one pose (--pairs), each plan
+// judged by the checker of hands; and what inverse kinematics and a rest cost. All times are of the
+// processor. Ends with the rows of a table in Markdown.
 //
-//   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] HAND.json ...
+//   hand_bench [--seeds N] [--limit SECONDS] [--axis z] [--degrees 90] [--pairs] HAND.json ...
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <exception>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -114,6 +116,7 @@ std::vector<Body> MakeBodies() {
 }
 
 struct Outcome {
+  int asked = 0;
   int found = 0;
   int rejected = 0;  ///< by the checker
   int switches = 0;
@@ -126,7 +129,40 @@ struct Contest {
   int seeds = 5;
   double limit_s = 10;
   gait::Turn turn;
+  bool pairs = false;
 };
+
+Deadline DeadlineIn(double seconds) {
+  const std::chrono::duration<double> limit(seconds);
+  return {Now() + std::chrono::duration_cast<Clock::duration>(limit), Now};
+}
+
+/// The grasp that a gait begins with.
+grasp::Grasp FirstGrasp(const gait::GaitResult& found) {
+  grasp::Grasp grasp;
+  for (const int contact : found.gait->initial) {
+    if (contact != gait::kNone) grasp.push_back(found.contacts[contact]);
+  }
+  return grasp;
+}
+
+/// A request for a way between two grasps that the hand reaches at one pose, each drawn alone.
+/// @returns nullopt where there are none.
+std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
+  constexpr double kDrawing_s = 5;
+  request.turn.angle = 0;
+  request.deadline = DeadlineIn(kDrawing_s);
+  const gait::GaitResult first = gait::FindGait(request);
+  if (!first.gait) return std::nullopt;
+  request.start_pose = first.gait->start.pose;
+  request.seed += 1000;
+  const gait::GaitResult second = gait::FindGait(request);
+  if (!second.gait) return std::nullopt;
+  request.goal_pose = request.start_pose;
+  request.start_grasp = FirstGrasp(first);
+  request.goal_grasp = FirstGrasp(second);
+  return request;
+}
 
 Outcome Run(const Contest& contest, const std::string& hand_file, const kinematics::HandModel& hand,
             const Body& body) {
@@ -139,9 +175,14 @@ Outcome Run(const Contest& contest, const std::string& hand_file, const kinemati
     request.criteria.half_angle = std::atan(kMu);
     request.turn = contest.turn;
     request.seed = seed;
+    if (contest.pairs) {
+      const auto pair = DrawPair(request);
+      if (!pair) continue;
+      request = *pair;
+    }
+    ++outcome.asked;
     const Clock::time_point begin = Now();
-    const std::chrono::duration<double> limit(contest.limit_s);
-    request.deadline = Deadline(begin + std::chrono::duration_cast<Clock::duration>(limit), Now);
+    request.deadline = DeadlineIn(contest.limit_s);
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) continue;
     ++outcome.found;
@@ -164,7 +205,7 @@ Outcome Run(const Contest& contest, const std::string& hand_file, const kinemati
 double Median(std::vector<double> values) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
-  return values[values.size() / 2];
+  return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
 }
 
 /// Microseconds of a solve for a place that the finger's tip can be in.
@@ -191,29 +232,100 @@ double TimeInverse(const kinematics::Finger& finger) {
   return seconds;
 }
 
-void RunHand(const Contest& contest, const std::string& file, const std::vector<Body>& bodies) {
+/// Of a rest: inverse kinematics of all fingers that hold, and whether they keep off each other,
+/// the palm and the object. Contacts are drawn that each finger reaches.
+void TimeRest(const kinematics::HandModel& hand, const Body& body) {
+  gait::GaitRequest request;
+  request.hand = &hand;
+  request.solid = &body.solid;
+  request.scale = body.scale;
+  request.criteria.half_angle = std::atan(kMu);
+  const gait::GaitResult found = gait::FindGait(request);
+  if (!found.gait) return;
+  const Eigen::Isometry3d pose = found.gait->start.pose;
+  const collision::SurfaceTree surface(body.solid, body.scale);
+  const gait::HandScene scene(hand, surface, request.margin);
+  std::vector<kinematics::InverseKinematics> inverse;
+  inverse.reserve(hand.fingers.size());
+  std::vector<std::vector<gait::SurfacePoint>> within_reach(hand.fingers.size());
+  for (const kinematics::Finger& finger : hand.fingers) {
+    inverse.emplace_back(finger);
+    for (const grasp::Contact& contact : found.contacts) {
+      const gait::SurfacePoint point{body.scale * contact.p, contact.n};
+      if (inverse.back().Solve(gait::TargetAt(finger, point, pose))) {
+        within_reach[inverse.size() - 1].push_back(point);
+      }
+    }
+  }
+  RandomStream random(1, RandomUse::kGaits);
+  constexpr int kRests = 2000;
+  int free = 0;
+  double seconds = 0;
+  for (int i = 0; i < kRests; ++i) {
+    const Clock::time_point begin = Now();
+    std::vector<gait::PlacedFinger> placed;
+    bool clear = scene.KeepsOffPalm(pose);
+    for (FingerIndex finger{0}; clear && finger < scene.finger_count(); ++finger) {
+      const auto& points = within_reach[finger];
+      if (points.empty()) continue;
+      const auto target =
+          gait::TargetAt(scene.finger(finger), points[random.Index(points.size())], pose);
+      placed.push_back(scene.Place(finger, *inverse[finger].Solve(target)));
+      clear = scene.KeepsOffHand(placed.back()) &&
+              scene.KeepsOffObject(placed.back(), pose, gait::TipContact::kTouching) &&
+              std::all_of(placed.begin(), placed.end() - 1, [&](const gait::PlacedFinger& other) {
+                return scene.KeepApart(other, placed.back());
+              });
+    }
+    if (!clear) continue;
+    ++free;
+    seconds += SecondsSince(begin);
+  }
+  std::printf("a free rest of all fingers on %s: %.0f µs; %d of %d are free\n", body.name.c_str(),
+              1e6 * seconds / std::max(1, free), free, kRests);
+}
+
+std::string Range(const std::vector<double>& values, int digits) {
+  if (values.empty()) return "-";
+  return FormatFixed(*std::ranges::min_element(values), digits) + " to " +
+         FormatFixed(*std::ranges::max_element(values), digits);
+}
+
+/// @returns its row of the table.
+std::string RunHand(const Contest& contest, const std::string& file,
+                    const std::vector<Body>& bodies) {
   const kinematics::HandModel hand = kinematics::ReadHand(file);
   std::printf("\n%s, %zu fingers\n", hand.name.c_str(), hand.fingers.size());
   TimeInverse(hand.fingers.front());
+  TimeRest(hand, bodies[1]);
   std::vector<TextRow> rows = {{"object", "found", "rejected", "median s", "longest s",
                                 "switches a plan", "check s a plan"}};
-  int found = 0;
-  int rejected = 0;
+  Outcome all;
+  std::vector<double> medians;
+  std::vector<double> switches;
   for (const Body& body : bodies) {
     const Outcome outcome = Run(contest, file, hand, body);
-    found += outcome.found;
-    rejected += outcome.rejected;
+    all.asked += outcome.asked;
+    all.found += outcome.found;
+    all.rejected += outcome.rejected;
     const double plans = std::max(1, outcome.found);
+    if (outcome.found > 0) {
+      medians.push_back(Median(outcome.seconds));
+      switches.push_back(outcome.switches / plans);
+    }
     const double longest = outcome.seconds.empty() ? 0 : *std::ranges::max_element(outcome.seconds);
     rows.push_back({body.name,
-                    std::to_string(outcome.found) + " of " + std::to_string(contest.seeds),
+                    std::to_string(outcome.found) + " of " + std::to_string(outcome.asked),
                     std::to_string(outcome.rejected), FormatFixed(Median(outcome.seconds), 2),
                     FormatFixed(longest, 2), FormatFixed(outcome.switches / plans, 1),
                     FormatFixed(outcome.checking / plans, 2)});
   }
-  std::printf("%s%d of %zu found, %d rejected\n", FormatRows(rows).c_str(), found,
-              bodies.size() * contest.seeds, rejected);
+  std::printf("%s", FormatRows(rows).c_str());
   std::fflush(stdout);
+  return "| " + hand.name + ", " + std::to_string(hand.fingers.size()) + " fingers | " +
+         std::to_string(all.found) + " of " + std::to_string(all.asked) + " | " +
+         Range(medians, 1) + " s | " + Range(switches, 1) + " | " + std::to_string(all.rejected) +
+         " |\n";
 }
 
 }  // namespace
@@ -228,15 +340,22 @@ int main(int argc, char** argv) {
   app.add_option("--limit", contest.limit_s, "Seconds for each");
   app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--degrees", degrees, "Of the turn");
+  app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a turn");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {
     contest.turn = {Vector3d::Unit(axis[0] - 'x'), Radians(degrees)};
-    std::printf(
-        "turn of %g degrees about %s, friction %g, at most %g s of processor time, %d seeds\n",
-        degrees, axis.c_str(), kMu, contest.limit_s, contest.seeds);
+    std::printf("%s, friction %g, at most %g s of processor time, %d seeds\n",
+                contest.pairs
+                    ? "pairs of grasps at one pose"
+                    : ("turn of " + FormatShort(degrees, 4) + " degrees about " + axis).c_str(),
+                kMu, contest.limit_s, contest.seeds);
     const std::vector<Body> bodies = MakeBodies();
-    for (const std::string& hand : hands) RunHand(contest, hand, bodies);
+    std::string table =
+        "| hand | found | median of an object | switches a plan | rejected by a checker |\n"
+        "| --- | --- | --- | --- | --- |\n";
+    for (const std::string& hand : hands) table += RunHand(contest, hand, bodies);
+    std::printf("\n%s", table.c_str());
   } catch (const std::exception& error) {
     std::cerr << "hand_bench: " << error.what() << '\n';
     return 1;

@@ -8,14 +8,14 @@
 namespace regrasp::gait {
 namespace {
 
-constexpr int kMostExtensions = 600;
+constexpr int kMostExtensions = 250;
 constexpr double kStride = 0.35;  // radians, over all drives
 constexpr int kShortcuts = 30;
 
 /// Above the contact, metres: as high as the finger can go, but not lower than the first.
 constexpr double kLowestAbove = 0.003;
-constexpr double kHighestAbove = 0.008;
-constexpr double kDescent = 0.001;  // between postures of the way down
+constexpr double kHighestAbove = 0.020;
+constexpr double kDescent = 0.002;  // between postures of the way down
 
 struct Tree {
   std::vector<Posture> nodes;
@@ -103,11 +103,18 @@ class Connector {
   RandomStream& random_;
 };
 
-/// From a contact straight up along the normal, as high as the finger goes; empty where that is not
-/// high enough.
-FingerPath WayUp(const HandScene& scene, const kinematics::InverseKinematics& inverse,
-                 FingerIndex finger, const kinematics::TipTarget& target, const Posture& touching,
-                 const Surroundings& around) {
+}  // namespace
+
+std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
+                                       const Posture& from, const Posture& to,
+                                       const Surroundings& around, RandomStream& random) {
+  return Connector(scene, finger, around, random).Find(from, to);
+}
+
+std::optional<FingerPath> FindWayUp(const HandScene& scene,
+                                    const kinematics::InverseKinematics& inverse,
+                                    FingerIndex finger, const kinematics::TipTarget& target,
+                                    const Posture& touching, const Surroundings& around) {
   FingerPath path = {touching};
   double height = 0;
   while (height < kHighestAbove - kDescent / 2) {
@@ -121,16 +128,8 @@ FingerPath WayUp(const HandScene& scene, const kinematics::InverseKinematics& in
     path.push_back(*next);
     height += kDescent;
   }
-  if (height < kLowestAbove - kDescent / 2) return {};
+  if (height < kLowestAbove - kDescent / 2) return std::nullopt;
   return path;
-}
-
-}  // namespace
-
-std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
-                                       const Posture& from, const Posture& to,
-                                       const Surroundings& around, RandomStream& random) {
-  return Connector(scene, finger, around, random).Find(from, to);
 }
 
 std::optional<FingerPath> FindPathToContact(const HandScene& scene,
@@ -139,11 +138,11 @@ std::optional<FingerPath> FindPathToContact(const HandScene& scene,
                                             const kinematics::TipTarget& target,
                                             const Posture& touching, const Surroundings& around,
                                             RandomStream& random) {
-  const FingerPath up = WayUp(scene, inverse, finger, target, touching, around);
-  if (up.empty()) return std::nullopt;
-  std::optional<FingerPath> path = FindFreePath(scene, finger, from, up.back(), around, random);
+  const auto up = FindWayUp(scene, inverse, finger, target, touching, around);
+  if (!up) return std::nullopt;
+  std::optional<FingerPath> path = FindFreePath(scene, finger, from, up->back(), around, random);
   if (!path) return std::nullopt;
-  path->insert(path->end(), up.rbegin() + 1, up.rend());
+  path->insert(path->end(), up->rbegin() + 1, up->rend());
   return path;
 }
 

@@ -26,6 +26,17 @@ struct Surroundings {
                                                      const Surroundings& around,
                                                      RandomStream& random);
 
+/// A certified path from a contact straight up along the normal, as high as the finger goes.
+/// @param target    of the tip at the contact.
+/// @param touching  the posture there.
+/// @returns none where it does not come far enough off the surface to go elsewhere.
+[[nodiscard]] std::optional<FingerPath> FindWayUp(const HandScene& scene,
+                                                  const kinematics::InverseKinematics& inverse,
+                                                  FingerIndex finger,
+                                                  const kinematics::TipTarget& target,
+                                                  const Posture& touching,
+                                                  const Surroundings& around);
+
 /// A certified path from a free posture to a contact: freely to a place some millimetres above it,
 /// then straight down along the normal.
 /// @param target   of the tip at the contact.

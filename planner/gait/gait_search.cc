@@ -392,19 +392,31 @@ bool GaitSearch::Place(Rest& rest, const Keyframe& before, Keyframe& after) {
   return true;
 }
 
-bool GaitSearch::Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way) {
-  const int point = rests_[rest.parent].holding[rest.released];
-  const auto path = FindPathToContact(
-      setup_.scene, setup_.inverse[rest.released], rest.released, rest.waiting[rest.released],
-      TargetAt(setup_.scene.finger(rest.released), setup_.points[point], before.pose),
-      before.postures[rest.released], Around(before, rest.released), random_);
-  if (!path) return false;
-  Stretch stretch{Stretch::Kind::kRelease, rest.released, point, {}};
-  for (auto posture = path->rbegin(); posture != path->rend(); ++posture) {
-    stretch.path.push_back(before);
-    stretch.path.back().postures[rest.released] = *posture;
+/// To where the finger is to wait, or else no farther than above its contact.
+bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
+  const FingerIndex finger = rest.released;
+  const int point = rests_[rest.parent].holding[finger];
+  const Surroundings around = Around(before, finger);
+  const auto up =
+      FindWayUp(setup_.scene, setup_.inverse[finger], finger,
+                TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
+                before.postures[finger], around);
+  if (!up) return false;
+  const auto onward = FindFreePath(setup_.scene, finger, up->back(), rest.waiting[finger], around,
+                                   random_);
+  FingerPath path = *up;
+  if (onward) {
+    path.insert(path.end(), onward->begin() + 1, onward->end());
+  } else {
+    rest.waiting[finger] = up->back();
+    if (!IsPassable(rest, rest.node)) return false;
   }
-  way.push_back(std::move(stretch));
+  Stretch stretch{Stretch::Kind::kRelease, finger, point, {}};
+  for (const Posture& posture : path) {
+    stretch.path.push_back(before);
+    stretch.path.back().postures[finger] = posture;
+  }
+  rest.way.push_back(std::move(stretch));
   return true;
 }
 
@@ -445,7 +457,7 @@ bool GaitSearch::WorkOutWay(Rest& rest) {
     ++counts_.no_path;
     return false;
   }
-  if (rest.released.valid() && !Release(rest, frame, rest.way)) {
+  if (rest.released.valid() && !Release(rest, frame)) {
     ++counts_.no_path;
     return false;
   }

@@ -117,7 +117,7 @@ class GaitSearch {
   /// The move with a rest's grasp to a node that it comes to; empty where it can't be done.
   [[nodiscard]] const std::vector<Keyframe>& MoveFrom(Rest& rest, int node);
   [[nodiscard]] bool Place(Rest& rest, const Keyframe& before, Keyframe& after);
-  [[nodiscard]] bool Release(const Rest& rest, const Keyframe& before, std::vector<Stretch>& way);
+  [[nodiscard]] bool Release(Rest& rest, const Keyframe& before);
   [[nodiscard]] Surroundings Around(const Keyframe& frame, FingerIndex moving) const;
   [[nodiscard]] const std::vector<Candidate>& CandidatesAt(FingerIndex finger, int node);
   [[nodiscard]] std::optional<Gait> GaitFrom(int index);
