@@ -30,12 +30,9 @@ struct Surroundings {
 /// @param target    of the tip at the contact.
 /// @param touching  the posture there.
 /// @returns none where it does not come far enough off the surface to go elsewhere.
-[[nodiscard]] std::optional<FingerPath> FindWayUp(const HandScene& scene,
-                                                  const kinematics::InverseKinematics& inverse,
-                                                  FingerIndex finger,
-                                                  const kinematics::TipTarget& target,
-                                                  const Posture& touching,
-                                                  const Surroundings& around);
+[[nodiscard]] std::optional<FingerPath> FindWayUp(
+    const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
+    const kinematics::TipTarget& target, const Posture& touching, const Surroundings& around);
 
 /// A certified path from a free posture to a contact: freely to a place some millimetres above it,
 /// then straight down along the normal.

@@ -402,8 +402,8 @@ bool GaitSearch::Release(Rest& rest, const Keyframe& before) {
                 TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
                 before.postures[finger], around);
   if (!up) return false;
-  const auto onward = FindFreePath(setup_.scene, finger, up->back(), rest.waiting[finger], around,
-                                   random_);
+  const auto onward =
+      FindFreePath(setup_.scene, finger, up->back(), rest.waiting[finger], around, random_);
   FingerPath path = *up;
   if (onward) {
     path.insert(path.end(), onward->begin() + 1, onward->end());
