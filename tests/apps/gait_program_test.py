@@ -155,7 +155,7 @@ class Gait(ProgramCase):
                 frame = png_pixels(self.read("result/" + step["frame"]))
                 # The heading, and links of the hand, which let a little of what is behind through.
                 self.assertGreater(count(frame, is_red), 50)
-                self.assertGreater(count(frame, is_reddish), 500)
+                self.assertGreater(count(frame, is_reddish), 300)
 
     def test_states_of_another_hand_have_their_frame_too(self):
         """Whatever is missing in them: the hand stands as it stood before, or as its model does."""
