@@ -19,10 +19,15 @@ namespace {
 
 constexpr char kIsSolid[] = "solid";
 
+/// A solid this close to its original, over the diameter, ends the climb; others are the last word
+/// only where no later stage comes closer.
+constexpr double kCloseEnough = 0.002;
+
 /// Whether a stage can do anything about a surface.
 bool Applies(std::string_view stage, const PolygonSoup& soup) {
   if (stage == "fill-holes") return HasOpenEdges(soup);
   if (stage == "unite-shells") return CountShells(soup) > 1;
+  if (stage == "arrange") return !HasOpenEdges(soup);
   return true;
 }
 
@@ -79,21 +84,59 @@ class Ladder {
   }
 
   bool ClimbsStages() {
-    if (Accepts(original_.soup)) return true;
+    if (IsCloseEnough(original_.soup)) return true;
     PolygonSoup best = original_.soup;
     using Stage = StageResult (*)(const PolygonSoup&);
     for (const auto& [name, stage] : {std::pair<const char*, Stage>("fill-holes", FillHoles),
                                       {"unite-shells", UniteShells},
                                       {"remove-crossings", RemoveCrossings},
+                                      {"arrange", ArrangeSurface},
                                       {"wrap", WrapSurface}}) {
       if (!Applies(name, best)) continue;
       auto made = Run(name, [&] { return stage(best); });
       if (!made) continue;
-      if (Accepts(*made)) return true;
-      // What was cut out is not to be missed by the wrap.
-      if (std::string_view(name) != "remove-crossings") best = *std::move(made);
+      if (IsCloseEnough(*made)) return true;
+      // What was cut out is not to be missed by those that follow.
+      const std::string_view stage_name = name;
+      if (stage_name != "remove-crossings" && stage_name != "arrange") best = *std::move(made);
     }
+    return HasClosest();
+  }
+
+  /// Whether what the last stage made ends the climb. Where it is a solid but not that close it is
+  /// kept, if none before was closer.
+  bool IsCloseEnough(PolygonSoup soup) {
+    std::optional<Comparison> comparison = Judge(soup);
+    if (!comparison) return false;
+    const double deviation = comparison->seen_most / original_.diameter;
+    const bool is_close = deviation <= kCloseEnough;
+    if (!closest_ || deviation < closest_->comparison.seen_most / original_.diameter) {
+      closest_ = {climbed_.attempt.stages, std::move(soup), *std::move(comparison)};
+    }
+    if (is_close) return HasClosest();
+    last().facts["deviation_over_diameter"] = deviation;
     return false;
+  }
+
+  /// Ends the climb with the closest solid of all, where there is one: its stage is then the last
+  /// one, and says which others were farther off.
+  bool HasClosest() {
+    if (!closest_) return false;
+    std::vector<StageReport>& stages = climbed_.attempt.stages;
+    Json others = Json::array();
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      if (stages[i].outcome != kIsSolid || i + 1 == closest_->stages.size()) continue;
+      others.push_back({{"stage", stages[i].stage},
+                        {"deviation_over_diameter", stages[i].facts["deviation_over_diameter"]}});
+    }
+    stages = std::move(closest_->stages);
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+      if (stages[i].outcome == kIsSolid) stages[i].outcome = "a solid, but a later one is closer";
+    }
+    if (!others.empty()) last().facts["farther_off"] = others;
+    climbed_.solid = std::move(closest_->solid);
+    climbed_.comparison = std::move(closest_->comparison);
+    return true;
   }
 
   bool MakesSheet() {
@@ -128,20 +171,28 @@ class Ladder {
     return std::move(run.result->soup);
   }
 
-  /// Judges what the last stage made, and takes it where nothing is wrong with it.
-  bool Accepts(PolygonSoup soup) {
+  /// Judges what the last stage made, of several solids the one that is taken.
+  /// @returns how it differs from the original, where nothing is wrong with it.
+  std::optional<Comparison> Judge(PolygonSoup& soup) {
     Judgement judgement = JudgeSurface(soup, reading_.deadline);
     Passes(judgement);
     if (judgement.shortfall == Shortfall::kSeveralSolids) {
-      if (!TakesPart(soup)) return false;
+      if (!TakesPart(soup)) return std::nullopt;
       judgement = JudgeSurface(soup, reading_.deadline);
     }
-    if (!Passes(judgement)) return false;
+    if (!Passes(judgement)) return std::nullopt;
     reading_.Begin("repairing " + name_ + ": measuring what changed");
     Comparison comparison = Compare(original_.soup, soup, original_.diameter);
-    if (!Passes(JudgeShape(comparison, original_, options_))) return false;
+    if (!Passes(JudgeShape(comparison, original_, options_))) return std::nullopt;
+    return comparison;
+  }
+
+  /// Takes what the last stage made, where nothing is wrong with it.
+  bool Accepts(PolygonSoup soup) {
+    std::optional<Comparison> comparison = Judge(soup);
+    if (!comparison) return false;
     climbed_.solid = std::move(soup);
-    climbed_.comparison = std::move(comparison);
+    climbed_.comparison = *std::move(comparison);
     return true;
   }
 
@@ -173,6 +224,13 @@ class Ladder {
   const object::Reading& reading_;
   Original original_;
   Climbed climbed_;
+  /// The closest of the solids that were made so far.
+  struct Closest {
+    std::vector<StageReport> stages;  ///< up to the one that made it
+    PolygonSoup solid;
+    Comparison comparison;
+  };
+  std::optional<Closest> closest_;
 };
 
 }  // namespace

@@ -2,12 +2,17 @@
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <stdexcept>
 
 #include "planner/repair/cgal_mesh.h"
+#include "planner/repair/soup_shells.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {
@@ -37,6 +42,53 @@ double TypicalDistance(const std::vector<Point>& points) {
   return *middle;
 }
 
+/// A number that is a point's own.
+std::uint64_t OwnNumber(const Point& p) {
+  std::uint64_t bits = 0;
+  for (const double x : {p.x(), p.y(), p.z()}) {  // the mixing of splitmix64
+    bits += std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+    bits ^= bits >> 31;
+  }
+  return bits;
+}
+
+/// What decides which triangle comes next: its radius. Of equal ones, as they are on grids, CGAL
+/// takes the one whose address is lower, and so another one in another program: the points decide.
+struct RadiusOrPoints {
+  template <class Front, class Cell>
+  double operator()(const Front& front, Cell& cell, const int& index) const {
+    constexpr double kTies = 1e-9;
+    const double radius = front.smallest_radius_delaunay_sphere(cell, index);
+    std::uint64_t own = 0;  // seen from either side the sum is the same
+    for (int k = 1; k < 4; ++k) own += OwnNumber(cell->vertex((index + k) % 4)->point());
+    return radius * (1 + kTies * (double(own) * 0x1p-64));
+  }
+};
+
+/// Turns each part of a surface outwards, and gives its facets an order that is their own: the
+/// smallest corner of each first.
+void MakeCanonical(object::PolygonSoup& soup) {
+  const std::vector<int> shells = ShellOfFacets(soup);
+  // About a point that does not depend on their order: of an open part it decides the sign.
+  const Eigen::Vector3d middle =
+      std::accumulate(soup.vertices.begin(), soup.vertices.end(), Eigen::Vector3d(0, 0, 0)) /
+      double(soup.vertices.size());
+  std::vector<double> volume(soup.facets.size(), 0);
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    const auto& t = soup.facets[f];
+    volume[shells[f]] +=
+        (soup.vertices[t[0]] - middle)
+            .dot((soup.vertices[t[1]] - middle).cross(soup.vertices[t[2]] - middle));
+  }
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    if (volume[shells[f]] < 0) std::ranges::reverse(soup.facets[f]);
+  }
+  for (auto& t : soup.facets) std::ranges::rotate(t, std::ranges::min_element(t));
+  std::ranges::sort(soup.facets);
+}
+
 }  // namespace
 
 StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
@@ -48,7 +100,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
   const double longest = kLongEdge * TypicalDistance(points);
   std::vector<std::array<std::size_t, 3>> triangles;
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(),
-                                               std::back_inserter(triangles));
+                                               std::back_inserter(triangles), RadiusOrPoints());
   StageResult result;
   for (const Point& p : points) result.soup.vertices.emplace_back(p.x(), p.y(), p.z());
   for (const auto& [a, b, c] : triangles) {
@@ -58,6 +110,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
     if (edge <= longest) result.soup.facets.push_back({int(a), int(b), int(c)});
   }
   if (result.soup.facets.empty()) throw std::runtime_error("its points form no surface");
+  MakeCanonical(result.soup);
   result.facts["points"] = points.size();
   result.facts["typical_distance"] = longest / kLongEdge;
   result.facts["triangles_that_bridge"] = triangles.size() - result.soup.facets.size();

@@ -1,5 +1,6 @@
 #include "planner/repair/repair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -36,6 +37,20 @@ const StageReport& MostHelpful(const Attempt& attempt) {
   return RankOf(found->shortfall) == RankOf(Shortfall::kNoResult) ? attempt.stages.back() : *found;
 }
 
+/// The reader takes a solid whose facets all turn inwards; other programs do not.
+void TurnOutwards(PolygonSoup& solid) {
+  const Eigen::Vector3d& from = solid.vertices[solid.facets[0][0]];
+  double volume = 0;
+  for (const auto& facet : solid.facets) {
+    const Eigen::Vector3d a = solid.vertices[facet[0]] - from;
+    for (std::size_t k = 1; k + 1 < facet.size(); ++k) {
+      volume += a.dot((solid.vertices[facet[k]] - from).cross(solid.vertices[facet[k + 1]] - from));
+    }
+  }
+  if (volume >= 0) return;
+  for (auto& facet : solid.facets) std::ranges::reverse(facet);
+}
+
 std::string RefusalText(const std::string& name, const Attempt& attempt) {
   const StageReport& cause = MostHelpful(attempt);
   return name + ": not repaired: " + cause.stage + ": " + cause.outcome;
@@ -57,6 +72,7 @@ Repaired Repair(const PolygonSoup& soup, const std::string& name,
     MarkInvented(soup, options.thickness ? Comparison() : repaired.comparison, repaired.solid);
   }
   InventedLast(repaired.solid);
+  TurnOutwards(repaired.solid);
   object::Reading silent;
   silent.deadline = reading.deadline;
   repaired.volume =
@@ -90,7 +106,7 @@ object::ObjectFile ReadRepaired(const std::filesystem::path& path,
   return {file.file, file.sha256,
           std::make_unique<object::Polyhedron>(
               object::Polyhedron::FromSoup(repaired.solid, path.string(), reading)),
-          object::RepairRecord{options, Sha256(FormatSolid(repaired.solid))}};
+          object::RepairRecord{options, Sha256(FormatSolid(repaired.solid))}, file.soup.unit};
 }
 
 }  // namespace regrasp::repair

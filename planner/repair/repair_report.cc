@@ -84,9 +84,12 @@ Json RefusalReport(const NotRepaired& refusal, const object::SoupFile& file,
 
 std::string RepairText(const Repaired& repaired) {
   const std::string& stage = repaired.stages.back().stage;
-  if (stage == "read") return "a solid as it is";
-  std::string text = std::to_string(repaired.facets_before) + " facets, " +
-                     std::to_string(repaired.solid.facets.size()) + " after the repair (";
+  const bool cloud = repaired.facets_before == 0;
+  if (stage == "read" && !cloud) return "a solid as it is";
+  const std::string before =
+      cloud ? "a cloud of points" : std::to_string(repaired.facets_before) + " facets";
+  std::string text =
+      before + ", " + std::to_string(repaired.solid.facets.size()) + " after the repair (";
   bool first = true;
   for (const StageReport& tried : repaired.stages) {
     if (tried.stage == "read" || tried.facets == 0) continue;

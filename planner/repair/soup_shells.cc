@@ -1,5 +1,6 @@
 #include "planner/repair/soup_shells.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@ bool HasOpenEdges(const object::PolygonSoup& soup) {
   return !edges.empty();
 }
 
-int CountShells(const object::PolygonSoup& soup) {
+std::vector<int> ShellOfFacets(const object::PolygonSoup& soup) {
   std::vector<int> root(soup.vertices.size());
   for (int v = 0; v < std::ssize(root); ++v) root[v] = v;
   const auto find = [&](int v) {
@@ -27,14 +28,20 @@ int CountShells(const object::PolygonSoup& soup) {
   for (const auto& facet : soup.facets) {
     for (const int v : facet) root[find(v)] = find(facet[0]);
   }
-  int shells = 0;
-  std::vector<bool> used(root.size(), false);
+  std::vector<int> number(root.size(), -1);
+  std::vector<int> shells;
+  int count = 0;
   for (const auto& facet : soup.facets) {
-    const int v = find(facet[0]);
-    shells += !used[v];
-    used[v] = true;
+    int& shell = number[find(facet[0])];
+    if (shell < 0) shell = count++;
+    shells.push_back(shell);
   }
   return shells;
+}
+
+int CountShells(const object::PolygonSoup& soup) {
+  const std::vector<int> shells = ShellOfFacets(soup);
+  return shells.empty() ? 0 : 1 + *std::ranges::max_element(shells);
 }
 
 }  // namespace regrasp::repair

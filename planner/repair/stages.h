@@ -47,6 +47,12 @@ struct StageResult {
 /// @param soup  closed.
 [[nodiscard]] StageResult RemoveCrossings(const object::PolygonSoup& soup);
 
+/// Cuts all facets where they meet, in exact arithmetic, and keeps those pieces that lie between
+/// the outside and what the surface winds about at least once: the boundary of all that is inside,
+/// however its shells pass through themselves and each other. Facts: pairs that meet.
+/// @param soup  closed.
+[[nodiscard]] StageResult ArrangeSurface(const object::PolygonSoup& soup);
+
 /// Wraps a surface from outside: a ball of kWrapDetail · D that cannot enter an opening smaller
 /// than itself rolls about it (Portaneri and others, Alpha wrapping with an offset, 2022), and the
 /// result is drawn back onto the surface. Facts: the volume from coarse wraps to fine ones.

@@ -321,6 +321,34 @@ TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
   EXPECT_THAT(Refusal(cloud), HasSubstr("not all there"));
 }
 
+TEST(Repair, ASolidTurnsOutwardsWhicheverWayItsFileDoes) {
+  PolygonSoup open = UnitCubeSoup();
+  open.facets.pop_back();
+  for (PolygonSoup cube : {UnitCubeSoup(), open}) {
+    Turn(cube);
+    const PolygonSoup solid = Repair(cube, "cube", {}).solid;
+    for (const auto& facet : solid.facets) {
+      const Vector3d& a = solid.vertices[facet[0]];
+      const Vector3d normal = (solid.vertices[facet[1]] - a).cross(solid.vertices[facet[2]] - a);
+      EXPECT_GT(normal.dot(a), 0);  // the middle of the cube is the origin
+    }
+  }
+}
+
+TEST(Repair, ACloudOnAGridIsJoinedTheSameWayWhateverTheMemoryIsLike) {
+  // Many triangles are of one size: their addresses are not to decide which comes first.
+  PolygonSoup cloud;
+  for (int i = 0; i < 11 * 11 * 11; ++i) {
+    const Vector3d p(i % 11, i / 11 % 11, i / 121);
+    if (p.minCoeff() == 0 || p.maxCoeff() == 10) cloud.vertices.push_back(p);
+  }
+  const std::string text = FormatSolid(Repair(cloud, "cloud", {}).solid);
+  std::vector<std::string> blocks;
+  for (int i = 0; i < 20'000; ++i) blocks.emplace_back(std::size_t(20 + i * 7919 % 3001), 'x');
+  for (int i = 0; i < 20'000; i += 1 + i * 31 % 5) std::string().swap(blocks[std::size_t(i)]);
+  EXPECT_EQ(FormatSolid(Repair(cloud, "cloud", {}).solid), text);
+}
+
 TEST(Repair, TheSameSurfaceGivesTheSameBytesAndTheFileHoldsTheSameSolid) {
   const PolygonSoup soup = SphereAbove(-0.75);
   const Repaired repaired = Repair(soup, "sphere", {});

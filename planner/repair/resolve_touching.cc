@@ -1,0 +1,179 @@
+#include "planner/repair/resolve_touching.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "planner/object/diameter.h"
+
+namespace regrasp::repair {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The sum of two unit normals that is shorter than this has no direction.
+constexpr double kFlat = 1e-6;
+
+/// A side of a facet: from its k-th corner to the next.
+struct Side {
+  int facet;
+  int k;
+  bool operator<(const Side& other) const {
+    return std::pair(facet, k) < std::pair(other.facet, other.k);
+  }
+};
+
+/// Two sides at one edge, of facets that follow each other in a ring.
+using Sides = std::pair<Side, Side>;
+
+class Resolver {
+ public:
+  Resolver(const object::PolygonSoup& soup, Touching touching)
+      : soup_(soup),
+        joins_(touching == Touching::kJoin),
+        by_(kTouchingMoved * object::ComputeDiameter(soup.vertices)) {}
+
+  object::PolygonSoup Resolve() {
+    PairSides();
+    NumberRings();
+    object::PolygonSoup resolved;
+    resolved.vertices = std::move(vertices_);
+    for (int f = 0; f < std::ssize(soup_.facets); ++f) AddFacet(f, resolved);
+    return resolved;
+  }
+
+ private:
+  [[nodiscard]] int Corner(const Side& side) const { return soup_.facets[side.facet][side.k % 3]; }
+  [[nodiscard]] const Vector3d& At(const Side& side) const { return soup_.vertices[Corner(side)]; }
+  [[nodiscard]] static Side Next(const Side& side) { return {side.facet, (side.k + 1) % 3}; }
+  [[nodiscard]] Vector3d NormalOf(int facet) const {
+    const Vector3d& a = At({facet, 0});
+    return (At({facet, 1}) - a).cross(At({facet, 2}) - a).stableNormalized();
+  }
+
+  void PairSides() {
+    std::map<std::pair<int, int>, std::vector<Side>> at_edge;
+    for (int f = 0; f < std::ssize(soup_.facets); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const Side side{f, k};
+        at_edge[std::minmax(Corner(side), Corner(Next(side)))].push_back(side);
+      }
+    }
+    for (auto& [edge, sides] : at_edge) {
+      if (sides.size() == 2) {
+        pairs_.emplace_back(sides[0], sides[1]);
+      } else {
+        PairAbout(edge, sides);
+      }
+    }
+  }
+
+  /// About an edge inside and outside take turns. Two facets become neighbours that enclose some
+  /// inside where parts are drawn back, some outside where they are joined; they get a vertex of
+  /// their own in the middle of the edge, in what they enclose.
+  void PairAbout(const std::pair<int, int>& edge, std::vector<Side>& sides) {
+    const Vector3d& from = soup_.vertices[edge.first];
+    const Vector3d along = (soup_.vertices[edge.second] - from).normalized();
+    const Vector3d u = along.unitOrthogonal(), v = along.cross(u);
+    const auto angle = [&](const Side& side) {
+      const Vector3d apex = At(Next(Next(side))) - from;
+      return std::atan2(apex.dot(v), apex.dot(u));
+    };
+    std::ranges::sort(sides, {}, angle);
+    // Counter-clockwise of a facet that runs against the edge is its inside.
+    const auto has_inside_next = [&](const Side& side) { return Corner(side) == edge.second; };
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const Side& one = sides[i];
+      const Side& other = sides[(i + 1) % sides.size()];
+      if (has_inside_next(one) == has_inside_next(other)) {
+        throw std::runtime_error("its inside is not clear");
+      }
+      if (has_inside_next(one) == joins_) continue;
+      pairs_.emplace_back(one, other);
+      touching_.insert({edge.first, edge.second});
+      Vector3d between = (joins_ ? 1 : -1) * (NormalOf(one.facet) + NormalOf(other.facet));
+      if (between.norm() < kFlat) between = At(Next(Next(one))) - from;  // a slit, or a blade
+      middle_of_[one] = middle_of_[other] =
+          static_cast<int>(soup_.vertices.size() + middles_.size());
+      middles_.push_back((from + soup_.vertices[edge.second]) / 2 + by_ * between.normalized());
+    }
+  }
+
+  /// Every ring of facets about a vertex gets a vertex of its own; where there is one alone it
+  /// stays where it is.
+  void NumberRings() {
+    std::vector<int> root(3 * soup_.facets.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](int i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    const auto place = [](const Side& side) { return 3 * side.facet + side.k; };
+    for (const auto& [one, other] : pairs_) {  // they run against each other
+      root[find(place(one))] = find(place(Next(other)));
+      root[find(place(Next(one)))] = find(place(other));
+    }
+    std::vector<std::vector<int>> rings(soup_.vertices.size());
+    for (int i = 0; i < std::ssize(root); ++i) {
+      if (find(i) == i) rings[Corner({i / 3, i % 3})].push_back(i);
+    }
+    std::vector<Vector3d> outwards(root.size(), Vector3d::Zero());
+    for (int i = 0; i < std::ssize(root); ++i) outwards[find(i)] += NormalOf(i / 3);
+    vertices_ = soup_.vertices;
+    vertices_.insert(vertices_.end(), middles_.begin(), middles_.end());
+    std::vector<int> number(root.size(), -1);
+    for (std::size_t v = 0; v < rings.size(); ++v) {
+      for (const int ring : rings[v]) {
+        number[ring] = static_cast<int>(v);
+        if (rings[v].size() == 1) continue;
+        number[ring] = static_cast<int>(vertices_.size());
+        const double by = joins_ && touching_.contains(static_cast<int>(v)) ? by_ : -by_;
+        vertices_.push_back(soup_.vertices[v] + by * outwards[ring].stableNormalized());
+      }
+    }
+    for (int i = 0; i < std::ssize(root); ++i) vertex_of_.push_back(number[find(i)]);
+  }
+
+  /// A facet, cut where its sides got a vertex in their middle.
+  void AddFacet(int facet, object::PolygonSoup& resolved) const {
+    std::vector<int> outline;
+    std::size_t fan = 0;  // a middle, from which all of the outline is seen
+    for (int k = 0; k < 3; ++k) {
+      outline.push_back(vertex_of_[3 * facet + k]);
+      const auto middle = middle_of_.find({facet, k});
+      if (middle == middle_of_.end()) continue;
+      fan = outline.size();
+      outline.push_back(middle->second);
+    }
+    const std::size_t n = outline.size();
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      resolved.facets.push_back({outline[fan], outline[(fan + i) % n], outline[(fan + i + 1) % n]});
+    }
+  }
+
+  const object::PolygonSoup& soup_;
+  bool joins_;
+  double by_;
+  std::vector<Sides> pairs_;
+  std::vector<Vector3d> middles_;
+  std::set<int> touching_;         ///< ends of edges of more than two
+  std::map<Side, int> middle_of_;  ///< by side, of those at edges of more than two
+  std::vector<Vector3d> vertices_;
+  std::vector<int> vertex_of_;  ///< by corner of facet
+};
+
+}  // namespace
+
+object::PolygonSoup ResolveTouching(const object::PolygonSoup& soup, Touching touching) {
+  return Resolver(soup, touching).Resolve();
+}
+
+}  // namespace regrasp::repair
